@@ -1,0 +1,86 @@
+#pragma once
+// The scene: what the sampler sees. Closed leaves, instances of them placed in
+// the world, and a flat Boolean program over the instances.
+//
+// Transforms are pushed down to the instances, unions of unions are one
+// union, empty parts are gone. Primitives stay parametric: a Sweep gives its
+// vertices by formula, so a sphere of a million facets costs two small tables.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "csg/tree.h"
+#include "csg/vec.h"
+#include "parser/source.h"
+
+namespace lamina::csg {
+
+// A closed polygon (u, v) repeated along a profile of (scale, height) pairs:
+//   vertex(i, j) = (scale_i · u_j, scale_i · v_j, height_i)
+// i < profile.size() rings, j < outline->size() points a ring. Sides are
+// quads between neighbouring rings, planar because the edges of two rings run
+// parallel. Cylinder, cone, sphere, cube, straight or scaled linear_extrude,
+// and every full rotate_extrude are Sweeps.
+struct Sweep {
+  std::shared_ptr<const std::vector<Vec2>> outline;  // shared tables per $fn
+  std::vector<Vec2> profile;  // x: scale ≥ 0, y: height
+  // true: the last ring is joined to the first (a torus), no caps.
+  // false: the first and the last ring are closed by one polygon each; a ring
+  // of scale 0 is an apex.
+  bool is_closed_profile = false;
+};
+
+// A flat indexed triangle mesh, closed: every directed edge is matched by as
+// many of the opposite direction. Orientation: counter-clockwise from outside.
+struct Mesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// A closed solid in its own coordinates. Its surface is all its sweeps and
+// meshes together. Every sweep bounds a solid of its own; a point is inside
+// the leaf where the sum of winding numbers is not 0: +1 inside a sweep, -1
+// inside a sweep that is a cavity (a hole of an extruded region).
+struct Leaf {
+  std::vector<Sweep> sweeps;
+  std::vector<bool> sweep_is_cavity;  // as many as sweeps
+  std::vector<Mesh> meshes;
+  Box3 box;  // of all vertices, in leaf coordinates
+  // false: surface known to be embedded, so that each crossing toggles
+  // inside/outside; true: may overlap itself, winding must be counted.
+  bool may_overlap_itself = false;
+};
+
+struct Instance {
+  std::uint32_t leaf = 0;    // index into Scene::leaves
+  std::uint32_t parent = 0;  // index into Scene::program
+  bool is_minuend = false;   // first operand of a difference
+  Affine world_from_leaf{1.0};
+  Box3 box;           // in the world, of the transformed vertices
+  SourceRange range;  // of the module call that made the leaf
+  const CallFrame* caller = nullptr;
+};
+
+enum class BooleanOp : std::uint8_t { kUnion, kIntersection, kDifference };
+
+// One operator. Children (operators and instances alike) name their parent;
+// parents stand before their children, the root is 0.
+struct BooleanNode {
+  BooleanOp op = BooleanOp::kUnion;
+  std::uint32_t parent = 0;  // of the root: 0
+  bool is_minuend = false;   // this node is the first operand of its parent
+  std::uint32_t child_count = 0;
+};
+
+struct Scene {
+  std::vector<Leaf> leaves;
+  std::vector<Instance> instances;
+  std::vector<BooleanNode> program;  // never empty: a union of nothing
+  // Boolean-aware bounds of the result: union = all, difference = that of the
+  // first operand, intersection = the overlap. Empty for an empty scene.
+  Box3 box;
+};
+
+}  // namespace lamina::csg

@@ -1,0 +1,157 @@
+#pragma once
+// The CSG tree: what evaluating a program gives.
+//
+// Nodes are modules with evaluated parameters, exactly those that OpenSCAD's
+// `.csg` text shows, so that printing the tree is the same as exporting it.
+// Nodes, lists and texts live in the tree's arena; parameters too large for a
+// node stand behind a pointer into it. Every node keeps the text that made it
+// and the chain of calls that led there.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "csg/vec.h"
+#include "parser/source.h"
+
+namespace lamina::csg {
+
+// One step of a call chain, innermost first; shared by all nodes below it.
+struct CallFrame {
+  const CallFrame* caller = nullptr;  // null: the top level
+  std::string_view name;              // of the module called
+  SourceRange range;                  // of the call
+};
+
+// $fn, $fa, $fs as in force where the module was called.
+struct Facets {
+  double fn = 0;
+  double fa = 12;
+  double fs = 2;
+};
+
+// --- Operations -----------------------------------------------------------
+// Groups are unions; the name is what `.csg` prints ("group", "union").
+struct Group {};
+struct Union {};
+struct Difference {};
+struct Intersection {};
+struct Hull {};
+struct Minkowski {
+  int convexity = 0;
+};
+struct Render {
+  int convexity = 0;
+};
+struct Transform {
+  const Mat4* matrix;
+};  // row-vector free: p' = matrix * p
+struct Color {
+  Vec4 rgba;
+};
+struct Resize {
+  Vec3 new_size;
+  std::array<bool, 3> auto_size;
+  int convexity = 0;
+};
+struct Offset {
+  double amount = 0;
+  bool is_delta = false;  // else a radius: round joins
+  bool chamfer = false;
+  Facets facets;
+};
+struct Projection {
+  bool cut = false;
+  int convexity = 0;
+};
+struct LinearExtrudeParams {
+  double height = 100;
+  bool center = false;
+  int convexity = 1;
+  double twist_deg = 0;
+  bool has_twist = false;
+  int slices = 1;
+  Vec2 scale = Vec2(1);
+  std::string_view file;  // deprecated file=, layer=, origin=
+  std::string_view layer;
+  Vec2 origin = Vec2(0);
+  Facets facets;
+};
+struct LinearExtrude {
+  const LinearExtrudeParams* params;
+};
+struct RotateExtrude {
+  double angle_deg = 360;
+  int convexity = 2;
+  Facets facets;
+  std::string_view file;  // deprecated
+};
+
+// --- Leaves ---------------------------------------------------------------
+struct Cube {
+  Vec3 size = Vec3(1);
+  bool center = false;
+};
+struct Sphere {
+  double r = 1;
+  Facets facets;
+};
+struct Cylinder {
+  double h = 1;
+  double r1 = 1;
+  double r2 = 1;
+  bool center = false;
+  Facets facets;
+};
+struct Polyhedron {
+  std::span<const Vec3> points;
+  std::span<const std::span<const std::uint32_t>> faces;
+  int convexity = 1;
+};
+struct Square {
+  Vec2 size = Vec2(1);
+  bool center = false;
+};
+struct Circle {
+  double r = 1;
+  Facets facets;
+};
+struct Polygon {
+  std::span<const Vec2> points;
+  // No value: one path through all points in order.
+  std::optional<std::span<const std::span<const std::uint32_t>>> paths;
+  int convexity = 1;
+};
+// Modules whose geometry is not supported yet keep the text that `.csg`
+// prints for them (`text(text = "a", …)`), whole.
+struct Unsupported {
+  std::string_view name;
+  std::string_view csg_text;
+};
+
+struct Node {
+  std::variant<Group, Union, Difference, Intersection, Hull, Minkowski, Render,
+               Transform, Color, Resize, Offset, Projection, LinearExtrude,
+               RotateExtrude, Cube, Sphere, Cylinder, Polyhedron, Square,
+               Circle, Polygon, Unsupported>
+      op;
+  std::span<const Node* const> children;
+  SourceRange range;
+  const CallFrame* caller = nullptr;
+  bool is_root = false;        // !
+  bool is_highlight = false;   // #
+  bool is_background = false;  // %
+};
+
+// Owns its nodes. The root is a Group ("group", the implicit top level).
+struct Tree {
+  std::shared_ptr<std::pmr::monotonic_buffer_resource> arena;
+  const Node* root = nullptr;
+};
+
+}  // namespace lamina::csg

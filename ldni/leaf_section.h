@@ -1,0 +1,59 @@
+#pragma once
+// Leaf sections: the contours of every leaf in every layer of a block, cut
+// into x-monotone chains (the default sampler; docs/design.md).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "csg/scene.h"
+#include "ldni/grid.h"
+
+namespace lamina::ldni {
+
+// An x-monotone piece of a leaf's contour in a layer, stored by increasing x.
+// Both ends are turns: local x-minima or x-maxima of the contour.
+struct Chain {
+  std::uint32_t first_point = 0;  // into ChainBlock::points
+  std::uint32_t point_count = 0;  // ≥ 2
+  std::uint32_t instance = 0;     // into Scene::instances
+  // +1: solid of the leaf lies above (+y of) the chain where the leaf does not
+  // overlap itself, -1: below. The winding number changes by this on the way
+  // up through the chain.
+  std::int32_t winding = 1;
+};
+
+// The chains of layers [first_layer, first_layer + layer_count).
+struct ChainBlock {
+  std::uint32_t first_layer = 0;
+  std::uint32_t layer_count = 0;
+  std::vector<Vec2> points;
+  std::vector<Chain> chains;              // bucketed by layer
+  std::vector<std::uint32_t> layer_ends;  // layer i: [ends[i-1], ends[i])
+
+  std::span<const Chain> layer(std::uint32_t i) const {
+    const std::uint32_t begin = i == 0 ? 0 : layer_ends[i - 1];
+    return {chains.data() + begin, layer_ends[i] - begin};
+  }
+};
+
+// Cuts leaves into chains, block by block. Const and shared by all threads;
+// what a cut needs on the side lives in the caller's Scratch.
+class LeafSectioner {
+ public:
+  LeafSectioner(const csg::Scene& scene, const LayerGrid& grid);
+  ~LeafSectioner();
+  LeafSectioner(const LeafSectioner&) = delete;
+  LeafSectioner& operator=(const LeafSectioner&) = delete;
+
+  // Replaces `block` by the chains of those layers; its capacity is reused.
+  void cut(std::uint32_t first_layer, std::uint32_t layer_count,
+           ChainBlock& block) const;
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
+
+}  // namespace lamina::ldni

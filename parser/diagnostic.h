@@ -1,0 +1,108 @@
+#pragma once
+// What a run has to say: echoes, warnings, errors, each with its place.
+//
+// Passes append and go on; only main prints. A Diagnostic keeps OpenSCAD's
+// words exactly and without place; `openscad_line` adds the place as OpenSCAD
+// 2021.01 writes it (`.echo` files), `caret_text` as a terminal shows it.
+
+#include <exception>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "parser/source.h"
+
+namespace lamina {
+
+enum class Severity { kEcho, kDeprecated, kWarning, kError };
+
+// A further place that belongs to a diagnostic: a caller in a call chain.
+struct Note {
+  SourceRange range;
+  std::string message;  // "called by 'f'", as after OpenSCAD's "TRACE: "
+};
+
+struct Diagnostic {
+  Severity severity = Severity::kError;
+  SourceRange range;    // unknown where OpenSCAD gives no place either
+  std::string message;  // OpenSCAD's words without prefix and place
+  std::vector<Note> notes = {};
+};
+
+// Thrown to end the run; only main catches.
+class Error : public std::exception {
+ public:
+  explicit Error(Diagnostic diagnostic);
+  const char* what() const noexcept override;
+  const Diagnostic& diagnostic() const { return diagnostic_; }
+
+ private:
+  Diagnostic diagnostic_;
+};
+class SyntaxError : public Error {
+ public:
+  using Error::Error;
+};
+class FileError : public Error {
+ public:
+  using Error::Error;
+};
+class GeometryError : public Error {
+ public:
+  using Error::Error;
+};
+class EvaluationError : public Error {
+ public:
+  using Error::Error;
+};
+
+// A promise of our own that broke (LAMINA_CHECK_EQ).
+class InternalError : public Error {
+ public:
+  using Error::Error;
+};
+
+// The run's messages in the order in which they came up.
+class Diagnostics {
+ public:
+  // Called with every message as it comes up (a terminal wants an echo at
+  // once, not at the end of the run).
+  using Observer = std::function<void(const Diagnostic&)>;
+
+  explicit Diagnostics(Observer observer = nullptr);
+
+  // Under hard warnings the first warning is reported and then thrown as
+  // Error.
+  void set_hard_warnings(bool hard) { hard_warnings_ = hard; }
+
+  void report(Diagnostic diagnostic);
+  void echo(std::string text);
+  void warning(SourceRange range, std::string message,
+               std::vector<Note> notes = {});
+  void error(SourceRange range, std::string message,
+             std::vector<Note> notes = {});
+
+  const std::vector<Diagnostic>& all() const { return all_; }
+  bool has_errors() const { return has_errors_; }
+
+ private:
+  Observer observer_;
+  std::vector<Diagnostic> all_;
+  bool hard_warnings_ = false;
+  bool has_errors_ = false;
+};
+
+// The exact lines of OpenSCAD 2021.01, each ended by '\n': the message with
+// "in file …, line …" where it has a place, then a TRACE line per note. File
+// names are relative to `base_folder`, the folder of the design.
+std::string openscad_line(const Diagnostic& diagnostic,
+                          const std::string& base_folder);
+
+// "file:line:column: warning: …", the line of text, carets below it, and the
+// notes; ends with '\n'.
+std::string caret_text(const Diagnostic& diagnostic);
+
+}  // namespace lamina
+
+// Checks that stay on in release: throw InternalError with both values.
+#include "parser/check.h"  // IWYU pragma: export

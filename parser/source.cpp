@@ -1,0 +1,48 @@
+#include "parser/source.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lamina {
+
+Source::Source(std::string path, std::string text)
+    : path_(std::move(path)), text_(std::move(text)) {
+  line_starts_.push_back(0);
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\n') {
+      line_starts_.push_back(static_cast<std::uint32_t>(i + 1));
+    }
+  }
+}
+
+LineColumn Source::line_column(std::uint32_t offset) const {
+  const auto size = static_cast<std::uint32_t>(text_.size());
+  const std::uint32_t place = std::min(offset, size);
+  const auto next =
+      std::upper_bound(line_starts_.begin(), line_starts_.end(), place);
+  const auto line = static_cast<std::uint32_t>(next - line_starts_.begin());
+  return {line, place - line_starts_[line - 1] + 1};
+}
+
+std::string_view Source::line_text(std::uint32_t line) const {
+  if (line == 0 || line > line_starts_.size()) return {};
+  const std::size_t begin = line_starts_[line - 1];
+  const std::size_t end =
+      line < line_starts_.size() ? line_starts_[line] : text_.size();
+  std::string_view text(text_.data() + begin, end - begin);
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+    text.remove_suffix(1);
+  }
+  return text;
+}
+
+std::string_view SourceRange::text() const {
+  if (source == nullptr) return {};
+  return std::string_view(source->text()).substr(begin, end - begin);
+}
+
+const Source& SourceStore::add(std::string path, std::string text) {
+  return sources_.emplace_back(std::move(path), std::move(text));
+}
+
+}  // namespace lamina

@@ -1,0 +1,63 @@
+#pragma once
+// Source texts and places in them.
+//
+// Every AST node, CSG node and leaf carries the range of text that made it, so
+// that each later stage can say where a fault comes from. A range is two
+// offsets and a pointer: 16 bytes, cheap enough to stand everywhere.
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lamina {
+
+// Line and column, both counted from 1; the column counts bytes.
+struct LineColumn {
+  std::uint32_t line = 1;
+  std::uint32_t column = 1;
+};
+
+// One text: a file, or what `-D` gave.
+class Source {
+ public:
+  // path  as messages show it and as relative file names are resolved against
+  Source(std::string path, std::string text);
+
+  const std::string& path() const { return path_; }
+  const std::string& text() const { return text_; }
+
+  // O(log lines). An offset past the end is the place behind the last byte.
+  LineColumn line_column(std::uint32_t offset) const;
+
+  // Line `line` (from 1) without its line break.
+  std::string_view line_text(std::uint32_t line) const;
+
+ private:
+  std::string path_;
+  std::string text_;
+  std::vector<std::uint32_t> line_starts_;
+};
+
+// Bytes [begin, end) of one source; no source means "no place".
+struct SourceRange {
+  const Source* source = nullptr;
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+
+  bool is_known() const { return source != nullptr; }
+  std::string_view text() const;
+};
+
+// Owns sources; their addresses stay valid as long as the store lives.
+class SourceStore {
+ public:
+  const Source& add(std::string path, std::string text);
+
+ private:
+  std::deque<Source> sources_;
+};
+
+}  // namespace lamina

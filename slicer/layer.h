@@ -1,0 +1,27 @@
+#pragma once
+// A finished layer, and who takes it.
+
+#include <cstdint>
+
+#include "csg/vec.h"
+#include "ldni/contours.h"
+
+namespace lamina::slicer {
+
+struct Layer {
+  double section_z = 0;  // height of the section [mm]
+  double bottom = 0;     // the layer's lower side [mm]
+  double top = 0;        // its upper side; = bottom = section_z for --heights
+  ldni::Contours contours;
+};
+
+// Takes the layers of a job in ascending order: a writer, a comparison, a test.
+// Empty layers below the first and above the last non-empty one have been left
+// out already (not under --heights: there each height gives a layer).
+class LayerSink {
+ public:
+  virtual ~LayerSink() = default;
+  virtual void take(const Layer& layer) = 0;
+};
+
+}  // namespace lamina::slicer

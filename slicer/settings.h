@@ -1,0 +1,24 @@
+#pragma once
+// What a slicing job is asked for, from the command line or a library's user.
+
+#include <cstdint>
+#include <vector>
+
+namespace lamina::slicer {
+
+enum class ContourMode { kFaithful, kPaper };
+enum class BoxMode { kLocal, kGlobal };
+enum class SamplerKind { kScanline, kGl };
+
+struct Settings {
+  double layer_thickness = 0.05;  // [mm]
+  std::vector<double> heights;    // not empty: sections at exactly these
+  double ray_pitch = 0;           // [mm]; 0 = auto
+  double tolerance = 0.001;       // [mm]; 0 writes all vertices
+  ContourMode contour = ContourMode::kFaithful;
+  BoxMode boxes = BoxMode::kLocal;               // of the paper's samplers
+  SamplerKind sampler = SamplerKind::kScanline;  // of the paper's contours
+  unsigned threads = 0;  // 0: as many as the machine has
+};
+
+}  // namespace lamina::slicer
