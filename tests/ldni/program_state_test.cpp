@@ -1,0 +1,133 @@
+#include "ldni/program_state.h"
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace lamina::ldni {
+namespace {
+
+using csg::BooleanNode;
+using csg::BooleanOp;
+using csg::Scene;
+
+// A random program of `depth` levels; leaves are instances without geometry.
+void add_random_children(Scene& scene, std::uint32_t parent, int depth,
+                         std::mt19937& random) {
+  const auto count = 1 + random() % 4;
+  scene.program[parent].child_count = static_cast<std::uint32_t>(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (depth == 0 || random() % 2 == 0) {
+      csg::Instance instance;
+      instance.parent = parent;
+      instance.is_minuend = i == 0;
+      scene.instances.push_back(instance);
+      continue;
+    }
+    BooleanNode node;
+    node.op = static_cast<BooleanOp>(random() % 3);
+    node.parent = parent;
+    node.is_minuend = i == 0;
+    scene.program.push_back(node);
+    add_random_children(scene,
+                        static_cast<std::uint32_t>(scene.program.size() - 1),
+                        depth - 1, random);
+  }
+}
+
+Scene random_program(std::mt19937& random) {
+  Scene scene;
+  scene.program.push_back({static_cast<BooleanOp>(random() % 3), 0, false, 0});
+  add_random_children(scene, 0, 4, random);
+  return scene;
+}
+
+// The definition of the three operators, evaluated from scratch.
+bool evaluate(const Scene& scene, const std::vector<bool>& inside) {
+  std::vector<std::vector<bool>> minuends(scene.program.size());
+  std::vector<std::vector<bool>> others(scene.program.size());
+  const auto note = [&](std::uint32_t parent, bool is_minuend, bool value) {
+    (is_minuend ? minuends : others)[parent].push_back(value);
+  };
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    note(scene.instances[i].parent, scene.instances[i].is_minuend, inside[i]);
+  }
+  bool value = false;
+  for (std::size_t n = scene.program.size(); n-- > 0;) {
+    bool any = false;
+    bool all = true;
+    bool first = false;
+    for (const bool child : minuends[n]) {
+      any |= child;
+      all &= child;
+      first |= child;
+    }
+    bool any_other = false;
+    for (const bool child : others[n]) {
+      any |= child;
+      all &= child;
+      any_other |= child;
+    }
+    switch (scene.program[n].op) {
+      case BooleanOp::kUnion:
+        value = any;
+        break;
+      case BooleanOp::kIntersection:
+        value = all;
+        break;
+      case BooleanOp::kDifference:
+        value = first && !any_other;
+        break;
+    }
+    if (n > 0)
+      note(scene.program[n].parent, scene.program[n].is_minuend, value);
+  }
+  return value;
+}
+
+TEST(ProgramState, AgreesWithTheDefinitionOfTheOperatorsAfterEveryFlip) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    const Scene scene = random_program(random);
+    ProgramState state(scene);
+    std::vector<bool> inside(scene.instances.size(), false);
+    EXPECT_FALSE(state.value());
+    for (int step = 0; step < 60; ++step) {
+      const auto i = static_cast<std::uint32_t>(random() % inside.size());
+      inside[i] = !inside[i];
+      state.flip(i, inside[i]);
+      ASSERT_EQ(state.is_inside(i), inside[i]);
+      ASSERT_EQ(state.value(), evaluate(scene, inside));
+    }
+  }
+}
+
+TEST(ProgramState, ResetGivesTheEmptySet) {
+  std::mt19937 random(8);
+  const Scene scene = random_program(random);
+  ProgramState state(scene);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+    state.flip(i, true);
+  EXPECT_EQ(state.inside().size(), scene.instances.size());
+  state.reset();
+  EXPECT_TRUE(state.inside().empty());
+  EXPECT_FALSE(state.value());
+  state.flip(0, true);
+  std::vector<bool> inside(scene.instances.size(), false);
+  inside[0] = true;
+  EXPECT_EQ(state.value(), evaluate(scene, inside));
+}
+
+TEST(ProgramState, AnEmptyProgramHoldsNowhere) {
+  for (const BooleanOp op :
+       {BooleanOp::kUnion, BooleanOp::kIntersection, BooleanOp::kDifference}) {
+    Scene scene;
+    scene.program.push_back({op, 0, false, 0});
+    EXPECT_FALSE(ProgramState(scene).value());
+  }
+}
+
+}  // namespace
+}  // namespace lamina::ldni
