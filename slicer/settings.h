@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "ldni/ray_grid.h"
+
 namespace lamina::slicer {
 
 enum class ContourMode { kFaithful, kPaper };
-enum class BoxMode { kLocal, kGlobal };
+using BoxMode = ldni::BoxMode;
 enum class SamplerKind { kScanline, kGl };
 
 struct Settings {

@@ -1,0 +1,28 @@
+#pragma once
+// A sample: where a ray crosses the surface of a leaf.
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace lamina::ldni {
+
+// Samples and ends of chains nearer than this [mm] are one event: only the
+// state before and the state after it count. So faces that coincide up to
+// rounding leave neither skin nor gap. Far above the rounding of a design
+// (1e-12 mm at 1e4 mm), far below what a printer resolves; results are the
+// same from 1e-5 down to 1e-9.
+inline constexpr double kTieDistance = 1e-6;
+
+// Rays run along +y, so the sign of the normal's y tells whether the ray
+// enters the leaf or leaves it. y is never 0: a sampler that sees a face almost
+// parallel to the ray gives it the sign that the leaf's contour has there.
+struct Sample {
+  double depth = 0;                        // y [mm]
+  glm::vec3 normal = glm::vec3(0, -1, 0);  // of the face, unit, outwards
+  std::uint32_t instance = 0;              // into csg::Scene::instances
+
+  bool is_entry() const { return normal.y < 0; }
+};
+
+}  // namespace lamina::ldni

@@ -1,0 +1,159 @@
+#include "slicer/paper_slicer.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "ldni/boolean.h"
+#include "ldni/interval.h"
+#include "ldni/sampler.h"
+#include "slicer/loop_builder.h"
+
+namespace lamina::slicer {
+namespace {
+
+// Layers of a block where its images are small: enough that reading the leaves
+// once more for every block costs little.
+constexpr std::uint32_t kLayersPerBlock = 64;
+
+// Pixels that the images of a block may have together. Local boxes of a jewel
+// need far less; global boxes of many leaves are what this is for.
+constexpr std::uint64_t kPixelsPerBlock = 1 << 24;
+
+ldni::RayGrid make_rays(const csg::Scene& scene, const Settings& settings) {
+  if (scene.box.is_empty()) return {};
+  const double pitch =
+      settings.ray_pitch > 0 ? settings.ray_pitch : settings.layer_thickness;
+  return {scene.box.low.x, scene.box.high.x, pitch};
+}
+
+// Of the rays and layers where `instance` is sampled.
+ldni::GridBox sample_box(const PaperPlan& plan, const csg::Instance& instance) {
+  const ldni::GridBox local =
+      ldni::local_box(instance.box, plan.rays, plan.layers);
+  // Leaves that meet no ray stay out of either kind of image.
+  if (plan.boxes == ldni::BoxMode::kLocal || local.is_empty()) return local;
+  return ldni::global_box(plan.rays, plan.layers);
+}
+
+std::uint32_t choose_layers_per_block(const PaperPlan& plan) {
+  // Rays that a block has for each of its layers, if every leaf met all.
+  std::uint64_t rays = 0;
+  for (const csg::Instance& instance : plan.scene.instances) {
+    rays += sample_box(plan, instance).ray_count;
+  }
+  const std::uint64_t layers =
+      kPixelsPerBlock / std::max<std::uint64_t>(rays, 1);
+  return static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>(layers, 1, kLayersPerBlock));
+}
+
+}  // namespace
+
+PaperPlan::PaperPlan(const csg::Scene& scene_in,
+                     const ldni::LayerGrid& layers_in, const Settings& settings)
+    : scene(scene_in),
+      layers(layers_in),
+      boxes(settings.boxes),
+      rays(make_rays(scene_in, settings)),
+      meshes(scene_in),
+      layers_per_block(choose_layers_per_block(*this)) {}
+
+ImageCounts& ImageCounts::operator+=(const ImageCounts& other) {
+  pixels += other.pixels;
+  samples += other.samples;
+  intervals += other.intervals;
+  return *this;
+}
+
+struct PaperSlicer::State {
+  explicit State(const PaperPlan& plan_in)
+      : plan(plan_in),
+        sampler(plan_in.scene, plan_in.meshes, plan_in.rays, plan_in.layers),
+        boolean(plan_in.scene) {}
+
+  void gather_layer(std::uint32_t layer);
+  void evaluate_layer();
+
+  const PaperPlan& plan;
+  ldni::ScanlineSampler sampler;
+  ldni::RayBoolean boolean;
+  LoopBuilder loop_builder;
+  ldni::LeafImages images;  // of the block
+
+  // Of the layer at hand: the samples of all leaves, ray by ray.
+  std::vector<std::uint32_t> ray_ends;
+  std::vector<ldni::Sample> samples;
+  ldni::LayerIntervals intervals;
+
+  ImageCounts counts;
+};
+
+PaperSlicer::PaperSlicer(const PaperPlan& plan)
+    : state_(std::make_unique<State>(plan)) {}
+
+PaperSlicer::~PaperSlicer() = default;
+
+const ImageCounts& PaperSlicer::counts() const { return state_->counts; }
+
+void PaperSlicer::sample_block(std::uint32_t first_layer,
+                               std::uint32_t layer_count) {
+  const PaperPlan& plan = state_->plan;
+  state_->images.clear();
+  for (std::uint32_t i = 0; i < plan.scene.instances.size(); ++i) {
+    const ldni::GridBox box = ldni::clip_to_layers(
+        sample_box(plan, plan.scene.instances[i]), first_layer, layer_count);
+    if (!box.is_empty()) state_->sampler.sample(i, box, state_->images);
+  }
+  state_->counts.pixels += state_->images.ends.size();
+  state_->counts.samples += state_->images.samples.size();
+}
+
+void PaperSlicer::build_layer(std::uint32_t layer, ldni::Contours& contours) {
+  state_->gather_layer(layer);
+  state_->evaluate_layer();
+  state_->loop_builder.build(state_->plan.rays, state_->intervals, contours);
+  state_->counts.intervals += state_->intervals.intervals.size();
+}
+
+// Collects a layer's samples out of the images of all leaves: a counting sort
+// by ray, through the paper's index map.
+void PaperSlicer::State::gather_layer(std::uint32_t layer) {
+  ray_ends.assign(plan.rays.ray_count(), 0);
+  const auto for_each_ray = [&](auto&& use) {
+    for (const ldni::LeafImage& image : images.images) {
+      const ldni::GridBox& box = image.box;
+      if (layer < box.layer_start || layer >= box.layer_end()) continue;
+      for (std::uint32_t ray = 0; ray < box.ray_count; ++ray) {
+        use(box.ray_start + ray,
+            images.rays(image, layer - box.layer_start, ray));
+      }
+    }
+  };
+  for_each_ray([&](std::uint32_t ray, std::span<const ldni::Sample> found) {
+    ray_ends[ray] += static_cast<std::uint32_t>(found.size());
+  });
+  const std::uint32_t total =
+      std::reduce(ray_ends.begin(), ray_ends.end(), std::uint32_t{0});
+  std::exclusive_scan(ray_ends.begin(), ray_ends.end(), ray_ends.begin(),
+                      std::uint32_t{0});
+  samples.resize(total);
+  for_each_ray([&](std::uint32_t ray, std::span<const ldni::Sample> found) {
+    std::copy(found.begin(), found.end(), samples.begin() + ray_ends[ray]);
+    ray_ends[ray] += static_cast<std::uint32_t>(found.size());
+  });
+}
+
+void PaperSlicer::State::evaluate_layer() {
+  intervals.clear();
+  std::size_t begin = 0;
+  for (const std::uint32_t end : ray_ends) {
+    boolean.evaluate({samples.data() + begin, end - begin},
+                     intervals.intervals);
+    intervals.ends.push_back(
+        static_cast<std::uint32_t>(intervals.intervals.size()));
+    begin = end;
+  }
+}
+
+}  // namespace lamina::slicer

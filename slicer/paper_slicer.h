@@ -1,0 +1,71 @@
+#pragma once
+// `--contour paper`: layers by the method of Zeng et al. 2011, whole.
+//
+// Leaves are sampled in their local boxes, the CSG program is evaluated ray by
+// ray, the surviving samples are linked to loops. It is the honest baseline of
+// the kinetic ray: limits included (loop_builder.h), and made as fast as the
+// method allows.
+
+#include <cstdint>
+#include <memory>
+
+#include "csg/scene.h"
+#include "ldni/contours.h"
+#include "ldni/grid.h"
+#include "ldni/ray_grid.h"
+#include "ldni/scanline_sampler.h"
+#include "slicer/settings.h"
+
+namespace lamina::slicer {
+
+// What all threads of a job share. Scene and grid must outlive it.
+struct PaperPlan {
+  // The pitch is the layer's thickness where the settings leave it open, as in
+  // the paper.
+  PaperPlan(const csg::Scene& scene, const ldni::LayerGrid& layers,
+            const Settings& settings);
+
+  const csg::Scene& scene;
+  const ldni::LayerGrid& layers;
+  ldni::BoxMode boxes;
+  ldni::RayGrid rays;
+  ldni::LeafMeshes meshes;
+  // Layers that a block should hold: each block reads every leaf that it meets
+  // whole, and keeps the depth images of all of them.
+  std::uint32_t layers_per_block = 1;
+};
+
+// Size of the depth images met so far, as if all were kept at once (table 3 of
+// the paper).
+struct ImageCounts {
+  std::uint64_t pixels = 0;     // rays of all leaf images
+  std::uint64_t samples = 0;    // of all leaves
+  std::uint64_t intervals = 0;  // that the Boolean left
+
+  ImageCounts& operator+=(const ImageCounts& other);
+};
+
+// Blocks of layers one after another; one object per thread.
+class PaperSlicer {
+ public:
+  explicit PaperSlicer(const PaperPlan& plan);
+  ~PaperSlicer();
+  PaperSlicer(const PaperSlicer&) = delete;
+  PaperSlicer& operator=(const PaperSlicer&) = delete;
+
+  // Samples all leaves in layers [first_layer, first_layer + layer_count) of
+  // the grid; forgets the block before.
+  void sample_block(std::uint32_t first_layer, std::uint32_t layer_count);
+
+  // Replaces `contours` by the loops of `layer` (of the grid), which the
+  // sampled block holds: Boolean, then links.
+  void build_layer(std::uint32_t layer, ldni::Contours& contours);
+
+  const ImageCounts& counts() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lamina::slicer
