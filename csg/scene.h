@@ -23,12 +23,20 @@ namespace lamina::csg {
 // quads between neighbouring rings, planar because the edges of two rings run
 // parallel. Cylinder, cone, sphere, cube, straight or scaled linear_extrude,
 // and every full rotate_extrude are Sweeps.
+//
+// Orientation: the outline runs counter-clockwise and the profile has the
+// solid on its left in the (scale, height) plane: a bottom ring stands before
+// the top ring, a torus' profile runs counter-clockwise. The side quad
+// (i,j) (i,j+1) (i+1,j+1) (i+1,j) is then counter-clockwise from outside.
+// The outline is a simple polygon, convex or not; where it is not convex the
+// section of a cap can be several segments.
 struct Sweep {
   std::shared_ptr<const std::vector<Vec2>> outline;  // shared tables per $fn
   std::vector<Vec2> profile;  // x: scale ≥ 0, y: height
   // true: the last ring is joined to the first (a torus), no caps.
   // false: the first and the last ring are closed by one polygon each; a ring
-  // of scale 0 is an apex.
+  // of scale 0 is an apex. Only first and last ring of an open profile, and no
+  // ring of a closed one, may have scale 0.
   bool is_closed_profile = false;
 };
 
@@ -42,7 +50,9 @@ struct Mesh {
 // A closed solid in its own coordinates. Its surface is all its sweeps and
 // meshes together. Every sweep bounds a solid of its own; a point is inside
 // the leaf where the sum of winding numbers is not 0: +1 inside a sweep, -1
-// inside a sweep that is a cavity (a hole of an extruded region).
+// inside a sweep that is a cavity (a hole of an extruded region). A cavity is
+// stored with the same orientation as any sweep. Its caps lie in the caps of
+// the sweep around it: there two crossings coincide and cancel.
 struct Leaf {
   std::vector<Sweep> sweeps;
   std::vector<bool> sweep_is_cavity;  // as many as sweeps
@@ -53,6 +63,9 @@ struct Leaf {
   bool may_overlap_itself = false;
 };
 
+// A leaf put into the world. Where the linear part of world_from_leaf has a
+// negative determinant (mirror) the map turns surfaces inside out: who needs
+// orientation negates windings there. It is never singular.
 struct Instance {
   std::uint32_t leaf = 0;    // index into Scene::leaves
   std::uint32_t parent = 0;  // index into Scene::program
@@ -79,7 +92,8 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<BooleanNode> program;  // never empty: a union of nothing
   // Boolean-aware bounds of the result: union = all, difference = that of the
-  // first operand, intersection = the overlap. Empty for an empty scene.
+  // first operand, intersection = the overlap. Of vertices, not of boxes of
+  // boxes, as long as no intersection is involved. Empty for an empty scene.
   Box3 box;
 };
 

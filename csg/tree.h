@@ -75,7 +75,7 @@ struct LinearExtrudeParams {
   int convexity = 1;
   double twist_deg = 0;
   bool has_twist = false;
-  int slices = 1;
+  int slices = 0;  // 0: not given; csg/planar/facets.h has the rules
   Vec2 scale = Vec2(1);
   std::string_view file;  // deprecated file=, layer=, origin=
   std::string_view layer;

@@ -1,0 +1,28 @@
+#pragma once
+// How round things become polygons: $fn, $fa, $fs.
+//
+// The rules are OpenSCAD 2021.01's, so that a design has the same vertices
+// here and there.
+
+#include <memory>
+#include <vector>
+
+#include "csg/tree.h"
+#include "csg/vec.h"
+
+namespace lamina::planar {
+
+// Number of sides of a circle of radius r [mm]; at least 3.
+int fragment_count(double r, const csg::Facets& facets);
+
+// (cos, sin) of 360° · i / n, counter-clockwise from +x.
+std::vector<Vec2> unit_circle(int n);
+
+// Number of slices of a linear_extrude that says none.
+//
+// max_radius  greatest distance of a vertex of the outline from the axis [mm]
+// max_shift   greatest distance that a vertex moves in x, y without twist [mm]
+int slice_count(const csg::LinearExtrudeParams& params, double max_radius,
+                double max_shift);
+
+}  // namespace lamina::planar

@@ -1,0 +1,63 @@
+#pragma once
+// The Boolean program, built while the tree is walked.
+//
+// Parts (instances and operators) stand on a stack; "the parts above a mark"
+// always means their union, so unions need no work at all and nested ones are
+// flat from the start. Difference and intersection pop their operands and push
+// at most one part. Emptiness is decided by boxes, conservatively: a part is
+// left out only where it cannot matter.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+class ProgramBuilder {
+ public:
+  // Height of the stack.
+  std::size_t mark() const { return stack_.size(); }
+
+  void push(const Instance& instance);
+
+  // Forgets the parts above the mark.
+  void drop(std::size_t mark) { stack_.resize(mark); }
+
+  // The operands are the parts from each begin up to the next one, the last
+  // operand's up to the top. At least one operand; an operand may be empty.
+  void apply_difference(std::span<const std::size_t> begins);
+  void apply_intersection(std::span<const std::size_t> begins);
+
+  // Moves instances and program into the scene, box included: the union of all
+  // parts on the stack.
+  void finish(Scene& scene);
+
+ private:
+  struct Part {
+    std::uint32_t index = 0;  // into instances_ or operators_
+    bool is_operator = false;
+  };
+  struct Operator {
+    BooleanOp op = BooleanOp::kUnion;
+    std::uint32_t first_child = 0;  // into children_
+    std::uint32_t child_count = 0;
+    Box3 box;
+  };
+
+  const Box3& box_of(Part part) const;
+  Box3 box_of(std::span<const Part> parts) const;
+  std::span<const Part> parts_above(std::size_t mark) const;
+  bool is_single(std::span<const Part> parts, BooleanOp op) const;
+  Part make_operator(BooleanOp op, std::span<const Part> parts, Box3 box);
+  Part unite(std::span<const Part> parts);
+  void emit(Part part, std::uint32_t parent, bool is_minuend, Scene& scene);
+
+  std::vector<Instance> instances_;
+  std::vector<Operator> operators_;
+  std::vector<Part> children_;
+  std::vector<Part> stack_;
+};
+
+}  // namespace lamina::csg

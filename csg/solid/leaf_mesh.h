@@ -1,0 +1,17 @@
+#pragma once
+// Leaves as explicit triangles, for whoever cannot use the formula.
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// All sweeps and meshes of the leaf in one closed triangle mesh, in leaf
+// coordinates, with exactly the vertices of the formula (multiplied, not added
+// up). Surfaces of cavities face inwards, so that winding numbers add up.
+// Degenerate sides at an apex are left out.
+Mesh explicit_mesh(const Leaf& leaf);
+
+// Enclosed volume [mm³]; parts that overlap count as often as they do.
+double signed_volume(const Mesh& mesh);
+
+}  // namespace lamina::csg

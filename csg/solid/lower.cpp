@@ -1,0 +1,329 @@
+#include "csg/solid/lower.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "csg/planar/facets.h"
+#include "csg/solid/detail/leaf_box.h"
+#include "csg/solid/detail/leaf_store.h"
+#include "csg/solid/detail/program_builder.h"
+
+namespace lamina::csg {
+namespace {
+
+// What a subtree is. A solid's parts stand on the program builder's stack, and
+// there may be none: an empty solid still is three-dimensional.
+enum class Dimension { kNone, kFlat, kSolid };
+struct Shape {
+  Dimension dimension = Dimension::kNone;
+  planar::Region region = {};
+};
+
+double determinant(const Affine& m) {
+  return glm::dot(m[0], glm::cross(m[1], m[2]));
+}
+
+bool is_finite(const Mat4& m) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!std::isfinite(m[column][row])) return false;
+    }
+  }
+  return true;
+}
+
+Vec3 apply_linear(const Affine& m, Vec3 v) {
+  return m[0] * v.x + m[1] * v.y + m[2] * v.z;
+}
+
+Affine compose(const Affine& outer, const Mat4& inner) {
+  const Affine m(inner);
+  return {apply_linear(outer, m[0]), apply_linear(outer, m[1]),
+          apply_linear(outer, m[2]), apply_linear(outer, m[3]) + outer[3]};
+}
+
+// The node of the `!` modifier, if there is one below `node`.
+const Node* find_root_modifier(const Node& node) {
+  for (const Node* child : node.children) {
+    if (child->is_root) return child;
+    if (const Node* found = find_root_modifier(*child)) return found;
+  }
+  return nullptr;
+}
+
+std::vector<Note> call_chain(const Node& node) {
+  std::vector<Note> notes;
+  for (const CallFrame* frame = node.caller; frame; frame = frame->caller) {
+    notes.push_back({frame->range, fmt::format("called by '{}'", frame->name)});
+  }
+  return notes;
+}
+
+[[noreturn]] void fail_unsupported(const Node& node, std::string_view module) {
+  throw GeometryError({Severity::kError, node.range,
+                       fmt::format("Module '{}' is not supported yet", module),
+                       call_chain(node)});
+}
+
+class Lowerer {
+ public:
+  explicit Lowerer(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  // The solid parts of the subtree are left on top of the builder's stack, in
+  // world coordinates; a region is in the node's own coordinates.
+  Shape lower(const Node& node, const Affine& world) {
+    return std::visit([&](const auto& op) { return lower_op(op, node, world); },
+                      node.op);
+  }
+
+  Scene take_scene() {
+    Scene scene;
+    builder_.finish(scene);
+    scene.leaves = leaves_.take();
+    return scene;
+  }
+  bool has_parts() const { return builder_.mark() > 0; }
+
+ private:
+  // --- Operators ----------------------------------------------------------
+
+  Shape lower_op(const Group&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kUnion);
+  }
+  Shape lower_op(const Union&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kUnion);
+  }
+  Shape lower_op(const Render&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kUnion);
+  }
+  Shape lower_op(const Color&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kUnion);
+  }
+  Shape lower_op(const Difference&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kDifference);
+  }
+  Shape lower_op(const Intersection&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kIntersection);
+  }
+
+  Shape lower_op(const Transform& op, const Node& node, const Affine& world) {
+    const std::size_t mark = builder_.mark();
+    if (!is_finite(*op.matrix)) {
+      diagnostics_.warning(node.range,
+                           "Transformation matrix contains Not-a-Number and/or "
+                           "Infinity - removing object.");
+      return {};
+    }
+    Shape shape =
+        lower_children(node, compose(world, *op.matrix), BooleanOp::kUnion);
+    if (shape.dimension == Dimension::kSolid &&
+        determinant(Affine(*op.matrix)) == 0) {
+      diagnostics_.warning({}, "Scaling a 3D object with 0 - removing object");
+      builder_.drop(mark);
+    }
+    return shape;
+  }
+
+  // --- Children -----------------------------------------------------------
+
+  // The operands of an operator: those of the first child's dimension.
+  struct Operands {
+    Dimension dimension = Dimension::kNone;
+    std::size_t count = 0;
+    std::vector<std::size_t> begins;  // on the stack; not kept for a union
+    std::vector<planar::Region> regions;
+    std::vector<const Node*> strays;  // of the other dimension
+    const Node* first_mixed = nullptr;
+  };
+
+  void add_operand(const Node& child, const Affine& world, bool is_union,
+                   Operands& operands) {
+    const std::size_t begin = builder_.mark();
+    Shape shape = lower(child, world);
+    if (operands.dimension == Dimension::kNone) {
+      operands.dimension = shape.dimension;
+    } else if (shape.dimension != Dimension::kNone &&
+               shape.dimension != operands.dimension) {
+      const bool is_empty = shape.region.is_empty() && builder_.mark() == begin;
+      if (!is_empty && !operands.first_mixed) operands.first_mixed = &child;
+      operands.strays.push_back(&child);
+      builder_.drop(begin);
+      shape.region = {};
+    }
+    ++operands.count;
+    if (!is_union) operands.begins.push_back(begin);
+    if (operands.dimension != Dimension::kSolid &&
+        !(is_union && shape.region.is_empty())) {
+      operands.regions.push_back(std::move(shape.region));
+    }
+  }
+
+  void report_strays(const Operands& operands) {
+    if (operands.first_mixed) {
+      diagnostics_.warning(operands.first_mixed->range,
+                           "Mixing 2D and 3D objects is not supported");
+    }
+    const bool is_solid = operands.dimension == Dimension::kSolid;
+    for (const Node* stray : operands.strays) {
+      diagnostics_.warning(
+          stray->range, is_solid ? "Ignoring 2D child object for 3D operation"
+                                 : "Ignoring 3D child object for 2D operation");
+    }
+  }
+
+  Shape lower_children(const Node& node, const Affine& world, BooleanOp op) {
+    const std::size_t mark = builder_.mark();
+    Operands operands;
+    for (const Node* child : node.children) {
+      if (child->is_background) continue;
+      add_operand(*child, world, op == BooleanOp::kUnion, operands);
+    }
+    report_strays(operands);
+    switch (operands.dimension) {
+      case Dimension::kNone:
+        return {};
+      case Dimension::kFlat:
+        return combine_regions(std::move(operands), op);
+      case Dimension::kSolid:
+        break;
+    }
+    if (op == BooleanOp::kDifference) {
+      builder_.apply_difference(operands.begins);
+    } else if (op == BooleanOp::kIntersection) {
+      builder_.apply_intersection(operands.begins);
+    }
+    const bool is_nothing = builder_.mark() == mark && operands.count > 1;
+    return {is_nothing ? Dimension::kNone : Dimension::kSolid};
+  }
+
+  Shape combine_regions(Operands operands, BooleanOp op);
+
+  // --- Leaves -------------------------------------------------------------
+
+  Shape lower_op(const Cube& cube, const Node& node, const Affine& world) {
+    if (is_size(cube.size.x) && is_size(cube.size.y) && is_size(cube.size.z)) {
+      place(leaves_.unit_cube(cube.center), cube.size, node, world);
+    }
+    return {Dimension::kSolid};
+  }
+
+  Shape lower_op(const Sphere& sphere, const Node& node, const Affine& world) {
+    if (is_size(sphere.r)) {
+      const int n = planar::fragment_count(sphere.r, sphere.facets);
+      place(leaves_.unit_sphere(n), Vec3(sphere.r), node, world);
+    }
+    return {Dimension::kSolid};
+  }
+
+  Shape lower_op(const Cylinder& c, const Node& node, const Affine& world) {
+    const double r = std::fmax(c.r1, c.r2);
+    if (!is_size(c.h) || !is_size(r) || !(c.r1 >= 0 && c.r2 >= 0)) {
+      return {Dimension::kSolid};
+    }
+    const int n = planar::fragment_count(r, c.facets);
+    // A cone keeps its radii: their ratio would not give back the same bits.
+    const bool is_straight = c.r1 == c.r2;
+    const Vec3 size = is_straight ? Vec3(r, r, c.h) : Vec3(1, 1, c.h);
+    const std::uint32_t leaf =
+        is_straight ? leaves_.unit_height_cone(1, 1, c.center, n)
+                    : leaves_.unit_height_cone(c.r1, c.r2, c.center, n);
+    place(leaf, size, node, world);
+    return {Dimension::kSolid};
+  }
+
+  Shape lower_op(const Polyhedron&, const Node& node, const Affine&) {
+    fail_unsupported(node, "polyhedron");
+  }
+  Shape lower_op(const LinearExtrude&, const Node& node, const Affine&) {
+    fail_unsupported(node, "linear_extrude");
+  }
+  Shape lower_op(const RotateExtrude&, const Node& node, const Affine&) {
+    fail_unsupported(node, "rotate_extrude");
+  }
+  Shape lower_op(const Square&, const Node& node, const Affine&) {
+    fail_unsupported(node, "square");
+  }
+  Shape lower_op(const Circle&, const Node& node, const Affine&) {
+    fail_unsupported(node, "circle");
+  }
+  Shape lower_op(const Polygon&, const Node& node, const Affine&) {
+    fail_unsupported(node, "polygon");
+  }
+  Shape lower_op(const Hull&, const Node& node, const Affine&) {
+    fail_unsupported(node, "hull");
+  }
+  Shape lower_op(const Minkowski&, const Node& node, const Affine&) {
+    fail_unsupported(node, "minkowski");
+  }
+  Shape lower_op(const Resize&, const Node& node, const Affine&) {
+    fail_unsupported(node, "resize");
+  }
+  Shape lower_op(const Offset&, const Node& node, const Affine&) {
+    fail_unsupported(node, "offset");
+  }
+  Shape lower_op(const Projection&, const Node& node, const Affine&) {
+    fail_unsupported(node, "projection");
+  }
+  Shape lower_op(const Unsupported& op, const Node& node, const Affine&) {
+    fail_unsupported(node, op.name);
+  }
+
+  // Other sizes than these make OpenSCAD's primitives empty.
+  static bool is_size(double x) { return x > 0 && std::isfinite(x); }
+
+  void place(std::uint32_t leaf, Vec3 size, const Node& node,
+             const Affine& world) {
+    Instance instance;
+    instance.leaf = leaf;
+    instance.world_from_leaf = {world[0] * size.x, world[1] * size.y,
+                                world[2] * size.z, world[3]};
+    instance.box = bound(leaf, instance.world_from_leaf);
+    instance.range = node.range;
+    instance.caller = node.caller;
+    builder_.push(instance);
+  }
+
+  // Many instances of a leaf differ in their shift only: the last box of each
+  // leaf is kept.
+  Box3 bound(std::uint32_t leaf, const Affine& m) {
+    if (last_boxes_.size() <= leaf) last_boxes_.resize(leaf + 1);
+    LastBox& last = last_boxes_[leaf];
+    const bool is_same = last.linear[0] == m[0] && last.linear[1] == m[1] &&
+                         last.linear[2] == m[2];
+    if (!is_same) last = {m, bound_leaf(leaves_[leaf], m)};
+    return shift_box(last.box, m[3]);
+  }
+
+  struct LastBox {
+    Affine linear{0.0};
+    Box3 box;
+  };
+
+  Diagnostics& diagnostics_;
+  LeafStore leaves_;
+  ProgramBuilder builder_;
+  std::vector<LastBox> last_boxes_;
+};
+
+Shape Lowerer::combine_regions(Operands operands, BooleanOp) {
+  return {Dimension::kFlat, std::move(operands.regions.front())};
+}
+
+}  // namespace
+
+Lowered lower(const Tree& tree, const LowerOptions& options,
+              Diagnostics& diagnostics) {
+  const Node* root = find_root_modifier(*tree.root);
+  if (!root) root = tree.root;
+  Lowerer lowerer(diagnostics);
+  Shape shape = lowerer.lower(*root, options.world_from_design);
+  if (!shape.region.is_empty()) return {std::move(shape.region)};
+  if (lowerer.has_parts()) return {lowerer.take_scene()};
+  return {};
+}
+
+}  // namespace lamina::csg

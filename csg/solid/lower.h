@@ -1,0 +1,45 @@
+#pragma once
+// From the CSG tree to the scene.
+//
+// Transforms are pushed down to the leaves, colours and groups vanish, 2D
+// subtrees become regions and then extrusions, and what remains is a flat
+// Boolean program over instances of few shared leaves. Parts that are provably
+// empty are left out. What is 2D, 3D, empty or mixed follows OpenSCAD 2021.01,
+// warnings included.
+
+#include <variant>
+
+#include "csg/planar/region.h"
+#include "csg/scene.h"
+#include "csg/tree.h"
+#include "parser/diagnostic.h"
+
+namespace lamina::csg {
+
+struct LowerOptions {
+  // Put in front of every instance's matrix (`--axis`). Orthogonal.
+  Affine world_from_design{1.0};
+};
+
+// What a design is: nothing, an outline in the plane (in the design's
+// coordinates), or a solid.
+struct Lowered {
+  std::variant<std::monostate, planar::Region, Scene> geometry;
+
+  bool is_empty() const { return geometry.index() == 0; }
+  const planar::Region* outline() const {
+    return std::get_if<planar::Region>(&geometry);
+  }
+  const Scene* scene() const { return std::get_if<Scene>(&geometry); }
+};
+
+// Lowers the whole tree, or the subtree of the `!` modifier. Recurses as deep
+// as the tree is nested. Time and memory are linear in the tree.
+//
+// throws  GeometryError where the tree has geometry that is not supported
+//
+// The scene keeps pointers to the tree's call frames.
+Lowered lower(const Tree& tree, const LowerOptions& options,
+              Diagnostics& diagnostics);
+
+}  // namespace lamina::csg
