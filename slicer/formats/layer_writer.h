@@ -1,0 +1,24 @@
+#pragma once
+// What all writers of layer files have in common.
+
+#include <memory>
+
+#include "slicer/formats/output_file.h"
+#include "slicer/formats/output_format.h"
+#include "slicer/layer.h"
+
+namespace lamina::slicer {
+
+class LayerWriter : public LayerSink {
+ public:
+  // To be called once, after the last layer; the caller then commits the
+  // output.
+  virtual void finish() = 0;
+};
+
+// A writer of `format`, which must be a format of layers. `output` must
+// outlive it.
+std::unique_ptr<LayerWriter> make_layer_writer(OutputFormat format,
+                                               OutputFile& output);
+
+}  // namespace lamina::slicer

@@ -1,0 +1,53 @@
+#include "slicer/formats/layers_json_writer.h"
+
+#include <span>
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+namespace lamina::slicer {
+namespace {
+
+// Longest output of one formatting call below: three doubles of at most 24
+// characters and the words between them.
+constexpr std::size_t kLongestPiece = 160;
+
+template <typename Format, typename... Values>
+void print(OutputFile& output, const Format& format, const Values&... values) {
+  char* const begin = output.reserve(kLongestPiece);
+  const char* const end = fmt::format_to(begin, format, values...);
+  output.advance(static_cast<std::size_t>(end - begin));
+}
+
+void write_loop(OutputFile& output, std::span<const Vec2> loop) {
+  const bool is_hole = ldni::signed_area(loop) < 0;
+  print(output, FMT_COMPILE("{{\"hole\":{},\"points\":["), is_hole);
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (i != 0) output.write(",");
+    print(output, FMT_COMPILE("[{},{}]"), loop[i].x, loop[i].y);
+  }
+  output.write("]}");
+}
+
+}  // namespace
+
+LayersJsonWriter::LayersJsonWriter(OutputFile& output) : output_(output) {
+  output_.write("{\"units\":\"mm\",\"layers\":[");
+}
+
+void LayersJsonWriter::take(const Layer& layer) {
+  output_.write(has_layers_ ? ",\n" : "\n");
+  has_layers_ = true;
+  print(output_,
+        FMT_COMPILE("{{\"z\":{},\"bottom\":{},\"top\":{},\"contours\":["),
+        layer.section_z, layer.bottom, layer.top);
+  for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+    if (i != 0) output_.write(",");
+    write_loop(output_, layer.contours.loop(i));
+  }
+  output_.write("]}");
+}
+
+void LayersJsonWriter::finish() { output_.write("\n]}\n"); }
+
+}  // namespace lamina::slicer

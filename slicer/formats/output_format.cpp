@@ -1,0 +1,83 @@
+#include "slicer/formats/output_format.h"
+
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace lamina::slicer {
+namespace {
+
+struct Written {
+  std::string_view extension;
+  OutputFormat format;
+};
+constexpr std::array<Written, 5> kWritten = {{
+    {"slc", OutputFormat::kSlc},
+    {"layers.json", OutputFormat::kLayersJson},
+    {"ast", OutputFormat::kAst},
+    {"echo", OutputFormat::kEcho},
+    {"csg", OutputFormat::kCsg},
+}};
+
+constexpr std::array<std::string_view, 6> kNotYetWritten = {
+    "cli", "svg", "png", "sl1", "zip", "3mf"};
+
+// What openscad writes and lamina has no mesh for, with what comes nearest.
+struct Refused {
+  std::string_view extension;
+  std::string_view nearest;
+};
+constexpr std::array<Refused, 4> kRefused = {{
+    {"stl", ".slc"},
+    {"off", ".layers.json"},
+    {"amf", ".slc"},
+    {"dxf", ".layers.json"},
+}};
+
+bool has_extension(std::string_view name, std::string_view extension) {
+  return name == extension ||
+         (name.size() > extension.size() && name.ends_with(extension) &&
+          name[name.size() - extension.size() - 1] == '.');
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return result;
+}
+
+}  // namespace
+
+FormatChoice choose_output_format(std::string_view name) {
+  const std::string lower = lower_case(name);
+  for (const Written& written : kWritten) {
+    if (has_extension(lower, written.extension)) {
+      return {written.format, "", true};
+    }
+  }
+  for (const std::string_view extension : kNotYetWritten) {
+    if (has_extension(lower, extension)) {
+      return {
+          {}, fmt::format(".{} output is not supported yet", extension), true};
+    }
+  }
+  for (const Refused& refused : kRefused) {
+    if (has_extension(lower, refused.extension)) {
+      return {{},
+              fmt::format("lamina makes layers, not meshes: it writes no .{}; "
+                          "the nearest output is {}",
+                          refused.extension, refused.nearest),
+              true};
+    }
+  }
+  return {{},
+          fmt::format("'{}' has no extension that lamina knows (.slc "
+                      ".layers.json .csg .echo .ast)",
+                      name),
+          false};
+}
+
+}  // namespace lamina::slicer

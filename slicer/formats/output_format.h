@@ -1,0 +1,31 @@
+#pragma once
+// Which output a file name's extension asks for, the same for every command.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lamina::slicer {
+
+enum class OutputFormat {
+  kSlc,
+  kLayersJson,
+  kAst,   // the parser's product
+  kEcho,  // what the design says
+  kCsg,   // the evaluator's product
+};
+
+// A file name or an `--export-format` as far as it could be understood.
+struct FormatChoice {
+  std::optional<OutputFormat> format;
+  // Without a format: why, for the user. `is_known` then tells a format that
+  // lamina knows but does not write from one that it never heard of.
+  std::string complaint;
+  bool is_known = false;
+};
+
+// name  a path ("out/ring.slc") or a bare extension ("slc"); letter case does
+//       not matter
+FormatChoice choose_output_format(std::string_view name);
+
+}  // namespace lamina::slicer

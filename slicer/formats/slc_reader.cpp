@@ -1,0 +1,220 @@
+#include "slicer/formats/slc_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "parser/diagnostic.h"
+
+namespace lamina::slicer {
+namespace {
+
+constexpr std::size_t kLongestHeader = 2048;
+constexpr std::size_t kReservedSize = 256;
+constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
+constexpr double kMillimetresPerInch = 25.4;
+
+// Vertices are read in pieces, so that a lying count meets the end of the file
+// before it has cost memory.
+constexpr std::uint32_t kPointsAtOnce = 4096;
+
+// The words after `key` up to the next " -" that begins a keyword.
+std::string value_of(std::string_view header, std::string_view key) {
+  const std::size_t at = header.find(key);
+  if (at == std::string_view::npos) return {};
+  std::string_view rest = header.substr(at + key.size());
+  for (std::size_t i = 0; i + 1 < rest.size(); ++i) {
+    if (rest[i] == '-' && (i == 0 || rest[i - 1] == ' ') &&
+        rest[i + 1] >= 'A' && rest[i + 1] <= 'Z') {
+      rest = rest.substr(0, i);
+      break;
+    }
+  }
+  const auto is_blank = [](char c) {
+    return c == ' ' || c == '\r' || c == '\n' || c == '\t';
+  };
+  while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+  while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
+  return std::string(rest);
+}
+
+// "minx,maxx miny,maxy minz,maxz"
+std::optional<std::array<Vec2, 3>> parse_extents(const std::string& text) {
+  std::array<Vec2, 3> extents{};
+  const char* at = text.c_str();
+  for (Vec2& axis : extents) {
+    for (double* value : {&axis.x, &axis.y}) {
+      while (*at == ' ' || *at == ',') ++at;
+      char* end = nullptr;
+      *value = std::strtod(at, &end);
+      if (end == at) return std::nullopt;
+      at = end;
+    }
+  }
+  return extents;
+}
+
+}  // namespace
+
+SlcReader::SlcReader(std::string path)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "rbe")) {
+  if (!file_) {
+    throw FileError({Severity::kError,
+                     {},
+                     fmt::format("Can't open input file '{}': {}", path_,
+                                 std::strerror(errno)),
+                     {}});
+  }
+  read_header();
+  read_sampling();
+}
+
+void SlcReader::fail(std::string_view message) const {
+  throw FileError(
+      {Severity::kError, {}, fmt::format("{}: {}", path_, message), {}});
+}
+
+void SlcReader::read(char* bytes, std::size_t count, std::string_view what) {
+  const std::size_t got = std::fread(bytes, 1, count, file_.get());
+  if (got != count) {
+    fail(fmt::format("the file ends at byte {}, in {}", offset_ + got, what));
+  }
+  offset_ += count;
+}
+
+template <typename Value>
+Value SlcReader::read_value(std::string_view what) {
+  Value value;
+  read(reinterpret_cast<char*>(&value), sizeof(value), what);
+  return value;
+}
+
+void SlcReader::read_header() {
+  std::array<char, 8> begin{};
+  const std::size_t got =
+      std::fread(begin.data(), 1, begin.size(), file_.get());
+  offset_ = got;
+  header_.text.assign(begin.data(), got);
+  if (header_.text.starts_with("Slice V")) {
+    fail(
+        "this is a Stratasys slice file (\"Slice V0\"), another format with "
+        "the suffix .slc");
+  }
+  if (!header_.text.starts_with("-SLCVER")) {
+    // VTK's volumes begin with "<columns> <rows> <slices> …".
+    const bool is_vtk = got > 0 && begin[0] >= '0' && begin[0] <= '9';
+    fail(is_vtk ? "this is a VTK volume, another format with the suffix .slc"
+                : "not an SLC file: it does not begin with \"-SLCVER\"");
+  }
+  while (true) {
+    const char c = read_value<char>("the header");
+    if (c == '\x1A') break;
+    header_.text.push_back(c);
+    if (header_.text.size() >= kLongestHeader) {
+      fail("the header has no end (0x1A) within 2048 bytes");
+    }
+  }
+  std::array<char, kReservedSize> reserved;
+  read(reserved.data(), reserved.size(), "the 256 reserved bytes");
+
+  std::string& text = header_.text;
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+    text.pop_back();
+  }
+  header_.version = value_of(text, "-SLCVER");
+  header_.unit = value_of(text, "-UNIT");
+  header_.type = value_of(text, "-TYPE");
+  header_.package = value_of(text, "-PACKAGE");
+  header_.extents = parse_extents(value_of(text, "-EXTENTS"));
+  if (header_.unit == "INCH") {
+    mm_per_unit_ = kMillimetresPerInch;
+  } else if (header_.unit != "MM") {
+    fail(fmt::format("unknown unit '{}' (MM or INCH was expected)",
+                     header_.unit));
+  }
+}
+
+void SlcReader::read_sampling() {
+  const auto rows = read_value<std::uint8_t>("the sampling table");
+  if (rows == 0) fail("the sampling table has no row");
+  for (unsigned i = 0; i < rows; ++i) {
+    const auto row = read_value<std::array<float, 4>>("the sampling table");
+    sampling_.push_back({row[0], row[1], row[2]});
+  }
+}
+
+bool SlcReader::read_layer(SlcLayer& layer) {
+  const auto z = read_value<float>("the height of a layer");
+  const auto boundaries = read_value<std::uint32_t>("the head of a layer");
+  layer.z = static_cast<double>(z) * mm_per_unit_;
+  if (boundaries == kEndOfLayers) {
+    top_ = layer.z;
+    layer.boundaries.clear();
+    return false;
+  }
+  // The row in force is the last one that begins at or below z.
+  const SlcSampling* row = &sampling_.front();
+  for (const SlcSampling& candidate : sampling_) {
+    if (candidate.min_z <= z) row = &candidate;
+  }
+  layer.thickness = static_cast<double>(row->thickness) * mm_per_unit_;
+
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < boundaries; ++i) {
+    const auto vertices = read_value<std::uint32_t>("the head of a boundary");
+    const auto gaps = read_value<std::uint32_t>("the head of a boundary");
+    // Boundaries of the layer before lend their memory.
+    if (layer.boundaries.size() == count) layer.boundaries.emplace_back();
+    SlcBoundary& boundary = layer.boundaries[count++];
+    boundary.gaps = gaps;
+    read_points(vertices, boundary.points);
+  }
+  layer.boundaries.resize(count);
+  return true;
+}
+
+void SlcReader::read_points(std::uint32_t count, std::vector<Vec2>& points) {
+  points.clear();
+  std::array<std::array<float, 2>, kPointsAtOnce> piece;
+  while (count > 0) {
+    const std::uint32_t now = std::min(count, kPointsAtOnce);
+    read(reinterpret_cast<char*>(piece.data()), now * sizeof(piece[0]),
+         "the vertices of a boundary");
+    for (std::uint32_t i = 0; i < now; ++i) {
+      const auto& [x, y] = piece[i];
+      if (!std::isfinite(x) || !std::isfinite(y)) {
+        fail(fmt::format("a coordinate before byte {} is not a number",
+                         offset_));
+      }
+      points.emplace_back(x * mm_per_unit_, y * mm_per_unit_);
+    }
+    count -= now;
+  }
+}
+
+Layer to_layer(const SlcLayer& layer) {
+  Layer result;
+  result.bottom = layer.z;
+  result.top = layer.z + layer.thickness;
+  result.section_z = layer.z + layer.thickness / 2;
+  for (const SlcBoundary& boundary : layer.boundaries) {
+    std::size_t count = boundary.points.size();
+    if (count > 1 && boundary.points.front() == boundary.points.back()) {
+      --count;
+    }
+    result.contours.points.insert(
+        result.contours.points.end(), boundary.points.begin(),
+        boundary.points.begin() + static_cast<std::ptrdiff_t>(count));
+    result.contours.ends.push_back(
+        static_cast<std::uint32_t>(result.contours.points.size()));
+  }
+  return result;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,96 @@
+#pragma once
+// Reads SLC 2.0 files (docs/formats.md), layer by layer.
+//
+// Files come from anywhere, so nothing in them is trusted: every count is
+// checked against the bytes that really follow before memory is asked for, and
+// whatever breaks the format's frame throws FileError with the byte offset.
+// What merely breaks a rule (an open loop, a repeat) is handed over as it is:
+// `lamina inspect` wants to see it.
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "csg/vec.h"
+#include "slicer/layer.h"
+
+namespace lamina::slicer {
+
+struct SlcHeader {
+  std::string text;  // whole, without its end
+  std::string version;
+  std::string unit;  // "MM" or "INCH"
+  std::string type;
+  std::string package;
+  // x, y, z as {low, high}, in the file's unit, where the header tells them.
+  std::optional<std::array<Vec2, 3>> extents;
+};
+
+// One row of the sampling table: layers from `min_z` upward [file's unit].
+struct SlcSampling {
+  float min_z = 0;
+  float thickness = 0;
+  float line_width_compensation = 0;
+};
+
+// A boundary as written: the closing vertex is kept.
+struct SlcBoundary {
+  std::uint32_t gaps = 0;
+  std::vector<Vec2> points;  // [mm]
+};
+
+struct SlcLayer {
+  double z = 0;          // lower side [mm]
+  double thickness = 0;  // of the row in force [mm]
+  std::vector<SlcBoundary> boundaries;
+};
+
+class SlcReader {
+ public:
+  // Reads up to the first layer. Throws FileError, also for the two other
+  // formats that bear the suffix.
+  explicit SlcReader(std::string path);
+
+  const SlcHeader& header() const { return header_; }
+  const std::vector<SlcSampling>& sampling() const { return sampling_; }
+  double mm_per_unit() const { return mm_per_unit_; }
+
+  // Replaces `layer` by the next one; false at the end of the layers. Throws
+  // FileError.
+  bool read_layer(SlcLayer& layer);
+
+  // Of the end record [mm]; known when read_layer has returned false.
+  double top() const { return top_; }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  void read(char* bytes, std::size_t count, std::string_view what);
+  template <typename Value>
+  Value read_value(std::string_view what);
+  void read_header();
+  void read_sampling();
+  void read_points(std::uint32_t count, std::vector<Vec2>& points);
+  [[noreturn]] void fail(std::string_view message) const;
+
+  std::string path_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::uint64_t offset_ = 0;
+  SlcHeader header_;
+  std::vector<SlcSampling> sampling_;
+  double mm_per_unit_ = 1;
+  double top_ = 0;
+};
+
+// The layer as the rest of lamina knows it: loops without the closing vertex.
+Layer to_layer(const SlcLayer& layer);
+
+}  // namespace lamina::slicer

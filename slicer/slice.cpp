@@ -1,0 +1,313 @@
+#include "slicer/slice.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <time.h>
+
+#include "ldni/grid.h"
+#include "ldni/leaf_section.h"
+#include "slicer/paper_slicer.h"
+#include "slicer/simplify.h"
+
+namespace lamina::slicer {
+namespace {
+
+namespace tbb = oneapi::tbb;
+
+// Layers of a block share the walk over the leaves, so few large blocks are
+// cheap; many small ones keep all threads busy and memory low.
+constexpr std::uint32_t kLargestBlock = 32;
+constexpr std::uint32_t kSmallestBlock = 8;
+constexpr std::uint32_t kWantedBlocks = 12;
+
+// Blocks in flight, for each thread: one in work, one waiting for its turn to
+// be written.
+constexpr std::size_t kBlocksPerThread = 2;
+
+// One thread's way from a block of layers to contours: the back end of a
+// contour mode.
+class BlockSlicer {
+ public:
+  virtual ~BlockSlicer() = default;
+  // Cuts all leaves in those layers; forgets the block before.
+  virtual void section(std::uint32_t first_layer,
+                       std::uint32_t layer_count) = 0;
+  // Replaces `contours` by the loops of layer `index` of the block.
+  virtual void make_contours(std::uint32_t index, ldni::Contours& contours) = 0;
+  virtual ldni::SweepCounts counts() const = 0;
+};
+
+// Leaf sections and the kinetic ray.
+class FaithfulSlicer : public BlockSlicer {
+ public:
+  FaithfulSlicer(const csg::Scene& scene, const ldni::LeafSectioner& sectioner,
+                 double pitch)
+      : sectioner_(sectioner), ray_(scene, pitch) {}
+
+  void section(std::uint32_t first_layer, std::uint32_t layer_count) override {
+    sectioner_.cut(first_layer, layer_count, chains_);
+  }
+  void make_contours(std::uint32_t index, ldni::Contours& contours) override {
+    ray_.sweep(chains_, index, contours);
+  }
+  ldni::SweepCounts counts() const override { return ray_.counts(); }
+
+ private:
+  const ldni::LeafSectioner& sectioner_;
+  ldni::KineticRay ray_;
+  ldni::ChainBlock chains_;
+};
+
+// Depth images and links.
+class PaperBlockSlicer : public BlockSlicer {
+ public:
+  explicit PaperBlockSlicer(const PaperPlan& plan) : slicer_(plan) {}
+
+  void section(std::uint32_t first_layer, std::uint32_t layer_count) override {
+    first_layer_ = first_layer;
+    slicer_.sample_block(first_layer, layer_count);
+  }
+  void make_contours(std::uint32_t index, ldni::Contours& contours) override {
+    slicer_.build_layer(first_layer_ + index, contours);
+  }
+  ldni::SweepCounts counts() const override { return {}; }
+
+ private:
+  PaperSlicer slicer_;
+  std::uint32_t first_layer_ = 0;
+};
+
+// What a job's threads share, and how they get what is their own.
+struct Plan {
+  std::uint32_t largest_block = kLargestBlock;
+  std::function<std::unique_ptr<BlockSlicer>()> make_slicer;
+};
+
+Plan plan_faithful(const csg::Scene& scene, const Settings& settings,
+                   const ldni::LayerGrid& grid) {
+  auto sectioner = std::make_shared<ldni::LeafSectioner>(scene, grid);
+  return {kLargestBlock, [&scene, sectioner, pitch = settings.ray_pitch] {
+            return std::make_unique<FaithfulSlicer>(scene, *sectioner, pitch);
+          }};
+}
+
+Plan plan_paper(const csg::Scene& scene, const Settings& settings,
+                const ldni::LayerGrid& grid) {
+  auto plan = std::make_shared<PaperPlan>(scene, grid, settings);
+  return {plan->layers_per_block,
+          [plan] { return std::make_unique<PaperBlockSlicer>(*plan); }};
+}
+
+// Consecutive layers on their way through the pipeline. Blocks are used again
+// and again, so that the steady state allocates nothing.
+struct Block {
+  std::uint32_t first_layer = 0;
+  std::uint32_t layer_count = 0;
+  std::vector<ldni::Contours> contours;  // one a layer
+  double section_seconds = 0;
+  double sweep_seconds = 0;
+  double simplify_seconds = 0;
+};
+
+// What one thread keeps from block to block.
+struct Worker {
+  std::unique_ptr<BlockSlicer> slicer;
+  Simplifier simplifier;
+};
+
+// Processor time of the calling thread.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Runs `work` and returns the processor seconds that it took.
+template <typename Work>
+double measure(const Work& work) {
+  const double begin = thread_seconds();
+  work();
+  return thread_seconds() - begin;
+}
+
+ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
+  if (!settings.heights.empty()) {
+    return ldni::LayerGrid::at_heights(settings.heights);
+  }
+  return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
+                                  settings.layer_thickness);
+}
+
+// Hands layers on in order. Holds back empty ones until it is known that
+// another layer with a contour follows, unless each height is wanted.
+class OrderedOutput {
+ public:
+  OrderedOutput(const ldni::LayerGrid& grid, bool keeps_empty, LayerSink& sink,
+                SliceReport& report)
+      : grid_(grid), keeps_empty_(keeps_empty), sink_(sink), report_(report) {}
+
+  void take(std::uint32_t index, ldni::Contours& contours) {
+    if (contours.is_empty() && !keeps_empty_) {
+      if (report_.layers > 0) ++held_back_;
+      return;
+    }
+    for (; held_back_ > 0; --held_back_) emit(index - held_back_, empty_);
+    emit(index, contours);
+  }
+
+ private:
+  void emit(std::uint32_t index, ldni::Contours& contours) {
+    ++report_.layers;
+    report_.loops += contours.loop_count();
+    report_.points += contours.points.size();
+    layer_.section_z = grid_.section_z(index);
+    layer_.bottom = grid_.layer_bottom(index);
+    layer_.top = grid_.layer_top(index);
+    std::swap(layer_.contours, contours);
+    sink_.take(layer_);
+    std::swap(layer_.contours, contours);
+  }
+
+  const ldni::LayerGrid& grid_;
+  bool keeps_empty_;
+  LayerSink& sink_;
+  SliceReport& report_;
+  std::uint32_t held_back_ = 0;
+  ldni::Contours empty_;
+  Layer layer_;
+};
+
+// The pipeline.
+class Job {
+ public:
+  Job(const Plan& plan, std::uint32_t layer_count, double tolerance,
+      unsigned threads)
+      : layer_count_(layer_count),
+        workers_([&plan, tolerance] {
+          return Worker{plan.make_slicer(), Simplifier(tolerance)};
+        }),
+        blocks_(kBlocksPerThread * threads) {
+    const std::uint32_t size = std::min(
+        plan.largest_block,
+        std::clamp(layer_count / kWantedBlocks, kSmallestBlock, kLargestBlock));
+    block_count_ = (layer_count + size - 1) / size;
+  }
+
+  void run(OrderedOutput& output, SliceReport& report) {
+    tbb::parallel_pipeline(
+        blocks_.size(),
+        tbb::make_filter<void, Block*>(
+            tbb::filter_mode::serial_in_order,
+            [this](tbb::flow_control& flow) { return next_block(flow); }) &
+            tbb::make_filter<Block*, Block*>(
+                tbb::filter_mode::parallel,
+                [this](Block* block) { return make_contours(block); }) &
+            tbb::make_filter<Block*, void>(
+                tbb::filter_mode::serial_in_order,
+                [&](Block* block) { hand_on(*block, output, report); }));
+    for (const Worker& worker : workers_)
+      report.sweep += worker.slicer->counts();
+  }
+
+ private:
+  // Blocks are as equal as can be; their borders depend on the job alone.
+  std::uint32_t border(std::uint32_t block) const {
+    return static_cast<std::uint32_t>(std::uint64_t{layer_count_} * block /
+                                      block_count_);
+  }
+
+  // Input and output keep the same order and at most blocks_.size() blocks are
+  // under way, so the oldest block's memory is free again.
+  Block* next_block(tbb::flow_control& flow) {
+    if (started_ == block_count_) {
+      flow.stop();
+      return nullptr;
+    }
+    Block& block = blocks_[started_ % blocks_.size()];
+    block.first_layer = border(started_);
+    block.layer_count = border(started_ + 1) - block.first_layer;
+    ++started_;
+    return &block;
+  }
+
+  Block* make_contours(Block* block) {
+    Worker& worker = workers_.local();
+    if (block->contours.size() < block->layer_count) {
+      block->contours.resize(block->layer_count);
+    }
+    block->section_seconds = measure([&] {
+      worker.slicer->section(block->first_layer, block->layer_count);
+    });
+    block->sweep_seconds = measure([&] {
+      for (std::uint32_t i = 0; i < block->layer_count; ++i) {
+        worker.slicer->make_contours(i, block->contours[i]);
+      }
+    });
+    block->simplify_seconds = measure([&] {
+      for (std::uint32_t i = 0; i < block->layer_count; ++i) {
+        worker.simplifier.simplify(block->contours[i]);
+      }
+    });
+    return block;
+  }
+
+  static void hand_on(Block& block, OrderedOutput& output,
+                      SliceReport& report) {
+    report.section_seconds += block.section_seconds;
+    report.sweep_seconds += block.sweep_seconds;
+    report.output_seconds +=
+        block.simplify_seconds + measure([&] {
+          for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+            output.take(block.first_layer + i, block.contours[i]);
+          }
+        });
+  }
+
+  std::uint32_t layer_count_;
+  tbb::enumerable_thread_specific<Worker> workers_;
+  std::vector<Block> blocks_;
+  std::uint32_t block_count_ = 0;
+  std::uint32_t started_ = 0;
+};
+
+[[noreturn]] void throw_empty() {
+  throw GeometryError(
+      {Severity::kError, {}, "Current top level object is empty.", {}});
+}
+
+}  // namespace
+
+SliceReport slice(const csg::Scene& scene, const Settings& settings,
+                  LayerSink& sink, Diagnostics& /*diagnostics*/) {
+  const bool keeps_empty = !settings.heights.empty();
+  if (scene.box.is_empty() && !keeps_empty) throw_empty();
+  const unsigned threads =
+      settings.threads != 0 ? settings.threads
+                            : std::max(1U, std::thread::hardware_concurrency());
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  threads);
+  const ldni::LayerGrid grid = make_grid(scene, settings);
+  SliceReport report;
+  Plan plan;
+  report.section_seconds = measure([&] {
+    plan = settings.contour == ContourMode::kPaper
+               ? plan_paper(scene, settings, grid)
+               : plan_faithful(scene, settings, grid);
+  });
+  OrderedOutput output(grid, keeps_empty, sink, report);
+  Job(plan, grid.layer_count(), settings.tolerance, threads)
+      .run(output, report);
+  if (report.layers == 0) throw_empty();
+  return report;
+}
+
+}  // namespace lamina::slicer
