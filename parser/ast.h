@@ -1,19 +1,24 @@
 #pragma once
 // The abstract syntax tree of an OpenSCAD program.
 //
-// Trees are variants; all nodes, lists and names of a program live in one
-// arena and are freed with it, so that a chain of a million `+` needs no
-// recursion to be freed and a node costs no allocation of its own. Names and
-// strings are views into the arena. Nothing is resolved here: a Variable is a
-// name, a Call is an expression applied to arguments.
+// Trees are variants; all nodes and lists of a program live in one arena and
+// are freed with it, so that a chain of a million `+` needs no recursion to be
+// freed and a node costs no allocation of its own. Names and strings are views
+// into the arena or into the source texts, which must outlive the program.
+// Nothing is resolved here: a Variable is a name, a Call is an expression
+// applied to arguments.
+//
+// What OpenSCAD's own parser already settles is settled here as well: unary
+// `+` and disabled (`*`) instantiations leave no trace, and the statements of
+// a bare `{ … }` stand in the list around it, since such braces open no scope.
 
 #include <cstdint>
 #include <memory>
-#include <memory_resource>
 #include <span>
 #include <string_view>
 #include <variant>
 
+#include "parser/arena.h"
 #include "parser/source.h"
 
 namespace lamina::ast {
@@ -28,7 +33,7 @@ struct Argument {
 };
 using Arguments = std::span<const Argument>;
 
-enum class UnaryOp : std::uint8_t { kNot, kNegate, kPlus };
+enum class UnaryOp : std::uint8_t { kNot, kNegate };
 enum class BinaryOp : std::uint8_t {
   kOr,
   kAnd,
@@ -76,6 +81,11 @@ struct Conditional {
 struct Vector {
   std::span<const Expr* const> elements;
 };
+// A vector of nothing but number literals (`-1` counts as one): by far the
+// most frequent thing in a .csg file and in tables, so it is kept flat.
+struct Numbers {
+  std::span<const double> values;
+};
 struct Range {
   const Expr* begin;
   const Expr* step;
@@ -116,10 +126,13 @@ struct ForElements {
   Arguments bindings;
   const Expr* body;
 };
-struct ForCElements {  // for (init; condition; update)
+struct ForCHead {  // for (init; condition; update)
   Arguments init;
   const Expr* condition;
   Arguments update;
+};
+struct ForCElements {
+  const ForCHead* head;  // apart, since it would make every Expr larger
   const Expr* body;
 };
 struct IfElements {
@@ -137,9 +150,9 @@ struct LetElements {
 
 struct Expr {
   std::variant<Undef, Bool, Number, String, Variable, Unary, Binary,
-               Conditional, Vector, Range, Index, Member, Call, FunctionLiteral,
-               Let, AssertExpr, EchoExpr, ForElements, ForCElements, IfElements,
-               EachElements, LetElements>
+               Conditional, Vector, Numbers, Range, Index, Member, Call,
+               FunctionLiteral, Let, AssertExpr, EchoExpr, ForElements,
+               ForCElements, IfElements, EachElements, LetElements>
       node;
   SourceRange range;
 };
@@ -152,7 +165,6 @@ struct Modifiers {
   bool root = false;        // !
   bool highlight = false;   // #
   bool background = false;  // %
-  bool disable = false;     // *
 };
 
 struct Assignment {
@@ -181,18 +193,16 @@ struct IfElse {
   Statements if_false;
   Modifiers modifiers;
 };
-struct Use {
-  std::string_view file;
-};  // `use <file>`, path as written
-// `{ … }` standing alone where a statement is expected.
-struct Block {
-  Statements body;
-};
-
 struct Statement {
   std::variant<Assignment, FunctionDefinition, ModuleDefinition, Instantiation,
-               IfElse, Use, Block>
+               IfElse>
       node;
+  SourceRange range;
+};
+
+// `use <file>`.
+struct Use {
+  std::string_view file;  // absolute path; as written where no file was found
   SourceRange range;
 };
 
@@ -200,9 +210,13 @@ struct Statement {
 // Statements stand in the order of the text; a variable assigned twice stands
 // twice (the evaluator applies "last value, first place").
 struct Program {
-  std::shared_ptr<std::pmr::monotonic_buffer_resource> arena;
+  std::shared_ptr<Arena> arena;
   const Source* source = nullptr;  // the main file
   Statements statements;
+  // In the order in which names are looked up: the last `use` first, a file
+  // used twice where its last `use` puts it. Fonts stand in `fonts` instead.
+  std::span<const Use> uses;
+  std::span<const Use> fonts;  // `use <….ttf>`, in the order of the text
 };
 
 }  // namespace lamina::ast

@@ -1,8 +1,103 @@
 #include "parser/diagnostic.h"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "parser/detail/paths.h"
+
 namespace lamina {
+
+namespace {
+
+// OpenSCAD shows the places of evaluation relative to the design, those of
+// its parser relative to the folder in which it was started.
+constexpr std::string_view kParserError = "Parser error: ";
+
+std::string_view openscad_prefix(Severity severity) {
+  switch (severity) {
+    case Severity::kEcho:
+      return "ECHO: ";
+    case Severity::kDeprecated:
+      return "DEPRECATED: ";
+    case Severity::kWarning:
+      return "WARNING: ";
+    case Severity::kError:
+      return "ERROR: ";
+  }
+  return "";
+}
+
+std::string_view terminal_prefix(Severity severity) {
+  switch (severity) {
+    case Severity::kEcho:
+      return "ECHO: ";
+    case Severity::kDeprecated:
+      return "deprecated: ";
+    case Severity::kWarning:
+      return "warning: ";
+    case Severity::kError:
+      return "error: ";
+  }
+  return "";
+}
+
+void append_openscad_place(std::string& text, SourceRange range,
+                           const std::string& base_folder) {
+  if (!range.is_known()) return;
+  text += fmt::format(" in file {}, line {}",
+                      detail::relative_path(range.source->path(), base_folder),
+                      range.source->line_column(range.begin).line);
+}
+
+// A place as a terminal shows it. Control characters would move the cursor
+// and tabs would shift the carets, so both become blanks.
+std::string printable(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return result;
+}
+
+// Columns that UTF-8 text takes, double width neglected.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(),
+      [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80; }));
+}
+
+// The line of `range` and carets below it, to the end of that line at most.
+void append_carets(std::string& text, SourceRange range) {
+  constexpr std::size_t kWidest = 200;  // bytes; longer lines are not shown
+  const LineColumn place = range.source->line_column(range.begin);
+  const std::string line = printable(range.source->line_text(place.line));
+  if (line.size() > kWidest) return;
+  const std::size_t begin =
+      std::min<std::size_t>(place.column - 1, line.size());
+  const std::size_t end = std::clamp<std::size_t>(
+      begin + (range.end - range.begin), begin, line.size());
+  const std::string_view shown(line);
+  const std::size_t indent = width(shown.substr(0, begin));
+  const std::size_t length = width(shown.substr(begin, end - begin));
+  text += fmt::format("{:>5} | {}\n      | {:{}}^{:~>{}}\n", place.line, line,
+                      "", indent, "", length > 0 ? length - 1 : 0);
+}
+
+void append_terminal_text(std::string& text, SourceRange range,
+                          std::string_view prefix, std::string_view message) {
+  if (range.is_known()) {
+    const LineColumn place = range.source->line_column(range.begin);
+    text += fmt::format("{}:{}:{}: ", detail::shown_path(range.source->path()),
+                        place.line, place.column);
+  }
+  text += fmt::format("{}{}\n", prefix, message);
+  if (range.is_known()) append_carets(text, range);
+}
+
+}  // namespace
 
 Error::Error(Diagnostic diagnostic) : diagnostic_(std::move(diagnostic)) {}
 
@@ -32,6 +127,39 @@ void Diagnostics::warning(SourceRange range, std::string message,
 void Diagnostics::error(SourceRange range, std::string message,
                         std::vector<Note> notes) {
   report({Severity::kError, range, std::move(message), std::move(notes)});
+}
+
+std::string openscad_line(const Diagnostic& diagnostic,
+                          const std::string& base_folder) {
+  const bool is_from_parser = diagnostic.message.starts_with(kParserError);
+  std::string text(openscad_prefix(diagnostic.severity));
+  text += diagnostic.message;
+  append_openscad_place(text, diagnostic.range,
+                        is_from_parser ? "" : base_folder);
+  text += '\n';
+  for (const Note& note : diagnostic.notes) {
+    text += "TRACE: " + note.message;
+    append_openscad_place(text, note.range, base_folder);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string caret_text(const Diagnostic& diagnostic) {
+  std::string text;
+  if (diagnostic.severity == Severity::kEcho) {
+    return "ECHO: " + diagnostic.message + "\n";
+  }
+  append_terminal_text(text, diagnostic.range,
+                       terminal_prefix(diagnostic.severity),
+                       diagnostic.message);
+  for (const Note& note : diagnostic.notes) {
+    append_terminal_text(text, note.range, "note: ", note.message);
+  }
+  for (const Note& hint : diagnostic.hints) {
+    append_terminal_text(text, hint.range, "note: ", hint.message);
+  }
+  return text;
 }
 
 }  // namespace lamina

@@ -27,6 +27,8 @@ struct Diagnostic {
   SourceRange range;    // unknown where OpenSCAD gives no place either
   std::string message;  // OpenSCAD's words without prefix and place
   std::vector<Note> notes = {};
+  // What OpenSCAD does not say: shown on the terminal only, after the notes.
+  std::vector<Note> hints = {};
 };
 
 // Thrown to end the run; only main catches.

@@ -1,0 +1,169 @@
+#include "parser/loader.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <utility>
+
+#include "parser/detail/paths.h"
+#include "parser/parser.h"
+
+namespace lamina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Where Debian and most others install OpenSCAD's libraries.
+constexpr const char* kInstalledLibraries = "/usr/share/openscad/libraries";
+
+// Ranges are 32-bit offsets.
+constexpr std::uintmax_t kLargestText =
+    std::numeric_limits<std::uint32_t>::max() / 2;
+
+bool is_plain_file(const fs::path& path) {
+  std::error_code failed;
+  return fs::exists(path, failed) && !fs::is_directory(path, failed);
+}
+
+bool is_open(const std::string& path, std::span<const Source* const> open) {
+  return std::any_of(open.begin(), open.end(), [&](const Source* source) {
+    return source->path() == path;
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> library_folders() {
+  std::vector<std::string> folders;
+  if (const char* paths = std::getenv("OPENSCADPATH")) {
+    std::string_view rest = paths;
+    while (true) {
+      const std::size_t end = rest.find(':');
+      folders.push_back(
+          detail::absolute_path(std::string(rest.substr(0, end))));
+      if (end == std::string_view::npos) break;
+      rest.remove_prefix(end + 1);
+    }
+  }
+  if (const char* home = std::getenv("HOME")) {
+    folders.push_back(std::string(home) + "/.local/share/OpenSCAD/libraries");
+  }
+  folders.emplace_back(kInstalledLibraries);
+  return folders;
+}
+
+Loader::Loader(SourceStore& sources, Diagnostics& diagnostics,
+               std::vector<std::string> folders, std::string definitions)
+    : sources_(sources),
+      diagnostics_(diagnostics),
+      folders_(std::move(folders)),
+      definitions_(std::move(definitions)) {}
+
+std::string Loader::find(const Source& from, std::string_view name,
+                         std::span<const Source* const> open) const {
+  const fs::path local(name);
+  std::error_code failed;
+  const auto accept = [&](const fs::path& path) {
+    return is_plain_file(path) && !is_open(path.string(), open);
+  };
+  if (local.is_absolute()) {
+    return accept(local) ? fs::canonical(local, failed).string() : "";
+  }
+  fs::path beside = fs::path(detail::folder_of(from.path())) / local;
+  if (is_plain_file(beside)) beside = fs::canonical(beside, failed);
+  if (accept(beside)) return beside.string();
+  for (const std::string& folder : folders_) {
+    const fs::path path = fs::path(folder) / local;
+    if (is_plain_file(path)) return accept(path) ? path.string() : "";
+  }
+  return "";
+}
+
+std::optional<std::string> Loader::read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) return std::nullopt;
+  const std::streamoff size = file.tellg();
+  if (size < 0 || static_cast<std::uintmax_t>(size) > kLargestText) {
+    return std::nullopt;
+  }
+  // Room for what stands behind the text of a main file.
+  std::string text;
+  text.reserve(static_cast<std::size_t>(size) + definitions_.size() + 3);
+  text.resize(static_cast<std::size_t>(size));
+  file.seekg(0);
+  file.read(text.data(), size);
+  if (!file) return std::nullopt;
+  std::string absolute = detail::absolute_path(path);
+  if (std::find(files_read_.begin(), files_read_.end(), absolute) ==
+      files_read_.end()) {
+    files_read_.push_back(std::move(absolute));
+  }
+  return text;
+}
+
+const Source* Loader::open_include(const std::string& path) {
+  const auto known = included_.find(path);
+  if (known != included_.end()) return known->second;
+  std::optional<std::string> text = read(path);
+  if (!text) return nullptr;
+  const Source& source = sources_.add(path, std::move(*text));
+  included_.emplace(path, &source);
+  return &source;
+}
+
+ast::Program Loader::load(const std::string& path) {
+  std::optional<std::string> text = read(path);
+  if (!text) {
+    throw FileError(
+        {Severity::kError, {}, "Can't open input file '" + path + "'!"});
+  }
+  return load_text(path, std::move(*text));
+}
+
+ast::Program Loader::load_text(const std::string& path, std::string text) {
+  text += "\n\x03\n";
+  text += definitions_;
+  const Source& source = sources_.add(path, std::move(text));
+  ast::Program program = parse(source, nullptr, *this, diagnostics_);
+  load_uses(program);
+  return program;
+}
+
+void Loader::load_uses(const ast::Program& program) {
+  for (const ast::Use& use : program.uses) {
+    const std::string path(use.file);
+    if (!fs::path(path).is_absolute() || used_.contains(path)) continue;
+    // Entered before it is read, so that files which use each other end.
+    std::optional<ast::Program>& used = used_[path];
+    used = load_used(path, *program.source);
+    if (used) load_uses(*used);
+  }
+}
+
+std::optional<ast::Program> Loader::load_used(const std::string& path,
+                                              const Source& user) {
+  std::optional<std::string> text = read(path);
+  if (!text) {
+    diagnostics_.warning({}, "Can't open library file '" + path + "'\n");
+    return std::nullopt;
+  }
+  *text += "\n\x03\n";
+  *text += definitions_;
+  const Source& source = sources_.add(path, std::move(*text));
+  try {
+    return parse(source, &user, *this, diagnostics_);
+  } catch (const SyntaxError&) {
+    return std::nullopt;  // reported already; the names stay unknown
+  }
+}
+
+const ast::Program* Loader::used_program(const ast::Use& use) const {
+  const auto found = used_.find(use.file);
+  if (found == used_.end() || !found->second) return nullptr;
+  return &*found->second;
+}
+
+}  // namespace lamina

@@ -1,0 +1,83 @@
+#pragma once
+// Files of a design: the main file, what it includes, what it uses.
+//
+// A name in `include <…>` or `use <…>` is looked up in the folder of the file
+// that names it, then in the library folders. A missing file is a warning in
+// OpenSCAD's words and the run goes on. Every used file is parsed once, right
+// after the main file, in the order in which OpenSCAD does it, so that all
+// messages of the parser precede those of the evaluator. A syntax error in a
+// used file is reported and leaves its names unknown; one in the main file or
+// what that includes ends the run.
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "parser/ast.h"
+#include "parser/diagnostic.h"
+#include "parser/source.h"
+
+namespace lamina {
+
+// Where OpenSCAD looks for libraries: the folders of OPENSCADPATH (separated
+// by ':'), the user's (~/.local/share/OpenSCAD/libraries), the installed one.
+std::vector<std::string> library_folders();
+
+class Loader {
+ public:
+  // sources          owns all texts; outlives the programs
+  // folders          library folders, in the order in which they are searched
+  // definitions      what `-D` appends to the main file and to each used file,
+  //                  as text ("x=1;\ny=2;\n")
+  Loader(SourceStore& sources, Diagnostics& diagnostics,
+         std::vector<std::string> folders, std::string definitions = {});
+
+  // Reads and parses a design, its includes and all files that it uses.
+  // Throws FileError if it cannot be read, SyntaxError if it has errors (they
+  // are already reported then; a FileError is not).
+  ast::Program load(const std::string& path);
+
+  // The same for a text at hand. `path` is what messages show and relative
+  // names are resolved against; no file needs to be there.
+  ast::Program load_text(const std::string& path, std::string text);
+
+  // The program behind an entry of Program::uses; null where the file is
+  // missing or has syntax errors. Valid as long as the Loader lives; two
+  // entries that name one file have one program.
+  const ast::Program* used_program(const ast::Use& use) const;
+
+  // All files read so far, absolute, in the order in which they were opened,
+  // each once (for make dependencies).
+  const std::vector<std::string>& files_read() const { return files_read_; }
+
+  // For the parser. Absolute path of the file that `name` means in the file
+  // `from`; empty if there is none, or if it is one of the files in `open`
+  // (a cycle).
+  std::string find(const Source& from, std::string_view name,
+                   std::span<const Source* const> open) const;
+
+  // For the parser. The text of a file that `find` found; null if it cannot
+  // be read. A file included twice is read once.
+  const Source* open_include(const std::string& path);
+
+ private:
+  ast::Program load_source(const Source& source);
+  void load_uses(const ast::Program& program);
+  std::optional<ast::Program> load_used(const std::string& path,
+                                        const Source& user);
+  std::optional<std::string> read(const std::string& path);
+
+  SourceStore& sources_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string> folders_;
+  std::string definitions_;
+  std::vector<std::string> files_read_;
+  std::map<std::string, const Source*, std::less<>> included_;
+  // Empty where parsing failed.
+  std::map<std::string, std::optional<ast::Program>, std::less<>> used_;
+};
+
+}  // namespace lamina

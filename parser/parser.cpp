@@ -1,0 +1,43 @@
+#include "parser/parser.h"
+
+#include <new>
+
+#include "parser/detail/reader.h"
+#include "scad_grammar.h"
+
+// Made by Flex.
+int scadlex_init_extra(lamina::detail::Reader* reader, void** scanner);
+int scadlex_destroy(void* scanner);
+
+namespace lamina {
+
+namespace {
+
+// Frees the scanner also where a hard warning ends the parser by exception.
+class Scanner {
+ public:
+  explicit Scanner(detail::Reader& reader) {
+    if (scadlex_init_extra(&reader, &scanner_) != 0) throw std::bad_alloc();
+  }
+  ~Scanner() { scadlex_destroy(scanner_); }
+  Scanner(const Scanner&) = delete;
+  Scanner& operator=(const Scanner&) = delete;
+
+  void* get() const { return scanner_; }
+
+ private:
+  void* scanner_ = nullptr;
+};
+
+}  // namespace
+
+ast::Program parse(const Source& source, const Source* user, Loader& loader,
+                   Diagnostics& diagnostics) {
+  detail::Reader reader(source, user, loader, diagnostics);
+  const Scanner scanner(reader);
+  // The reader knows of every error, so the parser's answer says nothing new.
+  scadparse(scanner.get(), reader);
+  return reader.finish();
+}
+
+}  // namespace lamina
