@@ -1,10 +1,18 @@
 #include "slicer/loop_builder.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
+
+#include <glm/geometric.hpp>
 
 namespace lamina::slicer {
 namespace {
+
+// A point this near to the line through its neighbours [mm] lies on it. Just
+// above the rounding of a depth: the loops stay those of the paper, for along
+// an arc the nearness adds up over the rays of a loop (some 10³).
+constexpr double kCollinearDistance = 1e-12;
 
 constexpr std::uint32_t kWalked = std::numeric_limits<std::uint32_t>::max();
 
@@ -42,6 +50,25 @@ bool comes_first(const RayCursor& a, const RayCursor& b) {
   if (b.is_done()) return true;
   if (a.depth() != b.depth()) return a.depth() < b.depth();
   return !a.is_entry();
+}
+
+bool is_collinear(const Vec2& before, const Vec2& point, const Vec2& after) {
+  const Vec2 to_point = point - before;
+  const Vec2 to_after = after - before;
+  const double area = to_point.x * to_after.y - to_point.y * to_after.x;
+  return std::abs(area) <= kCollinearDistance * glm::length(to_after);
+}
+
+// Leaves the collinear points out of the loop that begins at `first`.
+void drop_collinear_points(std::vector<Vec2>& points, std::size_t first) {
+  std::size_t end = first;
+  for (std::size_t i = first; i < points.size(); ++i) {
+    const Vec2 point = points[i];
+    const Vec2 after = points[i + 1 < points.size() ? i + 1 : first];
+    const Vec2 before = end > first ? points[end - 1] : points.back();
+    if (!is_collinear(before, point, after)) points[end++] = point;
+  }
+  points.resize(end);
 }
 
 }  // namespace
@@ -108,6 +135,7 @@ void LoopBuilder::walk_links(const ldni::RayGrid& rays,
       contours.points.resize(first_point);
       continue;
     }
+    drop_collinear_points(contours.points, first_point);
     contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
   }
 }

@@ -34,7 +34,9 @@ namespace lamina::slicer {
 class LoopBuilder {
  public:
   // Replaces `contours` by the loops of one layer: outer ones counter-
-  // clockwise, holes clockwise, in the order of their first samples.
+  // clockwise, holes clockwise, in the order of their first samples. Points
+  // within kCollinearDistance of the line through their neighbours are left
+  // out: a wall parallel to x would have one for every ray.
   //
   // intervals  of all rays of `rays`
   void build(const ldni::RayGrid& rays, const ldni::LayerIntervals& intervals,
