@@ -191,6 +191,7 @@ struct IfElse {
   const Expr* condition;
   Statements if_true;
   Statements if_false;
+  bool has_else = false;  // `else;` has no statements
   Modifiers modifiers;
 };
 struct Statement {

@@ -341,12 +341,14 @@ ast::Statement* Reader::set_children(ast::Statement* instantiation,
 ast::Statement* Reader::make_if(Tree condition, Scope scope,
                                 SourceRange range) {
   const ast::Statements if_true = close_scope(scope);
-  return arena_.make(
-      ast::Statement{ast::IfElse{condition.expr, if_true, {}, {}}, range});
+  return arena_.make(ast::Statement{
+      ast::IfElse{condition.expr, if_true, {}, false, {}}, range});
 }
 
 ast::Statement* Reader::set_else(ast::Statement* if_else, Scope scope) {
-  std::get<ast::IfElse>(if_else->node).if_false = close_scope(scope);
+  auto& node = std::get<ast::IfElse>(if_else->node);
+  node.if_false = close_scope(scope);
+  node.has_else = true;
   return if_else;
 }
 

@@ -1,0 +1,52 @@
+#pragma once
+// Comments that describe parameters: OpenSCAD's customizer.
+//
+//     /* [Stone] */
+//     // carat weight
+//     carat = 0.5;  // [0.25:0.25:3]
+//
+// A variable of the main file that is set to a literal before the first '{'
+// is a parameter. The comment behind it says which values it may take, the
+// line above it describes it, and the last /* [group] */ above it groups it.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "parser/ast.h"
+
+namespace lamina {
+
+struct ParameterComment {
+  bool is_parameter = false;
+  bool has_group = false;
+  std::string group;
+  std::string description;  // empty: none
+  // The comment behind it as an expression in OpenSCAD's notation, `""` where
+  // there is none or it makes no sense: `[0.25 : 0.25 : 3]`, `["a", "b"]`.
+  std::string values = "\"\"";
+};
+
+class Customizer {
+ public:
+  // The program must outlive the Customizer. Cost: one pass over the text.
+  explicit Customizer(const ast::Program& program);
+
+  // assignment  a statement of the program that holds an ast::Assignment
+  ParameterComment comment_of(const ast::Statement& assignment) const;
+
+ private:
+  struct Group {
+    std::string name;
+    std::uint32_t line;
+  };
+
+  std::size_t skip_comment(std::size_t place, std::uint32_t& line);
+  void scan();
+
+  const Source& source_;
+  std::vector<Group> groups_;
+  std::uint32_t end_line_ = 0;  // parameters stand above it
+};
+
+}  // namespace lamina
