@@ -50,18 +50,26 @@ double LayerGrid::layer_top(std::uint32_t layer) const {
   return bottom_ + (layer + 1.0) * thickness_;
 }
 
+double LayerGrid::threshold(std::uint32_t layer) const {
+  return section_z(layer) + kOnPlaneDistance;
+}
+
 std::uint32_t LayerGrid::layers_below(double z) const {
   if (thickness_ == 0) {
-    const auto it = std::lower_bound(heights_.begin(), heights_.end(),
-                                     z - kOnPlaneDistance);
+    const auto it = std::partition_point(
+        heights_.begin(), heights_.end(),
+        [z](double height) { return height + kOnPlaneDistance < z; });
     return static_cast<std::uint32_t>(it - heights_.begin());
   }
-  const double sections =
-      std::ceil((z - (bottom_ + 0.5 * thickness_)) / thickness_ -
-                kOnPlaneDistance / thickness_);
-  if (!(sections > 0)) return 0;
-  if (sections >= layer_count_) return layer_count_;
-  return static_cast<std::uint32_t>(sections);
+  // Divide for a guess, then let the thresholds decide.
+  const double guess =
+      std::ceil((z - (bottom_ + 0.5 * thickness_)) / thickness_);
+  if (!(guess >= 0)) return 0;
+  std::uint32_t layers =
+      guess >= layer_count_ ? layer_count_ : static_cast<std::uint32_t>(guess);
+  while (layers > 0 && !(z > threshold(layers - 1))) --layers;
+  while (layers < layer_count_ && z > threshold(layers)) ++layers;
+  return layers;
 }
 
 }  // namespace lamina::ldni

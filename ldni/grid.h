@@ -2,8 +2,10 @@
 // Heights of the sections and, for rays, positions in x.
 //
 // Layers stand at z_k = bottom + (k + 1/2)·thickness, by multiplication, or at
-// heights given one by one. One rule decides which layers a vertex reaches,
-// for every sampler: `layers_below`.
+// heights given one by one. One rule decides whether a vertex is above a
+// section, for every sampler: it is where z > threshold(section). Comparing
+// with one threshold and counting layers are the same decision bit by bit, so
+// that a sampler may do either.
 
 #include <cstdint>
 #include <vector>
@@ -21,14 +23,19 @@ class LayerGrid {
   static LayerGrid at_heights(std::vector<double> heights);
 
   std::uint32_t layer_count() const;
+  double thickness() const { return thickness_; }  // 0 for heights
   double section_z(std::uint32_t layer) const;
   double layer_bottom(std::uint32_t layer) const;  // = section_z for heights
   double layer_top(std::uint32_t layer) const;
 
-  // Number of sections lower than z by more than kOnPlaneDistance (1e-9 mm): a
-  // vertex at height z is above section l if layers_below(z) > l. A vertex on
-  // the section counts as below, so a solid fills [bottom, top). Nothing else
-  // ever decides this.
+  // What a vertex must be higher than to be above the section: the section's
+  // height and kOnPlaneDistance (1e-9 mm). A vertex on the section counts as
+  // below, so a solid fills [bottom, top). Ascends with the layer.
+  double threshold(std::uint32_t layer) const;
+
+  // Number of sections that a vertex at height z is above of:
+  // layers_below(z) > l exactly where z > threshold(l). Nothing else ever
+  // decides this.
   std::uint32_t layers_below(double z) const;
 
  private:

@@ -24,13 +24,32 @@ struct Chain {
   std::int32_t winding = 1;
 };
 
+// Extent in x [mm] of a stop of the kinetic ray: what lies within it
+// happens at one x. Edges of chains are wider. Large against the rounding of a
+// coordinate (2e-12 mm at 1e4 mm), small against every feature.
+inline constexpr double kColumnWidth = 1e-9;
+
+namespace detail {
+struct SectionScratch;
+}
+
 // The chains of layers [first_layer, first_layer + layer_count).
 struct ChainBlock {
+  ChainBlock();
+  ~ChainBlock();
+  ChainBlock(ChainBlock&&) noexcept;
+  ChainBlock& operator=(ChainBlock&&) noexcept;
+
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
   std::vector<Vec2> points;
   std::vector<Chain> chains;              // bucketed by layer
   std::vector<std::uint32_t> layer_ends;  // layer i: [ends[i-1], ends[i])
+  // Paths of meshes that broke their promise to be closed, closed by straight
+  // lines: 0 for every sound scene.
+  std::uint64_t open_paths = 0;
+  // What a cut needs on the side; kept for the next one.
+  std::unique_ptr<detail::SectionScratch> scratch;
 
   std::span<const Chain> layer(std::uint32_t i) const {
     const std::uint32_t begin = i == 0 ? 0 : layer_ends[i - 1];
@@ -39,7 +58,10 @@ struct ChainBlock {
 };
 
 // Cuts leaves into chains, block by block. Const and shared by all threads;
-// what a cut needs on the side lives in the caller's Scratch.
+// what a cut needs on the side lives in the block. A layer's chains come in
+// the same order whatever block the layer was cut in.
+//
+// The scene and the grid must outlive the sectioner.
 class LeafSectioner {
  public:
   LeafSectioner(const csg::Scene& scene, const LayerGrid& grid);
@@ -48,6 +70,8 @@ class LeafSectioner {
   LeafSectioner& operator=(const LeafSectioner&) = delete;
 
   // Replaces `block` by the chains of those layers; its capacity is reused.
+  // Cost: the instances that reach these layers, their rings or triangles, and
+  // the points made; not the facets of a sweep.
   void cut(std::uint32_t first_layer, std::uint32_t layer_count,
            ChainBlock& block) const;
 

@@ -1,0 +1,48 @@
+#pragma once
+// Cuts closed loops at their turns into x-monotone chains.
+//
+// An edge that is vertical, or as good as (|dx| < kColumnWidth), belongs to no
+// chain: rounding would otherwise give it a direction, and a wall that two
+// leaves share would become two steep chains that cross. Its ends get one x,
+// exactly, so that the chain before and the chain after it meet in one column
+// of the kinetic ray whatever else stops there (invariant I1).
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "csg/vec.h"
+#include "ldni/leaf_section.h"
+
+namespace lamina::ldni::detail {
+
+class ChainBuilder {
+ public:
+  // Starts a block; what `block` held is dropped, its capacity kept.
+  void begin(ChainBlock& block);
+
+  // The loop under construction: points in walking order.
+  std::vector<Vec2>& loop() { return loop_; }
+
+  // Cuts the loop into chains of layer `layer` (counted from the block's
+  // first) and empties it. orientation: +1 where the leaf is on the left of
+  // the loop, -1 on the right.
+  void close_loop(std::uint32_t layer, std::uint32_t instance,
+                  std::int32_t orientation);
+
+  // Buckets the chains by layer.
+  void finish(ChainBlock& block);
+
+ private:
+  bool snap_verticals();
+  void add_chain(std::size_t first, std::size_t last, bool is_forward,
+                 Chain chain, std::uint32_t layer);
+
+  ChainBlock* block_ = nullptr;
+  std::vector<Vec2> loop_;
+  std::vector<Vec2> snapped_;
+  std::vector<Chain> chains_;          // in the order they were made
+  std::vector<std::uint32_t> layers_;  // of chains_
+};
+
+}  // namespace lamina::ldni::detail

@@ -1,0 +1,134 @@
+#include "ldni/leaf_section.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "ldni/detail/chain_builder.h"
+#include "ldni/detail/layer_index.h"
+#include "ldni/detail/mesh_section.h"
+#include "ldni/detail/sweep_section.h"
+
+namespace lamina::ldni {
+
+namespace detail {
+
+struct SectionScratch {
+  BlockLayers layers;
+  ChainBuilder builder;
+  SweepSectioner sweeps;
+  MeshSectioner meshes;
+};
+
+}  // namespace detail
+
+namespace {
+
+using detail::LayerRange;
+
+// An instance is looked for this much [mm] beyond its box, which may have been
+// rounded in another way than its vertices.
+constexpr double kBoxMargin = 1e-6;
+
+bool boxes_meet(const csg::Instance& instance, const Box3& box) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (instance.box.low[axis] > box.high[axis] + kBoxMargin) return false;
+    if (instance.box.high[axis] < box.low[axis] - kBoxMargin) return false;
+  }
+  return true;
+}
+
+// Layers that each instance may reach. Outside the scene's box the result is
+// empty whatever the leaves are there, so what lies wholly outside is left out.
+std::vector<LayerRange> layer_ranges(const csg::Scene& scene,
+                                     const LayerGrid& grid) {
+  std::vector<LayerRange> ranges;
+  ranges.reserve(scene.instances.size());
+  for (const csg::Instance& instance : scene.instances) {
+    LayerRange range;
+    if (!instance.box.is_empty() && boxes_meet(instance, scene.box)) {
+      range.first = grid.layers_below(instance.box.low.z - kBoxMargin);
+      range.last = grid.layers_below(instance.box.high.z + kBoxMargin);
+    }
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+}  // namespace
+
+ChainBlock::ChainBlock() = default;
+ChainBlock::~ChainBlock() = default;
+ChainBlock::ChainBlock(ChainBlock&&) noexcept = default;
+ChainBlock& ChainBlock::operator=(ChainBlock&&) noexcept = default;
+
+struct LeafSectioner::State {
+  State(const csg::Scene& s, const LayerGrid& g)
+      : scene(s), grid(g), index(layer_ranges(s, g), g.layer_count()) {}
+
+  void cut_instance(std::uint32_t number,
+                    detail::SectionScratch& scratch) const;
+
+  const csg::Scene& scene;
+  const LayerGrid& grid;
+  detail::LayerIndex index;
+};
+
+void LeafSectioner::State::cut_instance(std::uint32_t number,
+                                        detail::SectionScratch& scratch) const {
+  const csg::Instance& instance = scene.instances[number];
+  const csg::Leaf& leaf = scene.leaves[instance.leaf];
+  const Affine& matrix = instance.world_from_leaf;
+  const double determinant = glm::determinant(glm::dmat3(matrix));
+  const std::int32_t mirror = determinant < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
+    const std::int32_t orientation = leaf.sweep_is_cavity[i] ? -mirror : mirror;
+    scratch.sweeps.cut(leaf.sweeps[i], matrix, number, orientation,
+                       scratch.layers, scratch.builder);
+  }
+  for (const csg::Mesh& mesh : leaf.meshes) {
+    scratch.meshes.cut(mesh, matrix, number, mirror, scratch.layers,
+                       scratch.builder);
+  }
+}
+
+LeafSectioner::LeafSectioner(const csg::Scene& scene, const LayerGrid& grid)
+    : state_(std::make_unique<const State>(scene, grid)) {}
+
+LeafSectioner::~LeafSectioner() = default;
+
+void LeafSectioner::cut(std::uint32_t first_layer, std::uint32_t layer_count,
+                        ChainBlock& block) const {
+  if (!block.scratch) {
+    block.scratch = std::make_unique<detail::SectionScratch>();
+  }
+  detail::SectionScratch& scratch = *block.scratch;
+  block.first_layer = first_layer;
+  block.layer_count = layer_count;
+
+  // Tabulate the block's sections.
+  const LayerGrid& grid = state_->grid;
+  detail::BlockLayers& layers = scratch.layers;
+  layers.heights.clear();
+  layers.thresholds.clear();
+  for (std::uint32_t l = first_layer; l < first_layer + layer_count; ++l) {
+    layers.heights.push_back(grid.section_z(l));
+    layers.thresholds.push_back(grid.threshold(l));
+  }
+  const double thickness = grid.thickness();
+  layers.layers_per_mm = thickness > 0 ? 1 / thickness : 0;
+
+  // Cut the instances that reach it.
+  const std::uint64_t open_before = scratch.meshes.open_paths();
+  scratch.builder.begin(block);
+  state_->index.visit(
+      {first_layer, first_layer + layer_count},
+      [&](std::uint32_t instance) { state_->cut_instance(instance, scratch); });
+  scratch.builder.finish(block);
+  block.open_paths = scratch.meshes.open_paths() - open_before;
+}
+
+}  // namespace lamina::ldni
