@@ -7,6 +7,7 @@
 #include "ldni/boolean.h"
 #include "ldni/interval.h"
 #include "ldni/sampler.h"
+#include "ldni/scanline_sampler.h"
 #include "slicer/loop_builder.h"
 
 namespace lamina::slicer {
@@ -56,7 +57,6 @@ PaperPlan::PaperPlan(const csg::Scene& scene_in,
       layers(layers_in),
       boxes(settings.boxes),
       rays(make_rays(scene_in, settings)),
-      meshes(scene_in),
       layers_per_block(choose_layers_per_block(*this)) {}
 
 ImageCounts& ImageCounts::operator+=(const ImageCounts& other) {
@@ -69,7 +69,7 @@ ImageCounts& ImageCounts::operator+=(const ImageCounts& other) {
 struct PaperSlicer::State {
   explicit State(const PaperPlan& plan_in)
       : plan(plan_in),
-        sampler(plan_in.scene, plan_in.meshes, plan_in.rays, plan_in.layers),
+        sampler(plan_in.scene, plan_in.rays, plan_in.layers),
         boolean(plan_in.scene) {}
 
   void gather_layer(std::uint32_t layer);

@@ -13,7 +13,6 @@
 #include "ldni/contours.h"
 #include "ldni/grid.h"
 #include "ldni/ray_grid.h"
-#include "ldni/scanline_sampler.h"
 #include "slicer/settings.h"
 
 namespace lamina::slicer {
@@ -29,7 +28,6 @@ struct PaperPlan {
   const ldni::LayerGrid& layers;
   ldni::BoxMode boxes;
   ldni::RayGrid rays;
-  ldni::LeafMeshes meshes;
   // Layers that a block should hold: each block reads every leaf that it meets
   // whole, and keeps the depth images of all of them.
   std::uint32_t layers_per_block = 1;
