@@ -34,12 +34,12 @@ YY_DECL;
 
 // What happens at the end of a file in the middle of a string, a comment or a
 // file name: an error, reported here, and then the token that says so.
-#define LAMINA_UNTERMINATED(what)           \
-  do {                                      \
-    yyextra->report_unterminated(what);     \
-    *range = yyextra->place();              \
-    BEGIN(INITIAL);                         \
-    return TOKEN_SCADerror;                       \
+#define LAMINA_UNTERMINATED(report, what) \
+  do {                                    \
+    yyextra->report(what);                \
+    *range = yyextra->place();            \
+    BEGIN(INITIAL);                       \
+    return TOKEN_SCADerror;               \
   } while (false)
 %}
 
@@ -62,7 +62,7 @@ BLANKS    [ \t\r\n]*
 "*/"                    { BEGIN(INITIAL); }
 [^*]+                   { }
 "*"                     { }
-<<EOF>>                 { LAMINA_UNTERMINATED("comment"); }
+<<EOF>>                 { LAMINA_UNTERMINATED(report_unterminated, "comment"); }
 }
 
  /* The path stands up to '>' on one line. Of several lines the last counts,
@@ -78,7 +78,7 @@ include{BLANKS}"<"      { yyextra->begin_token(*range); BEGIN(IN_INCLUDE); }
                                 yy_create_buffer(nullptr, YY_BUF_SIZE, yyscanner), yyscanner);
                           }
                         }
-<<EOF>>                 { LAMINA_UNTERMINATED("include statement"); }
+<<EOF>>                 { LAMINA_UNTERMINATED(report_unterminated_name, "include statement"); }
 }
 
 use{BLANKS}"<"          { yyextra->begin_token(*range); BEGIN(IN_USE); }
@@ -88,10 +88,10 @@ use{BLANKS}"<"          { yyextra->begin_token(*range); BEGIN(IN_USE); }
 ">"                     {
                           BEGIN(INITIAL);
                           *range = yyextra->whole_token();
-                          value->text = yyextra->find_use(*range);
+                          value->use = yyextra->find_use(*range);
                           return TOKEN_USE;
                         }
-<<EOF>>                 { LAMINA_UNTERMINATED("use statement"); }
+<<EOF>>                 { LAMINA_UNTERMINATED(report_unterminated_name, "use statement"); }
 }
 
  /* Most strings hold no escape and are views into the text. */
@@ -117,7 +117,7 @@ use{BLANKS}"<"          { yyextra->begin_token(*range); BEGIN(IN_USE); }
                           value->text = yyextra->take_string();
                           return TOKEN_STRING;
                         }
-<<EOF>>                 { LAMINA_UNTERMINATED("string"); }
+<<EOF>>                 { LAMINA_UNTERMINATED(report_unterminated, "string"); }
 }
 
 <<EOF>>                 {

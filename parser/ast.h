@@ -203,8 +203,9 @@ struct Statement {
 
 // `use <file>`.
 struct Use {
-  std::string_view file;  // absolute path; as written where no file was found
+  std::string_view file;  // path; as written where no file was found
   SourceRange range;
+  bool is_found;
 };
 
 // One program: a main file with all that it includes, or a used file.

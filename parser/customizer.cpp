@@ -284,7 +284,7 @@ ParameterComment Customizer::comment_of(
   const SourceRange range = assignment.range;
   const auto& node = std::get<ast::Assignment>(assignment.node);
   if (range.source != &source_ || !is_literal(node.value)) return result;
-  const std::uint32_t line = source_.line_column(range.begin).line;
+  const std::uint32_t line = source_.openscad_line(range.begin);
   if (line >= end_line_) return result;
   result.is_parameter = true;
   result.description = read_description(source_.line_text(line - 1));

@@ -13,7 +13,8 @@ namespace lamina {
 namespace {
 
 // OpenSCAD shows the places of evaluation relative to the design, those of
-// its parser relative to the folder in which it was started.
+// its parser relative to the folder in which it was started, and only there
+// it does not count carriage returns.
 constexpr std::string_view kParserError = "Parser error: ";
 
 std::string_view openscad_prefix(Severity severity) {
@@ -44,12 +45,10 @@ std::string_view terminal_prefix(Severity severity) {
   return "";
 }
 
-void append_openscad_place(std::string& text, SourceRange range,
-                           const std::string& base_folder) {
-  if (!range.is_known()) return;
+void append_openscad_place(std::string& text, const Source& source,
+                           std::uint32_t line, const std::string& base_folder) {
   text += fmt::format(" in file {}, line {}",
-                      detail::relative_path(range.source->path(), base_folder),
-                      range.source->line_column(range.begin).line);
+                      detail::relative_path(source.path(), base_folder), line);
 }
 
 // A place as a terminal shows it. Control characters would move the cursor
@@ -131,15 +130,25 @@ void Diagnostics::error(SourceRange range, std::string message,
 
 std::string openscad_line(const Diagnostic& diagnostic,
                           const std::string& base_folder) {
-  const bool is_from_parser = diagnostic.message.starts_with(kParserError);
   std::string text(openscad_prefix(diagnostic.severity));
   text += diagnostic.message;
-  append_openscad_place(text, diagnostic.range,
-                        is_from_parser ? "" : base_folder);
+  const SourceRange range = diagnostic.range;
+  if (range.is_known()) {
+    const bool is_from_parser = diagnostic.message.starts_with(kParserError);
+    append_openscad_place(text, *range.source,
+                          is_from_parser
+                              ? range.source->line_column(range.begin).line
+                              : range.source->openscad_line(range.begin),
+                          is_from_parser ? "" : base_folder);
+  }
   text += '\n';
   for (const Note& note : diagnostic.notes) {
     text += "TRACE: " + note.message;
-    append_openscad_place(text, note.range, base_folder);
+    if (note.range.is_known()) {
+      const Source& source = *note.range.source;
+      append_openscad_place(
+          text, source, source.openscad_line(note.range.begin), base_folder);
+    }
     text += '\n';
   }
   return text;

@@ -28,6 +28,18 @@ bool is_plain_file(const fs::path& path) {
   return fs::exists(path, failed) && !fs::is_directory(path, failed);
 }
 
+// Where OpenSCAD finds no data folder of the user it takes the library folder
+// for "", which stands for the folder it runs in.
+std::string user_folder() {
+  const char* home = std::getenv("HOME");
+  std::error_code failed;
+  const fs::path data =
+      home == nullptr
+          ? fs::path()
+          : fs::canonical(fs::path(home) / ".local" / "share", failed);
+  return data.empty() ? "" : (data / "OpenSCAD" / "libraries").string();
+}
+
 bool is_open(const std::string& path, std::span<const Source* const> open) {
   return std::any_of(open.begin(), open.end(), [&](const Source* source) {
     return source->path() == path;
@@ -48,9 +60,7 @@ std::vector<std::string> library_folders() {
       rest.remove_prefix(end + 1);
     }
   }
-  if (const char* home = std::getenv("HOME")) {
-    folders.push_back(std::string(home) + "/.local/share/OpenSCAD/libraries");
-  }
+  folders.push_back(user_folder());
   folders.emplace_back(kInstalledLibraries);
   return folders;
 }
@@ -77,7 +87,8 @@ std::string Loader::find(const Source& from, std::string_view name,
   if (accept(beside)) return beside.string();
   for (const std::string& folder : folders_) {
     const fs::path path = fs::path(folder) / local;
-    if (is_plain_file(path)) return accept(path) ? path.string() : "";
+    if (!is_plain_file(path)) continue;
+    return path.has_parent_path() && accept(path) ? path.string() : "";
   }
   return "";
 }
@@ -135,7 +146,7 @@ ast::Program Loader::load_text(const std::string& path, std::string text) {
 void Loader::load_uses(const ast::Program& program) {
   for (const ast::Use& use : program.uses) {
     const std::string path(use.file);
-    if (!fs::path(path).is_absolute() || used_.contains(path)) continue;
+    if (!use.is_found || used_.contains(path)) continue;
     // Entered before it is read, so that files which use each other end.
     std::optional<ast::Program>& used = used_[path];
     used = load_used(path, *program.source);

@@ -24,6 +24,7 @@ namespace lamina {
 
 // Where OpenSCAD looks for libraries: the folders of OPENSCADPATH (separated
 // by ':'), the user's (~/.local/share/OpenSCAD/libraries), the installed one.
+// An empty name stands for the folder in which the program runs.
 std::vector<std::string> library_folders();
 
 class Loader {

@@ -5,14 +5,45 @@
 
 namespace lamina {
 
+namespace {
+
+std::size_t find_closing_quote(std::string_view text, std::size_t opening) {
+  std::size_t i = opening + 1;
+  while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
+  return i < text.size() ? i : std::string_view::npos;
+}
+
+}  // namespace
+
 Source::Source(std::string path, std::string text)
     : path_(std::move(path)), text_(std::move(text)) {
   line_starts_.push_back(0);
-  for (std::size_t i = 0; i < text_.size(); ++i) {
-    if (text_[i] == '\n') {
-      line_starts_.push_back(static_cast<std::uint32_t>(i + 1));
-    }
+  std::size_t end = text_.find('\n');
+  while (end != std::string::npos) {
+    line_starts_.push_back(static_cast<std::uint32_t>(end + 1));
+    end = text_.find('\n', end + 1);
   }
+  has_returns_ = text_.find('\r') != std::string::npos;
+}
+
+std::uint32_t Source::openscad_line(std::uint32_t offset) const {
+  std::uint32_t line = line_column(offset).line;
+  if (!has_returns_) return line;
+  const std::string_view before = std::string_view(text_).substr(0, offset);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const std::string_view pair = before.substr(i, 2);
+    if (before[i] == '\r') {
+      ++line;
+    } else if (pair == "//") {
+      i = before.find('\n', i);
+    } else if (pair == "/*") {
+      i = before.find("*/", i + 2);
+    } else if (before[i] == '"') {
+      i = find_closing_quote(before, i);
+    }
+    if (i == std::string_view::npos) break;
+  }
+  return line;
 }
 
 LineColumn Source::line_column(std::uint32_t offset) const {

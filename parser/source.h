@@ -32,6 +32,11 @@ class Source {
   // O(log lines). An offset past the end is the place behind the last byte.
   LineColumn line_column(std::uint32_t offset) const;
 
+  // The line as OpenSCAD 2021.01 counts it in warnings: a carriage return
+  // outside strings and comments begins a line of its own. Where there are
+  // none, and in the messages of its parser, it is the line above.
+  std::uint32_t openscad_line(std::uint32_t offset) const;
+
   // Line `line` (from 1) without its line break.
   std::string_view line_text(std::uint32_t line) const;
 
@@ -39,6 +44,7 @@ class Source {
   std::string path_;
   std::string text_;
   std::vector<std::uint32_t> line_starts_;
+  bool has_returns_ = false;
 };
 
 // Bytes [begin, end) of one source; no source means "no place".

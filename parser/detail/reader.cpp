@@ -147,10 +147,11 @@ bool Reader::close_include() {
   return true;
 }
 
-Text Reader::find_use(SourceRange range) {
+ast::Use* Reader::find_use(SourceRange range) {
   std::string path =
       loader_.find(*files_.back().source, file_name_, open_includes());
-  if (path.empty()) {
+  const bool is_found = !path.empty();
+  if (!is_found) {
     diagnostics_.report({Severity::kWarning,
                          {},
                          "Can't open library " + quote(file_name_) + ".",
@@ -159,7 +160,7 @@ Text Reader::find_use(SourceRange range) {
     path = file_name_;
   }
   const auto copy = arena_.copy(std::span<const char>(path));
-  return {copy.data(), copy.size()};
+  return arena_.make(ast::Use{{copy.data(), copy.size()}, range, is_found});
 }
 
 Text Reader::plain_string(SourceRange range) const {
@@ -195,24 +196,43 @@ bool Reader::read_number(const char* begin, const char* end,
 // --- Errors ----------------------------------------------------------------
 
 void Reader::report_error(SourceRange range, std::string_view message,
-                          std::string hint) {
+                          Note hint) {
   Diagnostic error{Severity::kError, range,
-                   "Parser error: " + std::string(message)};
-  if (!hint.empty()) error.hints.push_back({{}, std::move(hint)});
+                   fmt::format("Parser error: {}", message)};
+  if (!hint.message.empty()) error.hints.push_back(std::move(hint));
   if (error_count_ == 0) first_error_ = error;
   ++error_count_;
   diagnostics_.report(std::move(error));
 }
 
 void Reader::report_unterminated(const char* what) {
-  report_error(place(), std::string("Unterminated ") + what, {});
+  report_unterminated(what, place());
+}
+
+void Reader::report_unterminated_name(const char* what) {
+  report_unterminated(what, opening_);
+}
+
+void Reader::report_unterminated(const char* what, SourceRange range) {
+  report_error(range, fmt::format("Unterminated {}", what),
+               {opening_, "it begins here"});
 }
 
 void Reader::report_depth(SourceRange range) {
   if (too_deep_) return;
   too_deep_ = true;
   report_error(range, "memory exhausted",
-               "nested more than " + std::to_string(kDeepestTree) + " deep");
+               {{}, fmt::format("nested more than {} deep", kDeepestTree)});
+}
+
+bool Reader::grow_stack(std::ptrdiff_t& size) {
+  constexpr std::ptrdiff_t kMost = kDeepestTree;
+  if (size == kMost) {
+    report_depth(place());
+    return false;
+  }
+  size = std::min(4 * size, kMost);
+  return true;
 }
 
 std::string Reader::describe_symbol(std::string_view symbol) const {
@@ -237,15 +257,14 @@ std::string Reader::describe_token(std::string_view symbol,
 
 // --- Statements ------------------------------------------------------------
 
-void Reader::add_use(Text file, SourceRange range) {
-  const ast::Use use{{file.data, file.size}, range};
+void Reader::add_use(const ast::Use& use) {
   if (is_font(use.file)) {
     if (!std::filesystem::is_regular_file(use.file)) {
       diagnostics_.report({Severity::kError,
                            {},
                            "Can't read font with path " + quote(use.file),
                            {},
-                           {{range, "used here"}}});
+                           {{use.range, "used here"}}});
     }
     fonts_.push_back(use);
     return;
@@ -291,12 +310,12 @@ void Reader::warn_overwritten(std::string_view name, SourceRange before,
   const Source* main = user_ == nullptr ? program_.source : nullptr;
   const bool was_in_main = main != nullptr && same_file(*before.source, *main);
   const bool is_in_main = main != nullptr && same_file(*now.source, *main);
-  const std::uint32_t line = before.source->line_column(before.begin).line;
+  const std::uint32_t line = before.source->openscad_line(before.begin);
   std::string message = fmt::format("{} was assigned on line {}", name, line);
   if (!was_in_main || !is_in_main) {
     // Included once more, or meant to be overwritten by the main file?
     const bool is_same = same_file(*before.source, *now.source);
-    if (is_same && line == now.source->line_column(now.begin).line) return;
+    if (is_same && line == now.source->openscad_line(now.begin)) return;
     if (!is_same && !was_in_main) return;
     const Source& base = user_ == nullptr ? *program_.source : *user_;
     message += fmt::format(" of \"{}\"", relative_path(before.source->path(),

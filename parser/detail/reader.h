@@ -16,8 +16,10 @@
 // is as deep as it is long, without ever filling the stack of the parser.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -82,14 +84,14 @@ class Reader {
   SourceRange place() const;  // empty range where reading stands
 
   // Tokens of several parts: their beginning, and the range up to here.
-  void begin_token(SourceRange range) { token_begin_ = range; }
+  void begin_token(SourceRange range) { opening_ = token_begin_ = range; }
   SourceRange whole_token() const;
 
   // `include <…>` and `use <…>`.
   void set_file_name(std::string_view name) { file_name_ = name; }
   bool open_include();   // false: not found, a warning is reported
   bool close_include();  // false: the end of the main text
-  Text find_use(SourceRange range);
+  ast::Use* find_use(SourceRange range);
 
   Text plain_string(SourceRange range) const;
   void add_to_string(std::string_view part) { string_ += part; }
@@ -105,18 +107,36 @@ class Reader {
   // --- Errors --------------------------------------------------------------
 
   // "Parser error: <message>" at `range`; `hint` is shown below the caret.
-  void report_error(SourceRange range, std::string_view message,
-                    std::string hint);
+  void report_error(SourceRange range, std::string_view message, Note hint);
+  // A text ended in a string or comment; OpenSCAD places that at the end, but
+  // names of files (in `use` and `include`) where they begin.
   void report_unterminated(const char* what);
+  void report_unterminated_name(const char* what);
   bool gave_up() const { return error_count_ >= kMostErrors; }
 
   // How hints call a symbol of the grammar, and a token with its text.
   std::string describe_symbol(std::string_view symbol) const;
   std::string describe_token(std::string_view symbol, SourceRange range) const;
 
+  // --- The stack of the parser ---------------------------------------------
+
+  // A larger size for it; false, and an error, if it may not grow.
+  bool grow_stack(std::ptrdiff_t& size);
+
+  // Moves a part of it (0: states, 1: values, 2: ranges), `bytes` in use, to
+  // memory for `size` items.
+  template <int kPart, typename Item>
+  void move_stack(Item*& items, std::ptrdiff_t bytes, std::ptrdiff_t size) {
+    std::vector<std::byte> memory(static_cast<std::size_t>(size) *
+                                  sizeof(Item));
+    std::memcpy(memory.data(), items, static_cast<std::size_t>(bytes));
+    stack_[kPart].swap(memory);
+    items = reinterpret_cast<Item*>(stack_[kPart].data());
+  }
+
   // --- Statements ----------------------------------------------------------
 
-  void add_use(Text file, SourceRange range);
+  void add_use(const ast::Use& use);
   void end_file() { file_ended_ = true; }
 
   // Between them stand the statements of one scope.
@@ -200,6 +220,7 @@ class Reader {
     return {arena_.make(ast::Expr{node, range}), depth};
   }
   void report_depth(SourceRange range);
+  void report_unterminated(const char* what, SourceRange range);
 
   ast::Arguments close_arguments(List arguments);
   ast::Statements close_scope(Scope scope);
@@ -216,10 +237,12 @@ class Reader {
   Diagnostics& diagnostics_;
   const Source* user_;
 
+  std::array<std::vector<std::byte>, 3> stack_;
   std::vector<File> files_;  // the main text, then the includes being read
-  SourceRange token_begin_;
-  std::string file_name_;  // in `include <…>`, `use <…>`
-  std::string string_;     // decoded so far
+  SourceRange opening_;      // its first part
+  SourceRange token_begin_;  // where the token is taken to begin
+  std::string file_name_;    // in `include <…>`, `use <…>`
+  std::string string_;       // decoded so far
 
   std::vector<const ast::Expr*> elements_;
   std::vector<ast::Argument> arguments_;
