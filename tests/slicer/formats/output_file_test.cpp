@@ -1,0 +1,114 @@
+#include "slicer/formats/output_file.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "parser/diagnostic.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::slicer {
+namespace {
+
+using support::read_file;
+using support::TemporaryFolder;
+
+TEST(OutputFile, AppearsOnlyWhenCommitted) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  OutputFile output(folder.file("a"), files);
+  output.write("hello");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
+  output.commit();
+  EXPECT_EQ(read_file(folder.file("a")), "hello");
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+TEST(OutputFile, LeavesNothingBehindWithoutCommit) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  { OutputFile(folder.file("a"), files).write("hello"); }
+  EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+TEST(OutputFile, KeepsTheOldFileWithoutCommit) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  folder.write("a", "old");
+  { OutputFile(folder.file("a"), files).write("new"); }
+  EXPECT_EQ(read_file(folder.file("a")), "old");
+}
+
+TEST(OutputFile, PatchesWhatWasWrittenBeforeAcrossItsBuffer) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  OutputFile output(folder.file("a"), files);
+  const std::string large(3'000'000, 'x');
+  output.write(large);
+  output.patch(1, "yy");
+  output.write("end");
+  EXPECT_EQ(output.size(), 3'000'003U);
+  output.commit();
+  std::string expected = large + "end";
+  expected[1] = expected[2] = 'y';
+  EXPECT_EQ(read_file(folder.file("a")), expected);
+}
+
+TEST(OutputFile, WritesThroughASymbolicLink) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  folder.write("target", "old");
+  std::filesystem::create_symlink(folder.file("target"), folder.file("link"));
+  OutputFile output(folder.file("link"), files);
+  output.write("new");
+  output.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
+  EXPECT_EQ(read_file(folder.file("target")), "new");
+}
+
+TEST(OutputFile, LeavesADeviceADevice) {
+  TemporaryFiles files;
+  OutputFile output("/dev/null", files);
+  output.write("gone");
+  output.commit();
+  struct stat status {};
+  ASSERT_EQ(::stat("/dev/null", &status), 0);
+  EXPECT_TRUE(S_ISCHR(status.st_mode));
+}
+
+TEST(OutputFile, SaysWhyItCannotBeMade) {
+  TemporaryFiles files;
+  const TemporaryFolder folder;
+  EXPECT_THROW(OutputFile(folder.file("no/such/folder"), files), FileError);
+  EXPECT_THROW(OutputFile(folder.path(), files), FileError);
+  try {
+    OutputFile(folder.file("no/a.slc"), files);
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("no/a.slc"), std::string::npos);
+  }
+}
+
+TEST(OutputFile, AFullDiskIsAnError) {
+  TemporaryFiles files;
+  OutputFile output("/dev/full", files);
+  output.write("x");
+  EXPECT_THROW(output.commit(), FileError);
+}
+
+TEST(TemporaryFiles, DiscardAllRemovesWhatIsUnderWay) {
+  const TemporaryFolder folder;
+  // Never destroyed: after discard_all nothing can be, as in a process that
+  // is about to end.
+  auto* files = new TemporaryFiles;
+  auto* output = new OutputFile(folder.file("a"), *files);
+  output->write("hello");
+  EXPECT_EQ(folder.entry_count(), 1U);
+  files->discard_all();
+  EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+}  // namespace
+}  // namespace lamina::slicer

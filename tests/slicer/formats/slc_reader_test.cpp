@@ -1,0 +1,137 @@
+#include "slicer/formats/slc_reader.h"
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "parser/diagnostic.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::slicer {
+namespace {
+
+using namespace std::string_literals;
+using support::TemporaryFolder;
+
+const std::string kHead =
+    "-SLCVER 2.0 -UNIT MM -TYPE PART -PACKAGE other 1.0 "
+    "-EXTENTS -1.5,2 0,3e1 0.0,1\r\n\x1A" +
+    std::string(256, 'x');
+const std::string kTable =
+    "\x01"
+    "\x00\x00\x00\x00"
+    "\x00\x00\x00\x3F"
+    "\x00\x00\x00\x00"
+    "\x00\x00\x00\x00"s;
+// A layer at z = 0.5 with one open boundary of two vertices.
+const std::string kLayer =
+    "\x00\x00\x00\x3F\x01\x00\x00\x00"
+    "\x02\x00\x00\x00\x01\x00\x00\x00"
+    "\x00\x00\x80\x3F\x00\x00\x00\x40\x00\x00\x00\x40\x00\x00\x80\x3F"s;
+const std::string kEnd = "\x00\x00\x80\x3F\xFF\xFF\xFF\xFF"s;
+
+// Reads everything; returns the words of the error, or nothing.
+std::string error_of(const std::string& bytes) {
+  const TemporaryFolder folder;
+  try {
+    SlcReader reader(folder.write("a.slc", bytes));
+    SlcLayer layer;
+    while (reader.read_layer(layer)) to_layer(layer);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(SlcReader, ReadsWhatIsThere) {
+  const TemporaryFolder folder;
+  SlcReader reader(folder.write("a.slc", kHead + kTable + kLayer + kEnd));
+  EXPECT_EQ(reader.header().version, "2.0");
+  EXPECT_EQ(reader.header().unit, "MM");
+  EXPECT_EQ(reader.header().type, "PART");
+  EXPECT_EQ(reader.header().package, "other 1.0");
+  ASSERT_TRUE(reader.header().extents.has_value());
+  EXPECT_EQ((*reader.header().extents)[1], Vec2(0, 30));
+  ASSERT_EQ(reader.sampling().size(), 1U);
+  EXPECT_EQ(reader.sampling()[0].thickness, 0.5F);
+
+  SlcLayer layer;
+  ASSERT_TRUE(reader.read_layer(layer));
+  EXPECT_EQ(layer.z, 0.5);
+  EXPECT_EQ(layer.thickness, 0.5);
+  ASSERT_EQ(layer.boundaries.size(), 1U);
+  EXPECT_EQ(layer.boundaries[0].gaps, 1U);
+  EXPECT_EQ(layer.boundaries[0].points, (std::vector<Vec2>{{1, 2}, {2, 1}}));
+  EXPECT_FALSE(reader.read_layer(layer));
+  EXPECT_EQ(reader.top(), 1.0);
+}
+
+TEST(SlcReader, InchesBecomeMillimetres) {
+  std::string head = kHead;
+  head.replace(head.find("MM"), 2, "INCH");
+  const TemporaryFolder folder;
+  SlcReader reader(folder.write("a.slc", head + kTable + kLayer + kEnd));
+  SlcLayer layer;
+  ASSERT_TRUE(reader.read_layer(layer));
+  EXPECT_DOUBLE_EQ(layer.z, 12.7);
+  EXPECT_EQ(layer.boundaries.at(0).points.at(0), Vec2(25.4, 50.8));
+}
+
+TEST(SlcReader, NamesTheOtherFormatsThatBearTheSuffix) {
+  EXPECT_NE(error_of("Slice V0.2\nsomething").find("Stratasys"),
+            std::string::npos);
+  EXPECT_NE(error_of("64 64 64 0 \x58").find("VTK"), std::string::npos);
+  EXPECT_NE(error_of("solid ring").find("-SLCVER"), std::string::npos);
+  EXPECT_NE(error_of("").find("-SLCVER"), std::string::npos);
+}
+
+TEST(SlcReader, SaysWhereAFileIsCutOff) {
+  const std::string whole = kHead + kTable + kLayer + kEnd;
+  EXPECT_EQ(error_of(whole), "");
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_NE(error_of(whole.substr(0, size)), "") << size << " bytes";
+  }
+  EXPECT_NE(error_of(kHead + kTable + kLayer).find("the file ends at byte"),
+            std::string::npos);
+}
+
+TEST(SlcReader, AHugeCountEndsAtTheEndOfTheFile) {
+  const std::string huge = "\xFE\xFF\xFF\xFF"s;
+  EXPECT_NE(error_of(kHead + kTable + "\x00\x00\x00\x00"s + huge + kEnd), "");
+  EXPECT_NE(error_of(kHead + kTable + "\x00\x00\x00\x00\x01\x00\x00\x00"s +
+                     huge + "\x00\x00\x00\x00"s + kEnd),
+            "");
+}
+
+TEST(SlcReader, RefusesHeadersWithoutEndAndTablesWithoutRows) {
+  EXPECT_NE(error_of("-SLCVER 2.0 -UNIT MM " + std::string(5000, ' ')), "");
+  EXPECT_NE(error_of(kHead + "\x00"s + kEnd), "");
+}
+
+TEST(SlcReader, RefusesCoordinatesThatAreNoNumbers) {
+  std::string layer = kLayer;
+  layer.replace(16, 4, "\x00\x00\xC0\x7F"s);
+  EXPECT_NE(error_of(kHead + kTable + layer + kEnd), "");
+}
+
+TEST(SlcReader, SurvivesChangedBytes) {
+  const std::string whole = kHead + kTable + kLayer + kLayer + kEnd;
+  std::mt19937 random(1);
+  for (int run = 0; run < 5000; ++run) {
+    std::string bytes = whole;
+    const auto changes = 1 + random() % 4;
+    for (unsigned i = 0; i < changes; ++i) {
+      bytes[random() % bytes.size()] = static_cast<char>(random());
+    }
+    error_of(bytes);  // an error or none, but it returns
+  }
+}
+
+TEST(SlcReader, AMissingFileIsAnError) {
+  EXPECT_THROW(SlcReader("/no/such/file.slc"), FileError);
+}
+
+}  // namespace
+}  // namespace lamina::slicer

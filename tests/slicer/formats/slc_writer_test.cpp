@@ -1,0 +1,155 @@
+// SLC, byte for byte. What stands here is spelled out from the description of
+// the format (docs/formats.md), not from what the writer once wrote.
+
+#include "slicer/formats/slc_writer.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "parser/diagnostic.h"
+#include "slicer/formats/slc_reader.h"
+#include "slicer/version.h"
+#include "tests/support/contour_checks.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::slicer {
+namespace {
+
+using namespace std::string_literals;
+using support::add_loop;
+using support::read_file;
+using support::TemporaryFolder;
+
+Layer layer_at(double bottom, double top,
+               const std::vector<std::vector<Vec2>>& loops) {
+  Layer layer;
+  layer.bottom = bottom;
+  layer.top = top;
+  layer.section_z = (bottom + top) / 2;
+  for (const auto& loop : loops) add_loop(layer.contours, loop);
+  return layer;
+}
+
+std::string write_slc(const std::vector<Layer>& layers) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  OutputFile output(folder.file("a.slc"), files);
+  SlcWriter writer(output);
+  for (const Layer& layer : layers) writer.take(layer);
+  writer.finish();
+  output.commit();
+  return read_file(folder.file("a.slc"));
+}
+
+// What the reader makes of `bytes`.
+std::vector<SlcLayer> layers_of(const std::string& bytes) {
+  const TemporaryFolder folder;
+  SlcReader reader(folder.write("a.slc", bytes));
+  std::vector<SlcLayer> layers;
+  SlcLayer layer;
+  while (reader.read_layer(layer)) layers.push_back(layer);
+  return layers;
+}
+
+TEST(SlcWriter, WritesEveryByteOfTheFormat) {
+  // A square of 4 mm with a square hole of 2 mm, an empty layer, a triangle;
+  // layers of 0.5 mm from z = 1.
+  const std::string bytes =
+      write_slc({layer_at(1.0, 1.5,
+                          {{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+                           {{1, 1}, {1, 3}, {3, 3}, {3, 1}}}),
+                 layer_at(1.5, 2.0, {}),
+                 layer_at(2.0, 2.5, {{{-2, 0.5}, {2, 0.5}, {0, 3}}})});
+
+  // float32, least significant byte first.
+  const std::string zero = "\x00\x00\x00\x00"s;
+  const std::string half = "\x00\x00\x00\x3F"s;
+  const std::string one = "\x00\x00\x80\x3F"s;
+  const std::string one_and_half = "\x00\x00\xC0\x3F"s;
+  const std::string two = "\x00\x00\x00\x40"s;
+  const std::string minus_two = "\x00\x00\x00\xC0"s;
+  const std::string two_and_half = "\x00\x00\x20\x40"s;
+  const std::string three = "\x00\x00\x40\x40"s;
+  const std::string four = "\x00\x00\x80\x40"s;
+  const auto count = [](char n) { return n + "\x00\x00\x00"s; };
+
+  const std::string expected =
+      // 1. header
+      "-SLCVER 2.0 -UNIT MM -TYPE PART -PACKAGE lamina " +
+      std::string(version()) +
+      " -EXTENTS -2.0000000000,4.00000000000 0.00000000000,4.00000000000 "
+      "1.00000000000,2.50000000000\x0D\x0A\x1A" +
+      // 2. reserved
+      std::string(256, '\0') +
+      // 3. sampling table: one row
+      "\x01" + one + half + zero + zero +
+      // 4. layers: z, boundaries; vertices, gaps, points, the first repeated
+      one + count(2) +                                         //
+      count(5) + count(0) +                                    //
+      zero + zero + four + zero + four + four + zero + four +  //
+      zero + zero +                                            //
+      count(5) + count(0) +                                    //
+      one + one + one + three + three + three + three + one +  //
+      one + one +                                              //
+      one_and_half + count(0) +                                //
+      two + count(1) +                                         //
+      count(4) + count(0) +                                    //
+      minus_two + half + two + half + zero + three +           //
+      minus_two + half +                                       //
+      // 5. end: top of the part
+      two_and_half + "\xFF\xFF\xFF\xFF"s;
+  EXPECT_EQ(bytes, expected);
+}
+
+TEST(SlcWriter, HeaderEndsWithin2048BytesAndHolds1AOnlyThere) {
+  const std::string bytes = write_slc(
+      {layer_at(-1234.5678, -1234.5, {{{-9999, -1e-30}, {1e6, 0}, {0, 1e6}}})});
+  const std::size_t end = bytes.find('\x1A');
+  ASSERT_NE(end, std::string::npos);
+  EXPECT_LT(end, 2048U);
+  EXPECT_EQ(bytes.substr(end - 2, 2), "\r\n");
+  // The width of the numbers does not depend on the numbers.
+  const std::string other =
+      write_slc({layer_at(0, 1, {{{0, 0}, {1, 0}, {0, 1}}})});
+  EXPECT_EQ(other.find('\x1A'), end);
+}
+
+TEST(SlcWriter, DropsPointsThatFallOnTheirNeighbourInFloat32) {
+  // At 100 mm float32 steps by 7.6e-6 mm.
+  const auto layers = layers_of(write_slc({layer_at(
+      0, 1,
+      {{{100, 0}, {100 + 1e-7, 0}, {101, 0}, {101, 1}, {100, 1e-46}}})}));
+  ASSERT_EQ(layers.at(0).boundaries.size(), 1U);
+  const std::vector<Vec2> expected = {{100, 0}, {101, 0}, {101, 1}, {100, 0}};
+  EXPECT_EQ(layers.at(0).boundaries[0].points, expected);
+}
+
+TEST(SlcWriter, DropsSpikesAndLoopsThatLoseTheirAreaInFloat32) {
+  const auto layers = layers_of(write_slc({layer_at(
+      0, 1,
+      {// a wall of 1e-7 mm far from the origin: both sides round to one
+       {{100, 0}, {110, 0}, {110, 1e-50}, {100, 1e-50}},
+       // a spike over the beginning of the list, one inside it
+       {{3, 3}, {0, 0}, {4, 0}, {5, 2}, {4, 1e-50}, {4, 4}, {0, 0}},
+       {{50, 50}, {50 + 1e-7, 50}, {50, 50 + 1e-7}}})}));
+  ASSERT_EQ(layers.at(0).boundaries.size(), 1U);
+  const std::vector<Vec2> expected = {{0, 0}, {4, 0}, {4, 4}, {0, 0}};
+  EXPECT_EQ(layers.at(0).boundaries[0].points, expected);
+}
+
+TEST(SlcWriter, RefusesLayersThatFloat32CannotTellApart) {
+  const std::vector<Vec2> loop = {{0, 0}, {1, 0}, {0, 1}};
+  EXPECT_THROW(write_slc({layer_at(1000, 1000 + 1e-6, {loop}),
+                          layer_at(1000 + 1e-6, 1000 + 2e-6, {loop})}),
+               FileError);
+}
+
+TEST(SlcWriter, AJobWithoutLayersIsAFileStill) {
+  const auto layers = layers_of(write_slc({}));
+  EXPECT_TRUE(layers.empty());
+}
+
+}  // namespace
+}  // namespace lamina::slicer
