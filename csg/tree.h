@@ -63,7 +63,7 @@ struct Offset {
   double amount = 0;
   bool is_delta = false;  // else a radius: round joins
   bool chamfer = false;
-  Facets facets;
+  Facets facets = {};
 };
 struct Projection {
   bool cut = false;
@@ -77,10 +77,10 @@ struct LinearExtrudeParams {
   bool has_twist = false;
   int slices = 0;  // 0: not given; csg/planar/facets.h has the rules
   Vec2 scale = Vec2(1);
-  std::string_view file;  // deprecated file=, layer=, origin=
-  std::string_view layer;
+  std::string_view file = {};  // deprecated file=, layer=, origin=
+  std::string_view layer = {};
   Vec2 origin = Vec2(0);
-  Facets facets;
+  Facets facets = {};
 };
 struct LinearExtrude {
   const LinearExtrudeParams* params;
@@ -88,8 +88,8 @@ struct LinearExtrude {
 struct RotateExtrude {
   double angle_deg = 360;
   int convexity = 2;
-  Facets facets;
-  std::string_view file;  // deprecated
+  Facets facets = {};
+  std::string_view file = {};  // deprecated
 };
 
 // --- Leaves ---------------------------------------------------------------
@@ -99,14 +99,14 @@ struct Cube {
 };
 struct Sphere {
   double r = 1;
-  Facets facets;
+  Facets facets = {};
 };
 struct Cylinder {
   double h = 1;
   double r1 = 1;
   double r2 = 1;
   bool center = false;
-  Facets facets;
+  Facets facets = {};
 };
 struct Polyhedron {
   std::span<const Vec3> points;
@@ -119,7 +119,7 @@ struct Square {
 };
 struct Circle {
   double r = 1;
-  Facets facets;
+  Facets facets = {};
 };
 struct Polygon {
   std::span<const Vec2> points;

@@ -15,6 +15,8 @@
 #include <limits>
 #include <numeric>
 
+#include <glm/geometric.hpp>
+
 #include "csg/planar/orientation.h"
 
 namespace lamina::planar {
@@ -56,7 +58,8 @@ class EarClipper {
   // Joins the ring of a hole to the ring of `outer` by a bridge.
   void add_bridge(std::uint32_t outer, std::uint32_t hole) {
     const std::uint32_t from = rightmost(hole);
-    const std::uint32_t to = find_visible(outer, corners_[from].point);
+    const std::uint32_t to =
+        choose_twin(outer, find_visible(outer, corners_[from].point), from);
     const std::uint32_t from_twin = add_twin(from);
     const std::uint32_t to_twin = add_twin(to);
     // … to → from … (around the hole) … from_twin → to_twin …
@@ -75,7 +78,7 @@ class EarClipper {
     while (left > 3) {
       const bool is_stuck = since_last_ear > left;
       if (is_stuck) corner = least_bad(corner);
-      if (is_stuck || is_ear(corner)) {
+      if (is_stuck || is_spike(corner) || is_ear(corner)) {
         corner = cut(corner);
         --left;
         since_last_ear = 0;
@@ -157,6 +160,26 @@ class EarClipper {
     return best;
   }
 
+  // Of the corners at the same place the one whose angle holds the bridge: a
+  // place where contours touch, or an end of an earlier bridge.
+  std::uint32_t choose_twin(std::uint32_t outer, std::uint32_t best,
+                            std::uint32_t from) const {
+    const Vec2 q = corners_[best].point;
+    const Corner& tip = corners_[from];
+    const bool is_touching = tip.point == q;
+    for (std::uint32_t c = outer;;) {
+      if (corners_[c].point == q) {
+        const bool holds = is_touching
+                               ? sees_inside(c, corners_[tip.previous].point) &&
+                                     sees_inside(c, corners_[tip.next].point)
+                               : sees_inside(c, tip.point);
+        if (holds) return c;
+      }
+      c = corners_[c].next;
+      if (c == outer) return best;
+    }
+  }
+
   // True where the direction to p lies inside the corner's angle.
   bool sees_inside(std::uint32_t corner, Vec2 p) const {
     const Corner& c = corners_[corner];
@@ -186,6 +209,16 @@ class EarClipper {
     }
   }
 
+  // The ring runs back on itself here, as at bridges whose hole is gone.
+  bool is_spike(std::uint32_t corner) const {
+    const Corner& c = corners_[corner];
+    const Vec2 a = corners_[c.previous].point;
+    const Vec2 b = corners_[c.next].point;
+    if (a == c.point || b == c.point) return true;
+    return orientation(a, c.point, b) == 0 &&
+           glm::dot(a - c.point, b - c.point) > 0;
+  }
+
   // Only reflex corners can stand inside another corner's triangle first; a
   // corner that was convex stays so.
   bool is_ear(std::uint32_t corner) {
@@ -196,10 +229,25 @@ class EarClipper {
     std::erase_if(
         reflex_, [&](std::uint32_t r) { return is_gone_[r] || !is_reflex(r); });
     return std::none_of(reflex_.begin(), reflex_.end(), [&](std::uint32_t r) {
+      if (r == corner) return false;
       const Vec2 p = corners_[r].point;
-      return p != a && p != b && p != c.point &&
-             is_in_triangle(p, a, c.point, b);
+      if (p == c.point) return opens_within(r, a, c.point, b);
+      return p != a && p != b && is_in_triangle(p, a, c.point, b);
     });
+  }
+
+  // True where the outside at a reflex corner, which stands at the tip of the
+  // angle a, tip, b, reaches into that angle.
+  bool opens_within(std::uint32_t reflex, Vec2 a, Vec2 tip, Vec2 b) const {
+    const Vec2 before = corners_[corners_[reflex].previous].point;
+    const Vec2 after = corners_[corners_[reflex].next].point;
+    return is_in_angle(before, a, tip, b) || is_in_angle(after, a, tip, b) ||
+           is_in_angle((a + b) / 2.0, after, tip, before);
+  }
+
+  // Of a convex corner a, tip, b.
+  static bool is_in_angle(Vec2 p, Vec2 a, Vec2 tip, Vec2 b) {
+    return orientation(a, tip, p) > 0 && orientation(tip, b, p) > 0;
   }
 
   // Nothing is an ear: the ring is flat here or overlaps itself. A flat corner

@@ -16,4 +16,10 @@ namespace lamina::planar {
 // closed with the region as a face is closed with these triangles.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const Region& region);
 
+// Turns diagonals until each is the better one for its two triangles (the two
+// angles opposite to it make less than 180°), as far as the border allows.
+// Diagonals that are about as good as the other stay.
+void make_delaunay(std::span<const Vec2> points,
+                   std::vector<std::array<std::uint32_t, 3>>& triangles);
+
 }  // namespace lamina::planar

@@ -1,15 +1,21 @@
 #include "csg/solid/lower.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "csg/degrees.h"
+#include "csg/planar/clip.h"
 #include "csg/planar/facets.h"
+#include "csg/solid/detail/extrude.h"
 #include "csg/solid/detail/leaf_box.h"
 #include "csg/solid/detail/leaf_store.h"
+#include "csg/solid/detail/polyhedron.h"
 #include "csg/solid/detail/program_builder.h"
 
 namespace lamina::csg {
@@ -120,6 +126,9 @@ class Lowerer {
     }
     Shape shape =
         lower_children(node, compose(world, *op.matrix), BooleanOp::kUnion);
+    if (shape.dimension == Dimension::kFlat) {
+      return transform_region(std::move(shape), *op.matrix);
+    }
     if (shape.dimension == Dimension::kSolid &&
         determinant(Affine(*op.matrix)) == 0) {
       diagnostics_.warning({}, "Scaling a 3D object with 0 - removing object");
@@ -187,7 +196,8 @@ class Lowerer {
       case Dimension::kNone:
         return {};
       case Dimension::kFlat:
-        return combine_regions(std::move(operands), op);
+        if (operands.regions.empty()) return {Dimension::kFlat};
+        return combine_regions(node, operands.regions, op);
       case Dimension::kSolid:
         break;
     }
@@ -199,8 +209,6 @@ class Lowerer {
     const bool is_nothing = builder_.mark() == mark && operands.count > 1;
     return {is_nothing ? Dimension::kNone : Dimension::kSolid};
   }
-
-  Shape combine_regions(Operands operands, BooleanOp op);
 
   // --- Leaves -------------------------------------------------------------
 
@@ -235,24 +243,165 @@ class Lowerer {
     return {Dimension::kSolid};
   }
 
-  Shape lower_op(const Polyhedron&, const Node& node, const Affine&) {
-    fail_unsupported(node, "polyhedron");
+  Shape lower_op(const Polyhedron& polyhedron, const Node& node,
+                 const Affine& world) {
+    Leaf leaf;
+    leaf.meshes.push_back(
+        make_polyhedron(polyhedron, node.range, diagnostics_));
+    leaf.may_overlap_itself = true;
+    place_leaf(std::move(leaf), node, world);
+    return {Dimension::kSolid};
   }
-  Shape lower_op(const LinearExtrude&, const Node& node, const Affine&) {
-    fail_unsupported(node, "linear_extrude");
+
+  Shape lower_op(const LinearExtrude& op, const Node& node,
+                 const Affine& world) {
+    if (!op.params->file.empty()) {
+      fail_unsupported(node, "linear_extrude(file = …)");
+    }
+    const Shape shape = flatten_children(node, world);
+    if (shape.dimension == Dimension::kNone) return {};
+    place_leaf(extrude_linearly(*op.params, shape.region), node, world);
+    return {Dimension::kSolid};
   }
-  Shape lower_op(const RotateExtrude&, const Node& node, const Affine&) {
-    fail_unsupported(node, "rotate_extrude");
+
+  Shape lower_op(const RotateExtrude& op, const Node& node,
+                 const Affine& world) {
+    if (!op.file.empty()) fail_unsupported(node, "rotate_extrude(file = …)");
+    const Shape shape = flatten_children(node, world);
+    if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
+    const ProfileRange range = profile_range(shape.region);
+    if (range.crosses_axis()) {
+      diagnostics_.error(
+          node.range,
+          fmt::format("all points for rotate_extrude() must have the same X "
+                      "coordinate sign (range is {:.2f} -> {:.2f})",
+                      range.low, range.high));
+      return {};
+    }
+    const int n = planar::fragment_count(range.high - range.low, op.facets);
+    place_leaf(extrude_around(shape.region, op.angle_deg, n), node, world);
+    return {Dimension::kSolid};
   }
-  Shape lower_op(const Square&, const Node& node, const Affine&) {
-    fail_unsupported(node, "square");
+
+  // --- 2D -------------------------------------------------------------------
+
+  Shape lower_op(const Square& square, const Node&, const Affine&) {
+    return {Dimension::kFlat, planar::square(square.size, square.center)};
   }
-  Shape lower_op(const Circle&, const Node& node, const Affine&) {
-    fail_unsupported(node, "circle");
+
+  Shape lower_op(const Circle& circle, const Node&, const Affine&) {
+    const int n = planar::fragment_count(circle.r, circle.facets);
+    return {Dimension::kFlat, planar::circle(circle.r, n)};
   }
-  Shape lower_op(const Polygon&, const Node& node, const Affine&) {
-    fail_unsupported(node, "polygon");
+
+  Shape lower_op(const Polygon& polygon, const Node& node, const Affine&) {
+    const auto contours = read_paths(polygon, node.range);
+    return {Dimension::kFlat, with_range_check(node, [&] {
+              return planar::from_contours(contours);
+            })};
   }
+
+  Shape lower_op(const Offset& op, const Node& node, const Affine& world) {
+    const Shape shape = flatten_children(node, world);
+    if (shape.dimension == Dimension::kNone) return {};
+    const double distance = std::abs(op.amount);
+    const int n = planar::fragment_count(distance, op.facets);
+    const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
+    const planar::Join join = !op.is_delta ? planar::Join::kRound
+                              : op.chamfer ? planar::Join::kBevel
+                                           : planar::Join::kMiter;
+    return {Dimension::kFlat, with_range_check(node, [&] {
+              return planar::offset(shape.region, op.amount, join,
+                                    arc_tolerance);
+            })};
+  }
+
+  // The children's union in the plane, whatever else there is.
+  Shape flatten_children(const Node& node, const Affine& world) {
+    Operands operands;
+    operands.dimension = Dimension::kFlat;
+    for (const Node* child : node.children) {
+      if (child->is_background) continue;
+      add_operand(*child, world, true, operands);
+    }
+    operands.first_mixed = nullptr;
+    report_strays(operands);
+    if (operands.regions.empty()) {
+      return {operands.count > 1 ? Dimension::kFlat : Dimension::kNone};
+    }
+    return combine_regions(node, operands.regions, BooleanOp::kUnion);
+  }
+
+  Shape combine_regions(const Node& node,
+                        const std::vector<planar::Region>& regions,
+                        BooleanOp op) {
+    return {Dimension::kFlat, with_range_check(node, [&] {
+              switch (op) {
+                case BooleanOp::kDifference:
+                  return planar::subtract(regions);
+                case BooleanOp::kIntersection:
+                  return planar::intersect(regions);
+                case BooleanOp::kUnion:
+                  break;
+              }
+              return planar::unite(regions);
+            })};
+  }
+
+  // Coordinates too large to be clipped make the result empty.
+  template <typename Make>
+  planar::Region with_range_check(const Node& node, Make make) {
+    try {
+      return make();
+    } catch (const std::range_error&) {
+      diagnostics_.warning(node.range,
+                           "Range check failed for polygon. skipping");
+      return {};
+    }
+  }
+
+  std::vector<planar::Contour> read_paths(const Polygon& polygon,
+                                          SourceRange range) {
+    const auto points = polygon.points;
+    if (!polygon.paths || polygon.paths->empty()) {
+      return {planar::Contour(points.begin(), points.end())};
+    }
+    std::vector<planar::Contour> contours;
+    for (std::size_t path = 0; path < polygon.paths->size(); ++path) {
+      contours.emplace_back();
+      const auto& indices = (*polygon.paths)[path];
+      for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] < points.size()) {
+          contours.back().push_back(points[indices[i]]);
+        } else {
+          diagnostics_.warning(
+              range, fmt::format("Point index {} is out of bounds (from "
+                                 "paths[{}][{}])",
+                                 indices[i], path, i));
+        }
+      }
+    }
+    return contours;
+  }
+
+  Shape transform_region(Shape shape, const Mat4& m) {
+    const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    if (det == 0) {
+      diagnostics_.warning({}, "Scaling a 2D object with 0 - removing object");
+      return {Dimension::kFlat};
+    }
+    for (planar::Contour& contour : shape.region.contours) {
+      for (Vec2& point : contour) {
+        point = {m[0][0] * point.x + m[1][0] * point.y + m[3][0],
+                 m[0][1] * point.x + m[1][1] * point.y + m[3][1]};
+      }
+      if (det < 0) std::reverse(contour.begin(), contour.end());
+    }
+    return shape;
+  }
+
+  // --- Not yet (issue 4) ----------------------------------------------------
+
   Shape lower_op(const Hull&, const Node& node, const Affine&) {
     fail_unsupported(node, "hull");
   }
@@ -261,9 +410,6 @@ class Lowerer {
   }
   Shape lower_op(const Resize&, const Node& node, const Affine&) {
     fail_unsupported(node, "resize");
-  }
-  Shape lower_op(const Offset&, const Node& node, const Affine&) {
-    fail_unsupported(node, "offset");
   }
   Shape lower_op(const Projection&, const Node& node, const Affine&) {
     fail_unsupported(node, "projection");
@@ -274,6 +420,15 @@ class Lowerer {
 
   // Other sizes than these make OpenSCAD's primitives empty.
   static bool is_size(double x) { return x > 0 && std::isfinite(x); }
+
+  void place_leaf(Leaf leaf, const Node& node, const Affine& world) {
+    const bool is_empty =
+        leaf.sweeps.empty() &&
+        (leaf.meshes.empty() || leaf.meshes.front().triangles.empty());
+    if (!is_empty) {
+      place(leaves_.add(std::move(leaf)), Vec3(1), node, world);
+    }
+  }
 
   void place(std::uint32_t leaf, Vec3 size, const Node& node,
              const Affine& world) {
@@ -308,10 +463,6 @@ class Lowerer {
   ProgramBuilder builder_;
   std::vector<LastBox> last_boxes_;
 };
-
-Shape Lowerer::combine_regions(Operands operands, BooleanOp) {
-  return {Dimension::kFlat, std::move(operands.regions.front())};
-}
 
 }  // namespace
 

@@ -1,28 +1,11 @@
-#include "csg/solid/lower.h"
-
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
-#include "tests/csg/solid/tree_builder.h"
+#include "tests/csg/solid/lower_fixture.h"
 
 namespace lamina::csg {
 namespace {
 
-class LowerTest : public ::testing::Test {
- protected:
-  Lowered run(const TreeBuilder::Children& children) {
-    return lower(b.tree(children), {}, diagnostics);
-  }
-  Scene run_solid(const TreeBuilder::Children& children) {
-    Lowered lowered = run(children);
-    EXPECT_NE(lowered.scene(), nullptr);
-    return std::move(std::get<Scene>(lowered.geometry));
-  }
-
-  TreeBuilder b;
-  Diagnostics diagnostics;
-};
+class LowerTest : public LowerFixture {};
 
 TEST_F(LowerTest, EqualPrimitivesShareALeafWhateverTheirSize) {
   const Scene scene = run_solid(

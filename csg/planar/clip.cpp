@@ -1,0 +1,137 @@
+#include "csg/planar/clip.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <clipper.hpp>
+
+namespace lamina::planar {
+namespace {
+
+constexpr double kGridPerMm = 1 << 24;
+
+// Clipper multiplies coordinates in 128 bits; this leaves it all the room that
+// it asks for (2^62 grid units).
+constexpr double kGreatestCoordinate = 1e9;
+
+// Two grid diagonals: closer to the line between its neighbours, or to one of
+// them, a vertex is the clipper's rounding, not the design's.
+constexpr double kCleanDistance = 1.415;
+
+// OpenSCAD's limit for spikes at sharp corners of delta offsets [amounts].
+constexpr double kMiterLimit = 1000000;
+
+ClipperLib::cInt to_grid(double x) {
+  if (!(std::abs(x) <= kGreatestCoordinate)) {
+    throw std::range_error("Range check failed for polygon");
+  }
+  return std::llround(x * kGridPerMm);
+}
+
+ClipperLib::Path to_path(const Contour& contour) {
+  ClipperLib::Path path;
+  path.reserve(contour.size());
+  for (const Vec2 point : contour) {
+    path.push_back({to_grid(point.x), to_grid(point.y)});
+  }
+  return path;
+}
+
+ClipperLib::Paths to_paths(std::span<const Contour> contours) {
+  ClipperLib::Paths paths;
+  for (const Contour& contour : contours) paths.push_back(to_path(contour));
+  return paths;
+}
+
+Region to_region(const ClipperLib::Paths& paths) {
+  Region region;
+  for (const ClipperLib::Path& path : paths) {
+    ClipperLib::Path clean;
+    ClipperLib::CleanPolygon(path, clean, kCleanDistance);
+    if (clean.size() < 3) continue;
+    Contour contour;
+    contour.reserve(clean.size());
+    for (const ClipperLib::IntPoint& point : clean) {
+      contour.push_back({static_cast<double>(point.X) / kGridPerMm,
+                         static_cast<double>(point.Y) / kGridPerMm});
+    }
+    region.contours.push_back(std::move(contour));
+  }
+  return region;
+}
+
+ClipperLib::Paths clip(ClipperLib::ClipType type,
+                       const ClipperLib::Paths& subject,
+                       const ClipperLib::Paths& other,
+                       ClipperLib::PolyFillType fill) {
+  ClipperLib::Clipper clipper;
+  clipper.StrictlySimple(true);
+  clipper.AddPaths(subject, ClipperLib::ptSubject, true);
+  clipper.AddPaths(other, ClipperLib::ptClip, true);
+  ClipperLib::Paths result;
+  clipper.Execute(type, result, fill, fill);
+  return result;
+}
+
+ClipperLib::Paths gather(std::span<const Region> regions) {
+  ClipperLib::Paths all;
+  for (const Region& region : regions) {
+    for (const Contour& contour : region.contours) {
+      all.push_back(to_path(contour));
+    }
+  }
+  return all;
+}
+
+ClipperLib::JoinType to_join_type(Join join) {
+  switch (join) {
+    case Join::kRound:
+      return ClipperLib::jtRound;
+    case Join::kMiter:
+      return ClipperLib::jtMiter;
+    case Join::kBevel:
+      return ClipperLib::jtSquare;
+  }
+  return ClipperLib::jtRound;
+}
+
+}  // namespace
+
+Region unite(std::span<const Region> regions) {
+  if (regions.size() == 1) return regions[0];
+  return to_region(
+      clip(ClipperLib::ctUnion, gather(regions), {}, ClipperLib::pftNonZero));
+}
+
+Region subtract(std::span<const Region> regions) {
+  if (regions.size() <= 1) return unite(regions);
+  return to_region(clip(ClipperLib::ctDifference, gather(regions.first(1)),
+                        gather(regions.subspan(1)), ClipperLib::pftNonZero));
+}
+
+Region intersect(std::span<const Region> regions) {
+  if (regions.size() <= 1) return unite(regions);
+  ClipperLib::Paths common = gather(regions.first(1));
+  for (std::size_t i = 1; i < regions.size(); ++i) {
+    common = clip(ClipperLib::ctIntersection, common,
+                  gather(regions.subspan(i, 1)), ClipperLib::pftNonZero);
+  }
+  return to_region(common);
+}
+
+Region from_contours(std::span<const Contour> contours) {
+  return to_region(clip(ClipperLib::ctUnion, to_paths(contours), {},
+                        ClipperLib::pftEvenOdd));
+}
+
+Region offset(const Region& region, double amount, Join join,
+              double arc_tolerance) {
+  ClipperLib::ClipperOffset offsetter(kMiterLimit, arc_tolerance * kGridPerMm);
+  offsetter.AddPaths(to_paths(region.contours), to_join_type(join),
+                     ClipperLib::etClosedPolygon);
+  ClipperLib::Paths result;
+  offsetter.Execute(result, amount * kGridPerMm);
+  return to_region(result);
+}
+
+}  // namespace lamina::planar

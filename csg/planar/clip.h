@@ -1,0 +1,35 @@
+#pragma once
+// Booleans and offsets of regions.
+//
+// Coordinates are rounded to a grid of 2^-24 mm (6e-8 mm), 256 times finer
+// than OpenSCAD's, because the polygon clipper underneath is exact on integers
+// and on nothing else. A region that needs no clipping is not rounded.
+
+#include <span>
+
+#include "csg/planar/region.h"
+
+namespace lamina::planar {
+
+// All of these throw std::range_error for coordinates beyond 1e9 mm.
+
+Region unite(std::span<const Region> regions);
+
+// The first region without the others.
+Region subtract(std::span<const Region> regions);
+
+Region intersect(std::span<const Region> regions);
+
+// The region that contours in any order and direction enclose, inside being
+// where a point is enclosed an odd number of times.
+Region from_contours(std::span<const Contour> contours);
+
+enum class Join { kRound, kMiter, kBevel };
+
+// Moves the border outwards by `amount` [mm], inwards if that is negative.
+//
+// arc_tolerance  greatest distance of a round join from its arc [mm]
+Region offset(const Region& region, double amount, Join join,
+              double arc_tolerance);
+
+}  // namespace lamina::planar
