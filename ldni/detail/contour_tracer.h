@@ -1,0 +1,87 @@
+#pragma once
+// From pieces of chains to loops.
+//
+// Where a chain survives the Boolean between two stops, that piece of it is
+// boundary. A piece has its solid on one side and is walked with the solid on
+// the left: to the right where the solid is above, to the left where it is
+// below. At a stop pieces end and begin: their ends, sorted by y and joined
+// two by two, are the symmetric difference of the solid intervals left and
+// right of the stop, hence the vertical boundary. Each pair has one end that
+// arrives and one that departs (I4), so links close to loops whatever the
+// rounding did; rounding can only move a point.
+//
+// Where two pairs meet in a point and belong to one loop, that loop would
+// touch itself; exchanging their links makes it two loops.
+
+#include <cstdint>
+#include <vector>
+
+#include "csg/vec.h"
+#include "ldni/contours.h"
+
+namespace lamina::ldni::detail {
+
+class ContourTracer {
+ public:
+  // Forgets the layer before.
+  void begin();
+
+  // Starts a piece at a stop and returns its number. direction: +1 solid
+  // above, -1 below. first_vertex: the first vertex of the chain that is right
+  // of the stop.
+  std::uint32_t start_piece(Vec2 point, double key, const Vec2* first_vertex,
+                            std::int8_t direction);
+  // Ends it. vertices_end: behind the last vertex left of the stop.
+  void end_piece(std::uint32_t piece, Vec2 point, double key,
+                 const Vec2* vertices_end);
+
+  // Links the ends of one stop. `key` of an end is its y where the order of
+  // its side of the stop holds.
+  void link_stop();
+
+  // Replaces `contours` by the loops of the layer.
+  void trace(Contours& contours);
+
+  // Ends that found no partner, since construction: always 0.
+  std::uint64_t unlinked_ends() const { return unlinked_ends_; }
+
+ private:
+  struct Piece {
+    Vec2 left;
+    Vec2 right;
+    const Vec2* vertices_begin = nullptr;
+    const Vec2* vertices_end = nullptr;
+    std::uint32_t next = 0xffffffff;  // piece that the walk goes on with
+    std::uint32_t loop = 0xffffffff;
+    std::int8_t direction = 1;
+  };
+  struct End {
+    double key = 0;
+    Vec2 point;
+    std::uint32_t piece = 0;
+    bool arrives = false;
+  };
+  // Two linked pairs that meet in a point, by their arriving pieces.
+  struct Pinch {
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+  };
+
+  void link(const End& a, const End& b);
+  void number_loops();
+  void number_loop(std::uint32_t piece, std::uint32_t loop);
+  void split_pinches();
+  void walk(std::uint32_t start);
+  void add_point(const Vec2& point);
+  void close_loop(Contours& contours);
+
+  std::vector<Piece> pieces_;
+  std::vector<End> ends_;
+  std::vector<End> waiting_;
+  std::vector<Pinch> pinches_;
+  std::vector<Vec2> loop_;
+  std::uint32_t loop_count_ = 0;
+  std::uint64_t unlinked_ends_ = 0;
+};
+
+}  // namespace lamina::ldni::detail

@@ -1,0 +1,104 @@
+#pragma once
+// The sets of leaves that contain an interval of the ray, and the value of the
+// Boolean program for each.
+//
+// A layer has few different sets and meets them again and again, at every stop
+// and in the next layer. So a set is kept once and known by a number: equal
+// sets have equal numbers, the program is evaluated once a set, and passing a
+// chain is one look into a table of known steps. Entries of the ray hold a
+// number, however many leaves overlap there.
+//
+// A step passes a chain upwards. It toggles the leaf; for a leaf that may
+// overlap itself it adds the chain's winding to the leaf's count, and the leaf
+// contains the interval where the count is not 0.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "csg/scene.h"
+#include "ldni/program_state.h"
+
+namespace lamina::ldni::detail {
+
+class LeafSets {
+ public:
+  using Id = std::uint32_t;
+  using Step = std::uint32_t;
+  static constexpr Id kEmpty = 0;
+
+  explicit LeafSets(const csg::Scene& scene);
+
+  // The step of passing a chain of `instance` upwards.
+  Step step_of(std::uint32_t instance, std::int32_t winding) const {
+    const bool is_backwards = is_counted_[instance] && winding < 0;
+    return instance << 1 | (is_backwards ? 1U : 0U);
+  }
+
+  Id after(Id set, Step step) {
+    const std::uint64_t key = std::uint64_t{set} << 32 | step;
+    for (std::size_t i = slot_of(key);; i = (i + 1) & (steps_.size() - 1)) {
+      if (steps_[i].key == key) return steps_[i].result;
+      if (steps_[i].key == kFree) return make_step(set, step);
+    }
+  }
+
+  bool value(Id set) const { return sets_[set].value; }
+
+  std::size_t size() const { return sets_.size(); }
+  // Leaves summed over the known sets: what they cost in memory.
+  std::size_t member_count() const { return members_.size(); }
+  // Evaluations of the program since construction.
+  std::uint64_t evaluations() const { return evaluations_; }
+
+  // Forgets every set but those in `live`, and renumbers them there.
+  void keep_only(std::vector<Id>& live);
+
+ private:
+  struct Member {
+    std::uint32_t instance = 0;
+    std::int32_t count = 1;
+
+    bool operator==(const Member&) const = default;
+  };
+  struct Set {
+    std::uint64_t hash = 0;  // sum over the members
+    std::size_t first_member = 0;
+    std::uint32_t size = 0;
+    bool value = false;
+  };
+  struct KnownStep {
+    std::uint64_t key = kFree;  // set and step
+    Id result = 0;
+  };
+  static constexpr std::uint64_t kFree = ~std::uint64_t{0};
+  static constexpr Id kNone = 0xffffffff;
+
+  std::size_t slot_of(std::uint64_t key) const {
+    return (key * 0x9e3779b97f4a7c15U) >> shift_;
+  }
+  static std::uint64_t hash_of(const Member& member);
+
+  void clear();
+  Id make_step(Id set, Step step);
+  void write_members(Id set, Step step);
+  Id find_or_add(std::uint64_t hash);
+  bool evaluate(const Set& set);
+  void insert_step(Id set, Step step, Id result);
+  void grow_steps();
+  void grow_index();
+
+  ProgramState program_;
+  std::vector<bool> is_counted_;  // an instance
+  std::vector<Set> sets_;
+  std::vector<Member> members_;  // of all sets, each by instance
+  std::vector<Member> scratch_;  // members of the set in the making
+  std::vector<Id> index_;        // open hash of sets_ by Set::hash
+  std::vector<KnownStep> steps_;
+  std::size_t step_count_ = 0;
+  int shift_ = 0;
+  std::vector<std::uint64_t> marks_;  // an instance: evaluation that wants it
+  std::uint64_t evaluations_ = 0;
+};
+
+}  // namespace lamina::ldni::detail

@@ -1,0 +1,597 @@
+#include "ldni/kinetic_ray.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ldni/detail/contour_tracer.h"
+#include "ldni/detail/leaf_sets.h"
+#include "ldni/detail/outlook.h"
+#include "ldni/detail/status.h"
+#include "ldni/detail/turns.h"
+#include "ldni/sample.h"
+
+namespace lamina::ldni {
+namespace {
+
+using detail::ChainCursor;
+using detail::ContourTracer;
+using detail::Entry;
+using detail::kNever;
+using detail::kNone;
+using detail::LeafSets;
+using detail::Outlook;
+using detail::Status;
+using detail::Turn;
+using detail::TurnSorter;
+
+// Slabs of a layer where the pitch is left to us: one for so many points of
+// its chains, within limits.
+constexpr double kPointsPerSlab = 24;
+constexpr double kLeastSlabs = 4;
+constexpr double kMostSlabs = 4096;
+constexpr double kMostSlabsOfPitch = 1 << 16;
+
+// Known sets are forgotten between two layers when their members take more
+// than this many entries of 8 bytes.
+constexpr std::size_t kMostSetMembers = std::size_t{1} << 20;
+
+// Swaps in one column before it counts as endless: the pairwise order of n
+// entries needs at most n²/2; rounding could make it a circle.
+constexpr std::uint64_t kMostSwapsPerEntry = 64;
+
+// A pair whose relation changes at x, by its lower entry; stale where the
+// stamp is not that of the entry's present outlook.
+struct Change {
+  double x = 0;
+  std::uint32_t entry = 0;
+  std::uint32_t outlook = 0;
+};
+bool comes_later(const Change& a, const Change& b) { return a.x > b.x; }
+
+// A pair to be looked at again in a later slab.
+struct Renewal {
+  std::uint32_t entry = 0;
+  std::uint32_t outlook = 0;
+  std::uint32_t next = kNone;  // of the same slab
+};
+
+}  // namespace
+
+SweepCounts& SweepCounts::operator+=(const SweepCounts& other) {
+  layers += other.layers;
+  chains += other.chains;
+  points += other.points;
+  slabs += other.slabs;
+  stops += other.stops;
+  evaluations += other.evaluations;
+  capped_columns += other.capped_columns;
+  repaired_columns += other.repaired_columns;
+  return *this;
+}
+
+struct KineticRay::State {
+  State(const csg::Scene& scene, double pitch_of_rays)
+      : pitch(pitch_of_rays), sets(scene) {}
+
+  void sweep(const ChainBlock& block, std::uint32_t layer, Contours& contours);
+  void begin_layer(const ChainBlock& chain_block,
+                   std::span<const Chain> layer_chains);
+  void lay_out_slabs(double low, double high);
+  void enter_slabs_up_to(double x);
+  double slab_start(std::uint32_t number) const {
+    return first_slab_x + number * slab_width;
+  }
+
+  // One stop.
+  void process_column(double x);
+  void take_turns(double gather_end);
+  void end_chain(std::uint32_t entry);
+  void start_chain(std::uint32_t entry);
+  bool is_above(std::uint32_t entry, double y, const ChainCursor& cursor);
+  std::uint32_t find_place(const Vec2& point, const ChainCursor& cursor);
+  bool take_changes(double gather_end);
+  void settle_order();
+  void swap_with_above(std::uint32_t entry);
+  void set_tie(std::uint32_t entry, bool is_tied);
+  void plan(std::uint32_t entry, const Outlook& outlook);
+  Outlook look(std::uint32_t lower, std::uint32_t upper, double x);
+  void find_range(Entry& entry, double limit);
+  void update_sets();
+  void update_sets_from(std::uint32_t entry);
+  void update_survival();
+  void update_group(std::uint32_t member);
+  void change_survival(std::uint32_t entry, std::int8_t survival);
+  void end_piece(Entry& entry);
+  void start_piece(Entry& entry);
+  void check_entries() const;
+
+  const double pitch;
+  SweepCounts counts;
+  LeafSets sets;
+  Status status;
+  TurnSorter sorter;
+  ContourTracer tracer;
+
+  // The layer in hand.
+  std::span<const Vec2> points;
+  std::span<const Chain> chains;
+  std::span<const Turn> turns;
+  std::size_t next_turn = 0;
+  std::vector<Change> changes;  // a heap, the next one in front
+
+  // Slabs between neighbouring rays at the pitch.
+  double first_slab_x = 0;
+  double slab_width = 0;
+  std::uint32_t slab_count = 0;
+  std::uint32_t slab = 0;                    // the one that the ray is in
+  std::vector<std::uint32_t> renewal_lists;  // first of each slab, into:
+  std::vector<Renewal> renewals;
+
+  // The column in hand: what lies in [column_left, column_right] happens at
+  // one x. The state on its left holds up to column_left, that on its right
+  // from column_right on.
+  double column_left = 0;
+  double column_right = 0;
+  std::uint32_t column = 0;  // number
+  std::uint64_t column_swaps = 0;
+  std::vector<std::uint32_t> started;
+  std::vector<std::uint32_t> to_check;  // lower entries of new pairs
+  std::vector<std::uint32_t> fresh;     // entries whose set is in doubt
+  std::vector<std::uint32_t> touched;   // whose survival is in doubt
+};
+
+KineticRay::KineticRay(const csg::Scene& scene, double pitch)
+    : state_(std::make_unique<State>(scene, pitch)) {}
+
+KineticRay::~KineticRay() = default;
+
+void KineticRay::sweep(const ChainBlock& block, std::uint32_t layer,
+                       Contours& contours) {
+  state_->sweep(block, layer, contours);
+}
+
+const SweepCounts& KineticRay::counts() const { return state_->counts; }
+
+// --- The layer --------------------------------------------------------------
+
+void KineticRay::State::sweep(const ChainBlock& block, std::uint32_t layer,
+                              Contours& contours) {
+  begin_layer(block, block.layer(layer));
+  while (next_turn < turns.size()) {
+    // The next stop is a turn or a change; entering slabs may find changes.
+    double x = turns[next_turn].x;
+    if (!changes.empty()) x = std::min(x, changes.front().x);
+    if (slab + 1 < slab_count && slab_start(slab + 1) <= x) {
+      enter_slabs_up_to(x);
+      continue;
+    }
+    process_column(x);
+  }
+  tracer.trace(contours);
+  counts.evaluations = sets.evaluations();
+  counts.repaired_columns = tracer.unlinked_ends();
+}
+
+void KineticRay::State::begin_layer(const ChainBlock& chain_block,
+                                    std::span<const Chain> layer_chains) {
+  points = chain_block.points;
+  chains = layer_chains;
+  turns = sorter.sort(chains, points);
+  next_turn = 0;
+  changes.clear();
+  renewals.clear();
+  column = 0;
+  status.begin(chains.size());
+  tracer.begin();
+  if (sets.member_count() > kMostSetMembers) {
+    std::vector<LeafSets::Id> none;
+    sets.keep_only(none);
+  }
+  ++counts.layers;
+  counts.chains += chains.size();
+  if (turns.empty()) return;
+  lay_out_slabs(turns.front().x, turns.back().x);
+}
+
+void KineticRay::State::lay_out_slabs(double low, double high) {
+  std::size_t point_count = 0;
+  for (const Chain& chain : chains) point_count += chain.point_count;
+  counts.points += point_count;
+  double count = std::clamp(static_cast<double>(point_count) / kPointsPerSlab,
+                            kLeastSlabs, kMostSlabs);
+  if (pitch > 0) {
+    count = std::clamp((high - low) / pitch, 1.0, kMostSlabsOfPitch);
+  }
+  slab_count = static_cast<std::uint32_t>(std::ceil(count));
+  first_slab_x = low;
+  slab_width = (high - low) / slab_count;
+  slab = 0;
+  renewal_lists.assign(slab_count, kNone);
+  counts.slabs += slab_count;
+}
+
+// Looks again at the pairs whose outlook ends in the slabs up to x.
+void KineticRay::State::enter_slabs_up_to(double x) {
+  while (slab + 1 < slab_count && slab_start(slab + 1) <= x) {
+    ++slab;
+    const double start = slab_start(slab);
+    std::uint32_t i = renewal_lists[slab];
+    while (i != kNone) {
+      const Renewal renewal = renewals[i];
+      i = renewal.next;
+      const std::uint32_t lower = renewal.entry;
+      if (!status.is_alive(lower)) continue;
+      if (status[lower].outlook != renewal.outlook) continue;
+      const std::uint32_t upper = status[lower].above;
+      status[lower].cursor.advance(start);
+      status[upper].cursor.advance(start);
+      const Outlook outlook = look(lower, upper, start);
+      plan(lower, outlook);
+      if (outlook.change < x) x = outlook.change;
+    }
+  }
+}
+
+// --- The column -------------------------------------------------------------
+
+void KineticRay::State::process_column(double x) {
+  ++counts.stops;
+  ++column;
+  column_left = x;
+  column_right = x;
+  column_swaps = 0;
+  fresh.clear();
+  touched.clear();
+  const double gather_end = x + kColumnWidth;
+  take_turns(gather_end);
+  // What the new order brings up inside the column belongs to it: a start and
+  // the crossing that it causes 1e-16 later are one stop.
+  do {
+    settle_order();
+  } while (take_changes(gather_end));
+  update_sets();
+  update_survival();
+  tracer.link_stop();
+  check_entries();
+}
+
+// Chains that begin and end inside the column are passed over.
+void KineticRay::State::take_turns(double gather_end) {
+  started.clear();
+  for (; next_turn < turns.size() && turns[next_turn].x <= gather_end;
+       ++next_turn) {
+    const Turn& turn = turns[next_turn];
+    column_right = std::max(column_right, turn.x);
+    const std::uint32_t entry = turn.chain();
+    if (turn.is_end()) {
+      if (status.is_alive(entry)) end_chain(entry);
+      continue;
+    }
+    const Chain& chain = chains[entry];
+    const Vec2& end = points[chain.first_point + chain.point_count - 1];
+    if (end.x > gather_end) started.push_back(entry);
+  }
+  for (const std::uint32_t entry : started) start_chain(entry);
+}
+
+void KineticRay::State::end_chain(std::uint32_t number) {
+  Entry& entry = status[number];
+  if (entry.survival != 0) {
+    end_piece(entry);
+    entry.survival = 0;
+  }
+  const std::uint32_t below = entry.below;
+  const std::uint32_t above = entry.above;
+  status.remove(number);
+  status[below].is_tied = false;
+  ++status[below].outlook;
+  to_check.push_back(below);
+  touched.push_back(below);
+  touched.push_back(above);
+  status[above].is_fresh = true;
+  fresh.push_back(above);
+}
+
+void KineticRay::State::start_chain(std::uint32_t number) {
+  const Chain& chain = chains[number];
+  const Vec2* first = &points[chain.first_point];
+  Entry entry;
+  entry.cursor = ChainCursor(first, first + chain.point_count - 1);
+  entry.first = first;
+  entry.step = sets.step_of(chain.instance, chain.winding);
+  entry.is_fresh = true;
+  entry.cursor.advance(column_right);
+  const std::uint32_t below = find_place(*first, entry.cursor);
+  status[number] = entry;
+  status.insert_above(below, number);
+  status[below].is_tied = false;
+  ++status[below].outlook;
+  to_check.push_back(below);
+  to_check.push_back(number);
+  fresh.push_back(number);
+  touched.push_back(below);
+  touched.push_back(status[number].above);
+}
+
+// Whether the entry lies above a chain that starts with `cursor` at y; where y
+// ties, by how they go on.
+bool KineticRay::State::is_above(std::uint32_t number, double y,
+                                 const ChainCursor& cursor) {
+  Entry& entry = status[number];
+  entry.cursor.advance(column_right);
+  const double distance = entry.cursor.y_at(column_right) - y;
+  if (std::abs(distance) > kTieDistance) return distance > 0;
+  const Outlook outlook =
+      detail::look_ahead(cursor, entry.cursor, column_right, column_right);
+  return outlook.relation > 0 || (outlook.relation == 0 && distance > 0);
+}
+
+// The entry above which a new chain belongs.
+std::uint32_t KineticRay::State::find_place(const Vec2& point,
+                                            const ChainCursor& cursor) {
+  const double y = cursor.y_at(column_right);
+  const std::uint32_t sentinel = status.sentinel();
+  std::uint32_t below = status.find_near(point.y, column_right);
+  while (below != sentinel && is_above(below, y, cursor)) {
+    below = status[below].below;
+  }
+  for (;;) {
+    const std::uint32_t above = status[below].above;
+    if (above == sentinel || is_above(above, y, cursor)) return below;
+    below = above;
+  }
+}
+
+bool KineticRay::State::take_changes(double gather_end) {
+  bool is_any = false;
+  while (!changes.empty() && changes.front().x <= gather_end) {
+    const Change change = changes.front();
+    std::pop_heap(changes.begin(), changes.end(), comes_later);
+    changes.pop_back();
+    if (!status.is_alive(change.entry)) continue;
+    if (status[change.entry].outlook != change.outlook) continue;
+    column_right = std::max(column_right, change.x);
+    to_check.push_back(change.entry);
+    is_any = true;
+  }
+  return is_any;
+}
+
+// Puts new neighbours in the order that holds right of the column.
+void KineticRay::State::settle_order() {
+  while (!to_check.empty()) {
+    const std::uint32_t lower = to_check.back();
+    to_check.pop_back();
+    const std::uint32_t sentinel = status.sentinel();
+    if (lower == sentinel || !status.is_alive(lower)) continue;
+    const std::uint32_t upper = status[lower].above;
+    if (upper == sentinel) {
+      set_tie(lower, false);
+      continue;
+    }
+    status[lower].cursor.advance(column_right);
+    status[upper].cursor.advance(column_right);
+    Outlook outlook = look(lower, upper, column_right);
+    if (outlook.relation < 0) {
+      if (++column_swaps <= kMostSwapsPerEntry * chains.size()) {
+        swap_with_above(lower);
+        continue;
+      }
+      if (column_swaps == kMostSwapsPerEntry * chains.size() + 1) {
+        ++counts.capped_columns;
+      }
+      outlook = {};
+    }
+    set_tie(lower, outlook.relation == 0);
+    plan(lower, outlook);
+  }
+}
+
+void KineticRay::State::swap_with_above(std::uint32_t lower) {
+  const std::uint32_t upper = status[lower].above;
+  const std::uint32_t below = status[lower].below;
+  touched.push_back(below);
+  touched.push_back(status[upper].above);
+  status.swap_with_above(lower);
+  for (const std::uint32_t entry : {below, upper, lower}) {
+    status[entry].is_tied = false;
+    ++status[entry].outlook;
+    to_check.push_back(entry);
+  }
+  for (const std::uint32_t entry : {lower, upper}) {
+    status[entry].is_fresh = true;
+    fresh.push_back(entry);
+    touched.push_back(entry);
+  }
+}
+
+void KineticRay::State::set_tie(std::uint32_t entry, bool is_tied) {
+  if (status[entry].is_tied == is_tied) return;
+  status[entry].is_tied = is_tied;
+  touched.push_back(entry);
+  touched.push_back(status[entry].above);
+}
+
+// Looks at a pair from x to the end of the slab, in the last one to the end of
+// a chain. Chains whose ranges are apart
+// there need no look at their points.
+Outlook KineticRay::State::look(std::uint32_t lower, std::uint32_t upper,
+                                double x) {
+  const double limit = slab + 1 == slab_count ? kNever : slab_start(slab + 1);
+  Entry& a = status[lower];
+  Entry& b = status[upper];
+  find_range(a, limit);
+  find_range(b, limit);
+  if (a.high + kTieDistance < b.low) {
+    Outlook outlook;
+    outlook.horizon = std::min(a.range_end, b.range_end);
+    return outlook;
+  }
+  return detail::look_ahead(a.cursor, b.cursor, x, limit);
+}
+
+void KineticRay::State::find_range(Entry& entry, double limit) {
+  if (entry.range_slab == slab) return;
+  entry.range_slab = slab;
+  const Vec2* point = entry.cursor.left();
+  const Vec2* last = entry.cursor.last();
+  entry.low = point->y;
+  entry.high = point->y;
+  do {
+    ++point;
+    entry.low = std::min(entry.low, point->y);
+    entry.high = std::max(entry.high, point->y);
+  } while (point->x < limit && point != last);
+  entry.range_end = point == last ? kNever : point->x;
+}
+
+// Notes when the pair above `lower` is to be looked at next.
+void KineticRay::State::plan(std::uint32_t lower, const Outlook& outlook) {
+  const std::uint32_t stamp = ++status[lower].outlook;
+  if (outlook.change < kNever) {
+    // I6: progress. A change lies strictly right of the column.
+    assert(outlook.change > column_right);
+    changes.push_back({outlook.change, lower, stamp});
+    std::push_heap(changes.begin(), changes.end(), comes_later);
+  } else if (outlook.horizon < kNever) {
+    const double slabs = (outlook.horizon - first_slab_x) / slab_width;
+    auto when = std::min(static_cast<std::uint32_t>(slabs), slab_count - 1);
+    while (slab_start(when) > outlook.horizon) --when;
+    when = std::max(when, slab + 1);
+    renewals.push_back({lower, stamp, renewal_lists[when]});
+    renewal_lists[when] = static_cast<std::uint32_t>(renewals.size() - 1);
+  }
+}
+
+// --- Sets and survival ------------------------------------------------------
+
+void KineticRay::State::update_sets() {
+  // Bottom-up, so that no set is made from one that is about to change.
+  if (fresh.size() > 2) {
+    std::sort(
+        fresh.begin(), fresh.end(), [this](std::uint32_t a, std::uint32_t b) {
+          if (a == status.sentinel()) return false;
+          if (b == status.sentinel()) return true;
+          return status.y_at(a, column_right) < status.y_at(b, column_right);
+        });
+  }
+  for (const std::uint32_t entry : fresh) {
+    if (entry == status.sentinel() || !status.is_alive(entry)) continue;
+    if (status[entry].is_fresh) update_sets_from(entry);
+  }
+}
+
+// I2: the set above an entry is the set below it after the entry's step.
+// Restores that from `entry` up to where nothing changes any more, so that a
+// vertical wall costs only the entries that it spans.
+void KineticRay::State::update_sets_from(std::uint32_t entry) {
+  while (status[status[entry].below].is_fresh &&
+         status[entry].below != status.sentinel()) {
+    entry = status[entry].below;
+  }
+  LeafSets::Id set = status[status[entry].below].set;
+  for (; entry != status.sentinel(); entry = status[entry].above) {
+    Entry& e = status[entry];
+    set = sets.after(set, e.step);
+    if (!e.is_fresh && e.set == set) return;
+    e.is_fresh = false;
+    e.set = set;
+    e.value = sets.value(set);
+    touched.push_back(entry);
+  }
+}
+
+void KineticRay::State::update_survival() {
+  for (const std::uint32_t entry : touched) {
+    if (entry == status.sentinel() || !status.is_alive(entry)) continue;
+    if (status[entry].column != column) update_group(entry);
+  }
+}
+
+// Tied entries are one curve: the solid below the lowest against that above
+// the highest decides, and one member stands for all.
+void KineticRay::State::update_group(std::uint32_t member) {
+  const std::uint32_t sentinel = status.sentinel();
+  std::uint32_t first = member;
+  while (status[first].below != sentinel &&
+         status[status[first].below].is_tied) {
+    first = status[first].below;
+  }
+  std::uint32_t last = first;
+  while (status[last].is_tied) last = status[last].above;
+  const bool below = status[status[first].below].value;
+  const bool above = status[last].value;
+  const auto survival = static_cast<std::int8_t>(above - below);
+
+  // Whoever stood for it before goes on.
+  std::uint32_t chosen = first;
+  if (survival != 0) {
+    for (std::uint32_t e = first;; e = status[e].above) {
+      if (status[e].survival == survival) {
+        chosen = e;
+        break;
+      }
+      if (e == last) break;
+    }
+  }
+  for (std::uint32_t e = first;; e = status[e].above) {
+    status[e].column = column;
+    change_survival(e, e == chosen ? survival : std::int8_t{0});
+    if (e == last) break;
+  }
+}
+
+void KineticRay::State::change_survival(std::uint32_t number,
+                                        std::int8_t survival) {
+  Entry& entry = status[number];
+  if (entry.survival == survival) return;
+  if (entry.survival != 0) end_piece(entry);
+  entry.survival = survival;
+  if (survival != 0) start_piece(entry);
+}
+
+// --- Pieces -----------------------------------------------------------------
+
+// Ends the entry's piece on the left of the column: at the chain's last point
+// where the chain ends, else where it meets the column.
+void KineticRay::State::end_piece(Entry& entry) {
+  const Vec2* left = entry.cursor.left();
+  while (left != entry.first && left->x >= column_left) --left;
+  const Vec2* last = entry.cursor.last();
+  while (left + 1 != last && left[1].x < column_left) ++left;
+  const double y = ChainCursor(left, last).y_at(column_left);
+  Vec2 point(column_left, y);
+  if (last->x <= column_left + kColumnWidth) point = *last;
+  tracer.end_piece(entry.piece, point, y, left + 1);
+}
+
+// Starts a piece on its right: at the chain's first point where it starts.
+void KineticRay::State::start_piece(Entry& entry) {
+  entry.cursor.advance(column_right);
+  const double y = entry.cursor.y_at(column_right);
+  Vec2 point(column_right, y);
+  const Vec2* first_vertex = entry.cursor.left() + 1;
+  if (entry.first->x >= column_left) {
+    point = *entry.first;
+    first_vertex = entry.first + 1;
+  }
+  entry.piece = tracer.start_piece(point, y, first_vertex, entry.survival);
+}
+
+// I1 and I2 at the top (every leaf is left as often as it is entered), I2 in
+// between, I3 (neighbours are apart or tied). Debug builds only.
+void KineticRay::State::check_entries() const {
+#ifndef NDEBUG
+  const std::uint32_t sentinel = status.sentinel();
+  for (std::uint32_t e = status.first(); e != sentinel; e = status[e].above) {
+    assert(!status[e].is_fresh);
+    if (status[e].above == sentinel) assert(status[e].set == LeafSets::kEmpty);
+  }
+#endif
+}
+
+}  // namespace lamina::ldni
