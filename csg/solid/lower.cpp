@@ -1,6 +1,8 @@
 #include "csg/solid/lower.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -52,13 +54,18 @@ Affine compose(const Affine& outer, const Mat4& inner) {
           apply_linear(outer, m[2]), apply_linear(outer, m[3]) + outer[3]};
 }
 
-// The node of the `!` modifier, if there is one below `node`.
-const Node* find_root_modifier(const Node& node) {
+// What a walk over the tree tells before it is lowered.
+struct Survey {
+  const Node* root_modifier = nullptr;  // first node with `!`
+  std::size_t childless = 0;            // most of these are leaves
+};
+
+void survey(const Node& node, Survey& result) {
+  if (node.children.empty()) ++result.childless;
   for (const Node* child : node.children) {
-    if (child->is_root) return child;
-    if (const Node* found = find_root_modifier(*child)) return found;
+    if (child->is_root && !result.root_modifier) result.root_modifier = child;
+    survey(*child, result);
   }
-  return nullptr;
 }
 
 std::vector<Note> call_chain(const Node& node) {
@@ -77,7 +84,11 @@ std::vector<Note> call_chain(const Node& node) {
 
 class Lowerer {
  public:
-  explicit Lowerer(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  // instances  about as many as there will be
+  Lowerer(std::size_t instances, Diagnostics& diagnostics)
+      : diagnostics_(diagnostics) {
+    builder_.reserve(instances);
+  }
 
   // The solid parts of the subtree are left on top of the builder's stack, in
   // world coordinates; a region is in the node's own coordinates.
@@ -442,18 +453,21 @@ class Lowerer {
     builder_.push(instance);
   }
 
-  // Many instances of a leaf differ in their shift only: the last box of each
-  // leaf is kept.
+  // Many instances of a leaf differ in their shift only: recent boxes are
+  // kept.
   Box3 bound(std::uint32_t leaf, const Affine& m) {
-    if (last_boxes_.size() <= leaf) last_boxes_.resize(leaf + 1);
-    LastBox& last = last_boxes_[leaf];
-    const bool is_same = last.linear[0] == m[0] && last.linear[1] == m[1] &&
-                         last.linear[2] == m[2];
-    if (!is_same) last = {m, bound_leaf(leaves_[leaf], m)};
-    return shift_box(last.box, m[3]);
+    const double mix = m[0].x + 3 * m[0].y + 5 * m[1].y + 7 * m[2].z + leaf;
+    const std::size_t slot =
+        (std::bit_cast<std::uint64_t>(mix) * 0x9e3779b97f4a7c15u) >> 58;
+    KeptBox& kept = kept_boxes_[slot];
+    const bool is_same = kept.leaf == leaf && kept.linear[0] == m[0] &&
+                         kept.linear[1] == m[1] && kept.linear[2] == m[2];
+    if (!is_same) kept = {leaf, m, bound_leaf(leaves_[leaf], m)};
+    return shift_box(kept.box, m[3]);
   }
 
-  struct LastBox {
+  struct KeptBox {
+    std::uint32_t leaf = 0;
     Affine linear{0.0};
     Box3 box;
   };
@@ -461,16 +475,17 @@ class Lowerer {
   Diagnostics& diagnostics_;
   LeafStore leaves_;
   ProgramBuilder builder_;
-  std::vector<LastBox> last_boxes_;
+  std::array<KeptBox, 64> kept_boxes_;
 };
 
 }  // namespace
 
 Lowered lower(const Tree& tree, const LowerOptions& options,
               Diagnostics& diagnostics) {
-  const Node* root = find_root_modifier(*tree.root);
-  if (!root) root = tree.root;
-  Lowerer lowerer(diagnostics);
+  Survey found;
+  survey(*tree.root, found);
+  const Node* root = found.root_modifier ? found.root_modifier : tree.root;
+  Lowerer lowerer(found.childless, diagnostics);
   Shape shape = lowerer.lower(*root, options.world_from_design);
   if (!shape.region.is_empty()) return {std::move(shape.region)};
   if (lowerer.has_parts()) return {lowerer.take_scene()};

@@ -42,12 +42,6 @@ std::span<const ProgramBuilder::Part> ProgramBuilder::parts_above(
   return std::span(stack_).subspan(mark);
 }
 
-bool ProgramBuilder::is_single(std::span<const Part> parts,
-                               BooleanOp op) const {
-  return parts.size() == 1 && parts[0].is_operator &&
-         operators_[parts[0].index].op == op;
-}
-
 ProgramBuilder::Part ProgramBuilder::make_operator(BooleanOp op,
                                                    std::span<const Part> parts,
                                                    Box3 box) {
@@ -58,9 +52,10 @@ ProgramBuilder::Part ProgramBuilder::make_operator(BooleanOp op,
   return {static_cast<std::uint32_t>(operators_.size() - 1), true};
 }
 
-ProgramBuilder::Part ProgramBuilder::unite(std::span<const Part> parts) {
+ProgramBuilder::Part ProgramBuilder::unite(std::span<const Part> parts,
+                                           const Box3& box) {
   if (parts.size() == 1) return parts[0];
-  return make_operator(BooleanOp::kUnion, parts, box_of(parts));
+  return make_operator(BooleanOp::kUnion, parts, box);
 }
 
 void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
@@ -73,22 +68,12 @@ void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
   // Keep the subtrahends that can reach the minuend; a union of them is as
   // good as each of them in turn.
   const Box3 box = box_of(minuend);
-  std::vector<Part> operands;
+  std::vector<Part> operands{{}};
   for (const Part part : all.subspan(minuend.size())) {
     if (have_common_volume(box, box_of(part))) operands.push_back(part);
   }
-  if (operands.empty()) return drop(begins[1]);
-
-  // (A - B) - C is A - B - C.
-  std::vector<Part> head;
-  if (is_single(minuend, BooleanOp::kDifference)) {
-    const Operator& inner = operators_[minuend[0].index];
-    const auto first = children_.begin() + inner.first_child;
-    head.assign(first, first + inner.child_count);
-  } else {
-    head.push_back(unite(minuend));
-  }
-  operands.insert(operands.begin(), head.begin(), head.end());
+  if (operands.size() == 1) return drop(begins[1]);
+  operands.front() = unite(minuend, box);
   drop(mark);
   stack_.push_back(make_operator(BooleanOp::kDifference, operands, box));
 }
@@ -96,30 +81,26 @@ void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
 void ProgramBuilder::apply_intersection(std::span<const std::size_t> begins) {
   if (begins.size() < 2) return;
   const std::size_t mark = begins[0];
-  std::vector<Part> operands;
-  Box3 box;
-  for (std::size_t i = 0; i < begins.size(); ++i) {
+  const auto operand = [&](std::size_t i) {
     const std::size_t end =
         i + 1 < begins.size() ? begins[i + 1] : stack_.size();
-    const auto parts =
-        std::span<const Part>(stack_).subspan(begins[i], end - begins[i]);
-    if (parts.empty()) return drop(mark);
-    const Box3 operand_box = box_of(parts);
-    if (i == 0) {
-      box = operand_box;
-    } else if (have_common_volume(box, operand_box)) {
-      box = intersect_boxes(box, operand_box);
-    } else {
-      return drop(mark);
+    return std::span<const Part>(stack_).subspan(begins[i], end - begins[i]);
+  };
+  Box3 box = box_of(operand(0));
+  for (std::size_t i = 1; i < begins.size(); ++i) {
+    box = intersect_boxes(box, box_of(operand(i)));
+  }
+
+  // What does not reach the overlap of all boxes has no part in the result.
+  std::vector<Part> operands;
+  std::vector<Part> kept;
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    kept.clear();
+    for (const Part part : operand(i)) {
+      if (have_common_volume(box, box_of(part))) kept.push_back(part);
     }
-    // A ∩ (B ∩ C) is A ∩ B ∩ C.
-    if (is_single(parts, BooleanOp::kIntersection)) {
-      const Operator& inner = operators_[parts[0].index];
-      const auto first = children_.begin() + inner.first_child;
-      operands.insert(operands.end(), first, first + inner.child_count);
-    } else {
-      operands.push_back(unite(parts));
-    }
+    if (kept.empty()) return drop(mark);
+    operands.push_back(unite(kept, box));
   }
   drop(mark);
   stack_.push_back(make_operator(BooleanOp::kIntersection, operands, box));
@@ -133,12 +114,29 @@ void ProgramBuilder::emit(Part part, std::uint32_t parent, bool is_minuend,
     instance.is_minuend = is_minuend;
     return;
   }
-  const Operator& node = operators_[part.index];
+  const BooleanOp op = operators_[part.index].op;
   const auto self = static_cast<std::uint32_t>(scene.program.size());
-  scene.program.push_back({node.op, parent, is_minuend, node.child_count});
+  scene.program.push_back({op, parent, is_minuend, 0});
+  emit_operands(part, self, scene);
+}
+
+void ProgramBuilder::emit_operands(Part part, std::uint32_t self,
+                                   Scene& scene) {
+  const Operator& node = operators_[part.index];
+  const bool is_difference = node.op == BooleanOp::kDifference;
   for (std::uint32_t i = 0; i < node.child_count; ++i) {
-    emit(children_[node.first_child + i], self,
-         node.op == BooleanOp::kDifference && i == 0, scene);
+    const Part child = children_[node.first_child + i];
+    // (A - B) - C is A - B - C, A ∩ (B ∩ C) is A ∩ B ∩ C.
+    const bool is_dissolved = child.is_operator &&
+                              operators_[child.index].op == node.op &&
+                              !(is_difference && i > 0);
+    if (is_dissolved) {
+      emit_operands(child, self, scene);
+    } else {
+      emit(child, self, is_difference && scene.program[self].child_count == 0,
+           scene);
+      ++scene.program[self].child_count;
+    }
   }
 }
 

@@ -17,6 +17,8 @@ namespace lamina::csg {
 
 class ProgramBuilder {
  public:
+  void reserve(std::size_t instances) { instances_.reserve(instances); }
+
   // Height of the stack.
   std::size_t mark() const { return stack_.size(); }
 
@@ -49,10 +51,10 @@ class ProgramBuilder {
   const Box3& box_of(Part part) const;
   Box3 box_of(std::span<const Part> parts) const;
   std::span<const Part> parts_above(std::size_t mark) const;
-  bool is_single(std::span<const Part> parts, BooleanOp op) const;
   Part make_operator(BooleanOp op, std::span<const Part> parts, Box3 box);
-  Part unite(std::span<const Part> parts);
+  Part unite(std::span<const Part> parts, const Box3& box);
   void emit(Part part, std::uint32_t parent, bool is_minuend, Scene& scene);
+  void emit_operands(Part part, std::uint32_t self, Scene& scene);
 
   std::vector<Instance> instances_;
   std::vector<Operator> operators_;
