@@ -162,5 +162,7 @@ undef                   { return TOKEN_UNDEF; }
 "&&"                    { return TOKEN_AND; }
 "||"                    { return TOKEN_OR; }
 
+[(\[{]                  { yyextra->open_bracket(*range); return yytext[0]; }
+[)\]}]                  { yyextra->close_bracket(); return yytext[0]; }
 [\x21-\x7e]             { return yytext[0]; }
 .                       { return TOKEN_INVALID; }

@@ -51,12 +51,37 @@ void append_openscad_place(std::string& text, const Source& source,
                       detail::relative_path(source.path(), base_folder), line);
 }
 
-// A place as a terminal shows it. Control characters would move the cursor
-// and tabs would shift the carets, so both become blanks.
+// Length of the UTF-8 character at the beginning of `text`; 0 if there is none.
+std::size_t character_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t length = first < 0x80                     ? 1
+                             : first >= 0xc2 && first < 0xe0  ? 2
+                             : first >= 0xe0 && first < 0xf0  ? 3
+                             : first >= 0xf0 && first <= 0xf4 ? 4
+                                                              : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80) return 0;
+  }
+  return length;
+}
+
+// A piece of text as a terminal shows it in one column a character: control
+// characters would move the cursor and tabs shift the carets, so both become
+// blanks; bytes that are no UTF-8 become question marks.
 std::string printable(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const auto first = static_cast<unsigned char>(text[0]);
+    if (length == 0) {
+      result += '?';
+    } else if (first < 0x20 || first == 0x7f) {
+      result += ' ';
+    } else {
+      result += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return result;
 }
@@ -72,16 +97,17 @@ std::size_t width(std::string_view text) {
 void append_carets(std::string& text, SourceRange range) {
   constexpr std::size_t kWidest = 200;  // bytes; longer lines are not shown
   const LineColumn place = range.source->line_column(range.begin);
-  const std::string line = printable(range.source->line_text(place.line));
-  if (line.size() > kWidest) return;
+  const std::string_view line = range.source->line_text(place.line);
+  const std::string shown = printable(line);
+  const bool is_blank = shown.find_first_not_of(' ') == std::string::npos;
+  if (is_blank || line.size() > kWidest) return;
   const std::size_t begin =
       std::min<std::size_t>(place.column - 1, line.size());
   const std::size_t end = std::clamp<std::size_t>(
       begin + (range.end - range.begin), begin, line.size());
-  const std::string_view shown(line);
-  const std::size_t indent = width(shown.substr(0, begin));
-  const std::size_t length = width(shown.substr(begin, end - begin));
-  text += fmt::format("{:>5} | {}\n      | {:{}}^{:~>{}}\n", place.line, line,
+  const std::size_t indent = width(printable(line.substr(0, begin)));
+  const std::size_t length = width(printable(line.substr(begin, end - begin)));
+  text += fmt::format("{:>5} | {}\n      | {:{}}^{:~>{}}\n", place.line, shown,
                       "", indent, "", length > 0 ? length - 1 : 0);
 }
 

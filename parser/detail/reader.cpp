@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "parser/detail/paths.h"
+#include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"
 
 namespace lamina::detail {
@@ -184,6 +185,13 @@ Text Reader::take_string() {
   return {copy.data(), copy.size()};
 }
 
+void Reader::close_bracket() {
+  closed_bracket_ = {};
+  if (brackets_.empty()) return;
+  closed_bracket_ = brackets_.back();
+  brackets_.pop_back();
+}
+
 bool Reader::read_number(const char* begin, const char* end,
                          double& value) const {
   const auto result = std::from_chars(begin, end, value);
@@ -196,33 +204,64 @@ bool Reader::read_number(const char* begin, const char* end,
 // --- Errors ----------------------------------------------------------------
 
 void Reader::report_error(SourceRange range, std::string_view message,
-                          Note hint) {
-  Diagnostic error{Severity::kError, range,
-                   fmt::format("Parser error: {}", message)};
-  if (!hint.message.empty()) error.hints.push_back(std::move(hint));
+                          std::vector<Note> hints) {
+  Diagnostic error{Severity::kError,
+                   range,
+                   fmt::format("Parser error: {}", message),
+                   {},
+                   std::move(hints)};
   if (error_count_ == 0) first_error_ = error;
   ++error_count_;
   diagnostics_.report(std::move(error));
 }
 
+void Reader::report_syntax_error(SourceRange range, std::string_view symbol,
+                                 std::vector<std::string_view> expected) {
+  const std::string_view text = range.text();
+  const bool is_end = symbol.starts_with("end of");
+  std::vector<Note> hints;
+  // The end is behind the line breaks that end the text: show the text.
+  hints.push_back({is_end ? last_text(range) : SourceRange{},
+                   describe_syntax_error(symbol, text, std::move(expected))});
+  const bool is_closing = text == ")" || text == "]" || text == "}";
+  SourceRange opening;
+  if (is_end && !brackets_.empty()) opening = brackets_.back();
+  if (is_closing) opening = closed_bracket_;
+  // A bracket that the token closes is no news, and after an error the count
+  // is not to be trusted.
+  const std::string pair = std::string(opening.text()) + std::string(text);
+  const bool is_pair = pair == "()" || pair == "[]" || pair == "{}";
+  if (opening.is_known() && !is_pair && error_count_ == 0) {
+    hints.push_back({opening, "opened here"});
+  }
+  report_error(range, "syntax error", std::move(hints));
+}
+
+SourceRange Reader::last_text(SourceRange before) const {
+  const std::string& text = before.source->text();
+  std::uint32_t end = before.begin;
+  while (end > 0 && static_cast<unsigned char>(text[end - 1]) <= ' ') --end;
+  return {before.source, end - (end > 0 ? 1 : 0), end};
+}
+
 void Reader::report_unterminated(const char* what) {
-  report_unterminated(what, place());
+  report_unterminated(what, place(), {{opening_, "it begins here"}});
 }
 
 void Reader::report_unterminated_name(const char* what) {
-  report_unterminated(what, opening_);
+  report_unterminated(what, opening_, {});
 }
 
-void Reader::report_unterminated(const char* what, SourceRange range) {
-  report_error(range, fmt::format("Unterminated {}", what),
-               {opening_, "it begins here"});
+void Reader::report_unterminated(const char* what, SourceRange range,
+                                 std::vector<Note> hints) {
+  report_error(range, fmt::format("Unterminated {}", what), std::move(hints));
 }
 
 void Reader::report_depth(SourceRange range) {
   if (too_deep_) return;
   too_deep_ = true;
   report_error(range, "memory exhausted",
-               {{}, fmt::format("nested more than {} deep", kDeepestTree)});
+               {{{}, fmt::format("nested more than {} deep", kDeepestTree)}});
 }
 
 bool Reader::grow_stack(std::ptrdiff_t& size) {
@@ -233,26 +272,6 @@ bool Reader::grow_stack(std::ptrdiff_t& size) {
   }
   size = std::min(4 * size, kMost);
   return true;
-}
-
-std::string Reader::describe_symbol(std::string_view symbol) const {
-  const bool is_class = symbol == "name" || symbol == "number" ||
-                        symbol == "string" || symbol.starts_with("the end") ||
-                        symbol == "end of file";
-  if (symbol == "end of file") return "the end of the file";
-  if (is_class) return std::string(symbol);
-  return symbol.starts_with("'") ? std::string(symbol) : quote(symbol);
-}
-
-std::string Reader::describe_token(std::string_view symbol,
-                                   SourceRange range) const {
-  constexpr std::size_t kLongest = 40;  // longer tokens are not repeated
-  const std::string_view text = range.text();
-  if (symbol.find("end of") != std::string_view::npos) {
-    return "end of the file";
-  }
-  if (text.size() > kLongest) return describe_symbol(symbol);
-  return quote(text);
 }
 
 // --- Statements ------------------------------------------------------------

@@ -101,22 +101,28 @@ class Reader {
   void break_string(SourceRange range);
   Text take_string();
 
+  // Brackets are counted to tell which one a text lacks.
+  void open_bracket(SourceRange range) { brackets_.push_back(range); }
+  void close_bracket();
+
   // False if the number is beyond double.
   bool read_number(const char* begin, const char* end, double& value) const;
 
   // --- Errors --------------------------------------------------------------
 
-  // "Parser error: <message>" at `range`; `hint` is shown below the caret.
-  void report_error(SourceRange range, std::string_view message, Note hint);
+  // "Parser error: <message>" at `range`; hints are shown below the caret.
+  void report_error(SourceRange range, std::string_view message,
+                    std::vector<Note> hints);
+  // At the token `range`, which the grammar calls `symbol`; what it could take
+  // there is `expected`.
+  void report_syntax_error(SourceRange range, std::string_view symbol,
+                           std::vector<std::string_view> expected);
+
   // A text ended in a string or comment; OpenSCAD places that at the end, but
   // names of files (in `use` and `include`) where they begin.
   void report_unterminated(const char* what);
   void report_unterminated_name(const char* what);
   bool gave_up() const { return error_count_ >= kMostErrors; }
-
-  // How hints call a symbol of the grammar, and a token with its text.
-  std::string describe_symbol(std::string_view symbol) const;
-  std::string describe_token(std::string_view symbol, SourceRange range) const;
 
   // --- The stack of the parser ---------------------------------------------
 
@@ -220,7 +226,9 @@ class Reader {
     return {arena_.make(ast::Expr{node, range}), depth};
   }
   void report_depth(SourceRange range);
-  void report_unterminated(const char* what, SourceRange range);
+  void report_unterminated(const char* what, SourceRange range,
+                           std::vector<Note> hints);
+  SourceRange last_text(SourceRange before) const;
 
   ast::Arguments close_arguments(List arguments);
   ast::Statements close_scope(Scope scope);
@@ -243,6 +251,8 @@ class Reader {
   SourceRange token_begin_;  // where the token is taken to begin
   std::string file_name_;    // in `include <…>`, `use <…>`
   std::string string_;       // decoded so far
+  std::vector<SourceRange> brackets_;  // open
+  SourceRange closed_bracket_;         // the opening one, closed last
 
   std::vector<const ast::Expr*> elements_;
   std::vector<ast::Argument> arguments_;
