@@ -27,6 +27,10 @@ using lamina::detail::Reader;
   int scadlex(SCADSTYPE* value, SourceRange* range, void* yyscanner)
 YY_DECL;
 
+// Flex reads a token that outgrows its buffer anew with each refill; by its
+// own limit of 8 KiB a refill a comment of 50 MB would take minutes.
+#define YY_READ_BUF_SIZE (1 << 28)
+
 #define YY_INPUT(buffer, result, most) \
   (result) = static_cast<int>(yyextra->feed(buffer, most))
 

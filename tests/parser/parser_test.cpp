@@ -20,7 +20,7 @@ TEST(Parser, SyntaxErrorKeepsTheWordsOfOpenscad) {
             "x.scad:2:5: error: Parser error: syntax error\n"
             "    2 | b = ;\n"
             "      |     ^\n"
-            "note: unexpected ';'\n");
+            "note: unexpected ';', expected an expression\n");
 }
 
 }  // namespace
