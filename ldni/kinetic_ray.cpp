@@ -185,6 +185,7 @@ void KineticRay::State::begin_layer(const ChainBlock& chain_block,
   changes.clear();
   renewals.clear();
   column = 0;
+  column_right = -kNever;
   status.begin(chains.size());
   tracer.begin();
   if (sets.member_count() > kMostSetMembers) {
@@ -227,9 +228,12 @@ void KineticRay::State::enter_slabs_up_to(double x) {
       if (!status.is_alive(lower)) continue;
       if (status[lower].outlook != renewal.outlook) continue;
       const std::uint32_t upper = status[lower].above;
-      status[lower].cursor.advance(start);
-      status[upper].cursor.advance(start);
-      const Outlook outlook = look(lower, upper, start);
+      // The column before may reach into this slab.
+      const double from = std::max(start, column_right);
+      status[lower].cursor.advance(from);
+      status[upper].cursor.advance(from);
+      const Outlook outlook = look(lower, upper, from);
+      assert(outlook.relation == (status[lower].is_tied ? 0 : 1));
       plan(lower, outlook);
       if (outlook.change < x) x = outlook.change;
     }
@@ -460,7 +464,7 @@ void KineticRay::State::plan(std::uint32_t lower, const Outlook& outlook) {
   } else if (outlook.horizon < kNever) {
     const double slabs = (outlook.horizon - first_slab_x) / slab_width;
     auto when = std::min(static_cast<std::uint32_t>(slabs), slab_count - 1);
-    while (slab_start(when) > outlook.horizon) --when;
+    while (slab_start(when) >= outlook.horizon) --when;
     when = std::max(when, slab + 1);
     renewals.push_back({lower, stamp, renewal_lists[when]});
     renewal_lists[when] = static_cast<std::uint32_t>(renewals.size() - 1);

@@ -84,7 +84,7 @@ Outlook look_ahead(const ChainCursor& lower, const ChainCursor& upper, double x,
   }
   if (outlook.relation < 0) return outlook;
   for (;;) {
-    if (pair.right() >= limit) {
+    if (pair.right() > limit) {
       outlook.horizon = pair.right();
       return outlook;
     }

@@ -21,14 +21,15 @@ namespace lamina::ldni::detail {
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Outlook {
-  int relation = 1;         // right of x: +1 in order, 0 tied, -1 out of order
-  double change = kNever;   // next x where the relation changes
-  double horizon = kNever;  // up to where that is known; infinite: up to the
-                            // end of one of the chains
+  int relation = 1;        // right of x: +1 in order, 0 tied, -1 out of order
+  double change = kNever;  // next x where the relation changes
+  // Up to where that is known, this x not included; infinite: up to the end
+  // of one of the chains.
+  double horizon = kNever;
 };
 
-// Looks from x, which both cursors hold, at least up to `limit` unless a
-// change or the end of a chain comes before. relation < 0 ends the look: then
+// Looks from x, which both cursors hold, beyond `limit` unless a change or the
+// end of a chain comes before. relation < 0 ends the look: then
 // the pair has to be swapped first.
 Outlook look_ahead(const ChainCursor& lower, const ChainCursor& upper, double x,
                    double limit);

@@ -1,0 +1,178 @@
+// Random scenes full of coincident faces, judged point by point.
+//
+// Beside every edge of the result and beside every edge of every leaf's
+// section, on both sides, and at random places, the contours must say what the
+// definition of the operators says of the leaves. LAMINA_RANDOM_SCENES sets how
+// many scenes are tried, LAMINA_RANDOM_SEED the first seed.
+
+#include "tests/support/random_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "csg/scene.h"
+#include "ldni/grid.h"
+#include "ldni/kinetic_ray.h"
+#include "ldni/leaf_section.h"
+#include "tests/ldni/section_reference.h"
+#include "tests/support/contour_checks.h"
+
+namespace lamina::ldni {
+namespace {
+
+using support::SceneStyle;
+using testing::SectionReference;
+
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+struct Tally {
+  std::uint64_t scenes = 0;
+  std::uint64_t layers = 0;
+  std::uint64_t probes = 0;
+  std::uint64_t failures = 0;
+};
+
+// What a style promises. Where faces stand apart by less than a tie, either
+// reading is right, and only points farther from every face are judged.
+struct Rules {
+  double beside = 1e-7;      // of probes from an edge [mm]
+  double least_edge = 1e-4;  // shorter edges are not probed
+  double doubtful = 0;       // points nearer to a face are not judged
+};
+Rules rules_of(SceneStyle style) {
+  switch (style) {
+    case SceneStyle::kGeneric:
+    case SceneStyle::kAligned:
+    case SceneStyle::kNoisy:
+      return {};
+    default:
+      return {1e-5, 1e-3, 4e-6};
+  }
+}
+
+class SceneJudge {
+ public:
+  SceneJudge(std::uint64_t seed, SceneStyle style, Tally& tally)
+      : random_(seed),
+        rules_(rules_of(style)),
+        tally_(tally),
+        name_("seed " + std::to_string(seed) + ", style " +
+              std::to_string(static_cast<int>(style))) {}
+
+  void judge(const csg::Scene& scene, double pitch) {
+    ++tally_.scenes;
+    const double height = scene.box.high.z - scene.box.low.z;
+    if (scene.box.is_empty() || height < 1e-3) return;
+    // Layers whose heights fall on faces as often as not.
+    const double thickness = random_() % 2 == 0 ? 0.25 : height / 17.3;
+    const LayerGrid grid =
+        LayerGrid::uniform(scene.box.low.z, scene.box.high.z, thickness);
+    const LeafSectioner sectioner(scene, grid);
+    sectioner.cut(0, grid.layer_count(), block_);
+    KineticRay ray(scene, pitch);
+    SectionReference reference(scene);
+    for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
+      ++tally_.layers;
+      ray.sweep(block_, l, contours_);
+      reference.cut(grid.section_z(l), grid.threshold(l));
+      where_ = name_ + ", layer " + std::to_string(l);
+      judge_layer(scene, reference);
+    }
+    EXPECT_EQ(ray.counts().capped_columns, 0U) << name_;
+    EXPECT_EQ(ray.counts().repaired_columns, 0U) << name_;
+  }
+
+ private:
+  void judge_layer(const csg::Scene& scene, const SectionReference& reference) {
+    const auto sound = support::are_sound(contours_);
+    if (!sound) {
+      ++tally_.failures;
+      EXPECT_TRUE(sound) << where_;
+    }
+    for (std::size_t i = 0; i < contours_.loop_count(); ++i) {
+      const auto loop = contours_.loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        probe_beside(reference, loop[k], loop[(k + 1) % loop.size()], "loop");
+      }
+    }
+    for (const auto& segment : reference.segments()) {
+      probe_beside(reference, segment.from, segment.to, "leaf");
+    }
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 size = scene.box.high - scene.box.low;
+      probe(reference,
+            Vec2(scene.box.low) +
+                Vec2(unit(random_) * size.x, unit(random_) * size.y),
+            "random point");
+    }
+  }
+
+  void probe_beside(const SectionReference& reference, const Vec2& from,
+                    const Vec2& to, const char* what) {
+    const Vec2 along = to - from;
+    const double length = std::hypot(along.x, along.y);
+    if (length < rules_.least_edge) return;
+    const Vec2 normal(-along.y / length, along.x / length);
+    std::uniform_real_distribution<double> middle(0.2, 0.8);
+    const Vec2 place = from + middle(random_) * along;
+    probe(reference, place + rules_.beside * normal, what);
+    probe(reference, place - rules_.beside * normal, what);
+  }
+
+  void probe(const SectionReference& reference, const Vec2& point,
+             const char* what) {
+    const bool expected = reference.contains(point);
+    const bool actual = support::contains(contours_, point);
+    ++tally_.probes;
+    if (expected == actual) return;
+    // Only judged where no face is nearer than the style's doubt, or than half
+    // the probe's own distance (two faces may cross there).
+    const double distance = reference.distance(point);
+    if (distance < std::max(rules_.doubtful, 0.5 * rules_.beside)) return;
+    ++tally_.failures;
+    ADD_FAILURE() << where_ << ": " << what << " probe at " << std::scientific
+                  << point.x << ' ' << point.y << ", " << distance
+                  << " mm from a face, should be "
+                  << (expected ? "inside" : "outside");
+  }
+
+  std::mt19937_64 random_;
+  Rules rules_;
+  Tally& tally_;
+  std::string name_;
+  std::string where_;
+  ChainBlock block_;
+  Contours contours_;
+};
+
+TEST(RandomScenes, EveryProbeBesideAnEdgeAgreesWithTheLeaves) {
+  const std::uint64_t count = number_from("LAMINA_RANDOM_SCENES", 240);
+  const std::uint64_t first_seed = number_from("LAMINA_RANDOM_SEED", 1);
+  const double pitches[] = {0, 0.02, 0.0762, 0.5, 10};
+  Tally tally;
+  for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+    const auto style =
+        static_cast<SceneStyle>(seed % support::kSceneStyleCount);
+    const int leaves = 2 + static_cast<int>(seed / 7 % 11);
+    const csg::Scene scene = support::random_scene(seed, style, leaves);
+    SceneJudge judge(seed, style, tally);
+    judge.judge(scene, pitches[seed / 6 % 5]);
+    if (::testing::Test::HasFatalFailure() || tally.failures > 200) break;
+  }
+  std::cout << tally.scenes << " scenes, " << tally.layers << " layers, "
+            << tally.probes << " probes, " << tally.failures << " failures\n";
+}
+
+}  // namespace
+}  // namespace lamina::ldni
