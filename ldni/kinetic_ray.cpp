@@ -105,6 +105,8 @@ struct KineticRay::State {
   void update_survival();
   void update_group(std::uint32_t member);
   void change_survival(std::uint32_t entry, std::int8_t survival);
+  void split_at_touches();
+  void split_piece(Entry& entry);
   void end_piece(Entry& entry);
   void start_piece(Entry& entry);
   void check_entries() const;
@@ -142,6 +144,7 @@ struct KineticRay::State {
   std::vector<std::uint32_t> to_check;  // lower entries of new pairs
   std::vector<std::uint32_t> fresh;     // entries whose set is in doubt
   std::vector<std::uint32_t> touched;   // whose survival is in doubt
+  std::vector<std::uint32_t> touches;   // lower entries of pairs that touch
 };
 
 KineticRay::KineticRay(const csg::Scene& scene, double pitch)
@@ -250,6 +253,7 @@ void KineticRay::State::process_column(double x) {
   column_swaps = 0;
   fresh.clear();
   touched.clear();
+  touches.clear();
   const double gather_end = x + kColumnWidth;
   take_turns(gather_end);
   // What the new order brings up inside the column belongs to it: a start and
@@ -259,6 +263,7 @@ void KineticRay::State::process_column(double x) {
   } while (take_changes(gather_end));
   update_sets();
   update_survival();
+  split_at_touches();
   tracer.link_stop();
   check_entries();
 }
@@ -360,6 +365,7 @@ bool KineticRay::State::take_changes(double gather_end) {
     if (status[change.entry].outlook != change.outlook) continue;
     column_right = std::max(column_right, change.x);
     to_check.push_back(change.entry);
+    touches.push_back(change.entry);
     is_any = true;
   }
   return is_any;
@@ -560,6 +566,38 @@ void KineticRay::State::change_survival(std::uint32_t number,
 
 // --- Pieces -----------------------------------------------------------------
 
+// Where boundary that goes on straight through the column touches another in a
+// point, cuts it there, so that the tracer sees the touch.
+void KineticRay::State::split_at_touches() {
+  for (const std::uint32_t lower : touches) {
+    if (!status.is_alive(lower)) continue;
+    const std::uint32_t upper = status[lower].above;
+    if (upper == status.sentinel()) continue;
+    Entry& a = status[lower];
+    Entry& b = status[upper];
+    if (a.survival == 0 || b.survival == 0) continue;
+    const double distance =
+        status.y_at(upper, column_right) - status.y_at(lower, column_right);
+    if (std::abs(distance) >= kColumnWidth) continue;
+    split_piece(a);
+    split_piece(b);
+  }
+  for (const std::uint32_t number : touched) {
+    if (number == status.sentinel() || !status.is_alive(number)) continue;
+    Entry& entry = status[number];
+    if (entry.survival == 0 || entry.split_column == column) continue;
+    if (tracer.has_end_near(status.y_at(number, column_right))) {
+      split_piece(entry);
+    }
+  }
+}
+
+void KineticRay::State::split_piece(Entry& entry) {
+  if (entry.split_column == column) return;
+  end_piece(entry);
+  start_piece(entry);
+}
+
 // Ends the entry's piece on the left of the column: at the chain's last point
 // where the chain ends, else where it meets the column.
 void KineticRay::State::end_piece(Entry& entry) {
@@ -570,7 +608,8 @@ void KineticRay::State::end_piece(Entry& entry) {
   const double y = ChainCursor(left, last).y_at(column_left);
   Vec2 point(column_left, y);
   if (last->x <= column_left + kColumnWidth) point = *last;
-  tracer.end_piece(entry.piece, point, y, left + 1);
+  tracer.end_piece(entry.piece, point, y, left);
+  entry.split_column = column;
 }
 
 // Starts a piece on its right: at the chain's first point where it starts.
@@ -583,7 +622,9 @@ void KineticRay::State::start_piece(Entry& entry) {
     point = *entry.first;
     first_vertex = entry.first + 1;
   }
-  entry.piece = tracer.start_piece(point, y, first_vertex, entry.survival);
+  entry.piece = tracer.start_piece(point, y, entry.cursor.left(), first_vertex,
+                                   entry.survival);
+  entry.split_column = column;
 }
 
 // I1 and I2 at the top (every leaf is left as often as it is entered), I2 in

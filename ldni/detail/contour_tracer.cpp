@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "ldni/leaf_section.h"
+#include "ldni/sample.h"
 
 namespace lamina::ldni::detail {
 namespace {
-
-constexpr std::uint32_t kNoPiece = 0xffffffff;
 
 // Points nearer than this [mm] are one, and a point nearer than this to the
 // line through its neighbours is left out: what a column can move a point by.
@@ -43,6 +42,12 @@ bool is_redundant(const Vec2& before, const Vec2& point, const Vec2& after) {
   return cross * cross <= kMergeDistance * kMergeDistance * line_squared;
 }
 
+double y_on_segment(const Vec2* segment, double x) {
+  const Vec2& from = segment[0];
+  const Vec2& to = segment[1];
+  return from.y + (x - from.x) * ((to.y - from.y) / (to.x - from.x));
+}
+
 }  // namespace
 
 void ContourTracer::begin() {
@@ -52,6 +57,7 @@ void ContourTracer::begin() {
 }
 
 std::uint32_t ContourTracer::start_piece(Vec2 point, double key,
+                                         const Vec2* segment,
                                          const Vec2* first_vertex,
                                          std::int8_t direction) {
   const auto number = static_cast<std::uint32_t>(pieces_.size());
@@ -60,57 +66,94 @@ std::uint32_t ContourTracer::start_piece(Vec2 point, double key,
   piece.vertices_begin = first_vertex;
   piece.direction = direction;
   pieces_.push_back(piece);
-  ends_.push_back({key, point, number, direction < 0});
+  ends_.push_back({key, point, segment, number, direction < 0, false});
   return number;
 }
 
 void ContourTracer::end_piece(std::uint32_t number, Vec2 point, double key,
-                              const Vec2* vertices_end) {
+                              const Vec2* segment) {
   Piece& piece = pieces_[number];
   piece.right = point;
-  piece.vertices_end = std::max(vertices_end, piece.vertices_begin);
-  ends_.push_back({key, point, number, piece.direction > 0});
+  piece.vertices_end = std::max(segment + 1, piece.vertices_begin);
+  ends_.push_back({key, point, segment, number, piece.direction > 0, true});
+}
+
+bool ContourTracer::has_end_near(double y) const {
+  return std::any_of(ends_.begin(), ends_.end(), [y](const End& end) {
+    return std::abs(end.key - y) < kMergeDistance;
+  });
+}
+
+// The order of y; among ends of one side that could tie, the order in which
+// their chains come from, or go to, the next vertex.
+bool ContourTracer::is_lower(const End& a, const End& b) {
+  const double distance = b.key - a.key;
+  if (a.is_left != b.is_left || std::abs(distance) > 2 * kTieDistance) {
+    return distance > 0;
+  }
+  const double x = a.is_left ? std::max(a.segment[0].x, b.segment[0].x)
+                             : std::min(a.segment[1].x, b.segment[1].x);
+  return distance + y_on_segment(b.segment, x) - y_on_segment(a.segment, x) > 0;
+}
+
+// Few ends, nearly sorted: insertion. Equal ends keep their order.
+void ContourTracer::sort_ends() {
+  for (std::size_t i = 1; i < ends_.size(); ++i) {
+    const End end = ends_[i];
+    std::size_t k = i;
+    for (; k > 0 && is_lower(end, ends_[k - 1]); --k) ends_[k] = ends_[k - 1];
+    ends_[k] = end;
+  }
 }
 
 void ContourTracer::link_stop() {
   if (ends_.empty()) return;
-  // Few ends, nearly sorted: insertion. Equal keys keep left ends first.
-  for (std::size_t i = 1; i < ends_.size(); ++i) {
-    const End end = ends_[i];
-    std::size_t k = i;
-    for (; k > 0 && end.key < ends_[k - 1].key; --k) ends_[k] = ends_[k - 1];
-    ends_[k] = end;
-  }
-  // Consecutive ends are opposite; where rounding disturbed the order an end
-  // waits for the next opposite one.
-  const End* last_upper = nullptr;
-  std::uint32_t last_arriving = kNoPiece;
-  for (const End& end : ends_) {
-    if (waiting_.empty() || waiting_.back().arrives == end.arrives) {
-      waiting_.push_back(end);
-      continue;
+  sort_ends();
+  // Going up, ends arrive and depart in turn. Of ends in one point, take
+  // first the one that the lowest waiting end can link to.
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    for (std::size_t k = i; k < ends_.size() && !waiting_.empty(); ++k) {
+      if (ends_[k].key - ends_[i].key >= kMergeDistance) break;
+      if (ends_[k].arrives == waiting_.back().arrives) continue;
+      std::rotate(ends_.begin() + static_cast<std::ptrdiff_t>(i),
+                  ends_.begin() + static_cast<std::ptrdiff_t>(k),
+                  ends_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+      break;
     }
-    const End lower = waiting_.back();
-    waiting_.pop_back();
-    link(lower, end);
-    const std::uint32_t arriving = lower.arrives ? lower.piece : end.piece;
-    if (last_upper != nullptr && are_near(last_upper->point, lower.point)) {
-      pinches_.push_back({last_arriving, arriving});
-    }
-    last_upper = &end;
-    last_arriving = arriving;
+    take_end(ends_[i]);
   }
   unlinked_ends_ += waiting_.size();
   waiting_.clear();
+  linked_.clear();
   ends_.clear();
 }
 
-void ContourTracer::link(const End& a, const End& b) {
-  if (a.arrives) {
-    pieces_[a.piece].next = b.piece;
-  } else {
-    pieces_[b.piece].next = a.piece;
+// Links an end to the one that waits, or lets it wait for the next opposite
+// one where rounding disturbed the order.
+void ContourTracer::take_end(const End& end) {
+  if (waiting_.empty() || waiting_.back().arrives == end.arrives) {
+    waiting_.push_back(end);
+    return;
   }
+  const End lower = waiting_.back();
+  waiting_.pop_back();
+  link(lower, end);
+  for (std::size_t i = linked_.size(); i-- > 0;) {
+    if (!are_near(linked_[i].point, lower.point)) break;
+    pinches_.push_back({linked_[i], lower});
+  }
+  linked_.push_back(end);
+}
+
+void ContourTracer::link(const End& a, const End& b) {
+  const End& arriving = a.arrives ? a : b;
+  const End& departing = a.arrives ? b : a;
+  pieces_[arriving.piece].next = departing.piece;
+  pieces_[departing.piece].previous = arriving.piece;
+}
+
+std::uint32_t ContourTracer::arriving_piece(const End& end) const {
+  return end.arrives ? end.piece : pieces_[end.piece].previous;
 }
 
 void ContourTracer::trace(Contours& contours) {
@@ -141,11 +184,13 @@ void ContourTracer::number_loop(std::uint32_t piece, std::uint32_t loop) {
 
 void ContourTracer::split_pinches() {
   for (const Pinch& pinch : pinches_) {
-    Piece& first = pieces_[pinch.first];
-    Piece& second = pieces_[pinch.second];
-    if (first.loop != second.loop) continue;
-    std::swap(first.next, second.next);
-    number_loop(first.next, loop_count_++);
+    const std::uint32_t a = arriving_piece(pinch.first);
+    const std::uint32_t b = arriving_piece(pinch.second);
+    if (a == b || pieces_[a].loop != pieces_[b].loop) continue;
+    std::swap(pieces_[a].next, pieces_[b].next);
+    pieces_[pieces_[a].next].previous = a;
+    pieces_[pieces_[b].next].previous = b;
+    number_loop(pieces_[a].next, loop_count_++);
   }
 }
 

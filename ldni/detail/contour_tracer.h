@@ -11,7 +11,8 @@
 // rounding did; rounding can only move a point.
 //
 // Where two pairs meet in a point and belong to one loop, that loop would
-// touch itself; exchanging their links makes it two loops.
+// touch itself; exchanging their partners makes it two loops. So regions that
+// touch in a point have loops of their own.
 
 #include <cstdint>
 #include <vector>
@@ -26,17 +27,22 @@ class ContourTracer {
   // Forgets the layer before.
   void begin();
 
-  // Starts a piece at a stop and returns its number. direction: +1 solid
-  // above, -1 below. first_vertex: the first vertex of the chain that is right
-  // of the stop.
-  std::uint32_t start_piece(Vec2 point, double key, const Vec2* first_vertex,
-                            std::int8_t direction);
-  // Ends it. vertices_end: behind the last vertex left of the stop.
+  // Starts a piece at a stop and returns its number.
+  //
+  // key           its y where the order right of the stop holds
+  // segment       left end of the chain's segment there
+  // first_vertex  the first vertex of the chain that is right of the stop
+  // direction     +1 solid above, -1 below
+  std::uint32_t start_piece(Vec2 point, double key, const Vec2* segment,
+                            const Vec2* first_vertex, std::int8_t direction);
+  // Ends it; key and segment where the order left of the stop holds.
   void end_piece(std::uint32_t piece, Vec2 point, double key,
-                 const Vec2* vertices_end);
+                 const Vec2* segment);
 
-  // Links the ends of one stop. `key` of an end is its y where the order of
-  // its side of the stop holds.
+  // Whether an end of this stop is as near to y as makes no difference.
+  bool has_end_near(double y) const;
+
+  // Links the ends of one stop.
   void link_stop();
 
   // Replaces `contours` by the loops of the layer.
@@ -46,28 +52,37 @@ class ContourTracer {
   std::uint64_t unlinked_ends() const { return unlinked_ends_; }
 
  private:
+  static constexpr std::uint32_t kNoPiece = 0xffffffff;
+
   struct Piece {
     Vec2 left;
     Vec2 right;
     const Vec2* vertices_begin = nullptr;
     const Vec2* vertices_end = nullptr;
-    std::uint32_t next = 0xffffffff;  // piece that the walk goes on with
-    std::uint32_t loop = 0xffffffff;
+    std::uint32_t next = kNoPiece;  // the walk goes on there
+    std::uint32_t previous = kNoPiece;
+    std::uint32_t loop = kNoPiece;
     std::int8_t direction = 1;
   };
   struct End {
     double key = 0;
     Vec2 point;
+    const Vec2* segment = nullptr;
     std::uint32_t piece = 0;
     bool arrives = false;
+    bool is_left = false;  // of the stop
   };
-  // Two linked pairs that meet in a point, by their arriving pieces.
+  // Ends of two linked pairs that meet in a point.
   struct Pinch {
-    std::uint32_t first = 0;
-    std::uint32_t second = 0;
+    End first;
+    End second;
   };
 
+  static bool is_lower(const End& a, const End& b);
+  void sort_ends();
+  void take_end(const End& end);
   void link(const End& a, const End& b);
+  std::uint32_t arriving_piece(const End& end) const;
   void number_loops();
   void number_loop(std::uint32_t piece, std::uint32_t loop);
   void split_pinches();
@@ -77,7 +92,8 @@ class ContourTracer {
 
   std::vector<Piece> pieces_;
   std::vector<End> ends_;
-  std::vector<End> waiting_;
+  std::vector<End> waiting_;  // without partner, the lowest first
+  std::vector<End> linked_;   // upper ends of the pairs of the stop
   std::vector<Pinch> pinches_;
   std::vector<Vec2> loop_;
   std::uint32_t loop_count_ = 0;

@@ -39,6 +39,9 @@ class PairCursor {
     return std::min(left_distance_, right_distance_) < -kTieDistance &&
            std::max(left_distance_, right_distance_) > kTieDistance;
   }
+  bool touches_at_left() const {
+    return std::abs(left_distance_) < kColumnWidth;
+  }
   double crossing() const {
     const double t = left_distance_ / (left_distance_ - right_distance_);
     return std::clamp(left_ + t * (right_ - left_), left_, right_);
@@ -89,7 +92,8 @@ Outlook look_ahead(const ChainCursor& lower, const ChainCursor& upper, double x,
       return outlook;
     }
     if (!pair.step()) return outlook;
-    if (pair.relation_at_left() != outlook.relation) {
+    if (pair.relation_at_left() != outlook.relation ||
+        (outlook.relation > 0 && pair.touches_at_left())) {
       outlook.change = pair.left();
       return outlook;
     }

@@ -22,7 +22,8 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Outlook {
   int relation = 1;        // right of x: +1 in order, 0 tied, -1 out of order
-  double change = kNever;  // next x where the relation changes
+  double change = kNever;  // next x where the relation changes, or where the
+                           // chains touch in a point
   // Up to where that is known, this x not included; infinite: up to the end
   // of one of the chains.
   double horizon = kNever;

@@ -82,6 +82,7 @@ struct Entry {
   std::uint32_t piece = kNone;  // of the contour, where it survives
   std::uint32_t outlook = 0;    // stamp of the present look at the pair above
   std::uint32_t column = 0;     // the last one that judged its tie group
+  std::uint32_t split_column = 0;  // the last one that ended or began a piece
 
   // Least and greatest y up to range_end, as seen in slab range_slab.
   double low = 0;
