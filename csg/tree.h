@@ -112,6 +112,9 @@ struct Polyhedron {
   std::span<const Vec3> points;
   std::span<const std::span<const std::uint32_t>> faces;
   int convexity = 1;
+  // "points = …, faces = …" as written, where that is not just the numbers
+  // above (points of two numbers, undef, …); else empty.
+  std::string_view csg_text = {};
 };
 struct Square {
   Vec2 size = Vec2(1);
@@ -126,6 +129,7 @@ struct Polygon {
   // No value: one path through all points in order.
   std::optional<std::span<const std::span<const std::uint32_t>>> paths;
   int convexity = 1;
+  std::string_view csg_text = {};  // as for Polyhedron
 };
 // Modules whose geometry is not supported yet keep the text that `.csg`
 // prints for them (`text(text = "a", …)`), whole.

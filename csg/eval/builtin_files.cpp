@@ -1,0 +1,207 @@
+// text, import, surface: modules whose shape comes from fonts and files.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "csg/eval/builtin_modules.h"
+#include "csg/eval/conversions.h"
+#include "csg/eval/files.h"
+#include "csg/eval/interpreter.h"
+#include "csg/eval/script.h"
+#include "csg/eval/text.h"
+
+namespace lamina::csg {
+
+namespace {
+
+void append_facets(const Facets& facets, std::string& text) {
+  text += "$fn = ";
+  append_stream_number(facets.fn, text);
+  text += ", $fa = ";
+  append_stream_number(facets.fa, text);
+  text += ", $fs = ";
+  append_stream_number(facets.fs, text);
+}
+
+void append_number_field(std::string_view name, double number,
+                         std::string& text) {
+  text += name;
+  text += " = ";
+  append_stream_number(number, text);
+  text += ", ";
+}
+
+void make_leaf(std::string_view name, const std::string& csg_text,
+               const BuiltinModuleCode& code, Frame& frame) {
+  Interpreter& in = frame.in;
+  in.make_node(Unsupported{name, in.keep_text(csg_text)}, code, in.node_mark());
+}
+
+// --- text -------------------------------------------------------------------
+
+std::string string_or(const Value& value, std::string_view fallback) {
+  return std::string(value.is_string() ? value.as_string() : fallback);
+}
+double number_or(const Value& value, double fallback) {
+  return value.is_number() ? value.as_number() : fallback;
+}
+
+void text(const BuiltinModuleCode& code, Frame& frame) {
+  enum {
+    kText,
+    kSize,
+    kFont,
+    kDirection,
+    kLanguage,
+    kScript,
+    kHalign,
+    kValign,
+    kSpacing
+  };
+  const ModuleArguments arguments(code, frame);
+  const Facets facets = current_facets(frame.in);
+  const std::string content = string_or(arguments[kText], "");
+  const std::string script =
+      text_script(content, string_or(arguments[kScript], ""));
+  const std::string direction =
+      text_direction(script, string_or(arguments[kDirection], ""));
+  std::string csg = "text(";
+  // Quoted, but not escaped: so OpenSCAD has it.
+  const auto append_string = [&csg](std::string_view name,
+                                    std::string_view value) {
+    csg += name;
+    csg += " = \"";
+    csg += value;
+    csg += "\", ";
+  };
+  append_string("text", content);
+  append_number_field("size", number_or(arguments[kSize], 10.0), csg);
+  append_number_field("spacing", number_or(arguments[kSpacing], 1.0), csg);
+  append_string("font", string_or(arguments[kFont], ""));
+  append_string("direction", direction);
+  append_string("language", string_or(arguments[kLanguage], "en"));
+  if (!script.empty()) append_string("script", script);
+  append_string("halign", string_or(arguments[kHalign], "left"));
+  append_string("valign", string_or(arguments[kValign], "baseline"));
+  append_facets(facets, csg);
+  make_leaf("text", csg + ")", code, frame);
+}
+
+// --- surface ----------------------------------------------------------------
+
+void surface(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kFile, kCenter, kConvexity, kInvert };
+  const ModuleArguments arguments(code, frame);
+  const Value& file = arguments[kFile];
+  const std::string path =
+      find_file(file.is_undef() ? "" : to_text(file), code, frame);
+  const auto is_true = [&](std::size_t i) {
+    return arguments[i].is_bool() && arguments[i].as_bool() ? "true" : "false";
+  };
+  const int convexity =
+      arguments[kConvexity].is_number() ? to_int(arguments[kConvexity]) : 1;
+  std::string csg = "surface(file = " + relative_quoted(path, frame);
+  csg += fmt::format(", center = {}, invert = {}, convexity = {}, {})",
+                     is_true(kCenter), is_true(kInvert), convexity,
+                     timestamp_text(path));
+  make_leaf("surface", csg, code, frame);
+}
+
+// --- import -----------------------------------------------------------------
+
+bool ends_like(std::string path, std::string_view ending) {
+  std::transform(path.begin(), path.end(), path.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return path.ends_with(ending);
+}
+
+// A parameter, or its deprecated name.
+Value renamed(const Value& value, const Value& old, std::string_view old_name,
+              std::string_view name, Frame& frame) {
+  if (!value.is_undef() || old.is_undef()) return value;
+  frame.in.deprecate(
+      {}, fmt::format("{}= is deprecated. Please use {}=", old_name, name));
+  return old;
+}
+
+void import(const BuiltinModuleCode& code, Frame& frame) {
+  enum {
+    kFile,
+    kLayer,
+    kConvexity,
+    kOrigin,
+    kScale,
+    kWidth,
+    kHeight,
+    kFilename,
+    kLayername,
+    kCenter,
+    kDpi
+  };
+  const ModuleArguments arguments(code, frame);
+  const Value file = renamed(arguments[kFile], arguments[kFilename], "filename",
+                             "file", frame);
+  const std::string path =
+      find_file(file.is_undef() ? "" : to_text(file), code, frame);
+  const Value layer = renamed(arguments[kLayer], arguments[kLayername],
+                              "layername", "layer", frame);
+  const Value& origin = arguments[kOrigin];
+  const std::optional<Vec2> given = to_vec2(origin);
+  if (!origin.is_undef() &&
+      !(given && std::isfinite(given->x) && std::isfinite(given->y))) {
+    // The name is wrong in OpenSCAD, too.
+    frame.in.warn(code.range,
+                  fmt::format("linear_extrude(..., origin={}) could not be "
+                              "converted",
+                              to_echo(origin)));
+  }
+  const Vec2 shift = given.value_or(Vec2(0.0));
+  std::string csg = "import(file = " + relative_quoted(path, frame);
+  csg += ", layer = ";
+  append_quoted(layer.is_undef() ? "" : to_text(layer), csg);
+  csg += ", origin = [";
+  append_stream_number(shift.x, csg);
+  csg += ", ";
+  append_stream_number(shift.y, csg);
+  csg += "], ";
+  if (ends_like(path, ".svg") && code.name == "import") {
+    const bool center =
+        arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
+    csg += fmt::format("center = {}, ", center);
+    constexpr double kDefaultDpi = 72.0;
+    const double dpi = number_or(arguments[kDpi], kDefaultDpi);
+    append_number_field("dpi", dpi < 0.001 ? kDefaultDpi : dpi, csg);
+  }
+  const double scale = arguments[kScale].number_or_zero();
+  append_number_field("scale", scale <= 0 ? 1 : scale, csg);
+  csg += fmt::format("convexity = {}, ",
+                     std::max(to_int(arguments[kConvexity]), 1));
+  append_facets(current_facets(frame.in), csg);
+  make_leaf("import", csg + ", " + timestamp_text(path) + ")", code, frame);
+}
+
+}  // namespace
+
+std::vector<BuiltinModuleRow> file_rows() {
+  const std::vector<std::string_view> positional = {
+      "file", "layer", "convexity", "origin", "scale"};
+  const std::vector<std::string_view> optional = {
+      "width", "height", "filename", "layername", "center", "dpi"};
+  return {
+      {"text",
+       text,
+       {"text", "size", "font"},
+       {"direction", "language", "script", "halign", "valign", "spacing"}},
+      {"surface", surface, {"file", "center", "convexity"}, {"invert"}},
+      {"import", import, positional, optional},
+      {"import_stl", import, positional, optional, "import()"},
+      {"import_off", import, positional, optional, "import()"},
+      {"import_dxf", import, positional, optional, "import()"},
+  };
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,551 @@
+// Modules that do something to their children: transforms, Booleans, hull and
+// its kin, extrusions, offset, projection, color, render.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "csg/degrees.h"
+#include "csg/eval/builtin_modules.h"
+#include "csg/eval/colors.h"
+#include "csg/eval/conversions.h"
+#include "csg/eval/csg_printer.h"
+#include "csg/eval/files.h"
+#include "csg/eval/interpreter.h"
+#include "csg/eval/text.h"
+
+namespace lamina::csg {
+
+namespace {
+
+void warn(const BuiltinModuleCode& code, Frame& frame, std::string message) {
+  frame.in.warn(code.range, std::move(message));
+}
+
+// --- Booleans ---------------------------------------------------------------
+
+// Modules that do not look at their arguments, not even to evaluate them.
+template <typename Op>
+void plain_operation(const BuiltinModuleCode& code, Frame& frame) {
+  const std::size_t mark = frame.in.node_mark();
+  run_block(*code.block, frame);
+  frame.in.make_node(Op{}, code, mark);
+}
+
+// --- Transforms -------------------------------------------------------------
+
+// GLM's matrices are columns of rows.
+void set(Mat4& matrix, int row, int column, double value) {
+  matrix[column][row] = value;
+}
+
+Mat4 scale_matrix(const Value& v, const BuiltinModuleCode& code, Frame& frame) {
+  Vec3 factors(1.0);
+  if (!read_vec3(v, 1.0, factors)) {
+    if (v.is_number()) {
+      factors = Vec3(v.as_number());
+    } else {
+      warn(code, frame,
+           fmt::format("Unable to convert scale({}) parameter to a number, a "
+                       "vec3 or vec2 of numbers or a number",
+                       to_echo(v)));
+    }
+  }
+  const auto is_fine = [](double x) { return x != 0 && std::isfinite(x); };
+  if (frame.in.options().check_ranges &&
+      !(is_fine(factors.x) && is_fine(factors.y) && is_fine(factors.z))) {
+    warn(code, frame, fmt::format("scale({})", to_echo(v)));
+  }
+  Mat4 matrix(1.0);
+  for (int i = 0; i < 3; ++i) set(matrix, i, i, factors[i]);
+  return matrix;
+}
+
+// About x, then y, then z.
+Mat4 euler_matrix(const Value& a, const Value& v, const BuiltinModuleCode& code,
+                  Frame& frame) {
+  const std::span<const Value> angles = a.as_vector();
+  double sine[3] = {0, 0, 0};
+  double cosine[3] = {1, 1, 1};
+  bool is_fine = angles.size() <= 3;
+  double angle = 0;
+  for (std::size_t i = std::min<std::size_t>(angles.size(), 3); i-- > 0;) {
+    if (angles[i].is_number()) {
+      angle = angles[i].as_number();
+    } else {
+      is_fine = false;
+    }
+    if (!std::isfinite(angle)) is_fine = false;
+    sine[i] = sin_deg(angle);
+    cosine[i] = cos_deg(angle);
+  }
+  const bool has_axis = !v.is_undef();
+  if (is_fine && has_axis) {
+    warn(code, frame,
+         fmt::format("When parameter a is supplied as vector, v is ignored "
+                     "rotate(a={}, v={})",
+                     to_echo(a), to_echo(v)));
+  } else if (!is_fine && has_axis) {
+    warn(code, frame,
+         fmt::format("Problem converting rotate(a={}, v={}) parameter",
+                     to_echo(a), to_echo(v)));
+  } else if (!is_fine) {
+    warn(code, frame,
+         fmt::format("Problem converting rotate(a={}) parameter", to_echo(a)));
+  }
+  const auto [sx, sy, sz] = sine;
+  const auto [cx, cy, cz] = cosine;
+  Mat4 matrix(1.0);
+  set(matrix, 0, 0, cy * cz);
+  set(matrix, 0, 1, cz * sx * sy - cx * sz);
+  set(matrix, 0, 2, cx * cz * sy + sx * sz);
+  set(matrix, 1, 0, cy * sz);
+  set(matrix, 1, 1, cx * cz + sx * sy * sz);
+  set(matrix, 1, 2, -cz * sx + cx * sy * sz);
+  set(matrix, 2, 0, -sy);
+  set(matrix, 2, 1, cy * sx);
+  set(matrix, 2, 2, cx * cy);
+  return matrix;
+}
+
+// About an axis of any length, by Rodrigues' formula.
+Mat4 axis_matrix(double angle, const Vec3& v) {
+  Mat4 matrix(1.0);
+  const double squared = v.x * v.x + v.y * v.y + v.z * v.z;
+  if (!(squared > 0)) return matrix;
+  const double s = sin_deg(angle);
+  const double c = cos_deg(angle);
+  const Vec3 cv = v * ((1 - c) / squared);
+  const Vec3 us = v / std::sqrt(squared) * s;
+  set(matrix, 0, 0, cv.x * v.x + c);
+  set(matrix, 0, 1, cv.y * v.x - us.z);
+  set(matrix, 0, 2, cv.z * v.x + us.y);
+  set(matrix, 1, 0, cv.x * v.y + us.z);
+  set(matrix, 1, 1, cv.y * v.y + c);
+  set(matrix, 1, 2, cv.z * v.y - us.x);
+  set(matrix, 2, 0, cv.x * v.z - us.y);
+  set(matrix, 2, 1, cv.y * v.z + us.x);
+  set(matrix, 2, 2, cv.z * v.z + c);
+  return matrix;
+}
+
+Mat4 rotation_matrix(const Value& a, const Value& v,
+                     const BuiltinModuleCode& code, Frame& frame) {
+  if (a.is_vector()) return euler_matrix(a, v, code, frame);
+  const std::optional<double> angle = to_finite(a);
+  Vec3 axis(0, 0, 1);
+  const bool has_axis = read_vec3(v, 0.0, axis);
+  if (!v.is_undef() && !has_axis) {
+    warn(code, frame,
+         angle ? fmt::format("Problem converting rotate(..., v={}) parameter",
+                             to_echo(v))
+               : fmt::format("Problem converting rotate(a={}, v={}) parameter",
+                             to_echo(a), to_echo(v)));
+  } else if (!angle) {
+    warn(code, frame,
+         fmt::format("Problem converting rotate(a={}) parameter", to_echo(a)));
+  }
+  return axis_matrix(angle.value_or(0.0), axis);
+}
+
+Mat4 mirror_matrix(const Value& v, const BuiltinModuleCode& code,
+                   Frame& frame) {
+  Vec3 n(1, 0, 0);
+  if (!read_vec3(v, 0.0, n)) {
+    warn(code, frame,
+         fmt::format("Unable to convert mirror({}) parameter to "
+                     "a vec3 or vec2 of numbers",
+                     to_echo(v)));
+  }
+  Mat4 matrix(1.0);
+  if (n == Vec3(0.0)) return matrix;
+  const double squared = n.x * n.x + n.y * n.y + n.z * n.z;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const double outer = row == column ? 1.0 : 0.0;
+      set(matrix, row, column,
+          row == column ? outer - 2 * n[row] * n[row] / squared
+                        : -2 * n[column] * n[row] / squared);
+    }
+  }
+  return matrix;
+}
+
+Mat4 translation_matrix(const Value& v, const BuiltinModuleCode& code,
+                        Frame& frame) {
+  Vec3 shift(0.0);
+  const bool is_fine = read_vec3(v, 0.0, shift) && std::isfinite(shift.x) &&
+                       std::isfinite(shift.y) && std::isfinite(shift.z);
+  Mat4 matrix(1.0);
+  if (!is_fine) {
+    warn(code, frame,
+         fmt::format("Unable to convert translate({}) parameter "
+                     "to a vec3 or vec2 of numbers",
+                     to_echo(v)));
+    return matrix;
+  }
+  for (int i = 0; i < 3; ++i) set(matrix, i, 3, shift[i]);
+  return matrix;
+}
+
+// What the rows give, in an identity; divided by the last element.
+Mat4 given_matrix(const Value& m) {
+  Mat4 matrix(1.0);
+  if (!m.is_vector()) return matrix;
+  const std::span<const Value> rows = m.as_vector();
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 4); ++i) {
+    const std::span<const Value> row = rows[i].elements();
+    for (std::size_t j = 0; j < std::min<std::size_t>(row.size(), 4); ++j) {
+      if (row[j].is_number()) {
+        set(matrix, static_cast<int>(i), static_cast<int>(j),
+            row[j].as_number());
+      }
+    }
+  }
+  const double w = matrix[3][3];
+  if (w != 1.0) {
+    for (int i = 0; i < 4; ++i) matrix[i] /= w;
+  }
+  return matrix;
+}
+
+enum class TransformKind { kScale, kRotate, kMirror, kTranslate, kMatrix };
+
+template <TransformKind kind>
+void transform(const BuiltinModuleCode& code, Frame& frame) {
+  Interpreter& in = frame.in;
+  const std::size_t mark = in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_assignments(*code.block, frame);
+  Mat4 matrix;
+  switch (kind) {
+    case TransformKind::kScale:
+      matrix = scale_matrix(arguments[0], code, frame);
+      break;
+    case TransformKind::kRotate:
+      matrix = rotation_matrix(arguments[0], arguments[1], code, frame);
+      break;
+    case TransformKind::kMirror:
+      matrix = mirror_matrix(arguments[0], code, frame);
+      break;
+    case TransformKind::kTranslate:
+      matrix = translation_matrix(arguments[0], code, frame);
+      break;
+    case TransformKind::kMatrix:
+      matrix = given_matrix(arguments[0]);
+      break;
+  }
+  run_statements(*code.block, frame);
+  in.make_node(Transform{in.keep(matrix)}, code, mark);
+}
+
+// --- color, render ----------------------------------------------------------
+
+void color(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kColor, kAlpha };
+  Interpreter& in = frame.in;
+  const std::size_t mark = in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_assignments(*code.block, frame);
+  // OpenSCAD keeps colors in single precision; -1 stands for "none".
+  float rgba[4] = {-1, -1, -1, 1};
+  const Value& given = arguments[kColor];
+  if (given.is_vector()) {
+    const std::span<const Value> parts = given.as_vector();
+    for (std::size_t i = 0; i < 4; ++i) {
+      rgba[i] = i < parts.size() ? static_cast<float>(parts[i].number_or_zero())
+                                 : 1.0F;
+      if (rgba[i] > 1 || rgba[i] < 0) {
+        warn(code, frame,
+             fmt::format("color() expects numbers between 0.0 and 1.0. Value "
+                         "of {:.1f} is out of range",
+                         rgba[i]));
+      }
+    }
+  } else if (given.is_string()) {
+    std::string name(given.as_string());
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    if (const auto found = find_color(name)) {
+      std::copy(found->begin(), found->end(), rgba);
+    } else {
+      warn(code, frame, fmt::format("Unable to parse color \"{}\"", name));
+      in.note("Please see https://en.wikipedia.org/wiki/Web_colors");
+    }
+  }
+  if (arguments[kAlpha].is_number()) {
+    rgba[3] = static_cast<float>(arguments[kAlpha].as_number());
+  }
+  run_statements(*code.block, frame);
+  in.make_node(Color{Vec4(rgba[0], rgba[1], rgba[2], rgba[3])}, code, mark);
+}
+
+void render(const BuiltinModuleCode& code, Frame& frame) {
+  const std::size_t mark = frame.in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_block(*code.block, frame);
+  Render render;
+  render.convexity = arguments[0].is_number() ? to_int(arguments[0]) : 1;
+  frame.in.make_node(render, code, mark);
+}
+
+// --- hull, minkowski, resize ------------------------------------------------
+
+void hull(const BuiltinModuleCode& code, Frame& frame) {
+  const std::size_t mark = frame.in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_block(*code.block, frame);
+  frame.in.make_node(Hull{}, code, mark);
+}
+
+void minkowski(const BuiltinModuleCode& code, Frame& frame) {
+  const std::size_t mark = frame.in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_block(*code.block, frame);
+  frame.in.make_node(Minkowski{to_int(arguments[0])}, code, mark);
+}
+
+void resize(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kNewSize, kAuto, kConvexity };
+  const std::size_t mark = frame.in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  Resize resize{Vec3(0.0), {}, to_int(arguments[kConvexity])};
+  const std::span<const Value> sizes = arguments[kNewSize].elements();
+  for (std::size_t i = 0; i < std::min<std::size_t>(sizes.size(), 3); ++i) {
+    resize.new_size[static_cast<int>(i)] = sizes[i].number_or_zero();
+  }
+  const Value& automatic = arguments[kAuto];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::span<const Value> flags = automatic.elements();
+    if (i < flags.size()) resize.auto_size[i] = flags[i].is_true();
+    if (automatic.is_bool()) resize.auto_size[i] = automatic.as_bool();
+  }
+  run_block(*code.block, frame);
+  frame.in.make_node(resize, code, mark);
+}
+
+// --- From 2D to 3D and back -------------------------------------------------
+
+void projection(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kCut, kConvexity };
+  const std::size_t mark = frame.in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  Projection projection;
+  projection.cut = arguments[kCut].is_bool() && arguments[kCut].as_bool();
+  projection.convexity = to_int(arguments[kConvexity]);
+  run_block(*code.block, frame);
+  frame.in.make_node(projection, code, mark);
+}
+
+void offset(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kR, kDelta, kChamfer };
+  const std::size_t mark = frame.in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_assignments(*code.block, frame);
+  Offset offset;
+  offset.facets = current_facets(frame.in);
+  offset.amount = 1;
+  if (arguments[kR].is_number()) {
+    offset.amount = arguments[kR].as_number();
+  } else if (arguments[kDelta].is_number()) {
+    offset.amount = arguments[kDelta].as_number();
+    offset.is_delta = true;
+    offset.chamfer =
+        arguments[kChamfer].is_bool() && arguments[kChamfer].as_bool();
+  }
+  run_statements(*code.block, frame);
+  frame.in.make_node(offset, code, mark);
+}
+
+// The deprecated origin=, scale= of extrusions.
+Vec2 read_origin(const Value& origin, const BuiltinModuleCode& code,
+                 Frame& frame) {
+  const std::optional<Vec2> given = to_vec2(origin);
+  const bool is_fine =
+      given && std::isfinite(given->x) && std::isfinite(given->y);
+  if (!origin.is_undef() && !is_fine) {
+    warn(code, frame,
+         fmt::format("{}(..., origin={}) could not be converted",
+                     code.name == "dxf_linear_extrude"   ? "linear_extrude"
+                     : code.name == "dxf_rotate_extrude" ? "rotate_extrude"
+                                                         : code.name,
+                     to_echo(origin)));
+  }
+  return given.value_or(Vec2(0.0));
+}
+
+Vec2 read_extrusion_scale(const Value& scale, const Value& origin,
+                          const BuiltinModuleCode& code, Frame& frame) {
+  Vec2 factors(1.0);
+  bool is_fine = true;
+  if (const std::optional<double> number = to_finite(scale)) {
+    factors = Vec2(*number);
+  } else if (const std::optional<Vec2> pair = to_vec2(scale);
+             pair && std::isfinite(pair->x) && std::isfinite(pair->y)) {
+    factors = *pair;
+  } else {
+    is_fine = false;
+  }
+  // OpenSCAD asks for the origin here, not for the scale.
+  if (!origin.is_undef() && !is_fine) {
+    warn(code, frame,
+         fmt::format("linear_extrude(..., scale={}) could not be converted",
+                     to_echo(scale)));
+  }
+  return Vec2(std::max(factors.x, 0.0), std::max(factors.y, 0.0));
+}
+
+void append_file_start(const Value& file, const Value& layer,
+                       const Vec2& origin, const BuiltinModuleCode& code,
+                       Frame& frame, std::string& text) {
+  const std::string path = find_file(to_text(file), code, frame);
+  text += "file = " + relative_quoted(path, frame);
+  text += ", layer = ";
+  append_quoted(layer.is_undef() ? "" : to_text(layer), text);
+  text += ", origin = [";
+  append_stream_number(origin.x, text);
+  text += ", ";
+  append_stream_number(origin.y, text);
+  text += "], ";
+}
+
+void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
+  enum {
+    kFile,
+    kLayer,
+    kHeight,
+    kOrigin,
+    kScale,
+    kCenter,
+    kTwist,
+    kSlices,
+    kConvexity
+  };
+  Interpreter& in = frame.in;
+  const std::size_t mark = in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_assignments(*code.block, frame);
+  LinearExtrudeParams params;
+  params.facets = current_facets(in);
+  const Value& file = arguments[kFile];
+  std::string file_text;
+  if (file.is_string()) {
+    in.deprecate({},
+                 "Support for reading files in linear_extrude will be removed "
+                 "in future releases. Use a child import() instead.");
+  }
+  if (!arguments[kHeight].is_undef()) {
+    params.height = to_finite(arguments[kHeight]).value_or(params.height);
+  } else if (code.late_argument != nullptr) {
+    const Value height = run(code.late_argument, frame);
+    params.height = to_finite(height).value_or(params.height);
+  }
+  params.height = std::max(params.height, 0.0);
+  params.convexity = std::max(
+      to_finite(arguments[kConvexity]) ? to_int(arguments[kConvexity]) : 1, 1);
+  const Vec2 origin = read_origin(arguments[kOrigin], code, frame);
+  params.scale =
+      read_extrusion_scale(arguments[kScale], arguments[kOrigin], code, frame);
+  params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
+  if (to_finite(arguments[kSlices])) {
+    params.slices = std::max(to_int(arguments[kSlices]), 0);
+  }
+  params.twist_deg = to_finite(arguments[kTwist]).value_or(0.0);
+  params.has_twist = params.twist_deg != 0.0;
+  if (file.is_string() && !file.as_string().empty()) {
+    append_file_start(file, arguments[kLayer], origin, code, frame, file_text);
+    file_text += timestamp_text(find_file(to_text(file), code, frame)) + ", ";
+    std::string text = "linear_extrude(" + file_text;
+    append_linear_extrude(params, text);
+    in.make_node(Unsupported{"linear_extrude", in.keep_text(text + ")")}, code,
+                 mark);
+    return;
+  }
+  run_statements(*code.block, frame);
+  in.make_node(LinearExtrude{in.keep(params)}, code, mark);
+}
+
+void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
+  Interpreter& in = frame.in;
+  const std::size_t mark = in.node_mark();
+  const ModuleArguments arguments(code, frame);
+  run_assignments(*code.block, frame);
+  RotateExtrude extrude;
+  extrude.facets = current_facets(in);
+  const Value& file = arguments[kFile];
+  if (!file.is_undef()) {
+    in.deprecate({},
+                 "Support for reading files in rotate_extrude will be removed "
+                 "in future releases. Use a child import() instead.");
+  }
+  extrude.convexity = to_int(arguments[kConvexity]);
+  if (extrude.convexity <= 0) extrude.convexity = 2;
+  const Vec2 origin = read_origin(arguments[kOrigin], code, frame);
+  extrude.angle_deg = to_finite(arguments[kAngle]).value_or(360.0);
+  if (extrude.angle_deg <= -360 || extrude.angle_deg > 360) {
+    extrude.angle_deg = 360;
+  }
+  if (!file.is_undef() && !to_text(file).empty()) {
+    std::string text = "rotate_extrude(";
+    append_file_start(file, arguments[kLayer], origin, code, frame, text);
+    const double scale = arguments[kScale].number_or_zero();
+    text += "scale = ";
+    append_stream_number(scale <= 0 ? 1 : scale, text);
+    text += ", " + timestamp_text(find_file(to_text(file), code, frame)) + ", ";
+    append_rotate_extrude(extrude, text);
+    in.make_node(Unsupported{"rotate_extrude", in.keep_text(text + ")")}, code,
+                 mark);
+    return;
+  }
+  run_statements(*code.block, frame);
+  in.make_node(extrude, code, mark);
+}
+
+}  // namespace
+
+std::vector<BuiltinModuleRow> operation_rows() {
+  return {
+      {"group", plain_operation<Group>, {}},
+      {"union", plain_operation<Union>, {}},
+      {"difference", plain_operation<Difference>, {}},
+      {"intersection", plain_operation<Intersection>, {}},
+      {"scale", transform<TransformKind::kScale>, {"v"}},
+      {"rotate", transform<TransformKind::kRotate>, {"a", "v"}},
+      {"mirror", transform<TransformKind::kMirror>, {"v"}},
+      {"translate", transform<TransformKind::kTranslate>, {"v"}},
+      {"multmatrix", transform<TransformKind::kMatrix>, {"m"}},
+      {"color", color, {"c", "alpha"}},
+      {"render", render, {"convexity"}},
+      {"hull", hull, {}},
+      {"minkowski", minkowski, {"convexity"}},
+      {"resize", resize, {"newsize", "auto", "convexity"}},
+      {"projection", projection, {"cut"}, {"convexity"}},
+      {"offset", offset, {"r"}, {"delta", "chamfer"}},
+      {"linear_extrude",
+       linear_extrude,
+       {"file", "layer", "height", "origin", "scale", "center", "twist",
+        "slices"},
+       {"convexity"}},
+      {"dxf_linear_extrude",
+       linear_extrude,
+       {"file", "layer", "height", "origin", "scale", "center", "twist",
+        "slices"},
+       {"convexity"},
+       "linear_extrude()"},
+      {"rotate_extrude",
+       rotate_extrude,
+       {"file", "layer", "origin", "scale"},
+       {"convexity", "angle"}},
+      {"dxf_rotate_extrude",
+       rotate_extrude,
+       {"file", "layer", "origin", "scale"},
+       {"convexity", "angle"},
+       "rotate_extrude()"},
+  };
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,313 @@
+// cube, sphere, cylinder, polyhedron, square, circle, polygon.
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "csg/eval/builtin_modules.h"
+#include "csg/eval/conversions.h"
+#include "csg/eval/interpreter.h"
+#include "csg/eval/text.h"
+
+namespace lamina::csg {
+
+namespace {
+
+void warn(const BuiltinModuleCode& code, Frame& frame, std::string message) {
+  frame.in.warn(code.range, std::move(message));
+}
+
+void refuse_children(const BuiltinModuleCode& code, Frame& frame) {
+  if (code.block->statements.empty()) return;
+  warn(code, frame,
+       fmt::format("module {}() does not support child modules", code.name));
+}
+
+// `$fn $fa $fs`, the last two clamped.
+Facets clamped_facets(const BuiltinModuleCode& code, Frame& frame) {
+  constexpr double kLeast = 0.01;
+  Facets facets = current_facets(frame.in);
+  const auto clamp = [&](double& value, const char* name) {
+    if (!(value < kLeast)) return;
+    warn(code, frame,
+         fmt::format("{} too small - clamping to {:f}", name, kLeast));
+    value = kLeast;
+  };
+  clamp(facets.fs, "$fs");
+  clamp(facets.fa, "$fa");
+  return facets;
+}
+
+void make_leaf(decltype(Node::op) op, const BuiltinModuleCode& code,
+               Frame& frame) {
+  frame.in.make_node(std::move(op), code, frame.in.node_mark());
+}
+
+bool is_true(const Value& value) { return value.is_bool() && value.as_bool(); }
+
+// Radius from a diameter, which goes first, or a radius; undef if neither.
+Value radius(const Value& d, const Value& r, std::string_view d_name,
+             std::string_view r_name, const BuiltinModuleCode& code,
+             Frame& frame) {
+  if (!d.is_number()) return r.is_number() ? r : Value();
+  if (r.is_number()) {
+    warn(code, frame,
+         fmt::format("Ignoring radius variable '{}' as diameter '{}' is "
+                     "defined too.",
+                     r_name, d_name));
+  }
+  return Value(d.as_number() / 2.0);
+}
+
+bool is_positive(double x) { return x > 0 && std::isfinite(x); }
+
+// --- 3D ---------------------------------------------------------------------
+
+void cube(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kSize, kCenter };
+  refuse_children(code, frame);
+  const ModuleArguments arguments(code, frame);
+  clamped_facets(code, frame);
+  Cube cube;
+  const Value& size = arguments[kSize];
+  if (!size.is_undef()) {
+    const bool is_number = size.is_number();
+    if (is_number) cube.size = Vec3(size.as_number());
+    const bool is_vector =
+        size.elements().size() == 3 && read_vec3(size, 0.0, cube.size);
+    if (!is_number && !is_vector) {
+      warn(code, frame,
+           fmt::format("Unable to convert cube(size={}, ...) parameter to a "
+                       "number or a vec3 of numbers",
+                       to_echo(size)));
+    } else if (frame.in.options().check_ranges &&
+               !(is_positive(cube.size.x) && is_positive(cube.size.y) &&
+                 is_positive(cube.size.z))) {
+      warn(code, frame, fmt::format("cube(size={}, ...)", to_echo(size)));
+    }
+  }
+  cube.center = is_true(arguments[kCenter]);
+  make_leaf(cube, code, frame);
+}
+
+void sphere(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kR, kD };
+  refuse_children(code, frame);
+  const ModuleArguments arguments(code, frame);
+  Sphere sphere;
+  sphere.facets = clamped_facets(code, frame);
+  const Value r = radius(arguments[kD], arguments[kR], "d", "r", code, frame);
+  if (r.is_number()) {
+    sphere.r = r.as_number();
+    if (frame.in.options().check_ranges && !is_positive(sphere.r)) {
+      warn(code, frame, fmt::format("sphere(r={})", to_echo(r)));
+    }
+  }
+  make_leaf(sphere, code, frame);
+}
+
+void check_cylinder(const Cylinder& cylinder, const Value& h, const Value& r1,
+                    const Value& r2, const BuiltinModuleCode& code,
+                    Frame& frame) {
+  if (!is_positive(cylinder.h)) {
+    warn(code, frame, fmt::format("cylinder(h={}, ...)", to_echo(h)));
+  }
+  const bool is_fine = cylinder.r1 >= 0 && cylinder.r2 >= 0 &&
+                       !(cylinder.r1 == 0 && cylinder.r2 == 0) &&
+                       std::isfinite(cylinder.r1) && std::isfinite(cylinder.r2);
+  if (!is_fine) {
+    warn(code, frame,
+         fmt::format("cylinder(r1={}, r2={}, ...)", to_echo(r1), to_echo(r2)));
+  }
+}
+
+void cylinder(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kH, kR1, kR2, kCenter, kR, kD, kD1, kD2 };
+  refuse_children(code, frame);
+  const ModuleArguments arguments(code, frame);
+  Cylinder cylinder;
+  cylinder.facets = clamped_facets(code, frame);
+  if (arguments[kH].is_number()) cylinder.h = arguments[kH].as_number();
+  const Value r = radius(arguments[kD], arguments[kR], "d", "r", code, frame);
+  const Value r1 =
+      radius(arguments[kD1], arguments[kR1], "d1", "r1", code, frame);
+  const Value r2 =
+      radius(arguments[kD2], arguments[kR2], "d2", "r2", code, frame);
+  if (r.is_number() && (r1.is_number() || r2.is_number())) {
+    warn(code, frame, "Cylinder parameters ambiguous");
+  }
+  if (r.is_number()) cylinder.r1 = cylinder.r2 = r.as_number();
+  if (r1.is_number()) cylinder.r1 = r1.as_number();
+  if (r2.is_number()) cylinder.r2 = r2.as_number();
+  if (frame.in.options().check_ranges) {
+    check_cylinder(cylinder, arguments[kH], r1.is_number() ? r1 : r,
+                   r2.is_number() ? r2 : r, code, frame);
+  }
+  cylinder.center = is_true(arguments[kCenter]);
+  make_leaf(cylinder, code, frame);
+}
+
+// An index as geometry uses it; whatever cannot be one is the largest number,
+// which is out of bounds everywhere.
+std::uint32_t to_index(const Value& value) {
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  const double number = value.number_or_zero();
+  return number > -1 && number < kNone ? static_cast<std::uint32_t>(number)
+                                       : kNone;
+}
+bool is_plain_index(const Value& value) {
+  return value.is_number() && value.as_number() == to_index(value) &&
+         !std::signbit(value.as_number());
+}
+
+using IndexLists = std::span<const std::span<const std::uint32_t>>;
+
+// Faces or paths. `is_plain` turns false where the numbers alone do not tell
+// what was written.
+IndexLists to_index_lists(const Value& value, Interpreter& in, bool& is_plain) {
+  std::vector<std::span<const std::uint32_t>> lists;
+  if (!value.is_vector()) is_plain = false;
+  for (const Value& list : value.elements()) {
+    if (!list.is_vector()) is_plain = false;
+    std::vector<std::uint32_t> indices;
+    for (const Value& index : list.elements()) {
+      if (!is_plain_index(index)) is_plain = false;
+      indices.push_back(to_index(index));
+    }
+    lists.push_back(in.keep_all<std::uint32_t>(indices));
+  }
+  return in.keep_all<std::span<const std::uint32_t>>(lists);
+}
+
+int at_least_one(int convexity) { return convexity < 1 ? 1 : convexity; }
+
+void polyhedron(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kPoints, kFaces, kConvexity, kTriangles };
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  refuse_children(code, frame);
+  Interpreter& in = frame.in;
+  const ModuleArguments arguments(code, frame);
+  clamped_facets(code, frame);
+  Value faces = arguments[kFaces];
+  if (faces.is_undef() && !arguments[kTriangles].is_undef()) {
+    faces = arguments[kTriangles];
+    in.deprecate({},
+                 "polyhedron(triangles=[]) will be removed in future "
+                 "releases. Use polyhedron(faces=[]) instead.");
+  }
+  Polyhedron polyhedron;
+  bool is_plain = arguments[kPoints].is_vector();
+  std::vector<Vec3> points;
+  for (const Value& point : arguments[kPoints].elements()) {
+    const std::optional<Vec3> given = to_vec3(point, 0.0);
+    if (point.elements().size() != 3 || !given) is_plain = false;
+    points.push_back(given ? *given : Vec3(kNoNumber));
+  }
+  polyhedron.points = in.keep_all<Vec3>(points);
+  polyhedron.faces = to_index_lists(faces, in, is_plain);
+  polyhedron.convexity = at_least_one(to_int(arguments[kConvexity]));
+  if (!is_plain) {
+    polyhedron.csg_text =
+        in.keep_text("points = " + to_echo(arguments[kPoints]) +
+                     ", faces = " + to_echo(faces));
+  }
+  make_leaf(polyhedron, code, frame);
+}
+
+// --- 2D ---------------------------------------------------------------------
+
+void square(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kSize, kCenter };
+  refuse_children(code, frame);
+  const ModuleArguments arguments(code, frame);
+  clamped_facets(code, frame);
+  Square square;
+  const Value& size = arguments[kSize];
+  if (!size.is_undef()) {
+    const bool is_number = size.is_number();
+    if (is_number) square.size = Vec2(size.as_number());
+    const std::optional<Vec2> given = to_vec2(size);
+    if (given) square.size = *given;
+    if (!is_number && !given) {
+      warn(code, frame,
+           fmt::format("Unable to convert square(size={}, ...) parameter to a "
+                       "number or a vec2 of numbers",
+                       to_echo(size)));
+    } else if (frame.in.options().check_ranges &&
+               !(is_positive(square.size.x) && is_positive(square.size.y))) {
+      warn(code, frame, fmt::format("square(size={}, ...)", to_echo(size)));
+    }
+  }
+  square.center = is_true(arguments[kCenter]);
+  make_leaf(square, code, frame);
+}
+
+void circle(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kR, kD };
+  refuse_children(code, frame);
+  const ModuleArguments arguments(code, frame);
+  Circle circle;
+  circle.facets = clamped_facets(code, frame);
+  const Value r = radius(arguments[kD], arguments[kR], "d", "r", code, frame);
+  if (r.is_number()) {
+    circle.r = r.as_number();
+    if (frame.in.options().check_ranges && !is_positive(circle.r)) {
+      warn(code, frame, fmt::format("circle(r={})", to_echo(r)));
+    }
+  }
+  make_leaf(circle, code, frame);
+}
+
+void polygon(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kPoints, kPaths, kConvexity };
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  refuse_children(code, frame);
+  Interpreter& in = frame.in;
+  const ModuleArguments arguments(code, frame);
+  clamped_facets(code, frame);
+  Polygon polygon;
+  bool is_plain = arguments[kPoints].is_vector();
+  std::vector<Vec2> points;
+  for (const Value& point : arguments[kPoints].elements()) {
+    const std::optional<Vec2> given = to_vec2(point);
+    if (!given) is_plain = false;
+    points.push_back(given ? *given : Vec2(kNoNumber));
+  }
+  polygon.points = in.keep_all<Vec2>(points);
+  const Value& paths = arguments[kPaths];
+  if (!paths.elements().empty()) {
+    polygon.paths = to_index_lists(paths, in, is_plain);
+  } else if (!paths.is_undef()) {
+    is_plain = false;
+  }
+  polygon.convexity = at_least_one(to_int(arguments[kConvexity]));
+  if (!is_plain) {
+    polygon.csg_text = in.keep_text("points = " + to_echo(arguments[kPoints]) +
+                                    ", paths = " + to_echo(paths));
+  }
+  make_leaf(polygon, code, frame);
+}
+
+}  // namespace
+
+std::vector<BuiltinModuleRow> primitive_rows() {
+  return {
+      {"cube", cube, {"size", "center"}},
+      {"sphere", sphere, {"r"}, {"d"}},
+      {"cylinder",
+       cylinder,
+       {"h", "r1", "r2", "center"},
+       {"r", "d", "d1", "d2"}},
+      {"polyhedron",
+       polyhedron,
+       {"points", "faces", "convexity"},
+       {"triangles"}},
+      {"square", square, {"size", "center"}},
+      {"circle", circle, {"r"}, {"d"}},
+      {"polygon", polygon, {"points", "paths", "convexity"}},
+  };
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,14 @@
+#pragma once
+// Names of colors: those of CSS Color Module Level 4, and hexadecimal forms.
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace lamina::csg {
+
+// Red, green, blue, alpha in 0…1, in OpenSCAD's single precision. `name` in
+// lower case, or #rgb, #rgba, #rrggbb, #rrggbbaa, or "transparent".
+std::optional<std::array<float, 4>> find_color(std::string_view name);
+
+}  // namespace lamina::csg

@@ -1,0 +1,56 @@
+#pragma once
+// From syntax tree to CSG tree: evaluation of OpenSCAD programs.
+//
+// Names are resolved to slots first (resolver.h), functions and modules when
+// they are called for the first time; then the resolved code runs (code.h,
+// interpreter.h) and makes the nodes of the CSG tree as it goes.
+//
+// The rules are those of OpenSCAD 2021.01, oddities included: assignments
+// before instantiations, the last value of a name at its first place, `$`
+// variables of dynamic scope, arguments evaluated in the order of OpenSCAD's
+// hash table, the variables of a used file assigned anew for each call from
+// outside. Messages are its own, word for word.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "csg/tree.h"
+#include "parser/ast.h"
+#include "parser/diagnostic.h"
+
+namespace lamina {
+class Loader;
+}
+
+namespace lamina::csg {
+
+struct EvaluateOptions {
+  bool preview = true;     // $preview
+  double time = 0;         // $t
+  std::uint32_t seed = 0;  // of rands() without a seed
+  // C++ stack that evaluation may use below the caller's frame. Recursion
+  // costs about 400 bytes a call; where the stack ends, so does the evaluation,
+  // with OpenSCAD's error. Callers should run evaluate() on a thread with a
+  // large stack and say so here.
+  std::size_t stack_bytes = std::size_t{6} << 20;
+  // Numbers outside their range (`--check-parameter-ranges`) are warned of.
+  bool check_ranges = false;
+};
+
+// Evaluates a program.
+//
+// loader       knows the used files of `program`; outlives the call
+// diagnostics  gets echoes, warnings and the error that ended the evaluation
+//              early (failed assertion, endless recursion), if one did
+// returns      the tree, rooted in the implicit group of the top level. After
+//              an error it is empty. If instantiations carry `!`, those nodes
+//              say is_root; select_root() applies it.
+// throws       what `diagnostics` throws under hard warnings
+Tree evaluate(const ast::Program& program, const Loader& loader,
+              const EvaluateOptions& options, Diagnostics& diagnostics);
+
+// The node that `!` selects: the first one of the tree that carries it, else
+// the root. Warns where a second instantiation carries it as well.
+const Node* select_root(const Tree& tree, Diagnostics& diagnostics);
+
+}  // namespace lamina::csg

@@ -1,0 +1,24 @@
+#pragma once
+// Files that modules name: where they are, and how `.csg` shows them.
+
+#include <string>
+#include <string_view>
+
+#include "csg/eval/code.h"
+#include "csg/eval/interpreter.h"
+
+namespace lamina::csg {
+
+// Absolute path of the file `name` as a module call means it: from the folder
+// of the file that holds the call or, deprecated, from the design's folder.
+// Empty for an empty name. The file need not exist.
+std::string find_file(std::string_view name, const BuiltinModuleCode& code,
+                      Frame& frame);
+
+// The path relative to the design's folder, quoted.
+std::string relative_quoted(const std::string& path, Frame& frame);
+
+// "timestamp = " and the seconds of the last change, 0 if there is no file.
+std::string timestamp_text(const std::string& path);
+
+}  // namespace lamina::csg

@@ -1,0 +1,220 @@
+#include "csg/eval/interpreter.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "csg/eval/resolver.h"
+
+namespace lamina::csg {
+
+void EvaluationFailure::note_call(std::string_view name, SourceRange range) {
+  if (calls_to_note == 0) return;
+  --calls_to_note;
+  diagnostic.notes.push_back({range, fmt::format("called by '{}'", name)});
+}
+
+namespace {
+std::uintptr_t lowest_stack(std::size_t bytes) {
+  // What building a message needs below the last frame that passed the check.
+  constexpr std::size_t kReserve = 64 << 10;
+  const auto here =
+      reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  const std::size_t usable = bytes > 2 * kReserve ? bytes - kReserve : kReserve;
+  return here > usable ? here - usable : 0;
+}
+}  // namespace
+
+Interpreter::Interpreter(Resolver& resolver, const EvaluateOptions& options,
+                         Diagnostics& diagnostics,
+                         std::pmr::monotonic_buffer_resource& arena)
+    : random(options.seed),
+      resolver_(resolver),
+      options_(options),
+      diagnostics_(diagnostics),
+      arena_(arena),
+      stack_limit_(lowest_stack(options.stack_bytes)) {}
+
+// Boxes in cycles die here: empty each, and the closures inside let go.
+Interpreter::~Interpreter() {
+  while (boxes_.next != nullptr) {
+    Box* box = boxes_.next;
+    {
+      const Value let_go = std::move(box->value);
+      box->value = Value();
+    }
+    if (boxes_.next != box) continue;
+    // Still held by someone: take it out of the list only.
+    boxes_.next = box->next;
+    if (box->next != nullptr) box->next->previous = &boxes_;
+    box->previous = box->next = nullptr;
+  }
+}
+
+// --- Messages ---------------------------------------------------------------
+
+void Interpreter::warn(SourceRange range, std::string message) {
+  ++effects_;
+  diagnostics_.warning(range, std::move(message));
+}
+
+// Once for each place and text.
+void Interpreter::deprecate(SourceRange range, std::string message) {
+  ++effects_;
+  std::string place = "-";
+  if (range.is_known()) {
+    place = fmt::format("{}:{}", range.source->path(),
+                        range.source->line_column(range.begin).line);
+  }
+  if (!deprecations_.emplace(std::move(place), message).second) return;
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::kDeprecated;
+  diagnostic.range = range;
+  diagnostic.message = std::move(message);
+  diagnostics_.report(std::move(diagnostic));
+}
+
+void Interpreter::echo(std::string text) {
+  ++effects_;
+  diagnostics_.echo(std::move(text));
+}
+
+void Interpreter::note(std::string text) {
+  ++effects_;
+  diagnostics_.warning({}, std::move(text));
+}
+
+void Interpreter::fail(SourceRange range, std::string message) {
+  EvaluationFailure failure;
+  failure.diagnostic.severity = Severity::kError;
+  failure.diagnostic.range = range;
+  failure.diagnostic.message = std::move(message);
+  throw failure;
+}
+
+void Interpreter::fail_recursion(SourceRange range, std::string_view kind,
+                                 std::string_view name) {
+  fail(range, fmt::format("Recursion detected calling {} '{}'", kind, name));
+}
+
+// --- Variables --------------------------------------------------------------
+
+void Interpreter::grow_dynamic() {
+  if (dynamic_.size() < resolver_.dynamic_count()) {
+    dynamic_.resize(resolver_.dynamic_count(), Value::unset());
+  }
+}
+
+void Interpreter::bind_dynamic(std::uint32_t index, Value value) {
+  dynamic_[index].swap(value);
+  trail_.push_back({index, std::move(value)});
+}
+
+void Interpreter::rebind_dynamic(std::uint32_t index, Value value,
+                                 std::size_t mark) {
+  for (std::size_t i = trail_.size(); i > mark; --i) {
+    if (trail_[i - 1].index == index) {
+      dynamic_[index] = std::move(value);
+      return;
+    }
+  }
+  bind_dynamic(index, std::move(value));
+}
+
+void Interpreter::unwind_trail(std::size_t mark) {
+  while (trail_.size() > mark) {
+    dynamic_[trail_.back().index] = std::move(trail_.back().value);
+    trail_.pop_back();
+  }
+}
+
+void Interpreter::assign(const Target& target, Value value, Frame& frame) {
+  switch (target.kind) {
+    case Target::Kind::kSlot:
+      if (target.variable != nullptr && target.variable->is_boxed) {
+        frame.slots[target.index].as_box().value = std::move(value);
+      } else {
+        frame.slots[target.index] = std::move(value);
+      }
+      return;
+    case Target::Kind::kDynamic:
+      bind_dynamic(target.index, std::move(value));
+      return;
+    case Target::Kind::kNowhere:
+      return;
+  }
+}
+
+void Interpreter::bind_module_depth() {
+  const std::int64_t index = resolver_.find_dynamic("$parent_modules");
+  if (index < 0) return;
+  bind_dynamic(static_cast<std::uint32_t>(index),
+               Value(static_cast<double>(module_names.size())));
+}
+
+Value Interpreter::make_box() {
+  auto* box = new Box;
+  box->previous = &boxes_;
+  box->next = boxes_.next;
+  if (box->next != nullptr) box->next->previous = box;
+  boxes_.next = box;
+  return Value::adopt(Type::kBox, box, 0);
+}
+
+void Interpreter::find_plan(const CallCode& call, const Callable& callable) {
+  call.callee_plan = &resolver_.plan_for(call, callable);
+  call.planned_for = &callable;
+  grow_dynamic();
+}
+
+// --- Used files -------------------------------------------------------------
+
+Frame& Interpreter::enter_unit(Unit& unit) {
+  if (unit.frame != nullptr) {
+    for (const auto& [index, value] : unit.dynamic_values) {
+      bind_dynamic(index, value);
+    }
+    return *unit.frame;
+  }
+  resolver_.resolve(unit);
+  grow_dynamic();
+  unit_frames_.push_back({Frame{*this}, {}});
+  UnitFrame& made = unit_frames_.back();
+  made.slots.resize(unit.activation.slot_count, Value::unset());
+  made.frame.slots = made.slots.data();
+  const std::uint64_t effects = effects_;
+  const std::size_t mark = trail_.size();
+  run_assignments(unit.body, made.frame);
+  if (effects_ == effects) {
+    for (std::size_t i = mark; i < trail_.size(); ++i) {
+      unit.dynamic_values.emplace_back(trail_[i].index,
+                                       dynamic_[trail_[i].index]);
+    }
+    unit.frame = &made.frame;
+  }
+  return made.frame;
+}
+
+// --- Nodes ------------------------------------------------------------------
+
+std::string_view Interpreter::keep_text(std::string_view text) {
+  char* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
+  std::copy(text.begin(), text.end(), copy);
+  return {copy, text.size()};
+}
+
+void Interpreter::make_node(decltype(Node::op) op,
+                            const InstantiationCode& code, std::size_t mark) {
+  Node* node = new (arena_.allocate(sizeof(Node), alignof(Node))) Node;
+  node->op = std::move(op);
+  node->children = keep_all(nodes_since(mark));
+  node->range = code.range;
+  node->caller = current_call;
+  node->is_root = code.modifiers.root;
+  node->is_highlight = code.modifiers.highlight;
+  node->is_background = code.modifiers.background;
+  nodes_.resize(mark);
+  nodes_.push_back(node);
+}
+
+}  // namespace lamina::csg

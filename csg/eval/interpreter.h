@@ -1,0 +1,266 @@
+#pragma once
+// The state of one evaluation, and the services that running code needs.
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <memory_resource>
+#include <random>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "csg/eval/code.h"
+#include "csg/eval/evaluator.h"
+#include "csg/eval/value.h"
+#include "csg/tree.h"
+#include "parser/diagnostic.h"
+
+namespace lamina::csg {
+
+class Resolver;
+
+// Thrown to end the evaluation; the message collects up to 12 calls on its way
+// out, as OpenSCAD's TRACE lines do.
+struct EvaluationFailure {
+  Diagnostic diagnostic;
+  int calls_to_note = 12;
+
+  void note_call(std::string_view name, SourceRange range);
+};
+
+class Interpreter {
+ public:
+  Interpreter(Resolver& resolver, const EvaluateOptions& options,
+              Diagnostics& diagnostics,
+              std::pmr::monotonic_buffer_resource& arena);
+  ~Interpreter();
+  Interpreter(const Interpreter&) = delete;
+  Interpreter& operator=(const Interpreter&) = delete;
+
+  // --- Messages
+  void warn(SourceRange range, std::string message);
+  void deprecate(SourceRange range, std::string message);
+  void echo(std::string text);
+  // A line without prefix and place.
+  void note(std::string text);
+  [[noreturn]] void fail(SourceRange range, std::string message);
+
+  // Throws OpenSCAD's error where the C++ stack is nearly used up.
+  void check_stack(SourceRange range, std::string_view kind,
+                   std::string_view name) {
+    if (reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
+        stack_limit_) {
+      fail_recursion(range, kind, name);
+    }
+  }
+  [[noreturn]] void fail_recursion(SourceRange range, std::string_view kind,
+                                   std::string_view name);
+
+  // --- Variables
+  // Value of a `$` variable; unset if nothing gave it one.
+  const Value& dynamic(std::uint32_t index) {
+    ++effects_;
+    return dynamic_[index];
+  }
+  void bind_dynamic(std::uint32_t index, Value value);
+  // For a tail call: replaces what was bound since `mark`, so that a loop of a
+  // million calls leaves one entry.
+  void rebind_dynamic(std::uint32_t index, Value value, std::size_t mark);
+  std::size_t trail_size() const { return trail_.size(); }
+  void unwind(std::size_t mark) {
+    if (trail_.size() != mark) unwind_trail(mark);
+  }
+  void assign(const Target& target, Value value, Frame& frame);
+  // Gives a boxed variable a fresh box, so that closures made from now on do
+  // not share it with those made before.
+  Value make_box();
+  // The number of a well-known `$` variable: 0 for what is no number.
+  double dynamic_number(std::uint32_t index) {
+    return dynamic(index).number_or_zero();
+  }
+
+  // Gives `$parent_modules` the number of modules being instantiated.
+  void bind_module_depth();
+
+  // --- Calls
+  // The variables of a used file, assigned anew, as OpenSCAD does for every
+  // call, unless its assignments depend on nothing outside.
+  Frame& enter_unit(Unit& unit);
+  const ArgumentPlan& plan_for(const CallCode& call, const Callable& callable) {
+    if (call.planned_for != &callable) find_plan(call, callable);
+    return *call.callee_plan;
+  }
+  Resolver& resolver() { return resolver_; }
+  // Makes room for `$` variables that resolving brought up.
+  void grow_dynamic();
+  std::size_t dynamic_count() const { return dynamic_.size(); }
+
+  // --- Nodes
+  std::size_t node_mark() const { return nodes_.size(); }
+  // Replaces the nodes made since `mark` by one with these children.
+  void make_node(decltype(Node::op) op, const InstantiationCode& code,
+                 std::size_t mark);
+  void drop_nodes(std::size_t mark) { nodes_.resize(mark); }
+  std::span<const Node* const> nodes_since(std::size_t mark) const {
+    return {nodes_.data() + mark, nodes_.size() - mark};
+  }
+  std::pmr::monotonic_buffer_resource& arena() { return arena_; }
+  template <typename T>
+  const T* keep(const T& value) {
+    return new (arena_.allocate(sizeof(T), alignof(T))) T(value);
+  }
+  template <typename T>
+  std::span<const T> keep_all(std::span<const T> values) {
+    if (values.empty()) return {};
+    T* copy =
+        static_cast<T*>(arena_.allocate(values.size() * sizeof(T), alignof(T)));
+    std::uninitialized_copy(values.begin(), values.end(), copy);
+    return {copy, values.size()};
+  }
+  std::string_view keep_text(std::string_view text);
+
+  // --- Modules being instantiated
+  std::vector<std::string_view>
+      module_names;  // of user modules, innermost last
+  const CallFrame* current_call = nullptr;
+
+  // For rands() and everything else that is not a function of its arguments.
+  std::mt19937 random;
+  std::uint64_t& effects() { return effects_; }
+  const EvaluateOptions& options() const { return options_; }
+  const std::string& design_folder() const { return design_folder_; }
+  void set_design_folder(std::string folder) {
+    design_folder_ = std::move(folder);
+  }
+
+ private:
+  struct Saved {
+    std::uint32_t index;
+    Value value;
+  };
+
+  void unwind_trail(std::size_t mark);
+  void find_plan(const CallCode& call, const Callable& callable);
+  void assign_unit(Unit& unit, Frame& frame);
+
+  Resolver& resolver_;
+  const EvaluateOptions& options_;
+  Diagnostics& diagnostics_;
+  std::pmr::monotonic_buffer_resource& arena_;
+  std::uintptr_t stack_limit_;
+  std::string design_folder_;
+  std::vector<Value> dynamic_;
+  std::vector<Saved> trail_;
+  // Counts all that makes an evaluation more than a function of the text:
+  // messages, reads of `$` variables, random numbers.
+  std::uint64_t effects_ = 0;
+  std::vector<const Node*> nodes_;
+  std::set<std::pair<std::string, std::string>> deprecations_;
+  Box boxes_;  // sentinel of the list of all boxes
+  // Variables of used files, alive as long as closures may refer to them.
+  struct UnitFrame {
+    Frame frame;
+    std::vector<Value> slots;
+  };
+  std::deque<UnitFrame> unit_frames_;
+};
+
+// Restores the `$` variables at the end of a scope.
+class DynamicScope {
+ public:
+  explicit DynamicScope(Interpreter& in) : in_(in), mark_(in.trail_size()) {}
+  ~DynamicScope() { in_.unwind(mark_); }
+  DynamicScope(const DynamicScope&) = delete;
+  DynamicScope& operator=(const DynamicScope&) = delete;
+  std::size_t mark() const { return mark_; }
+
+ private:
+  Interpreter& in_;
+  std::size_t mark_;
+};
+
+// The slots of a frame, on the C++ stack of the function that makes one:
+//   Value* memory = LAMINA_FRAME_MEMORY(count);
+//   const FrameSlots slots(frame, memory, count);
+#define LAMINA_FRAME_MEMORY(count) \
+  static_cast<Value*>(__builtin_alloca((count) * sizeof(Value)))
+class FrameSlots {
+ public:
+  FrameSlots(Frame& frame, Value* memory, std::uint32_t count)
+      : slots_(memory), count_(count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      new (memory + i) Value(Value::unset());
+    }
+    frame.slots = memory;
+  }
+  ~FrameSlots() {
+    for (std::uint32_t i = 0; i < count_; ++i) slots_[i].~Value();
+  }
+  FrameSlots(const FrameSlots&) = delete;
+  FrameSlots& operator=(const FrameSlots&) = delete;
+
+ private:
+  Value* slots_;
+  std::uint32_t count_;
+};
+
+// Statements loop over ranges of fewer elements than this, comprehensions over
+// more: so OpenSCAD has it.
+constexpr std::uint32_t kMostStatementElements = 10000;
+
+// --- Running code -----------------------------------------------------------
+
+inline Value run(const Expression* code, Frame& frame) {
+  return code->run(*code, frame);
+}
+inline bool is_plain(const Value& value) {
+  return !value.is_unset() && value.type() != Type::kBox;
+}
+// The value of an expression without a copy, where it stands in memory;
+// otherwise runs it into `spill`.
+inline const Value& look(const Expression* code, Frame& frame, Value& spill) {
+  switch (code->kind) {
+    case Expression::Kind::kLocal:
+      if (is_plain(frame.slots[code->slot])) return frame.slots[code->slot];
+      break;
+    case Expression::Kind::kOuter:
+      if (is_plain(frame.link->slots[code->slot])) {
+        return frame.link->slots[code->slot];
+      }
+      break;
+    case Expression::Kind::kConstant:
+      return *static_cast<const Constant*>(code)->value;
+    default:
+      break;
+  }
+  spill = code->run(*code, frame);
+  return spill;
+}
+
+// Runs `body` in the frame of a call, turning tail calls of the same function
+// into jumps.
+Value run_body(const Callable& callable, std::string_view name,
+               SourceRange range, Frame& frame);
+
+// Runs `{ … }`: assignments, then instantiations; nodes pile up.
+void run_assignments(const Block& block, Frame& frame);
+void run_statements(const Block& block, Frame& frame);
+void run_block(const Block& block, Frame& frame);
+void instantiate(const InstantiationCode& code, Frame& frame);
+
+// Evaluates let-like bindings one after the other.
+void run_bindings(Bindings bindings, Frame& frame);
+
+// Stores arguments and defaults of a call into the callee's frame.
+void pass_arguments(const ArgumentPlan& plan,
+                    std::span<const Parameter> parameters,
+                    std::span<const WrittenArgument> arguments,
+                    SourceRange range, Frame& caller, Frame& callee);
+
+// "a = 1, 2" as echo prints its arguments.
+std::string echo_text(std::span<const WrittenArgument> arguments, Frame& frame);
+void run_assert(const AssertCode& code, Frame& frame);
+
+}  // namespace lamina::csg

@@ -1,0 +1,33 @@
+#pragma once
+// The operators on values, with OpenSCAD's rules for mixed types.
+//
+// Where an operation has no meaning the result is undef and the reason is
+// left in `reason`, in the words of OpenSCAD's warning. An undef inside a
+// resulting vector has no reason: OpenSCAD keeps quiet about those.
+
+#include <string>
+
+#include "csg/eval/value.h"
+#include "parser/ast.h"
+
+namespace lamina::csg {
+
+// All but `&&` and `||`, which do not evaluate both sides.
+Value apply_binary(ast::BinaryOp op, const Value& left, const Value& right,
+                   std::string& reason);
+
+Value negate(const Value& value, std::string& reason);
+
+// left == right; never undefined.
+bool are_equal(const Value& left, const Value& right);
+
+// left < right, false where that is undefined (min, max and search use it).
+bool is_less(const Value& left, const Value& right);
+
+// object[index]; undef without a word where there is no such element.
+Value index(const Value& object, const Value& index);
+
+// object.name: x, y, z of a vector, begin, step, end of a range.
+Value member(const Value& object, std::string_view name);
+
+}  // namespace lamina::csg

@@ -1,0 +1,751 @@
+#include "csg/eval/run_expression.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "csg/eval/builtin_functions.h"
+#include "csg/eval/interpreter.h"
+#include "csg/eval/operators.h"
+#include "csg/eval/resolver.h"
+#include "csg/eval/text.h"
+
+namespace lamina::csg {
+
+namespace {
+
+using ast::BinaryOp;
+
+template <typename T>
+const T& as(const Expression& expression) {
+  return static_cast<const T&>(expression);
+}
+
+// Most messages are never made: keep their code out of the hot functions.
+[[gnu::noinline]] void warn(Frame& frame, SourceRange range,
+                            std::string message) {
+  frame.in.warn(range, std::move(message));
+}
+
+}  // namespace
+
+// --- Variables --------------------------------------------------------------
+
+Value run_constant(const Expression& expression, Frame&) {
+  return *as<Constant>(expression).value;
+}
+
+namespace {
+// A slot that is unset or boxed.
+[[gnu::noinline]] Value load_unusual(const VariableLoad& code,
+                                     const Value& value, Frame& frame) {
+  if (value.type() == Type::kBox && !value.as_box().value.is_unset()) {
+    return value.as_box().value;
+  }
+  return run(code.otherwise, frame);
+}
+Value load(const VariableLoad& code, const Value& value, Frame& frame) {
+  if (is_plain(value)) [[likely]]
+    return value;
+  return load_unusual(code, value, frame);
+}
+}  // namespace
+
+Value run_local(const Expression& expression, Frame& frame) {
+  return load(as<VariableLoad>(expression), frame.slots[expression.slot],
+              frame);
+}
+Value run_outer(const Expression& expression, Frame& frame) {
+  return load(as<VariableLoad>(expression), frame.link->slots[expression.slot],
+              frame);
+}
+Value run_far_outer(const Expression& expression, Frame& frame) {
+  const auto& code = as<VariableLoad>(expression);
+  const Frame* home = &frame;
+  for (std::uint32_t i = 0; i < code.hops; ++i) home = home->link;
+  return load(code, home->slots[code.slot], frame);
+}
+Value run_captured(const Expression& expression, Frame& frame) {
+  return load(as<VariableLoad>(expression),
+              frame.closure->captured[expression.slot], frame);
+}
+Value run_dynamic(const Expression& expression, Frame& frame) {
+  const auto& code = as<DynamicVariable>(expression);
+  const Value& value = frame.in.dynamic(code.index);
+  if (!value.is_unset()) return value;
+  if (!code.is_silent) {
+    warn(frame, code.range,
+         fmt::format("Ignoring unknown variable '{}'", code.name));
+  }
+  return Value();
+}
+Value run_unknown_variable(const Expression& expression, Frame& frame) {
+  warn(frame, expression.range,
+       fmt::format("Ignoring unknown variable '{}'",
+                   as<UnknownVariable>(expression).name));
+  return Value();
+}
+
+// --- Operators --------------------------------------------------------------
+
+Value run_not(const Expression& expression, Frame& frame) {
+  Value spill;
+  return Value(
+      !look(as<UnaryCode>(expression).operand, frame, spill).is_true());
+}
+
+Value run_negate(const Expression& expression, Frame& frame) {
+  Value spill;
+  const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
+  if (operand.is_number()) return Value(-operand.as_number());
+  std::string reason;
+  Value result = negate(operand, reason);
+  if (!reason.empty()) warn(frame, expression.range, std::move(reason));
+  return result;
+}
+
+namespace {
+
+// Operands that are not both numbers.
+[[gnu::noinline]] Value run_binary_any(const BinaryCode& code,
+                                       const Value& left, const Value& right,
+                                       Frame& frame) {
+  std::string reason;
+  Value result = apply_binary(code.op, left, right, reason);
+  if (!reason.empty()) warn(frame, code.range, std::move(reason));
+  return result;
+}
+
+template <BinaryOp op>
+Value on_numbers(double a, double b) {
+  if constexpr (op == BinaryOp::kEqual) return Value(a == b);
+  if constexpr (op == BinaryOp::kNotEqual) return Value(a != b);
+  if constexpr (op == BinaryOp::kLess) return Value(a < b);
+  if constexpr (op == BinaryOp::kLessEqual) return Value(a <= b);
+  if constexpr (op == BinaryOp::kGreater) return Value(a > b);
+  if constexpr (op == BinaryOp::kGreaterEqual) return Value(a >= b);
+  if constexpr (op == BinaryOp::kAdd) return Value(a + b);
+  if constexpr (op == BinaryOp::kSubtract) return Value(a - b);
+  if constexpr (op == BinaryOp::kMultiply) return Value(a * b);
+  if constexpr (op == BinaryOp::kDivide) return Value(a / b);
+  if constexpr (op == BinaryOp::kModulo) return Value(std::fmod(a, b));
+  if constexpr (op == BinaryOp::kPower) return Value(std::pow(a, b));
+}
+
+template <BinaryOp op>
+Value run_binary(const Expression& expression, Frame& frame) {
+  const auto& code = as<BinaryCode>(expression);
+  Value spill_left;
+  Value spill_right;
+  const Value& left = look(code.left, frame, spill_left);
+  const Value& right = look(code.right, frame, spill_right);
+  if (left.is_number() && right.is_number()) [[likely]] {
+    return on_numbers<op>(left.as_number(), right.as_number());
+  }
+  return run_binary_any(code, left, right, frame);
+}
+
+Value run_and(const Expression& expression, Frame& frame) {
+  const auto& code = as<BinaryCode>(expression);
+  Value spill;
+  if (!look(code.left, frame, spill).is_true()) return Value(false);
+  return Value(look(code.right, frame, spill).is_true());
+}
+Value run_or(const Expression& expression, Frame& frame) {
+  const auto& code = as<BinaryCode>(expression);
+  Value spill;
+  if (look(code.left, frame, spill).is_true()) return Value(true);
+  return Value(look(code.right, frame, spill).is_true());
+}
+
+}  // namespace
+
+Expression::Run binary_runner(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::kOr:
+      return run_or;
+    case BinaryOp::kAnd:
+      return run_and;
+    case BinaryOp::kEqual:
+      return run_binary<BinaryOp::kEqual>;
+    case BinaryOp::kNotEqual:
+      return run_binary<BinaryOp::kNotEqual>;
+    case BinaryOp::kLess:
+      return run_binary<BinaryOp::kLess>;
+    case BinaryOp::kLessEqual:
+      return run_binary<BinaryOp::kLessEqual>;
+    case BinaryOp::kGreater:
+      return run_binary<BinaryOp::kGreater>;
+    case BinaryOp::kGreaterEqual:
+      return run_binary<BinaryOp::kGreaterEqual>;
+    case BinaryOp::kAdd:
+      return run_binary<BinaryOp::kAdd>;
+    case BinaryOp::kSubtract:
+      return run_binary<BinaryOp::kSubtract>;
+    case BinaryOp::kMultiply:
+      return run_binary<BinaryOp::kMultiply>;
+    case BinaryOp::kDivide:
+      return run_binary<BinaryOp::kDivide>;
+    case BinaryOp::kModulo:
+      return run_binary<BinaryOp::kModulo>;
+    default:
+      return run_binary<BinaryOp::kPower>;
+  }
+}
+
+Value run_conditional(const Expression& expression, Frame& frame) {
+  const auto& code = as<ConditionalCode>(expression);
+  const Expression* branch = nullptr;
+  {
+    Value spill;
+    branch = look(code.condition, frame, spill).is_true() ? code.if_true
+                                                          : code.if_false;
+  }
+  return run(branch, frame);
+}
+
+Value run_index(const Expression& expression, Frame& frame) {
+  const auto& code = as<BinaryCode>(expression);
+  Value spill_object;
+  Value spill_index;
+  const Value& object = look(code.left, frame, spill_object);
+  return index(object, look(code.right, frame, spill_index));
+}
+
+Value run_member(const Expression& expression, Frame& frame) {
+  const auto& code = as<MemberCode>(expression);
+  Value spill;
+  return member(look(code.object, frame, spill), code.name);
+}
+
+Value run_range(const Expression& expression, Frame& frame) {
+  const auto& code = as<RangeCode>(expression);
+  const Value first = run(code.begin, frame);
+  if (!first.is_number()) return Value();
+  const Value last = run(code.end, frame);
+  if (!last.is_number()) return Value();
+  const double begin = first.as_number();
+  const double end = last.as_number();
+  if (code.step == nullptr) {
+    if (end >= begin || std::isnan(begin) || std::isnan(end)) {
+      return Value::range(begin, 1, end);
+    }
+    frame.in.deprecate(code.range,
+                       "Using ranges of the form [begin:end] with begin value "
+                       "greater than the end value is deprecated");
+    return Value::range(end, 1, begin);
+  }
+  const Value step = run(code.step, frame);
+  if (!step.is_number()) return Value();
+  if (code.is_literal) {
+    if (step.as_number() > 0 && end < begin) {
+      warn(frame, code.range,
+           "begin is greater than the end, but step is positive");
+    } else if (step.as_number() < 0 && end > begin) {
+      warn(frame, code.range,
+           "begin is smaller than the end, but step is negative");
+    }
+  }
+  return Value::range(begin, step.as_number(), end);
+}
+
+// --- Vectors ----------------------------------------------------------------
+
+Value run_vector(const Expression& expression, Frame& frame) {
+  const auto& code = as<VectorCode>(expression);
+  VectorBuilder out(code.elements.size());
+  for (const Element* element : code.elements) {
+    element->emit(*element, frame, out);
+  }
+  return out.finish();
+}
+
+void emit_value(const Element& element, Frame& frame, VectorBuilder& out) {
+  out.push(run(element.value, frame));
+}
+
+namespace {
+
+constexpr std::uint32_t kMostElements = 1000000;
+
+// Calls `give` for each value that `for` and `each` see in `values`.
+template <typename Give>
+void for_each_value(const Value& values, SourceRange range, Frame& frame,
+                    const Give& give) {
+  switch (values.type()) {
+    case Type::kRange: {
+      const Range& r = values.as_range();
+      const std::uint32_t count = r.count();
+      if (count >= kMostElements) {
+        warn(frame, range,
+             fmt::format("Bad range parameter in for statement: too many "
+                         "elements ({})",
+                         count));
+        return;
+      }
+      for (std::uint32_t i = 0; i < count; ++i) give(Value(r.at(i)));
+      return;
+    }
+    case Type::kVector:
+      for (const Value& value : values.as_vector()) give(Value(value));
+      return;
+    case Type::kString: {
+      const std::uint32_t count = values.character_count();
+      for (std::uint32_t i = 0; i < count; ++i) give(values.character(i));
+      return;
+    }
+    case Type::kUnset:
+    case Type::kUndef:
+      return;
+    default:
+      give(Value(values));
+  }
+}
+
+// How many values that will be, as far as it is cheap to know.
+std::size_t count_values(const Value& values) {
+  if (values.is_vector()) return values.as_vector().size();
+  if (values.is_range()) {
+    const std::uint32_t count = values.as_range().count();
+    return count < kMostElements ? count : 0;
+  }
+  return 1;
+}
+
+// A fresh box for a variable that closures share.
+void prepare(const Target& target, Frame& frame) {
+  if (target.variable != nullptr && target.variable->is_boxed) {
+    frame.slots[target.index] = frame.in.make_box();
+  }
+}
+
+}  // namespace
+
+void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
+  const auto& code = static_cast<const ForElement&>(element);
+  const Value values = run(code.binding.value, frame);
+  const Target& target = code.binding.target;
+  prepare(target, frame);
+  if (code.body->emit == emit_value) {
+    out.reserve(out.size() + count_values(values));
+  }
+  const bool is_plain_slot =
+      target.kind == Target::Kind::kSlot && !target.variable->is_boxed;
+  const DynamicScope scope(frame.in);
+  for_each_value(values, element.range, frame, [&](Value value) {
+    if (is_plain_slot) {
+      frame.slots[target.index] = std::move(value);
+    } else {
+      frame.in.unwind(scope.mark());
+      frame.in.assign(target, std::move(value), frame);
+    }
+    code.body->emit(*code.body, frame, out);
+  });
+}
+
+void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out) {
+  const auto& code = static_cast<const ForCElement&>(element);
+  const DynamicScope scope(frame.in);
+  for (const auto& [from, to] : code.copies) {
+    frame.slots[to.index] = Value::unset();
+    prepare(to, frame);
+  }
+  run_bindings(code.init, frame);
+  std::uint32_t rounds = 0;
+  while (run(code.condition, frame).is_true()) {
+    code.body->emit(*code.body, frame, out);
+    if (rounds++ == kMostElements) {
+      frame.in.fail(element.range, "For loop counter exceeded limit");
+    }
+    const DynamicScope update(frame.in);
+    run_bindings(code.update, frame);
+    for (const auto& [from, to] : code.copies) {
+      const Value& value = frame.slots[from.index];
+      Value copy = value.type() == Type::kBox ? value.as_box().value : value;
+      frame.in.assign(to, std::move(copy), frame);
+    }
+  }
+}
+
+void emit_if(const Element& element, Frame& frame, VectorBuilder& out) {
+  const auto& code = static_cast<const IfElement&>(element);
+  Value spill;
+  const Element* branch = look(code.condition, frame, spill).is_true()
+                              ? code.if_true
+                              : code.if_false;
+  if (branch != nullptr) branch->emit(*branch, frame, out);
+}
+
+void emit_each(const Element& element, Frame& frame, VectorBuilder& out) {
+  const auto& code = static_cast<const EachElement&>(element);
+  const auto spread = [&](const Value& value) {
+    if (value.is_vector()) {
+      out.push_all(value.as_vector());
+    } else {
+      for_each_value(value, element.range, frame,
+                     [&](Value one) { out.push(std::move(one)); });
+    }
+  };
+  if (code.body->emit == emit_value) {
+    Value spill;
+    spread(look(code.body->value, frame, spill));
+    return;
+  }
+  VectorBuilder inner;
+  code.body->emit(*code.body, frame, inner);
+  for (const Value& value : inner.values()) spread(value);
+}
+
+void emit_let(const Element& element, Frame& frame, VectorBuilder& out) {
+  const auto& code = static_cast<const LetElement&>(element);
+  const DynamicScope scope(frame.in);
+  run_bindings(code.bindings, frame);
+  code.body->emit(*code.body, frame, out);
+}
+
+// --- let, echo, assert ------------------------------------------------------
+
+void run_bindings(Bindings bindings, Frame& frame) {
+  for (const Binding& binding : bindings) prepare(binding.target, frame);
+  for (const Binding& binding : bindings) {
+    Value value = run(binding.value, frame);
+    if (binding.name.empty()) {
+      warn(frame, binding.range,
+           "Assignment without variable name " + to_echo(value));
+    } else if (binding.is_duplicate) {
+      warn(frame, binding.range,
+           fmt::format("Ignoring duplicate variable assignment {} = {}",
+                       binding.name, to_echo(value)));
+    } else {
+      frame.in.assign(binding.target, std::move(value), frame);
+    }
+  }
+}
+
+Value run_let(const Expression& expression, Frame& frame) {
+  const auto& code = as<LetCode>(expression);
+  const DynamicScope scope(frame.in);
+  run_bindings(code.bindings, frame);
+  return run(code.body, frame);
+}
+
+std::string echo_text(std::span<const WrittenArgument> arguments,
+                      Frame& frame) {
+  std::string text;
+  for (const WrittenArgument& argument : arguments) {
+    if (&argument != arguments.data()) text += ", ";
+    if (!argument.name.empty()) {
+      text += argument.name;
+      text += " = ";
+    }
+    append_echo(run(argument.value, frame), text);
+  }
+  return text;
+}
+
+Value run_echo(const Expression& expression, Frame& frame) {
+  const auto& code = as<EchoCode>(expression);
+  frame.in.echo(echo_text(code.arguments, frame));
+  return code.body != nullptr ? run(code.body, frame) : Value();
+}
+
+void run_assert(const AssertCode& code, Frame& frame) {
+  for (const std::string& warning : code.plan->warnings) {
+    frame.in.warn(code.range, warning);
+  }
+  const Value condition = run(code.condition, frame);
+  const Value message = run(code.message, frame);
+  if (condition.is_true()) return;
+  std::string text = "Assertion";
+  if (code.condition_text != nullptr) {
+    text += " '" + expression_text(*code.condition_text) + "'";
+  }
+  text += " failed";
+  if (!message.is_undef()) text += ": " + to_echo(message);
+  frame.in.fail(code.range, std::move(text));
+}
+
+Value run_assert_expression(const Expression& expression, Frame& frame) {
+  const auto& code = as<AssertCode>(expression);
+  run_assert(code, frame);
+  return code.body != nullptr ? run(code.body, frame) : Value();
+}
+
+// --- Functions --------------------------------------------------------------
+
+Value run_function_literal(const Expression& expression, Frame& frame) {
+  const FunctionLiteral& literal = *as<LiteralCode>(expression).literal;
+  auto* closure = new Closure;
+  closure->code = &literal;
+  closure->link = literal.hops == 0 ? &frame : frame.link;
+  closure->captured.reserve(literal.captures.size());
+  for (const FunctionLiteral::Capture& capture : literal.captures) {
+    closure->captured.push_back(capture.from_closure
+                                    ? frame.closure->captured[capture.index]
+                                    : frame.slots[capture.index]);
+  }
+  return Value::adopt(Type::kFunction, closure, 0);
+}
+
+std::string FunctionLiteral::text() const {
+  std::string text = "function(";
+  for (const ast::Argument& parameter : definition->parameters) {
+    if (&parameter != definition->parameters.data()) text += ", ";
+    text += parameter.name;
+    if (parameter.value != nullptr) {
+      text += " = " + expression_text(*parameter.value);
+    }
+  }
+  return text + ") " + expression_text(*definition->body);
+}
+
+void pass_arguments(const ArgumentPlan& plan,
+                    std::span<const Parameter> parameters,
+                    std::span<const WrittenArgument> arguments,
+                    SourceRange range, Frame& caller, Frame& callee) {
+  for (const std::uint32_t i : plan.defaults) {
+    const Parameter& parameter = parameters[i];
+    Value value =
+        parameter.fallback ? run(parameter.fallback, callee) : Value();
+    callee.in.assign(parameter.target, std::move(value), callee);
+  }
+  for (const std::string& warning : plan.warnings) warn(caller, range, warning);
+  for (const BoundArgument& bound : plan.bound) {
+    const Expression* argument = arguments[bound.written].value;
+    if (bound.target.kind == Target::Kind::kSlot) {
+      callee.slots[bound.target.index] = run(argument, caller);
+    } else {
+      Value value = run(argument, caller);
+      callee.in.assign(bound.target, std::move(value), callee);
+    }
+  }
+}
+
+namespace {
+
+// Notes the call in a failure that passes by.
+template <typename Body>
+Value traced(const CallCode& code, const Body& body) {
+  try {
+    return body();
+  } catch (EvaluationFailure& failure) {
+    failure.note_call(code.name, code.range);
+    throw;
+  }
+}
+
+// `$` variables that a tail call's arguments and enclosing lets bind stay
+// bound; everything else of the frame is overwritten.
+bool jump(const CallCode& call, const ArgumentPlan& plan,
+          std::size_t trail_mark, Frame& frame) {
+  constexpr std::size_t kFew = 8;
+  Value few[kFew];
+  std::vector<Value> many(plan.bound.size() > kFew ? plan.bound.size() : 0);
+  Value* values = many.empty() ? few : many.data();
+  for (std::size_t i = 0; i < plan.bound.size(); ++i) {
+    values[i] = run(call.arguments[plan.bound[i].written].value, frame);
+  }
+  const auto store = [&](const Target& target, Value value) {
+    if (target.kind == Target::Kind::kDynamic) {
+      frame.in.rebind_dynamic(target.index, std::move(value), trail_mark);
+    } else {
+      frame.in.assign(target, std::move(value), frame);
+    }
+  };
+  if (call.tail_defaults != nullptr) {
+    for (const CallCode::TailDefault& fallback : *call.tail_defaults) {
+      if (fallback.cached.is_unset()) {
+        fallback.cached = run(fallback.value, frame);
+      }
+      store(fallback.target, fallback.cached);
+    }
+  }
+  for (std::size_t i = 0; i < plan.bound.size(); ++i) {
+    store(plan.bound[i].target, std::move(values[i]));
+  }
+  return true;
+}
+
+// A tail call of a function literal by the name that it was called by is a
+// jump if that name still means the same literal.
+bool jump_to_literal(const CallCode& call, const Callable& callable,
+                     std::string_view name, std::size_t trail_mark,
+                     Frame& frame) {
+  if (call.callee == nullptr || call.name != name) return false;
+  const Value callee = run(call.callee, frame);
+  if (!callee.is_function() || callee.as_function().code != &callable ||
+      &callee.as_function() != frame.closure) {
+    return false;
+  }
+  const ArgumentPlan& plan = frame.in.plan_for(call, callable);
+  return plan.defaults.empty() && jump(call, plan, trail_mark, frame);
+}
+
+// Follows the tail positions of a body. True: start again.
+bool run_round(const Callable& callable, std::string_view name,
+               std::size_t trail_mark, Frame& frame, Value& result) {
+  const Expression* code = callable.body;
+  while (true) {
+    switch (code->kind) {
+      case Expression::Kind::kConditional: {
+        const auto& conditional = as<ConditionalCode>(*code);
+        code = run(conditional.condition, frame).is_true()
+                   ? conditional.if_true
+                   : conditional.if_false;
+        break;
+      }
+      case Expression::Kind::kLet:
+        run_bindings(as<LetCode>(*code).bindings, frame);
+        code = as<LetCode>(*code).body;
+        break;
+      case Expression::Kind::kAssert:
+        run_assert(as<AssertCode>(*code), frame);
+        code = as<AssertCode>(*code).body;
+        break;
+      case Expression::Kind::kEcho:
+        frame.in.echo(echo_text(as<EchoCode>(*code).arguments, frame));
+        code = as<EchoCode>(*code).body;
+        break;
+      case Expression::Kind::kTailCall: {
+        const auto& call = as<CallCode>(*code);
+        const bool is_jump =
+            call.tail_defaults != nullptr
+                ? jump(call, *call.plan, trail_mark, frame)
+                : jump_to_literal(call, callable, name, trail_mark, frame);
+        if (is_jump) return true;
+        result = run(code, frame);
+        return false;
+      }
+      default:
+        result = run(code, frame);
+        return false;
+    }
+    if (code == nullptr) {
+      result = Value();
+      return false;
+    }
+  }
+}
+
+}  // namespace
+
+Value run_body(const Callable& callable, std::string_view name,
+               SourceRange range, Frame& frame) {
+  if (!callable.has_tail_calls) return run(callable.body, frame);
+  constexpr std::uint32_t kMostTailCalls = 1000000;
+  const std::size_t trail_mark = frame.in.trail_size();
+  Value result;
+  std::uint32_t rounds = 0;
+  while (run_round(callable, name, trail_mark, frame, result)) {
+    if (rounds++ == kMostTailCalls) {
+      frame.in.fail_recursion(range, "function", name);
+    }
+  }
+  return result;
+}
+
+// --- Calls ------------------------------------------------------------------
+
+namespace {
+
+Value call_function(const CallCode& code, Frame& frame) {
+  Function& function = *code.function;
+  if (function.body == nullptr) {
+    frame.in.resolver().resolve(function);
+    frame.in.grow_dynamic();
+  }
+  const DynamicScope scope(frame.in);
+  Frame callee{frame.in};
+  if (code.is_foreign) {
+    callee.link = &frame.in.enter_unit(*function.unit);
+  } else {
+    callee.link = &frame;
+    for (std::uint32_t i = 0; i < code.hops; ++i) {
+      callee.link = callee.link->link;
+    }
+  }
+  Value* memory = LAMINA_FRAME_MEMORY(function.slot_count);
+  const FrameSlots slots(callee, memory, function.slot_count);
+  pass_arguments(*code.plan, function.parameters, code.arguments, code.range,
+                 frame, callee);
+  return run_body(function, function.name, function.range, callee);
+}
+
+// The callee holds a function; `function` keeps it alive.
+Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
+  const Closure& closure = function.as_function();
+  const Callable& callable = *closure.code;
+  const ArgumentPlan& plan = frame.in.plan_for(code, callable);
+  const DynamicScope scope(frame.in);
+  Frame callee{frame.in};
+  callee.link = closure.link;
+  callee.closure = &closure;
+  Value* memory = LAMINA_FRAME_MEMORY(callable.slot_count);
+  const FrameSlots slots(callee, memory, callable.slot_count);
+  pass_arguments(plan, callable.parameters, code.arguments, code.range, frame,
+                 callee);
+  return run_body(callable, code.name, code.range, callee);
+}
+
+Value call_builtin(const CallCode& code, Frame& frame) {
+  if (code.math != nullptr) return call_math(code, frame);
+  return code.builtin(code, frame);
+}
+
+Value report_unknown(const CallCode& code, Frame& frame) {
+  warn(frame, code.range,
+       fmt::format("Ignoring unknown function '{}'", code.name));
+  return Value();
+}
+
+}  // namespace
+
+Value run_call_function(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  frame.in.check_stack(code.range, "function", code.name);
+  return traced(code, [&] { return call_function(code, frame); });
+}
+
+Value run_call_math(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  return traced(code, [&] { return call_math(code, frame); });
+}
+
+Value run_call_builtin(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  frame.in.check_stack(code.range, "function", code.name);
+  return traced(code, [&] { return call_builtin(code, frame); });
+}
+
+Value run_call_unknown(const Expression& expression, Frame& frame) {
+  return report_unknown(as<CallCode>(expression), frame);
+}
+
+Value run_call_value(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  frame.in.check_stack(code.range, "function", code.name);
+  return traced(code, [&] {
+    const Value callee = run(code.callee, frame);
+    if (callee.is_function()) {
+      if (code.is_name && code.name[0] == '$') {
+        warn(frame, code.range,
+             "Can't call function on dynamically scoped variable");
+        return Value();
+      }
+      return call_closure(code, callee, frame);
+    }
+    if (!code.is_name) {
+      warn(frame, code.range,
+           fmt::format("Can't call function on {}", type_name(callee.type())));
+      return Value();
+    }
+    if (code.function != nullptr) return call_function(code, frame);
+    if (code.builtin != nullptr || code.math != nullptr) {
+      return call_builtin(code, frame);
+    }
+    return report_unknown(code, frame);
+  });
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,325 @@
+#include "csg/eval/value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "csg/eval/utf8.h"
+
+namespace lamina::csg {
+
+namespace {
+
+constexpr std::size_t kMaxLength = std::numeric_limits<std::uint32_t>::max();
+
+// Memory for a T with `count` elements behind it. malloc, so that a growing
+// vector of a million values is moved by remapping pages.
+template <typename T, typename Element>
+T* allocate_buffer(T* old, std::size_t count) {
+  if (count > kMaxLength) throw std::bad_alloc();
+  void* memory = std::realloc(old, sizeof(T) + count * sizeof(Element));
+  if (memory == nullptr) throw std::bad_alloc();
+  T* buffer = old == nullptr ? new (memory) T : static_cast<T*>(memory);
+  buffer->capacity = static_cast<std::uint32_t>(count);
+  return buffer;
+}
+StringBuffer* allocate_string(std::size_t capacity) {
+  return allocate_buffer<StringBuffer, char>(nullptr, capacity);
+}
+VectorBuffer* allocate_vector(VectorBuffer* old, std::size_t capacity) {
+  return allocate_buffer<VectorBuffer, Value>(old, capacity);
+}
+
+void copy_values(std::span<const Value> from, Value* to) {
+  for (const Value& value : from) new (to++) Value(value);
+}
+
+// Room for what will be appended next: a buffer that was appended to once is
+// likely to be appended to again.
+std::size_t grown(std::size_t needed) { return needed + needed / 2 + 8; }
+
+// The 128 strings of one ASCII character, made once and never freed: indexing
+// a string mostly gives these.
+StringBuffer* ascii_string(unsigned char c) {
+  static const std::vector<StringBuffer*> strings = [] {
+    std::vector<StringBuffer*> all;
+    for (int i = 0; i < 128; ++i) {
+      StringBuffer* buffer = allocate_string(1);
+      buffer->data()[0] = static_cast<char>(i);
+      buffer->used = 1;
+      all.push_back(buffer);
+    }
+    return all;
+  }();
+  return strings[c];
+}
+
+}  // namespace
+
+std::string_view type_name(Type type) {
+  switch (type) {
+    case Type::kBool:
+      return "bool";
+    case Type::kNumber:
+      return "number";
+    case Type::kString:
+      return "string";
+    case Type::kVector:
+      return "vector";
+    case Type::kRange:
+      return "range";
+    case Type::kFunction:
+      return "function";
+    default:
+      return "undefined";
+  }
+}
+
+std::uint32_t Range::count() const {
+  constexpr std::uint32_t kEndless = std::numeric_limits<std::uint32_t>::max();
+  if (std::isnan(begin) || std::isnan(end) || std::isnan(step)) return 0;
+  if (step < 0 ? begin < end : begin > end) return 0;
+  if (begin == end || std::isinf(step)) return 1;
+  if (std::isinf(begin) || std::isinf(end) || step == 0) return kEndless;
+  // One ulp makes good a quotient that rounding left just below an integer.
+  const double steps = std::nextafter((end - begin) / step, kEndless);
+  return steps >= kEndless ? kEndless : static_cast<std::uint32_t>(steps) + 1;
+}
+
+Value Value::string(std::string_view text) {
+  if (text.size() == 1 && static_cast<unsigned char>(text[0]) < 128) {
+    StringBuffer* shared = ascii_string(static_cast<unsigned char>(text[0]));
+    ++shared->references;
+    return adopt(Type::kString, shared, 1);
+  }
+  StringBuffer* buffer = allocate_string(text.size());
+  std::copy(text.begin(), text.end(), buffer->data());
+  buffer->used = static_cast<std::uint32_t>(text.size());
+  return adopt(Type::kString, buffer, buffer->used);
+}
+
+Value Value::vector(std::span<const Value> elements) {
+  VectorBuffer* buffer = allocate_vector(nullptr, elements.size());
+  copy_values(elements, buffer->data());
+  buffer->used = buffer->capacity;
+  return adopt(Type::kVector, buffer, buffer->used);
+}
+
+Value Value::numbers(std::span<const double> elements) {
+  VectorBuilder builder(elements.size());
+  for (const double element : elements) builder.push(Value(element));
+  return builder.finish();
+}
+
+Value Value::range(double begin, double step, double end) {
+  auto* range = new Range;
+  range->begin = begin;
+  range->step = step;
+  range->end = end;
+  return adopt(Type::kRange, range, 0);
+}
+
+bool Value::is_true() const {
+  switch (type_) {
+    case Type::kBool:
+      return payload_.boolean;
+    case Type::kNumber:
+      return payload_.number != 0;
+    case Type::kString:
+    case Type::kVector:
+      return length_ != 0;
+    case Type::kRange:
+    case Type::kFunction:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// --- Characters -----------------------------------------------------------
+
+namespace {
+
+// Counts the leading ASCII bytes among the first `length`.
+void extend_ascii(StringBuffer& buffer, std::uint32_t length) {
+  std::uint32_t i = buffer.ascii;
+  while (i < length && static_cast<unsigned char>(buffer.data()[i]) < 128) ++i;
+  buffer.ascii = i;
+}
+
+// Makes the index reach at least `length` bytes.
+CharacterIndex& index_characters(StringBuffer& buffer, std::uint32_t length) {
+  if (buffer.characters == nullptr) buffer.characters = new CharacterIndex;
+  CharacterIndex& index = *buffer.characters;
+  while (index.bytes < length) {
+    index.bytes += utf8_length(buffer.data()[index.bytes]);
+    ++index.characters;
+    if (index.characters % CharacterIndex::kStride == 0) {
+      index.offsets.push_back(index.bytes);
+    }
+  }
+  return index;
+}
+
+}  // namespace
+
+std::uint32_t Value::character_count() const {
+  StringBuffer& buffer = string_buffer();
+  if (buffer.ascii < length_) extend_ascii(buffer, length_);
+  if (buffer.ascii >= length_) return length_;
+  const CharacterIndex& index = index_characters(buffer, length_);
+  // Count on from the last mark before the end; a character cut off by the end
+  // does not count.
+  const auto after =
+      std::upper_bound(index.offsets.begin(), index.offsets.end(), length_);
+  const auto mark =
+      static_cast<std::uint32_t>(after - index.offsets.begin()) - 1;
+  std::uint32_t count = mark * CharacterIndex::kStride;
+  std::uint32_t offset = index.offsets[mark];
+  while (offset < length_) {
+    offset += utf8_length(buffer.data()[offset]);
+    if (offset <= length_) ++count;
+  }
+  return count;
+}
+
+std::uint32_t Value::character_offset(std::uint32_t i) const {
+  StringBuffer& buffer = string_buffer();
+  if (i <= buffer.ascii) return i;
+  extend_ascii(buffer, length_);
+  if (i <= buffer.ascii) return i;
+  const CharacterIndex& index = index_characters(buffer, length_);
+  std::uint32_t offset = index.offsets[i / CharacterIndex::kStride];
+  for (std::uint32_t k = i % CharacterIndex::kStride; k > 0; --k) {
+    offset += utf8_length(buffer.data()[offset]);
+  }
+  return offset;
+}
+
+Value Value::character(std::uint32_t i) const {
+  const std::uint32_t begin = character_offset(i);
+  const std::string_view text = as_string();
+  return string(text.substr(begin, utf8_length(text[begin])));
+}
+
+// --- Appending ------------------------------------------------------------
+
+Value Value::with_appended(std::string_view text) const {
+  StringBuffer& old = string_buffer();
+  const std::size_t needed = length_ + text.size();
+  if (text.empty()) return *this;
+  if (length_ != old.used || needed > old.capacity) {
+    StringBuffer* buffer = allocate_string(grown(needed));
+    std::memcpy(buffer->data(), old.data(), length_);
+    std::memcpy(buffer->data() + length_, text.data(), text.size());
+    buffer->used = static_cast<std::uint32_t>(needed);
+    return adopt(Type::kString, buffer, buffer->used);
+  }
+  std::memcpy(old.data() + length_, text.data(), text.size());
+  old.used = static_cast<std::uint32_t>(needed);
+  ++old.references;
+  return adopt(Type::kString, &old, old.used);
+}
+
+Value Value::with_appended(std::span<const Value> elements) const {
+  VectorBuffer& old = vector_buffer();
+  const std::size_t needed = length_ + elements.size();
+  if (elements.empty()) return *this;
+  if (length_ != old.used || needed > old.capacity) {
+    VectorBuffer* buffer = allocate_vector(nullptr, grown(needed));
+    copy_values(as_vector(), buffer->data());
+    copy_values(elements, buffer->data() + length_);
+    buffer->used = static_cast<std::uint32_t>(needed);
+    return adopt(Type::kVector, buffer, buffer->used);
+  }
+  copy_values(elements, old.data() + length_);
+  old.used = static_cast<std::uint32_t>(needed);
+  ++old.references;
+  return adopt(Type::kVector, &old, old.used);
+}
+
+// --- Freeing --------------------------------------------------------------
+
+void Value::destroy() {
+  switch (type_) {
+    case Type::kString: {
+      StringBuffer& buffer = string_buffer();
+      delete buffer.characters;
+      std::free(&buffer);
+      return;
+    }
+    case Type::kRange:
+      delete static_cast<Range*>(payload_.object);
+      return;
+    case Type::kFunction:
+      delete static_cast<Closure*>(payload_.object);
+      return;
+    case Type::kBox:
+      delete_box(&as_box());
+      return;
+    default:
+      break;
+  }
+  // Vectors: what dies with a vector joins a queue instead of a recursion.
+  VectorBuffer* dying = &vector_buffer();
+  while (dying != nullptr) {
+    VectorBuffer* buffer = dying;
+    dying = buffer->next_dying;
+    for (std::uint32_t i = 0; i < buffer->used; ++i) {
+      Value& value = buffer->data()[i];
+      if (!value.is_vector()) {
+        value.~Value();
+        continue;
+      }
+      VectorBuffer& child = value.vector_buffer();
+      if (--child.references == 0) {
+        child.next_dying = dying;
+        dying = &child;
+      }
+    }
+    std::free(buffer);
+  }
+}
+
+void delete_box(Box* box) {
+  if (box->previous != nullptr) box->previous->next = box->next;
+  if (box->next != nullptr) box->next->previous = box->previous;
+  delete box;
+}
+
+// --- VectorBuilder --------------------------------------------------------
+
+VectorBuilder::~VectorBuilder() {
+  if (buffer_ != nullptr) finish();
+}
+
+void VectorBuilder::reserve(std::size_t capacity) {
+  if (capacity <= capacity_) return;
+  buffer_ = allocate_vector(buffer_, capacity);
+  capacity_ = buffer_->capacity;
+}
+
+void VectorBuilder::grow() { reserve(capacity_ < 4 ? 4 : capacity_ * 2ULL); }
+
+void VectorBuilder::push_all(std::span<const Value> values) {
+  if (values.empty()) return;
+  const std::size_t needed = size_ + values.size();
+  if (needed > capacity_) reserve(std::max<std::size_t>(needed, capacity_ * 2));
+  copy_values(values, buffer_->data() + size_);
+  size_ = static_cast<std::uint32_t>(needed);
+}
+
+Value VectorBuilder::finish() {
+  if (capacity_ != size_ || buffer_ == nullptr) {
+    buffer_ = allocate_vector(buffer_, size_);
+  }
+  buffer_->used = size_;
+  Value result = Value::adopt(Type::kVector, buffer_, size_);
+  buffer_ = nullptr;
+  size_ = capacity_ = 0;
+  return result;
+}
+
+}  // namespace lamina::csg
