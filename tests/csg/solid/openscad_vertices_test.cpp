@@ -11,12 +11,13 @@
 #include <fstream>
 #include <functional>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "csg/planar/facets.h"
+#include "csg/degrees.h"
 #include "tests/csg/solid/lower_fixture.h"
 
 namespace lamina::csg {
@@ -31,7 +32,7 @@ constexpr double kGrid = 4e-5;  // two clipper grid cells of openscad
 
 struct Case {
   const char* name;
-  const char* scad;
+  std::string scad;
   std::function<Node*(TreeBuilder&)> make;
   double tolerance = kFloat;
   // Twisted sides: the triangles count too, not only their corners. Those of
@@ -40,7 +41,7 @@ struct Case {
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& test) {
-  return out << test.scad;
+  return out << test.scad.substr(0, 100);
 }
 
 // Triangles of a binary STL: 80 bytes, their number, and for each a normal,
@@ -146,6 +147,58 @@ Facets fn(double n) { return {n}; }
 
 Node* polygon_star(TreeBuilder& b) {
   return b.polygon({{4, 0}, {1, 1}, {0, 4}, {-1, 1}, {-4, 0}, {0, -1}});
+}
+
+// A box with a bumpy lid of quads that no plane holds, turned by `angle`.
+Case bumpy_lid(const char* name, double angle_deg) {
+  constexpr std::uint32_t kCells = 4;
+  constexpr std::uint32_t kSide = kCells + 1;
+  std::vector<Vec3> points;
+  std::vector<std::vector<std::uint32_t>> faces;
+  for (std::uint32_t i = 0; i < kSide; ++i) {
+    for (std::uint32_t j = 0; j < kSide; ++j) {
+      const Vec2 p(i, 1.5 * j);
+      const double c = cos_deg(angle_deg);
+      const double s = sin_deg(angle_deg);
+      points.push_back({c * p.x - s * p.y, s * p.x + c * p.y,
+                        2 + 0.15 * ((3 * i * i + 5 * j + i * j) % 7)});
+    }
+  }
+  for (std::uint32_t i = 0; i < kCells; ++i) {
+    for (std::uint32_t j = 0; j < kCells; ++j) {
+      const std::uint32_t a = i * kSide + j;
+      faces.push_back({a, a + 1, a + kSide + 1, a + kSide});
+    }
+  }
+  // A point far below closes it.
+  std::vector<std::uint32_t> rim;
+  for (std::uint32_t i = 0; i < kCells; ++i) rim.push_back(i);
+  for (std::uint32_t i = 0; i < kCells; ++i) rim.push_back(i * kSide + kCells);
+  for (std::uint32_t i = kCells; i > 0; --i) rim.push_back(kCells * kSide + i);
+  for (std::uint32_t i = kCells; i > 0; --i) rim.push_back(i * kSide);
+  const auto apex = static_cast<std::uint32_t>(points.size());
+  points.push_back({1, 2, -30});
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    faces.push_back({rim[(i + 1) % rim.size()], rim[i], apex});
+  }
+
+  std::ostringstream scad;
+  scad.precision(17);
+  scad << "polyhedron([";
+  for (const Vec3& p : points) {
+    scad << '[' << p.x << ',' << p.y << ',' << p.z << "],";
+  }
+  scad << "],[";
+  for (const auto& face : faces) {
+    scad << '[';
+    for (const std::uint32_t i : face) scad << i << ',';
+    scad << "],";
+  }
+  scad << "]);";
+  return {
+      name, scad.str(),
+      [points, faces](TreeBuilder& b) { return b.polyhedron(points, faces); },
+      kFloat, true};
 }
 
 Case extrusion(const char* name, const char* scad, LinearExtrudeParams params,
@@ -354,6 +407,32 @@ std::vector<Case> all_cases() {
                 "linear_extrude(10, twist=70, scale=[2,0.5]) "
                 "polygon([[4,0],[1,1],[0,4],[-1,1],[-4,0],[0,-1]]);",
                 scaled(twisted(70), {2, 0.5}), polygon_star));
+  cases.push_back(bumpy_lid("bumpy_lid", 0));
+  cases.push_back(bumpy_lid("bumpy_lid_turned", 25));
+  cases.push_back(bumpy_lid("bumpy_lid_back", 180));
+  const auto offset_of = [&](const char* name, const char* scad, Offset op) {
+    Case test = extrusion(name, scad, {.height = 1}, [op](TreeBuilder& b) {
+      return b.node(op, {polygon_star(b)});
+    });
+    test.has_telling_sides = false;
+    cases.push_back(test);
+  };
+  offset_of("offset_round",
+            "linear_extrude(1) offset(r=1, $fn=20) "
+            "polygon([[4,0],[1,1],[0,4],[-1,1],[-4,0],[0,-1]]);",
+            {.amount = 1, .facets = fn(20)});
+  offset_of("offset_inwards",
+            "linear_extrude(1) offset(r=-0.3) "
+            "polygon([[4,0],[1,1],[0,4],[-1,1],[-4,0],[0,-1]]);",
+            {.amount = -0.3});
+  offset_of("offset_delta",
+            "linear_extrude(1) offset(delta=0.5) "
+            "polygon([[4,0],[1,1],[0,4],[-1,1],[-4,0],[0,-1]]);",
+            {.amount = 0.5, .is_delta = true});
+  offset_of("offset_chamfer",
+            "linear_extrude(1) offset(delta=0.5, chamfer=true) "
+            "polygon([[4,0],[1,1],[0,4],[-1,1],[-4,0],[0,-1]]);",
+            {.amount = 0.5, .is_delta = true, .chamfer = true});
   return cases;
 }
 
