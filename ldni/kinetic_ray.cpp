@@ -109,6 +109,13 @@ struct KineticRay::State {
   void split_piece(Entry& entry);
   void end_piece(Entry& entry);
   void start_piece(Entry& entry);
+  ChainCursor cursor_before(const Entry& entry) const;
+  double y_before(const Entry& entry) const {
+    return cursor_before(entry).y_at(column_left);
+  }
+  bool is_in_column(double x) const {
+    return x >= column_left && x <= column_left + kColumnWidth;
+  }
   void check_entries() const;
 
   const double pitch;
@@ -566,8 +573,9 @@ void KineticRay::State::change_survival(std::uint32_t number,
 
 // --- Pieces -----------------------------------------------------------------
 
-// Where boundary that goes on straight through the column touches another in a
-// point, cuts it there, so that the tracer sees the touch.
+// Cuts boundary that goes on straight through the column where it touches
+// another in a point, so that the tracer sees the touch, and where it runs
+// along the column past others.
 void KineticRay::State::split_at_touches() {
   for (const std::uint32_t lower : touches) {
     if (!status.is_alive(lower)) continue;
@@ -586,7 +594,9 @@ void KineticRay::State::split_at_touches() {
     if (number == status.sentinel() || !status.is_alive(number)) continue;
     Entry& entry = status[number];
     if (entry.survival == 0 || entry.split_column == column) continue;
-    if (tracer.has_end_near(status.y_at(number, column_right))) {
+    const double y = status.y_at(number, column_right);
+    if (tracer.has_end_near(y) ||
+        std::abs(y_before(entry) - y) >= kColumnWidth) {
       split_piece(entry);
     }
   }
@@ -598,32 +608,41 @@ void KineticRay::State::split_piece(Entry& entry) {
   start_piece(entry);
 }
 
-// Ends the entry's piece on the left of the column: at the chain's last point
-// where the chain ends, else where it meets the column.
-void KineticRay::State::end_piece(Entry& entry) {
+// The entry's cursor where it meets the column from the left.
+ChainCursor KineticRay::State::cursor_before(const Entry& entry) const {
   const Vec2* left = entry.cursor.left();
-  while (left != entry.first && left->x >= column_left) --left;
   const Vec2* last = entry.cursor.last();
+  while (left != entry.first && left->x >= column_left) --left;
   while (left + 1 != last && left[1].x < column_left) ++left;
-  const double y = ChainCursor(left, last).y_at(column_left);
+  return {left, last};
+}
+
+// I5: where a chain starts or ends in the column, its turn is the point,
+// exactly. Only a chain that runs along the column is taken where the order of
+// its side holds, so that the region stays the union of trapezoids between
+// columns (I4).
+void KineticRay::State::end_piece(Entry& entry) {
+  const ChainCursor cursor = cursor_before(entry);
+  const Vec2* last = cursor.last();
+  const double y = cursor.y_at(column_left);
   Vec2 point(column_left, y);
-  if (last->x <= column_left + kColumnWidth) point = *last;
-  tracer.end_piece(entry.piece, point, y, left);
+  if (is_in_column(last->x) && std::abs(last->y - y) < kColumnWidth) {
+    point = *last;
+  }
+  tracer.end_piece(entry.piece, point, y, cursor.left());
   entry.split_column = column;
 }
 
-// Starts a piece on its right: at the chain's first point where it starts.
 void KineticRay::State::start_piece(Entry& entry) {
   entry.cursor.advance(column_right);
+  const Vec2* left = entry.cursor.left();
   const double y = entry.cursor.y_at(column_right);
   Vec2 point(column_right, y);
-  const Vec2* first_vertex = entry.cursor.left() + 1;
-  if (entry.first->x >= column_left) {
+  if (is_in_column(entry.first->x) &&
+      std::abs(entry.first->y - y) < kColumnWidth) {
     point = *entry.first;
-    first_vertex = entry.first + 1;
   }
-  entry.piece = tracer.start_piece(point, y, entry.cursor.left(), first_vertex,
-                                   entry.survival);
+  entry.piece = tracer.start_piece(point, y, left, entry.survival);
   entry.split_column = column;
 }
 

@@ -19,15 +19,17 @@ constexpr double kMergeDistance = kColumnWidth;
 // faces that coincide up to rounding.
 constexpr double kLeastArea = 1e-9;
 
-bool are_near(const Vec2& a, const Vec2& b) {
-  return std::abs(a.x - b.x) < kMergeDistance &&
-         std::abs(a.y - b.y) < kMergeDistance;
+// Ends of a stop in one point may be on both sides of its column.
+constexpr double kPinchDistance = 2 * kColumnWidth;
+
+bool are_near(const Vec2& a, const Vec2& b, double distance) {
+  return std::abs(a.x - b.x) < distance && std::abs(a.y - b.y) < distance;
 }
 
 // Whether leaving out `point` changes nothing: it repeats a neighbour, lies on
 // the line between them, or is the tip of a spike without width.
 bool is_redundant(const Vec2& before, const Vec2& point, const Vec2& after) {
-  if (are_near(before, point)) return true;
+  if (are_near(before, point, kMergeDistance)) return true;
   const Vec2 in = point - before;
   const Vec2 out = after - point;
   const double cross = in.x * out.y - in.y * out.x;
@@ -58,12 +60,11 @@ void ContourTracer::begin() {
 
 std::uint32_t ContourTracer::start_piece(Vec2 point, double key,
                                          const Vec2* segment,
-                                         const Vec2* first_vertex,
                                          std::int8_t direction) {
   const auto number = static_cast<std::uint32_t>(pieces_.size());
   Piece piece;
   piece.left = point;
-  piece.vertices_begin = first_vertex;
+  piece.vertices_begin = segment + 1;
   piece.direction = direction;
   pieces_.push_back(piece);
   ends_.push_back({key, point, segment, number, direction < 0, false});
@@ -80,7 +81,7 @@ void ContourTracer::end_piece(std::uint32_t number, Vec2 point, double key,
 
 bool ContourTracer::has_end_near(double y) const {
   return std::any_of(ends_.begin(), ends_.end(), [y](const End& end) {
-    return std::abs(end.key - y) < kMergeDistance;
+    return std::abs(end.key - y) < kPinchDistance;
   });
 }
 
@@ -113,7 +114,7 @@ void ContourTracer::link_stop() {
   // first the one that the lowest waiting end can link to.
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     for (std::size_t k = i; k < ends_.size() && !waiting_.empty(); ++k) {
-      if (ends_[k].key - ends_[i].key >= kMergeDistance) break;
+      if (ends_[k].key - ends_[i].key >= kPinchDistance) break;
       if (ends_[k].arrives == waiting_.back().arrives) continue;
       std::rotate(ends_.begin() + static_cast<std::ptrdiff_t>(i),
                   ends_.begin() + static_cast<std::ptrdiff_t>(k),
@@ -139,7 +140,7 @@ void ContourTracer::take_end(const End& end) {
   waiting_.pop_back();
   link(lower, end);
   for (std::size_t i = linked_.size(); i-- > 0;) {
-    if (!are_near(linked_[i].point, lower.point)) break;
+    if (!are_near(linked_[i].point, lower.point, kPinchDistance)) break;
     pinches_.push_back({linked_[i], lower});
   }
   linked_.push_back(end);
@@ -221,7 +222,7 @@ void ContourTracer::add_point(const Vec2& point) {
          is_redundant(loop_[loop_.size() - 2], loop_.back(), point)) {
     loop_.pop_back();
   }
-  if (!loop_.empty() && are_near(loop_.back(), point)) return;
+  if (!loop_.empty() && are_near(loop_.back(), point, kMergeDistance)) return;
   loop_.push_back(point);
 }
 
@@ -232,7 +233,7 @@ void ContourTracer::close_loop(Contours& contours) {
   std::size_t end = loop_.size();
   for (bool is_clean = false; !is_clean && end - begin >= 3;) {
     is_clean = true;
-    if (are_near(loop_[end - 1], loop_[begin]) ||
+    if (are_near(loop_[end - 1], loop_[begin], kMergeDistance) ||
         is_redundant(loop_[end - 2], loop_[end - 1], loop_[begin])) {
       --end;
       is_clean = false;

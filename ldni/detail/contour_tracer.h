@@ -29,12 +29,11 @@ class ContourTracer {
 
   // Starts a piece at a stop and returns its number.
   //
-  // key           its y where the order right of the stop holds
-  // segment       left end of the chain's segment there
-  // first_vertex  the first vertex of the chain that is right of the stop
-  // direction     +1 solid above, -1 below
+  // key        its y where the order right of the stop holds
+  // segment    left end of the chain's segment there
+  // direction  +1 solid above, -1 below
   std::uint32_t start_piece(Vec2 point, double key, const Vec2* segment,
-                            const Vec2* first_vertex, std::int8_t direction);
+                            std::int8_t direction);
   // Ends it; key and segment where the order left of the stop holds.
   void end_piece(std::uint32_t piece, Vec2 point, double key,
                  const Vec2* segment);
