@@ -1,0 +1,334 @@
+#include "slicer/defects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "ldni/contours.h"
+
+namespace lamina::slicer {
+namespace {
+
+struct Edge {
+  Vec2 from;
+  Vec2 to;
+  std::uint32_t boundary;
+  std::uint32_t next;  // the edge that follows
+};
+
+// Relative rounding of a difference of two products of doubles, with room.
+constexpr double kTurnRounding = 4e-16;
+
+// Sign of a * b - c * d, exact for factors that are exact themselves.
+int exact_sign(double a, double b, double c, double d) {
+  const double left = a * b;
+  const double right = c * d;
+  const double high = left - right;
+  const double low = std::fma(a, b, -left) - std::fma(c, d, -right);
+  const double sum = high + low;
+  return (sum > 0) - (sum < 0);
+}
+
+// +1: c lies left of the line from a to b; -1: right; 0: on it.
+int turn(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 u = b - a;
+  const Vec2 v = c - a;
+  const double left = u.x * v.y;
+  const double right = u.y * v.x;
+  const double value = left - right;
+  if (std::abs(value) > kTurnRounding * (std::abs(left) + std::abs(right))) {
+    return value > 0 ? 1 : -1;
+  }
+  return exact_sign(u.x, v.y, u.y, v.x);
+}
+
+// Whether the direction at→c lies strictly between at→a and at→b,
+// counter-clockwise from a.
+bool is_in_sector(Vec2 at, Vec2 a, Vec2 b, Vec2 c) {
+  const int ab = turn(at, a, b);
+  const int ac = turn(at, a, c);
+  const int cb = turn(at, c, b);
+  if (ab > 0) return ac > 0 && cb > 0;
+  return ac > 0 || cb > 0;  // a reflex sector
+}
+
+// `p` is on the line of the edge: is it between its ends?
+bool is_within(const Edge& edge, Vec2 p) {
+  return std::min(edge.from.x, edge.to.x) <= p.x &&
+         p.x <= std::max(edge.from.x, edge.to.x) &&
+         std::min(edge.from.y, edge.to.y) <= p.y &&
+         p.y <= std::max(edge.from.y, edge.to.y);
+}
+
+// The edges of a layer, and where they are.
+class EdgeGrid {
+ public:
+  explicit EdgeGrid(const SlcLayer& layer);
+
+  void find_crossings(std::vector<Defect>& defects) const;
+
+  // Sum of windings of the other boundaries around a point of `boundary`.
+  int winding_around(Vec2 point, std::uint32_t boundary) const;
+
+ private:
+  void collect_edges(const SlcLayer& layer);
+  void choose_cells();
+  std::uint32_t column_of(double x) const {
+    return cell_of(x - low_.x, columns_);
+  }
+  std::uint32_t row_of(double y) const { return cell_of(y - low_.y, rows_); }
+  std::uint32_t cell_of(double distance, std::uint32_t count) const {
+    return static_cast<std::uint32_t>(std::clamp(
+        distance * cells_per_mm_, 0.0, static_cast<double>(count - 1)));
+  }
+  template <typename Visit>
+  void visit_cells(const Edge& edge, const Visit& visit) const;
+  bool cross(const Edge& a, const Edge& b) const;
+  bool passes_through(const Edge& at, const Edge& other) const;
+  std::span<const std::uint32_t> members(std::size_t cell) const {
+    return {members_.data() + starts_[cell], starts_[cell + 1] - starts_[cell]};
+  }
+
+  std::vector<Edge> edges_;
+  Vec2 low_ = Vec2(0);
+  Vec2 high_ = Vec2(0);
+  double cells_per_mm_ = 1;
+  std::uint32_t columns_ = 1;
+  std::uint32_t rows_ = 1;
+  std::vector<std::uint32_t> starts_;  // of each cell, in members_
+  std::vector<std::uint32_t> members_;
+};
+
+EdgeGrid::EdgeGrid(const SlcLayer& layer) {
+  collect_edges(layer);
+  choose_cells();
+  // Sort by counting: sizes first, then places.
+  const std::size_t cells = std::size_t{columns_} * rows_;
+  starts_.assign(cells + 1, 0);
+  for (const Edge& edge : edges_) {
+    visit_cells(edge, [&](std::size_t cell) { ++starts_[cell + 1]; });
+  }
+  for (std::size_t i = 0; i < cells; ++i) starts_[i + 1] += starts_[i];
+  members_.resize(starts_[cells]);
+  std::vector<std::uint32_t> fill(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+    visit_cells(edges_[i],
+                [&](std::size_t cell) { members_[fill[cell]++] = i; });
+  }
+}
+
+void EdgeGrid::collect_edges(const SlcLayer& layer) {
+  for (std::uint32_t b = 0; b < layer.boundaries.size(); ++b) {
+    const std::vector<Vec2>& points = layer.boundaries[b].points;
+    const auto first = static_cast<std::uint32_t>(edges_.size());
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      if (points[i] == points[i + 1]) continue;  // told as a repeat
+      const auto next = static_cast<std::uint32_t>(edges_.size()) + 1;
+      edges_.push_back({points[i], points[i + 1], b, next});
+    }
+    if (edges_.size() > first) edges_.back().next = first;
+  }
+}
+
+void EdgeGrid::choose_cells() {
+  if (edges_.empty()) return;
+  low_ = high_ = edges_.front().from;
+  for (const Edge& edge : edges_) {
+    low_ = {std::min(low_.x, edge.from.x), std::min(low_.y, edge.from.y)};
+    high_ = {std::max(high_.x, edge.from.x), std::max(high_.y, edge.from.y)};
+  }
+  const Vec2 size = high_ - low_;
+  const auto wanted = static_cast<double>(edges_.size());
+  const double longest = std::max({size.x, size.y, 1e-9});
+  cells_per_mm_ = std::min(
+      std::sqrt(wanted / std::max(size.x * size.y, 1e-300)), wanted / longest);
+  columns_ = 1 + static_cast<std::uint32_t>(size.x * cells_per_mm_);
+  rows_ = 1 + static_cast<std::uint32_t>(size.y * cells_per_mm_);
+}
+
+// Calls visit(cell) for every cell that the edge meets, and perhaps a few
+// beside them.
+template <typename Visit>
+void EdgeGrid::visit_cells(const Edge& edge, const Visit& visit) const {
+  const Vec2 lower = edge.from.y <= edge.to.y ? edge.from : edge.to;
+  const Vec2 upper = edge.from.y <= edge.to.y ? edge.to : edge.from;
+  const double slope =
+      upper.y > lower.y ? (upper.x - lower.x) / (upper.y - lower.y) : 0;
+  // Far above rounding, far below a cell.
+  const double margin = 1e-6 / cells_per_mm_;
+  const std::uint32_t last_row = row_of(upper.y + margin);
+  for (std::uint32_t row = row_of(lower.y - margin); row <= last_row; ++row) {
+    double x0 = lower.x;
+    double x1 = upper.x;
+    if (upper.y > lower.y) {
+      const double bottom = low_.y + row / cells_per_mm_ - margin;
+      const double top = low_.y + (row + 1) / cells_per_mm_ + margin;
+      x0 = lower.x + slope * (std::clamp(bottom, lower.y, upper.y) - lower.y);
+      x1 = lower.x + slope * (std::clamp(top, lower.y, upper.y) - lower.y);
+    }
+    const std::uint32_t last_column = column_of(std::max(x0, x1) + margin);
+    for (std::uint32_t column = column_of(std::min(x0, x1) - margin);
+         column <= last_column; ++column) {
+      visit(std::size_t{row} * columns_ + column);
+    }
+  }
+}
+
+// Whether the boundary of `at` passes, at the end of that edge, from one side
+// of the boundary of `other` to the other side.
+bool EdgeGrid::passes_through(const Edge& at, const Edge& other) const {
+  const Vec2 p = at.to;
+  const Vec2 before = at.from;
+  const Vec2 after = edges_[at.next].to;
+  if (p == other.from) return false;  // the edge before `other` sees to it
+  if (p == other.to) {
+    const Vec2 other_after = edges_[other.next].to;
+    return is_in_sector(p, other.from, other_after, before) !=
+           is_in_sector(p, other.from, other_after, after);
+  }
+  if (turn(other.from, other.to, p) != 0 || !is_within(other, p)) return false;
+  return turn(other.from, other.to, before) *
+             turn(other.from, other.to, after) <
+         0;
+}
+
+bool EdgeGrid::cross(const Edge& a, const Edge& b) const {
+  if (std::max(a.from.x, a.to.x) < std::min(b.from.x, b.to.x) ||
+      std::max(b.from.x, b.to.x) < std::min(a.from.x, a.to.x) ||
+      std::max(a.from.y, a.to.y) < std::min(b.from.y, b.to.y) ||
+      std::max(b.from.y, b.to.y) < std::min(a.from.y, a.to.y)) {
+    return false;
+  }
+  const int b_from = turn(a.from, a.to, b.from);
+  const int b_to = turn(a.from, a.to, b.to);
+  if (b_from * b_to > 0) return false;
+  if (b_from == 0 && b_to == 0) {
+    // On one line: they may share a point but no length.
+    const Vec2 along = a.to - a.from;
+    const auto place = [&](Vec2 p) {
+      return along.x * (p.x - a.from.x) + along.y * (p.y - a.from.y);
+    };
+    const double low = std::min(place(b.from), place(b.to));
+    const double high = std::max(place(b.from), place(b.to));
+    return std::min(high, place(a.to)) > std::max(low, 0.0);
+  }
+  const int a_from = turn(b.from, b.to, a.from);
+  const int a_to = turn(b.from, b.to, a.to);
+  if (a_from * a_to > 0) return false;
+  if (b_from * b_to < 0 && a_from * a_to < 0) return true;
+  if (&edges_[a.next] == &b || &edges_[b.next] == &a) return false;
+  return passes_through(a, b) || passes_through(b, a);
+}
+
+void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing;
+  for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) {
+    const auto edges = members(cell);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t j = i + 1; j < edges.size(); ++j) {
+        const Edge& a = edges_[edges[i]];
+        const Edge& b = edges_[edges[j]];
+        if (!cross(a, b)) continue;
+        crossing.emplace_back(edges[i], edges[j]);
+        if (crossing.size() >= 4 * kMostCrossings) break;
+      }
+    }
+  }
+  // Two edges may meet in several cells.
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  if (crossing.size() > kMostCrossings) crossing.resize(kMostCrossings);
+  for (const auto& [first, second] : crossing) {
+    const Edge& edge = edges_[first];
+    defects.push_back(
+        {DefectKind::kCrossing, edge.boundary, (edge.from + edge.to) / 2.0});
+  }
+}
+
+int EdgeGrid::winding_around(Vec2 point, std::uint32_t boundary) const {
+  int winding = 0;
+  const std::uint32_t column = column_of(point.x);
+  for (std::uint32_t row = 0; row <= row_of(point.y); ++row) {
+    for (const std::uint32_t i :
+         members(std::size_t{row} * columns_ + column)) {
+      const Edge& edge = edges_[i];
+      if (edge.boundary == boundary) continue;
+      const bool begins_left = edge.from.x <= point.x;
+      if (begins_left == (edge.to.x <= point.x)) continue;
+      const double y = edge.from.y + (point.x - edge.from.x) *
+                                         (edge.to.y - edge.from.y) /
+                                         (edge.to.x - edge.from.x);
+      // An edge stands in several cells; that of the crossing counts it.
+      if (y < point.y && row_of(y) == row) winding += begins_left ? 1 : -1;
+    }
+  }
+  return winding;
+}
+
+// Defects of a boundary by itself; true if it encloses something.
+bool find_own_defects(const SlcBoundary& boundary, std::uint32_t index,
+                      std::vector<Defect>& defects) {
+  const std::vector<Vec2>& points = boundary.points;
+  const Vec2 place = points.empty() ? Vec2(0) : points.front();
+  if (boundary.gaps != 0) defects.push_back({DefectKind::kGap, index, place});
+  if (points.size() < 2 || points.front() != points.back()) {
+    defects.push_back({DefectKind::kOpen, index, place});
+    return false;
+  }
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i] == points[i + 1]) {
+      defects.push_back({DefectKind::kRepeat, index, points[i]});
+    }
+  }
+  if (points.size() < 4 || ldni::signed_area(points) == 0) {
+    defects.push_back({DefectKind::kZeroArea, index, place});
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string_view describe(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::kOpen:
+      return "is not closed";
+    case DefectKind::kGap:
+      return "counts gaps";
+    case DefectKind::kRepeat:
+      return "repeats a vertex";
+    case DefectKind::kZeroArea:
+      return "has no area";
+    case DefectKind::kCrossing:
+      return "crosses itself or another";
+    case DefectKind::kOrientation:
+      return "is turned against its nesting";
+  }
+  return "";
+}
+
+std::vector<Defect> find_defects(const SlcLayer& layer) {
+  std::vector<Defect> defects;
+  std::vector<std::uint32_t> enclosing;
+  for (std::uint32_t b = 0; b < layer.boundaries.size(); ++b) {
+    if (find_own_defects(layer.boundaries[b], b, defects)) {
+      enclosing.push_back(b);
+    }
+  }
+  const EdgeGrid grid(layer);
+  const std::size_t known = defects.size();
+  grid.find_crossings(defects);
+  // What crosses has no nesting.
+  if (defects.size() > known) return defects;
+  for (const std::uint32_t b : enclosing) {
+    const std::vector<Vec2>& points = layer.boundaries[b].points;
+    const Vec2 middle = (points[0] + points[1]) / 2.0;
+    const bool is_hole = ldni::signed_area(points) < 0;
+    if (grid.winding_around(middle, b) != (is_hole ? 1 : 0)) {
+      defects.push_back({DefectKind::kOrientation, b, points.front()});
+    }
+  }
+  return defects;
+}
+
+}  // namespace lamina::slicer
