@@ -1,0 +1,346 @@
+// The program lamina: a list of passes over a design.
+//
+//   load ─▶ parse ─▶ evaluate ─▶ lower ─▶ slice ─▶ write
+//
+// Nothing is computed here. Each pass appends to Diagnostics and throws where
+// the run must end; here, and only here, messages are printed, exceptions
+// caught, and exit statuses chosen.
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/options.h"
+#include "cli/report.h"
+#include "cli/run_on_stack.h"
+#include "cli/terminal.h"
+#include "csg/eval/csg_printer.h"
+#include "csg/eval/evaluator.h"
+#include "csg/solid/lower.h"
+#include "parser/ast_printer.h"
+#include "parser/loader.h"
+#include "slicer/formats/layer_writer.h"
+#include "slicer/formats/output_file.h"
+#include "slicer/formats/slc_reader.h"
+#include "slicer/image.h"
+#include "slicer/inspect.h"
+#include "slicer/picture.h"
+#include "slicer/slice.h"
+
+namespace lamina::cli {
+namespace {
+
+using slicer::OutputFormat;
+
+constexpr int kDone = 0;
+constexpr int kFault = 1;
+
+// Recursion of a design's functions ends here, long before memory does.
+constexpr std::size_t kEvaluationStack = std::size_t{256} << 20;
+
+// What the passes of a run share.
+struct Run {
+  Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
+      std::size_t stack)
+      : options(run_options),
+        temporary_files(files),
+        evaluation_stack(std::min(stack / 2, kEvaluationStack)),
+        terminal(run_options.is_quiet),
+        diagnostics([this](const Diagnostic& d) { terminal.show(d); }),
+        loader(sources, diagnostics, library_folders(),
+               run_options.definitions) {
+    diagnostics.set_hard_warnings(run_options.has_hard_warnings);
+  }
+
+  const DesignOptions& options;
+  slicer::TemporaryFiles& temporary_files;
+  std::size_t evaluation_stack;
+  Terminal terminal;
+  SourceStore sources;
+  Diagnostics diagnostics;
+  Loader loader;
+  RunReport report;
+  const std::chrono::steady_clock::time_point begin =
+      std::chrono::steady_clock::now();
+};
+
+// Runs a pass and adds the processor seconds that it takes to `seconds`.
+template <typename Pass>
+auto timed(double& seconds, const Pass& pass) {
+  const double begin = process_seconds();
+  auto product = pass();
+  seconds += process_seconds() - begin;
+  return product;
+}
+
+void write_text(Run& run, const std::string& path, std::string_view text) {
+  slicer::OutputFile output(path, run.temporary_files);
+  output.write(text);
+  output.commit();
+}
+
+std::size_t count_errors(const Diagnostics& diagnostics) {
+  std::size_t count = 0;
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    if (diagnostic.severity == Severity::kError) ++count;
+  }
+  return count;
+}
+
+// All messages so far, as openscad's `.echo` holds them.
+std::string echo_text(const Run& run) {
+  const std::string& design = run.options.design;
+  const std::size_t slash = design.rfind('/');
+  const std::string folder =
+      slash == std::string::npos ? "." : design.substr(0, slash);
+  std::string text;
+  for (const Diagnostic& diagnostic : run.diagnostics.all()) {
+    text += openscad_line(diagnostic, folder);
+  }
+  return text;
+}
+
+ast::Program load(Run& run) {
+  try {
+    return timed(run.report.load_seconds,
+                 [&] { return run.loader.load(run.options.design); });
+  } catch (const SyntaxError&) {
+    if (run.options.format == OutputFormat::kEcho) {
+      write_text(run, run.options.output,
+                 echo_text(run) + fmt::format("Can't parse file '{}'!\n\n",
+                                              run.options.design));
+    }
+    throw;
+  }
+}
+
+// The tree of the design; has_failed tells a failed assertion, endless
+// recursion or, under hard warnings, a warning. The tree is empty then.
+struct Evaluated {
+  csg::Tree tree;
+  bool has_failed = false;
+};
+
+Evaluated evaluate(Run& run, const ast::Program& program) {
+  csg::EvaluateOptions options;
+  options.stack_bytes = run.evaluation_stack;
+  // As openscad sets it for each of its outputs.
+  options.preview = run.options.format == OutputFormat::kCsg;
+  const std::size_t errors = count_errors(run.diagnostics);
+  return timed(run.report.evaluate_seconds, [&]() -> Evaluated {
+    try {
+      csg::Tree tree =
+          csg::evaluate(program, run.loader, options, run.diagnostics);
+      const bool has_failed = count_errors(run.diagnostics) > errors;
+      return {std::move(tree), has_failed};
+    } catch (const InternalError&) {
+      throw;
+    } catch (const Error&) {
+      return {{}, true};
+    }
+  });
+}
+
+std::string csg_text(Run& run, const csg::Tree& tree) {
+  if (tree.root == nullptr) return "\n";
+  return csg::print_csg(tree, *csg::select_root(tree, run.diagnostics));
+}
+
+// The one layer of a 2D design.
+void take_outline(const planar::Region& outline, slicer::LayerSink& sink,
+                  RunReport& report) {
+  slicer::Layer layer;
+  for (const planar::Contour& contour : outline.contours) {
+    auto& [points, ends] = layer.contours;
+    points.insert(points.end(), contour.begin(), contour.end());
+    ends.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  report.slice.layers = 1;
+  report.slice.loops = layer.contours.loop_count();
+  report.slice.points = layer.contours.points.size();
+  sink.take(layer);
+}
+
+[[noreturn]] void refuse_geometry(const std::string& words) {
+  throw GeometryError({Severity::kError, {}, words});
+}
+
+// From the CSG tree to layers in `sink`.
+void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
+  // Lowering comes before slicing because transforms, 2D parts and hulls need
+  // the whole tree, layers only the leaves.
+  const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
+    return csg::lower(tree, {run.options.world_from_design}, run.diagnostics);
+  });
+  if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
+  if (const planar::Region* outline = lowered.outline()) {
+    if (run.options.format != OutputFormat::kLayersJson) {
+      refuse_geometry("Current top level object is not a 3D object.");
+    }
+    take_outline(*outline, sink, run.report);
+    return;
+  }
+  const csg::Scene& scene = *lowered.scene();
+  ProgressSink progress(sink, run.terminal, scene.box.low.z, scene.box.high.z);
+  run.report.slice =
+      slicer::slice(scene, run.options.settings, progress, run.diagnostics);
+}
+
+void finish_report(Run& run, std::uint64_t output_bytes) {
+  run.report.wall_seconds = std::chrono::duration<double>(
+                                std::chrono::steady_clock::now() - run.begin)
+                                .count();
+  if (!run.options.report.empty()) {
+    write_text(run, run.options.report, report_json(run.report));
+  }
+  run.terminal.say(summary_line(run.options.output, output_bytes, run.report));
+}
+
+int compile(Run& run) {
+  const ast::Program program = load(run);
+  // The syntax tree is written before anything is evaluated: what a design
+  // does is no matter of its syntax.
+  if (run.options.format == OutputFormat::kAst) {
+    write_text(run, run.options.output, ast::print(program));
+    return kDone;
+  }
+  const Evaluated evaluated = evaluate(run, program);
+  // Texts end well even where the design failed, as openscad's do.
+  if (run.options.format == OutputFormat::kEcho) {
+    write_text(run, run.options.output, echo_text(run));
+    return kDone;
+  }
+  if (run.options.format == OutputFormat::kCsg) {
+    write_text(run, run.options.output, csg_text(run, evaluated.tree));
+    return kDone;
+  }
+  if (evaluated.has_failed) return kFault;
+
+  slicer::OutputFile output(run.options.output, run.temporary_files);
+  const auto writer = slicer::make_layer_writer(run.options.format, output);
+  make_layers(run, evaluated.tree, *writer);
+  writer->finish();
+  output.commit();
+  finish_report(run, output.size());
+  return kDone;
+}
+
+class LayerList : public slicer::LayerSink {
+ public:
+  void take(const slicer::Layer& layer) override { layers.push_back(layer); }
+  std::vector<slicer::Layer> layers;
+};
+
+// All layers of a file or of a design; none where the design failed.
+std::vector<slicer::Layer> layers_of(Run& run) {
+  LayerList list;
+  if (run.options.design.ends_with(".slc")) {
+    slicer::SlcReader reader(run.options.design);
+    slicer::SlcLayer layer;
+    while (reader.read_layer(layer)) list.take(to_layer(layer));
+    return std::move(list.layers);
+  }
+  const ast::Program program = load(run);
+  const Evaluated evaluated = evaluate(run, program);
+  if (!evaluated.has_failed) make_layers(run, evaluated.tree, list);
+  return std::move(list.layers);
+}
+
+int view(Run& run, const slicer::PictureOptions& options) {
+  const std::vector<slicer::Layer> layers = layers_of(run);
+  if (layers.empty()) return kFault;
+  const std::size_t slash = run.options.design.rfind('/');
+  const std::string title =
+      run.options.design.substr(slash == std::string::npos ? 0 : slash + 1);
+  slicer::OutputFile output(run.options.output, run.temporary_files);
+  write_png(draw_picture(layers, title, options), output);
+  output.commit();
+  return kDone;
+}
+
+int inspect(const InspectOptions& options) {
+  const slicer::Inspection inspection = slicer::inspect_slc(
+      options.file, options.lists_all_layers ? slicer::LayerList::kAll
+                                             : slicer::LayerList::kSummary);
+  std::fwrite(inspection.text.data(), 1, inspection.text.size(), stdout);
+  return inspection.defects == 0 ? kDone : kFault;
+}
+
+// Passes that report what they throw have had it shown already.
+bool is_reported(const Diagnostics& diagnostics, const Diagnostic& thrown) {
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    if (diagnostic.message == thrown.message &&
+        diagnostic.range.source == thrown.range.source &&
+        diagnostic.range.begin == thrown.range.begin) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Runs `work` and turns what it throws into messages and a status.
+template <typename Work>
+int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
+               const Work& work) {
+  try {
+    return work();
+  } catch (const InternalError& error) {
+    terminal.show(
+        {Severity::kError,
+         {},
+         fmt::format("internal error, please report: {}", error.what())});
+  } catch (const Error& error) {
+    if (!is_reported(diagnostics, error.diagnostic())) {
+      terminal.show(error.diagnostic());
+    }
+  } catch (const std::bad_alloc&) {
+    terminal.show({Severity::kError, {}, "out of memory"});
+  } catch (const std::exception& error) {
+    terminal.show(
+        {Severity::kError,
+         {},
+         fmt::format("internal error, please report: {}", error.what())});
+  }
+  return kFault;
+}
+
+int run_command(const Command& command, slicer::TemporaryFiles& files,
+                std::size_t stack) {
+  if (const auto* options = std::get_if<InspectOptions>(&command)) {
+    Terminal terminal(false);
+    return run_caught(terminal, Diagnostics(),
+                      [&] { return inspect(*options); });
+  }
+  if (const auto* options = std::get_if<ViewOptions>(&command)) {
+    Run run(options->design, files, stack);
+    return run_caught(run.terminal, run.diagnostics,
+                      [&] { return view(run, options->picture); });
+  }
+  Run run(std::get<DesignOptions>(command), files, stack);
+  return run_caught(run.terminal, run.diagnostics,
+                    [&] { return compile(run); });
+}
+
+}  // namespace
+}  // namespace lamina::cli
+
+int main(int argc, char** argv) {
+  using namespace lamina;
+  const cli::Command command = cli::parse_command_line(argc, argv);
+  if (const auto* exit = std::get_if<cli::Exit>(&command)) {
+    std::fputs(exit->text.c_str(), exit->status == 0 ? stdout : stderr);
+    return exit->status;
+  }
+  slicer::TemporaryFiles temporary_files;
+  return cli::run_on_stack(temporary_files, [&](std::size_t stack) {
+    return cli::run_command(command, temporary_files, stack);
+  });
+}

@@ -1,0 +1,49 @@
+#pragma once
+// The command line, read and checked: what a run is asked for.
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "csg/vec.h"
+#include "slicer/formats/output_format.h"
+#include "slicer/picture.h"
+#include "slicer/settings.h"
+
+namespace lamina::cli {
+
+// From a design to layers, or to one of the stages on the way.
+struct DesignOptions {
+  std::string design;
+  std::string output;  // "-": standard output
+  slicer::OutputFormat format = slicer::OutputFormat::kSlc;
+  std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
+  Affine world_from_design{1.0};  // --axis
+  slicer::Settings settings;
+  std::string report;  // path; empty: none
+  bool is_quiet = false;
+  bool has_hard_warnings = false;
+};
+
+struct InspectOptions {
+  std::string file;
+  bool lists_all_layers = false;
+};
+
+struct ViewOptions {
+  DesignOptions design;  // also names a .slc
+  slicer::PictureOptions picture;
+};
+
+// Nothing to run: help and version were asked for, or the usage was wrong.
+struct Exit {
+  int status = 0;
+  std::string text;  // to standard output (status 0) or standard error
+};
+
+using Command = std::variant<DesignOptions, InspectOptions, ViewOptions, Exit>;
+
+Command parse_command_line(int argc, const char* const* argv);
+
+}  // namespace lamina::cli

@@ -1,0 +1,77 @@
+#include "cli/report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <time.h>
+
+namespace lamina::cli {
+namespace {
+
+std::string memory_text(std::uint64_t bytes) {
+  if (bytes >= 1'000'000) {
+    return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
+  }
+  return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+}
+
+}  // namespace
+
+double process_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string report_json(const RunReport& report) {
+  const slicer::SliceReport& slice = report.slice;
+  std::string json = "{\n";
+  const auto add = [&json](std::string_view key, auto value) {
+    if (json.size() > 2) json += ",\n";
+    fmt::format_to(std::back_inserter(json), "  \"{}\": {}", key, value);
+  };
+  add("load_seconds", report.load_seconds);
+  add("evaluate_seconds", report.evaluate_seconds);
+  add("lower_seconds", report.lower_seconds);
+  add("section_seconds", slice.section_seconds);
+  add("sweep_seconds", slice.sweep_seconds);
+  add("output_seconds", slice.output_seconds);
+  add("total_seconds", process_seconds());
+  add("wall_seconds", report.wall_seconds);
+  add("peak_memory_bytes", peak_memory_bytes());
+  add("layers", slice.layers);
+  add("loops", slice.loops);
+  add("points", slice.points);
+  add("chains", slice.sweep.chains);
+  add("chain_points", slice.sweep.points);
+  add("slabs", slice.sweep.slabs);
+  add("stops", slice.sweep.stops);
+  add("evaluations", slice.sweep.evaluations);
+  add("capped_columns", slice.sweep.capped_columns);
+  add("repaired_columns", slice.sweep.repaired_columns);
+  json += "\n}\n";
+  return json;
+}
+
+std::string summary_line(const std::string& output, std::uint64_t bytes,
+                         const RunReport& report) {
+  const slicer::SliceReport& slice = report.slice;
+  return fmt::format(
+      "{}: {} layers, {} loops, {} vertices, {}\n"
+      "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
+      "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
+      "by the clock",
+      output == "-" ? "standard output" : output, slice.layers, slice.loops,
+      slice.points, memory_text(bytes), process_seconds(), report.load_seconds,
+      report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
+      slice.sweep_seconds, slice.output_seconds,
+      memory_text(peak_memory_bytes()), report.wall_seconds);
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,88 @@
+#include "cli/terminal.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace lamina::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kProgressPeriod{150};
+
+}  // namespace
+
+Terminal::Terminal(bool is_quiet)
+    : is_quiet_(is_quiet),
+      is_terminal_(::isatty(STDERR_FILENO) == 1),
+      last_progress_(std::chrono::steady_clock::now()) {}
+
+Terminal::~Terminal() { finish(); }
+
+void Terminal::show(const Diagnostic& diagnostic) {
+  if (is_quiet_ && diagnostic.severity != Severity::kError) return;
+  std::string text = caret_text(diagnostic);
+  if (diagnostic.severity == Severity::kEcho) {
+    if (echo_count_ > 0 && text == last_echo_) {
+      ++echo_count_;
+      return;
+    }
+    end_echoes();
+    write(text);
+    last_echo_ = std::move(text);
+    echo_count_ = 1;
+    return;
+  }
+  end_echoes();
+  if (++counts_[text] == 1) write(text);
+}
+
+void Terminal::say(std::string_view line) {
+  if (is_quiet_) return;
+  end_echoes();
+  write(fmt::format("{}\n", line));
+}
+
+void Terminal::show_progress(double share) {
+  if (is_quiet_ || !is_terminal_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_progress_ < kProgressPeriod) return;
+  last_progress_ = now;
+  end_echoes();
+  std::fputs(fmt::format("\rslicing {:3.0f} %", 100 * share).c_str(), stderr);
+  has_progress_ = true;
+}
+
+void Terminal::finish() {
+  clear_progress();
+  end_echoes();
+  for (const auto& [text, count] : counts_) {
+    if (count == 1) continue;
+    write(fmt::format("{} ({} times in all)\n",
+                      std::string_view(text).substr(0, text.find('\n')),
+                      count));
+  }
+  counts_.clear();
+}
+
+void Terminal::end_echoes() {
+  if (echo_count_ > 1) write(fmt::format("  ({} times)\n", echo_count_));
+  echo_count_ = 0;
+}
+
+void Terminal::write(std::string_view text) {
+  clear_progress();
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void Terminal::clear_progress() {
+  if (has_progress_) std::fputs("\r             \r", stderr);
+  has_progress_ = false;
+}
+
+void ProgressSink::take(const slicer::Layer& layer) {
+  sink_.take(layer);
+  terminal_.show_progress((layer.top - bottom_) / (top_ - bottom_));
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,375 @@
+// From a design to an output: what appears, what is said, how it ends.
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+
+#include "ldni/contours.h"
+#include "slicer/formats/slc_reader.h"
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::read_file;
+using support::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::vector<slicer::SlcLayer> read_slc(const std::string& path) {
+  slicer::SlcReader reader(path);
+  std::vector<slicer::SlcLayer> layers;
+  slicer::SlcLayer layer;
+  while (reader.read_layer(layer)) layers.push_back(layer);
+  return layers;
+}
+
+double volume(const std::vector<slicer::SlcLayer>& layers) {
+  double sum = 0;
+  for (const slicer::SlcLayer& layer : layers) {
+    for (const auto& boundary : layer.boundaries) {
+      sum += layer.thickness * ldni::signed_area(boundary.points);
+    }
+  }
+  return sum;
+}
+
+TEST(Compile, WithoutAnOutputTheSlcLiesBesideTheDesign) {
+  const TemporaryFolder folder;
+  folder.write("box.v2.scad", "cube([4, 5, 2]);");
+  const auto result = run(folder, {"box.v2.scad"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.output, "");
+  EXPECT_TRUE(has(result.errors, "40 layers")) << result.errors;
+  const auto layers = read_slc(folder.file("box.v2.slc"));
+  EXPECT_EQ(layers.size(), 40U);
+  EXPECT_NEAR(volume(layers), 40, 1e-4);
+  EXPECT_EQ(folder.entry_count(), 2U);
+}
+
+TEST(Compile, QuietSaysNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "echo(1); cube(1); foo();");
+  const auto result = run(folder, {"-q", "a.scad"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.errors, "");
+  EXPECT_EQ(result.output, "");
+}
+
+TEST(Compile, StandardOutputCarriesTheOutputAlone) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "echo(\"hello\"); difference() { cube(3);"
+               "translate([1, 1, -1]) cube([1, 1, 9]); }");
+  const auto result = run(folder, {"a.scad", "-o", "-", "--export-format",
+                                   "layers.json", "--heights", "0.5,1,9"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(has(result.errors, "ECHO: \"hello\""));
+  const auto json = nlohmann::json::parse(result.output);
+  ASSERT_EQ(json["layers"].size(), 3U);
+  EXPECT_EQ(json["layers"][0]["z"], 0.5);
+  EXPECT_EQ(json["layers"][0]["top"], 0.5);
+  EXPECT_EQ(json["layers"][0]["contours"].size(), 2U);
+  EXPECT_EQ(json["layers"][1]["z"], 1.0);
+  EXPECT_TRUE(json["layers"][2]["contours"].empty());
+  EXPECT_EQ(folder.entry_count(), 1U);
+  // The same through a file whose name says nothing.
+  ASSERT_EQ(run(folder, {"a.scad", "-o", "x", "--export-format", "layers.json",
+                         "--heights", "0.5,1,9"})
+                .status,
+            0);
+  EXPECT_EQ(read_file(folder.file("x")), result.output);
+}
+
+TEST(Compile, DefinitionsOverrideTheDesign) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "w = 1; h = 1; cube([w, 1, h]);");
+  ASSERT_EQ(run(folder, {"a.scad", "-D", "w=3", "-D", "h=2*w"}).status, 0);
+  EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 18, 1e-4);
+}
+
+TEST(Compile, EveryAxisKeepsVolumeAndTurnsRightHanded) {
+  const TemporaryFolder folder;
+  // Three arms of different length show each turn.
+  folder.write("a.scad",
+               "cube([4, 0.5, 0.5]); cube([0.5, 3, 0.5]);"
+               "cube([0.5, 0.5, 2]);");
+  const std::vector<std::pair<std::string, double>> heights = {
+      {"z", 2}, {"x", 4}, {"y", 3}, {"-x", 4}, {"-y", 3}, {"-z", 2}};
+  for (const auto& [axis, height] : heights) {
+    ASSERT_EQ(run(folder, {"a.scad", "--axis", axis}).status, 0) << axis;
+    slicer::SlcReader reader(folder.file("a.slc"));
+    const auto z = (*reader.header().extents)[2];
+    EXPECT_NEAR(z.y - z.x, height, 1e-4) << axis;
+    EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 2, 1e-4) << axis;
+  }
+  // (x, y, z) → (y, z, x): the arm along y lies along x now.
+  ASSERT_EQ(run(folder, {"a.scad", "--axis", "x"}).status, 0);
+  slicer::SlcReader reader(folder.file("a.slc"));
+  EXPECT_NEAR((*reader.header().extents)[0].y, 3, 1e-6);
+  EXPECT_NEAR((*reader.header().extents)[1].y, 2, 1e-6);
+}
+
+TEST(Compile, EmptyLayersInsideStayAndOutsideGo) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "intersection() { cube(10); union() {"
+               "translate([0, 0, 1]) cube(1);"
+               "translate([0, 0, 3]) cube(1); } }");
+  ASSERT_EQ(run(folder, {"a.scad", "--layer", "0.5"}).status, 0);
+  const auto layers = read_slc(folder.file("a.slc"));
+  ASSERT_EQ(layers.size(), 6U);
+  EXPECT_NEAR(layers.front().z, 1, 1e-6);
+  EXPECT_TRUE(layers[2].boundaries.empty());
+  EXPECT_TRUE(layers[3].boundaries.empty());
+  EXPECT_EQ(layers[5].boundaries.size(), 1U);
+}
+
+TEST(Compile, OneAndManyThreadsWriteTheSameBytes) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "difference() { rotate([10, 20, 0]) sphere(5, $fn = 60);"
+               "for (i = [0 : 20]) rotate([0, 0, 17 * i])"
+               "translate([3, 0, 0]) cylinder(r = 0.3, h = 20, center = true,"
+               "$fn = 24); }");
+  for (const char* const threads : {"1", "2", "7"}) {
+    for (const char* const mode : {"faithful", "paper"}) {
+      ASSERT_EQ(
+          run(folder, {"a.scad", "-o", std::string(mode) + threads + ".slc",
+                       "--threads", threads, "--contour", mode})
+              .status,
+          0);
+      EXPECT_EQ(read_file(folder.file(std::string(mode) + threads + ".slc")),
+                read_file(folder.file(std::string(mode) + "1.slc")));
+    }
+  }
+}
+
+TEST(Compile, ReportHoldsTimesAndCounts) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "sphere(3);");
+  ASSERT_EQ(run(folder, {"a.scad", "--report", "r.json"}).status, 0);
+  const auto json = nlohmann::json::parse(read_file(folder.file("r.json")));
+  for (const char* const key :
+       {"load_seconds", "evaluate_seconds", "lower_seconds", "section_seconds",
+        "sweep_seconds", "output_seconds", "total_seconds"}) {
+    EXPECT_GE(json.at(key).get<double>(), 0) << key;
+  }
+  EXPECT_EQ(json.at("layers"), read_slc(folder.file("a.slc")).size());
+  EXPECT_GT(json.at("peak_memory_bytes").get<double>(), 1e6);
+  EXPECT_EQ(json.at("repaired_columns"), 0);
+}
+
+// --- What goes wrong ------------------------------------------------------
+
+TEST(Compile, FaultyDesignsEndWithOneAndMakeNothing) {
+  struct Case {
+    std::string text;
+    std::string words;
+  };
+  const std::vector<Case> cases = {
+      {"cube(1", "syntax error"},
+      {"assert(1 == 2); cube(1);", "Assertion '(1 == 2)' failed"},
+      {"module f() { f(); } f(); cube(1);", "Recursion detected"},
+      {"function f(x) = 1 + f(x); echo(f(1)); cube(1);", "Recursion detected"},
+      {"", "Current top level object is empty."},
+      {"translate([1, 2, 3]) {}", "Current top level object is empty."},
+      {"intersection() { cube(1); translate([5, 0, 0]) cube(1); }",
+       "Current top level object is empty."},
+      {"square(3);", "Current top level object is not a 3D object."},
+  };
+  for (const Case& each : cases) {
+    const TemporaryFolder folder;
+    folder.write("a.scad", each.text);
+    const auto result = run(folder, {"a.scad"});
+    EXPECT_EQ(result.status, 1) << each.text;
+    EXPECT_TRUE(has(result.errors, each.words)) << each.text << result.errors;
+    EXPECT_EQ(result.output, "");
+    EXPECT_EQ(folder.entry_count(), 1U) << each.text;
+  }
+}
+
+TEST(Compile, MissingInputsAreErrorsWithTheirName) {
+  const TemporaryFolder folder;
+  for (const auto& arguments :
+       {std::vector<std::string>{"nofile.scad"},
+        std::vector<std::string>{"nofile.scad", "-o", "a.echo"},
+        std::vector<std::string>{"inspect", "nofile.slc"},
+        std::vector<std::string>{"view", "nofile.slc", "-o", "a.png"},
+        std::vector<std::string>{"view", "nofile.scad", "-o", "a.png"}}) {
+    const auto result = run(folder, arguments);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(has(result.errors, "nofile")) << result.errors;
+  }
+  EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+TEST(Compile, OutputsThatCannotBeWrittenAreErrorsWithTheirName) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (const char* const output :
+       {"no/such/a.slc", "/proc/a.slc", "no/a.echo", "no/a.layers.json"}) {
+    const auto result = run(folder, {"a.scad", "-o", output});
+    EXPECT_EQ(result.status, 1) << output;
+    EXPECT_TRUE(has(result.errors, output)) << result.errors;
+  }
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "/dev/full", "--export-format", "slc"})
+                .status,
+            1);
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+TEST(Compile, AnOldOutputSurvivesAFailedRun) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "assert(false);");
+  folder.write("a.slc", "old");
+  EXPECT_EQ(run(folder, {"a.scad"}).status, 1);
+  EXPECT_EQ(read_file(folder.file("a.slc")), "old");
+}
+
+TEST(Compile, WarningsGoOnUnlessTheyAreHard) {
+  for (const char* const text :
+       {"foo(); cube(1);", "x = y; cube(1);", "x = f(1); cube(1);",
+        "include <nothing.scad>\ncube(1);", "use <nothing.scad>\ncube(1);"}) {
+    const TemporaryFolder folder;
+    folder.write("a.scad", text);
+    const auto soft = run(folder, {"a.scad", "-o", "soft.slc"});
+    EXPECT_EQ(soft.status, 0) << text;
+    EXPECT_TRUE(has(soft.errors, "warning: ")) << soft.errors;
+    const auto hard = run(folder, {"a.scad", "--hardwarnings"});
+    EXPECT_EQ(hard.status, 1) << text;
+    EXPECT_TRUE(has(hard.errors, "warning: ")) << hard.errors;
+    EXPECT_EQ(folder.entry_count(), 2U) << text;
+  }
+}
+
+TEST(Compile, EqualWarningsAreShownOnceWithTheirNumber) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "for (i = [1 : 7]) foo(); for (i = [1 : 5]) echo(1);"
+               "cube(1);");
+  const auto result = run(folder, {"a.scad"});
+  EXPECT_EQ(result.status, 0);
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = result.errors.find("Ignoring unknown module",
+                                                    at)) != std::string::npos;
+       ++at) {
+    ++count;
+  }
+  EXPECT_EQ(count, 2U) << result.errors;
+  EXPECT_TRUE(has(result.errors, "(7 times in all)")) << result.errors;
+  EXPECT_TRUE(has(result.errors, "ECHO: 1\n  (5 times)\n")) << result.errors;
+}
+
+// --- Texts, which end as openscad's do -------------------------------------
+
+TEST(Compile, TextsEndWellWhereTheDesignFails) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "echo(5); assert(false); cube(1);");
+  const auto echo = run(folder, {"a.scad", "-o", "a.echo"});
+  EXPECT_EQ(echo.status, 0) << echo.errors;
+  EXPECT_EQ(read_file(folder.file("a.echo")),
+            "ECHO: 5\n"
+            "ERROR: Assertion 'false' failed in file a.scad, line 1\n"
+            "TRACE: called by 'assert' in file a.scad, line 1\n");
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "a.csg"}).status, 0);
+  EXPECT_EQ(read_file(folder.file("a.csg")), "\n");
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "a.ast"}).status, 0);
+  EXPECT_TRUE(has(read_file(folder.file("a.ast")), "assert(false);"));
+}
+
+TEST(Compile, SyntaxErrorsWriteAnEchoButNothingElse) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1;");
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "a.csg"}).status, 1);
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "a.ast"}).status, 1);
+  EXPECT_EQ(folder.entry_count(), 1U);
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "a.echo"}).status, 1);
+  EXPECT_EQ(read_file(folder.file("a.echo")),
+            "ERROR: Parser error: syntax error in file a.scad, line 1\n"
+            "Can't parse file 'a.scad'!\n\n");
+}
+
+TEST(Compile, EmptyAndFlatDesignsHaveTexts) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "");
+  folder.write("b.scad", "square(3);");
+  for (const char* const extension : {"echo", "csg", "ast"}) {
+    for (const char* const design : {"a", "b"}) {
+      EXPECT_EQ(run(folder, {std::string(design) + ".scad", "-o",
+                             std::string(design) + "." + extension})
+                    .status,
+                0);
+    }
+  }
+  EXPECT_EQ(read_file(folder.file("b.csg")),
+            "square(size = [3, 3], center = false);\n\n");
+}
+
+TEST(Compile, FlatDesignsHaveOneLayerInJson) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "difference() { square(3); translate([1, 1])"
+               "square(1); }");
+  ASSERT_EQ(run(folder, {"a.scad", "-o", "a.layers.json"}).status, 0);
+  const auto json =
+      nlohmann::json::parse(read_file(folder.file("a.layers.json")));
+  ASSERT_EQ(json["layers"].size(), 1U);
+  EXPECT_EQ(json["layers"][0]["z"], 0.0);
+  EXPECT_EQ(json["layers"][0]["contours"].size(), 2U);
+}
+
+TEST(Compile, CsgTextSlicesToTheSameBytes) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "difference() { sphere(3); rotate([30, 0, 0])"
+               "cylinder(r = 1, h = 9, center = true); }");
+  ASSERT_EQ(run(folder, {"a.scad"}).status, 0);
+  ASSERT_EQ(run(folder, {"a.scad", "-o", "b.csg"}).status, 0);
+  ASSERT_EQ(run(folder, {"b.csg"}).status, 0);
+  const auto a = read_slc(folder.file("a.slc"));
+  const auto b = read_slc(folder.file("b.slc"));
+  EXPECT_EQ(a.size(), b.size());
+  EXPECT_NEAR(volume(a), volume(b), 1e-3);
+}
+
+// --- Interruption -----------------------------------------------------------
+
+TEST(Compile, InterruptedRunsEndWith130AndLeaveNothing) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    // Slices for much longer than the test waits.
+    folder.write("a.scad",
+                 "for (x = [0 : 40]) for (y = [0 : 40])"
+                 "translate([x, y, 0]) sphere(0.7, $fn = 60);");
+    support::BackgroundProcess process(
+        command({"a.scad", "--layer", "0.00002"}), folder.path());
+    for (int i = 0; i < 500 && folder.entry_count() < 2; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_EQ(folder.entry_count(), 2U);  // the temporary file is there
+    process.send(signal);
+    EXPECT_EQ(process.wait(), 130);
+    EXPECT_EQ(folder.entry_count(), 1U);
+  }
+}
+
+TEST(Compile, AReaderThatLeavesIsAnErrorNotADeath) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "sphere(5, $fn = 200);");
+  const std::string line = std::string(LAMINA_PROGRAM) +
+                           " a.scad -o - --export-format layers.json "
+                           "--tolerance 0 2>/dev/null | true; "
+                           "exit ${PIPESTATUS[0]}";
+  const auto result = support::run_process({"bash", "-c", line}, folder.path());
+  EXPECT_EQ(result.status, 1);
+}
+
+}  // namespace
+}  // namespace lamina::cli

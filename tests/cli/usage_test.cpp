@@ -1,0 +1,113 @@
+// What the command line promises before any design is read.
+
+#include <gtest/gtest.h>
+
+#include "slicer/version.h"
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Usage, VersionIsOneLineOnStandardOutput) {
+  const TemporaryFolder folder;
+  const auto result = run(folder, {"--version"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.output, "lamina " + std::string(slicer::version()) + "\n");
+  EXPECT_EQ(result.errors, "");
+}
+
+TEST(Usage, VersionStaysSmall) {
+  const TemporaryFolder folder;
+  EXPECT_LT(run(folder, {"--version"}).peak_memory_kib, 12 * 1000);
+}
+
+TEST(Usage, VersionNeedsFewSharedLibraries) {
+  const auto libraries = support::run_process({"ldd", LAMINA_PROGRAM});
+  ASSERT_EQ(libraries.status, 0);
+  std::size_t count = 0;
+  for (const char c : libraries.output) count += c == '\n' ? 1 : 0;
+  EXPECT_LE(count, 12U) << libraries.output;
+  for (const char* const heavy :
+       {"OSMesa", "libGL", "EGL", "CGAL", "gmp", "mpfr", "Qt", "X11"}) {
+    EXPECT_FALSE(has(libraries.output, heavy)) << libraries.output;
+  }
+}
+
+TEST(Usage, HelpShowsOptionsAndExamples) {
+  const TemporaryFolder folder;
+  const auto result = run(folder, {"--help"});
+  EXPECT_EQ(result.status, 0);
+  for (const char* const word :
+       {"-o", "--layer", "--tolerance", "--heights", "--axis", "-D", "inspect",
+        "view", "Examples", "Exit status"}) {
+    EXPECT_TRUE(has(result.output, word)) << word;
+  }
+  EXPECT_TRUE(has(run(folder, {"view", "--help"}).output, "--style"));
+}
+
+TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  const std::vector<std::vector<std::string>> mistakes = {
+      {},
+      {"--no-such-option", "a.scad"},
+      {"a.scad", "--layer", "0"},
+      {"a.scad", "--layer", "-1"},
+      {"a.scad", "--layer", "thick"},
+      {"a.scad", "--layer", "0.1mm"},
+      {"a.scad", "--layer", "nan"},
+      {"a.scad", "--tolerance", "-0.1"},
+      {"a.scad", "--heights", "1,0.5"},
+      {"a.scad", "--heights", "1,,2"},
+      {"a.scad", "--axis", "w"},
+      {"a.scad", "--contour", "best"},
+      {"a.scad", "--threads", "0"},
+      {"a.scad", "-o", "a.xyz"},
+      {"a.scad", "-o", "a"},
+      {"a.scad", "-o", "-"},
+      {"a.scad", "--export-format", "gcode"},
+      {"view", "a.scad", "-o", "a.jpg"},
+      {"view", "a.scad"},
+      {"inspect"},
+  };
+  for (const auto& arguments : mistakes) {
+    std::string line;
+    for (const std::string& word : arguments) line += word + " ";
+    const auto result = run(folder, arguments);
+    EXPECT_EQ(result.status, 2) << line << result.errors;
+    EXPECT_EQ(result.output, "") << line;
+    EXPECT_NE(result.errors, "") << line;
+  }
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+TEST(Usage, KnownFormatsThatAreNotWrittenSaySo) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (const char* const extension :
+       {"cli", "svg", "png", "sl1", "zip", "3mf"}) {
+    const auto result =
+        run(folder, {"a.scad", "-o", "a." + std::string(extension)});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(has(result.errors, "not supported yet")) << result.errors;
+  }
+  for (const char* const extension : {"stl", "off", "amf", "dxf", "STL"}) {
+    const auto result =
+        run(folder, {"a.scad", "-o", "a." + std::string(extension)});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(has(result.errors, "layers, not meshes")) << result.errors;
+  }
+  const auto gl = run(folder, {"a.scad", "--sampler", "gl"});
+  EXPECT_EQ(gl.status, 1);
+  EXPECT_TRUE(has(gl.errors, "not supported yet")) << gl.errors;
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+}  // namespace
+}  // namespace lamina::cli

@@ -1,0 +1,72 @@
+#include "tests/support/process.h"
+
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::support {
+namespace {
+
+// Starts the program with its streams going to files.
+pid_t start(const std::vector<std::string>& arguments,
+            const std::string& folder, const std::string& output,
+            const std::string& errors) {
+  std::vector<char*> words;
+  for (const std::string& argument : arguments) {
+    words.push_back(const_cast<char*>(argument.c_str()));
+  }
+  words.push_back(nullptr);
+  const pid_t process = ::fork();
+  if (process < 0) throw std::runtime_error("fork failed");
+  if (process > 0) return process;
+  const auto redirect = [](const std::string& path, int stream) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, stream);
+    ::close(file);
+  };
+  redirect(output, STDOUT_FILENO);
+  redirect(errors, STDERR_FILENO);
+  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+  if (::chdir(folder.c_str()) != 0) ::_exit(126);
+  ::execvp(words[0], words.data());
+  ::_exit(127);
+}
+
+int status_of(int wait_status) {
+  return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status)
+                                : 128 + WTERMSIG(wait_status);
+}
+
+}  // namespace
+
+ProcessResult run_process(const std::vector<std::string>& arguments,
+                          const std::string& folder) {
+  const TemporaryFolder streams;
+  const pid_t process =
+      start(arguments, folder, streams.file("out"), streams.file("err"));
+  int wait_status = 0;
+  rusage usage{};
+  ::wait4(process, &wait_status, 0, &usage);
+  return {status_of(wait_status), read_file(streams.file("out")),
+          read_file(streams.file("err")), usage.ru_maxrss};
+}
+
+BackgroundProcess::BackgroundProcess(const std::vector<std::string>& arguments,
+                                     const std::string& folder)
+    : process_(start(arguments, folder, "/dev/null", "/dev/null")) {}
+
+void BackgroundProcess::send(int signal) const { ::kill(process_, signal); }
+
+int BackgroundProcess::wait() {
+  int wait_status = 0;
+  ::waitpid(process_, &wait_status, 0);
+  return status_of(wait_status);
+}
+
+}  // namespace lamina::support

@@ -1,0 +1,36 @@
+#pragma once
+// Runs programs as a user would: arguments in, streams and exit status out.
+
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace lamina::support {
+
+struct ProcessResult {
+  int status = 0;  // exit status; 128 + n if signal n ended the process
+  std::string output;
+  std::string errors;
+  long peak_memory_kib = 0;
+};
+
+// Runs `arguments` (the program first) in `folder` and waits for its end.
+ProcessResult run_process(const std::vector<std::string>& arguments,
+                          const std::string& folder = ".");
+
+// A process under way, its streams closed to us.
+class BackgroundProcess {
+ public:
+  BackgroundProcess(const std::vector<std::string>& arguments,
+                    const std::string& folder);
+
+  void send(int signal) const;
+  // Waits for its end; the status as in ProcessResult.
+  int wait();
+
+ private:
+  pid_t process_;
+};
+
+}  // namespace lamina::support
