@@ -7,10 +7,18 @@ namespace lamina {
 
 namespace {
 
-std::size_t find_closing_quote(std::string_view text, std::size_t opening) {
+// The place behind the next `end`, or the end of the text.
+std::size_t skip_past(std::string_view text, std::string_view end,
+                      std::size_t begin) {
+  const std::size_t found = text.find(end, begin);
+  return found == std::string_view::npos ? text.size() : found + end.size();
+}
+
+// The place behind the string that begins at `opening`.
+std::size_t skip_string(std::string_view text, std::size_t opening) {
   std::size_t i = opening + 1;
   while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
-  return i < text.size() ? i : std::string_view::npos;
+  return i + 1;
 }
 
 }  // namespace
@@ -30,18 +38,19 @@ std::uint32_t Source::openscad_line(std::uint32_t offset) const {
   std::uint32_t line = line_column(offset).line;
   if (!has_returns_) return line;
   const std::string_view before = std::string_view(text_).substr(0, offset);
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  std::size_t i = 0;
+  while (i < before.size()) {
     const std::string_view pair = before.substr(i, 2);
-    if (before[i] == '\r') {
-      ++line;
-    } else if (pair == "//") {
-      i = before.find('\n', i);
+    if (before[i] == '\r') ++line;
+    if (pair == "//") {
+      i = skip_past(before, "\n", i);
     } else if (pair == "/*") {
-      i = before.find("*/", i + 2);
+      i = skip_past(before, "*/", i + 2);
     } else if (before[i] == '"') {
-      i = find_closing_quote(before, i);
+      i = skip_string(before, i);
+    } else {
+      ++i;
     }
-    if (i == std::string_view::npos) break;
   }
   return line;
 }
