@@ -1,8 +1,10 @@
 #include "parser/diagnostic.h"
 
 #include <algorithm>
+#include <deque>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,6 +21,8 @@ constexpr std::string_view kParserError = "Parser error: ";
 
 std::string_view openscad_prefix(Severity severity) {
   switch (severity) {
+    case Severity::kPlain:
+      return "";
     case Severity::kEcho:
       return "ECHO: ";
     case Severity::kDeprecated:
@@ -33,6 +37,8 @@ std::string_view openscad_prefix(Severity severity) {
 
 std::string_view terminal_prefix(Severity severity) {
   switch (severity) {
+    case Severity::kPlain:
+      return "";
     case Severity::kEcho:
       return "ECHO: ";
     case Severity::kDeprecated:
@@ -154,8 +160,16 @@ void Diagnostics::error(SourceRange range, std::string message,
   report({Severity::kError, range, std::move(message), std::move(notes)});
 }
 
-std::string openscad_line(const Diagnostic& diagnostic,
-                          const std::string& base_folder) {
+namespace {
+
+// The lines of one message, without line breaks.
+std::vector<std::string> openscad_lines(const Diagnostic& diagnostic,
+                                        const std::string& base_folder) {
+  const auto folder_of = [&](const Source* document) {
+    return document == nullptr ? base_folder
+                               : detail::folder_of(document->path());
+  };
+  std::vector<std::string> lines;
   std::string text(openscad_prefix(diagnostic.severity));
   text += diagnostic.message;
   const SourceRange range = diagnostic.range;
@@ -165,17 +179,52 @@ std::string openscad_line(const Diagnostic& diagnostic,
                           is_from_parser
                               ? range.source->line_column(range.begin).line
                               : range.source->openscad_line(range.begin),
-                          is_from_parser ? "" : base_folder);
+                          is_from_parser ? "" : folder_of(diagnostic.document));
   }
-  text += '\n';
+  lines.push_back(std::move(text));
   for (const Note& note : diagnostic.notes) {
-    text += "TRACE: " + note.message;
+    std::string line = "TRACE: " + note.message;
     if (note.range.is_known()) {
       const Source& source = *note.range.source;
-      append_openscad_place(
-          text, source, source.openscad_line(note.range.begin), base_folder);
+      append_openscad_place(line, source,
+                            source.openscad_line(note.range.begin),
+                            folder_of(note.document));
     }
-    text += '\n';
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string openscad_line(const Diagnostic& diagnostic,
+                          const std::string& base_folder) {
+  std::string text;
+  for (const std::string& line : openscad_lines(diagnostic, base_folder)) {
+    text += line + '\n';
+  }
+  return text;
+}
+
+std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
+                          const std::string& base_folder) {
+  constexpr std::size_t kRemembered = 5;
+  std::deque<std::string> last;
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    const bool can_fold = diagnostic.severity == Severity::kWarning ||
+                          diagnostic.severity == Severity::kError;
+    for (std::string& line : openscad_lines(diagnostic, base_folder)) {
+      if (can_fold) {
+        if (last.size() == kRemembered &&
+            std::count(last.begin(), last.end(), line) == std::ssize(last)) {
+          continue;
+        }
+        if (last.size() == kRemembered) last.pop_front();
+        last.push_back(line);
+      }
+      text += line + '\n';
+    }
   }
   return text;
 }
@@ -185,6 +234,7 @@ std::string caret_text(const Diagnostic& diagnostic) {
   if (diagnostic.severity == Severity::kEcho) {
     return "ECHO: " + diagnostic.message + "\n";
   }
+  if (diagnostic.severity == Severity::kPlain) return diagnostic.message + "\n";
   append_terminal_text(text, diagnostic.range,
                        terminal_prefix(diagnostic.severity),
                        diagnostic.message);

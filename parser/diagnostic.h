@@ -14,12 +14,14 @@
 
 namespace lamina {
 
-enum class Severity { kEcho, kDeprecated, kWarning, kError };
+// kPlain: a line that OpenSCAD prints without a prefix.
+enum class Severity { kPlain, kEcho, kDeprecated, kWarning, kError };
 
 // A further place that belongs to a diagnostic: a caller in a call chain.
 struct Note {
   SourceRange range;
   std::string message;  // "called by 'f'", as after OpenSCAD's "TRACE: "
+  const Source* document = nullptr;  // as in Diagnostic
 };
 
 struct Diagnostic {
@@ -29,6 +31,9 @@ struct Diagnostic {
   std::vector<Note> notes = {};
   // What OpenSCAD does not say: shown on the terminal only, after the notes.
   std::vector<Note> hints = {};
+  // A file in whose folder OpenSCAD starts the path that it shows (for much of
+  // what comes up in a used file, that file); null: the design.
+  const Source* document = nullptr;
 };
 
 // Thrown to end the run; only main catches.
@@ -98,6 +103,11 @@ class Diagnostics {
 // "in file …, line …" where it has a place, then a TRACE line per note. File
 // names are relative to `base_folder`, the folder of the design.
 std::string openscad_line(const Diagnostic& diagnostic,
+                          const std::string& base_folder);
+
+// What `.echo` holds for all messages of a run. Like OpenSCAD, drops a warning,
+// error or TRACE line that equals each of the last five.
+std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
                           const std::string& base_folder);
 
 // "file:line:column: warning: …", the line of text, carets below it, and the

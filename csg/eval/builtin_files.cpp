@@ -101,12 +101,9 @@ void surface(const BuiltinModuleCode& code, Frame& frame) {
   const auto is_true = [&](std::size_t i) {
     return arguments[i].is_bool() && arguments[i].as_bool() ? "true" : "false";
   };
-  const int convexity =
-      arguments[kConvexity].is_number() ? to_int(arguments[kConvexity]) : 1;
   std::string csg = "surface(file = " + relative_quoted(path, frame);
-  csg += fmt::format(", center = {}, invert = {}, convexity = {}, {})",
-                     is_true(kCenter), is_true(kInvert), convexity,
-                     timestamp_text(path));
+  csg += fmt::format(", center = {}, invert = {}, {})", is_true(kCenter),
+                     is_true(kInvert), timestamp_text(path));
   make_leaf("surface", csg, code, frame);
 }
 

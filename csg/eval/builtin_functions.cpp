@@ -265,6 +265,7 @@ void append_characters(const Value& value, Frame& frame, std::string& text) {
                                       count));
         return;
       }
+      if (range.step == 0) return;
       for (std::uint32_t i = 0; i < count; ++i) append_utf8(range.at(i), text);
       return;
     }

@@ -12,7 +12,7 @@ namespace lamina::csg {
 
 ModuleArguments::ModuleArguments(const BuiltinModuleCode& code, Frame& frame) {
   for (const std::string& warning : code.plan->warnings) {
-    frame.in.warn(code.range, warning);
+    frame.in.warn(code.range, warning, frame.document);
   }
   for (const BoundArgument& bound : code.plan->bound) {
     Value value = run(code.arguments[bound.written].value, frame);
@@ -109,7 +109,7 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
                                   count));
         return;
       }
-      for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::uint32_t i = 0; range.step != 0 && i < count; ++i) {
         child_at(to_index(range.at(i)), frame);
       }
       break;

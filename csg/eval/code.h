@@ -46,6 +46,9 @@ class Frame {
   Value* slots = nullptr;
   Frame* link = nullptr;             // of the module or file written around it
   const Closure* closure = nullptr;  // of a function literal
+  // The used file whose code this is; null for the design's own. Messages show
+  // places relative to it.
+  const Source* document = nullptr;
   // What `children()` of a module's activation stands for.
   const Block* children = nullptr;
   Frame* children_frame = nullptr;
@@ -214,6 +217,7 @@ struct Parameter {
   const Expression* fallback = nullptr;  // null: undef
   const ast::Expr* fallback_text = nullptr;
   bool has_silent_fallback = true;  // evaluating it cannot be noticed
+  bool is_extra = false;            // only given by callers that were warned
 };
 
 // One argument that goes somewhere.
@@ -251,6 +255,7 @@ struct FunctionLiteral : Callable {
   std::vector<Capture> captures;
   std::uint32_t hops = 0;  // from the maker's frame to the closure's link
   const ast::FunctionLiteral* definition = nullptr;
+  const Source* document = nullptr;  // as in Frame
 
   // As `echo` shows it.
   std::string text() const;

@@ -37,7 +37,8 @@ std::string relative_quoted(const std::string& path, Frame& frame) {
       fs::weakly_canonical(frame.in.design_folder(), ignored);
   const fs::path file =
       fs::weakly_canonical(path.empty() ? folder : fs::path(path), ignored);
-  append_quoted(file.lexically_relative(folder).generic_string(), text);
+  const std::string relative = file.lexically_relative(folder).generic_string();
+  append_quoted(relative == "." ? "./" : relative, text);
   return text;
 }
 

@@ -8,10 +8,12 @@
 
 namespace lamina::csg {
 
-void EvaluationFailure::note_call(std::string_view name, SourceRange range) {
+void EvaluationFailure::note_call(std::string_view name, SourceRange range,
+                                  const Source* document) {
   if (calls_to_note == 0) return;
   --calls_to_note;
-  diagnostic.notes.push_back({range, fmt::format("called by '{}'", name)});
+  diagnostic.notes.push_back(
+      {range, fmt::format("called by '{}'", name), document});
 }
 
 namespace {
@@ -53,13 +55,20 @@ Interpreter::~Interpreter() {
 
 // --- Messages ---------------------------------------------------------------
 
-void Interpreter::warn(SourceRange range, std::string message) {
+void Interpreter::warn(SourceRange range, std::string message,
+                       const Source* document) {
   ++effects_;
-  diagnostics_.warning(range, std::move(message));
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::kWarning;
+  diagnostic.range = range;
+  diagnostic.message = std::move(message);
+  diagnostic.document = document;
+  diagnostics_.report(std::move(diagnostic));
 }
 
 // Once for each place and text.
-void Interpreter::deprecate(SourceRange range, std::string message) {
+void Interpreter::deprecate(SourceRange range, std::string message,
+                            const Source* document) {
   ++effects_;
   std::string place = "-";
   if (range.is_known()) {
@@ -71,6 +80,7 @@ void Interpreter::deprecate(SourceRange range, std::string message) {
   diagnostic.severity = Severity::kDeprecated;
   diagnostic.range = range;
   diagnostic.message = std::move(message);
+  diagnostic.document = document;
   diagnostics_.report(std::move(diagnostic));
 }
 
@@ -81,20 +91,27 @@ void Interpreter::echo(std::string text) {
 
 void Interpreter::note(std::string text) {
   ++effects_;
-  diagnostics_.warning({}, std::move(text));
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::kPlain;
+  diagnostic.message = std::move(text);
+  diagnostics_.report(std::move(diagnostic));
 }
 
-void Interpreter::fail(SourceRange range, std::string message) {
+void Interpreter::fail(SourceRange range, std::string message,
+                       const Source* document) {
   EvaluationFailure failure;
   failure.diagnostic.severity = Severity::kError;
   failure.diagnostic.range = range;
   failure.diagnostic.message = std::move(message);
+  failure.diagnostic.document = document;
   throw failure;
 }
 
 void Interpreter::fail_recursion(SourceRange range, std::string_view kind,
-                                 std::string_view name) {
-  fail(range, fmt::format("Recursion detected calling {} '{}'", kind, name));
+                                 std::string_view name,
+                                 const Source* document) {
+  fail(range, fmt::format("Recursion detected calling {} '{}'", kind, name),
+       document);
 }
 
 // --- Variables --------------------------------------------------------------
@@ -182,6 +199,7 @@ Frame& Interpreter::enter_unit(Unit& unit) {
   UnitFrame& made = unit_frames_.back();
   made.slots.resize(unit.activation.slot_count, Value::unset());
   made.frame.slots = made.slots.data();
+  made.frame.document = unit.document;
   const std::uint64_t effects = effects_;
   const std::size_t mark = trail_.size();
   run_assignments(unit.body, made.frame);

@@ -27,7 +27,8 @@ struct EvaluationFailure {
   Diagnostic diagnostic;
   int calls_to_note = 12;
 
-  void note_call(std::string_view name, SourceRange range);
+  void note_call(std::string_view name, SourceRange range,
+                 const Source* document);
 };
 
 class Interpreter {
@@ -40,23 +41,29 @@ class Interpreter {
   Interpreter& operator=(const Interpreter&) = delete;
 
   // --- Messages
-  void warn(SourceRange range, std::string message);
-  void deprecate(SourceRange range, std::string message);
+  // document: of the frame where OpenSCAD takes the context of the code; null
+  // where it takes that of the design.
+  void warn(SourceRange range, std::string message,
+            const Source* document = nullptr);
+  void deprecate(SourceRange range, std::string message,
+                 const Source* document = nullptr);
   void echo(std::string text);
   // A line without prefix and place.
   void note(std::string text);
-  [[noreturn]] void fail(SourceRange range, std::string message);
+  [[noreturn]] void fail(SourceRange range, std::string message,
+                         const Source* document);
 
   // Throws OpenSCAD's error where the C++ stack is nearly used up.
   void check_stack(SourceRange range, std::string_view kind,
-                   std::string_view name) {
+                   std::string_view name, const Source* document) {
     if (reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
         stack_limit_) {
-      fail_recursion(range, kind, name);
+      fail_recursion(range, kind, name, document);
     }
   }
   [[noreturn]] void fail_recursion(SourceRange range, std::string_view kind,
-                                   std::string_view name);
+                                   std::string_view name,
+                                   const Source* document);
 
   // --- Variables
   // Value of a `$` variable; unset if nothing gave it one.

@@ -496,7 +496,6 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
     }
     const Resolver::Callee callee =
         resolver_.find_function(*scope_, name->name);
-    code->function = callee.function;
     if (callee.function == nullptr) {
       const BuiltinFunctionEntry* entry = find_builtin_function(name->name);
       if (entry != nullptr) {
@@ -518,13 +517,15 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
       code->arguments = arguments(call.arguments);
     }
     if (callee.function != nullptr) {
+      code->function =
+          &resolver_.with_extras(*callee.function, code->arguments);
       code->is_foreign = callee.is_foreign;
       if (!callee.is_foreign) {
         code->hops = count_hops(*scope_->activation,
                                 *callee.function->scope->activation);
       }
       code->plan = &resolver_.keep_plan(
-          resolver_.plan(callee.function->parameters,
+          resolver_.plan(code->function->parameters,
                          callee.function->parameters.size(), code->arguments));
       if (code->callee == nullptr) code->run = run_call_function;
     } else if (code->callee == nullptr) {
@@ -567,6 +568,7 @@ const Expression* ExpressionResolver::function_literal(
     const ast::FunctionLiteral& written, SourceRange range) {
   FunctionLiteral& literal = resolver_.new_literal();
   literal.definition = &written;
+  literal.document = scope_->unit->document;
   Activation& around = *scope_->activation;
   Activation& activation =
       resolver_.open_activation(Activation::Kind::kLiteral, around);

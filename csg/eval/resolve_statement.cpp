@@ -52,6 +52,12 @@ Block StatementResolver::body(ast::Statements statements) {
   return block;
 }
 
+Block StatementResolver::assignments_only(ast::Statements statements) {
+  Block block;
+  block.assignments = assignments(statements, nullptr);
+  return block;
+}
+
 void StatementResolver::module(Module& module) {
   auto* children = resolver_.make<Variable>();
   children->slot = module.children_slot;
@@ -172,7 +178,6 @@ InstantiationCode* StatementResolver::user_module(
     const ast::Instantiation& written, SourceRange range,
     const Resolver::Callee& callee) {
   auto* code = make<UserModuleCode>(run_user_module, range);
-  code->module = callee.module;
   code->is_foreign = callee.is_foreign;
   if (!callee.is_foreign) {
     for (const Activation* a = scope_->activation;
@@ -185,9 +190,10 @@ InstantiationCode* StatementResolver::user_module(
   code->block = resolver_.make<Block>();
   code->block->assignments = assignments(written.children, nullptr);
   code->arguments = expressions().arguments(written.arguments);
+  code->module = &resolver_.with_extras(*callee.module, code->arguments);
   code->plan = &resolver_.keep_plan(
-      resolver_.plan(callee.module->parameters,
-                     callee.module->parameters.size(), code->arguments));
+      resolver_.plan(code->module->parameters, callee.module->parameters.size(),
+                     code->arguments));
   code->block->statements = instantiations(written.children);
   code->block->resets = resolver_.keep(scope_->resets);
   return code;

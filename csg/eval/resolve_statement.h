@@ -16,6 +16,8 @@ class StatementResolver {
 
   // Statements of a file, in its scope.
   Block body(ast::Statements statements);
+  // Of a used file, whose instantiations nobody sees.
+  Block assignments_only(ast::Statements statements);
   // Parameters and body of a module, in its own scope.
   void module(Module& module);
 

@@ -70,6 +70,7 @@ Unit& Resolver::unit_of(const ast::Program& program) {
   units_.emplace_back();
   unit = &units_.back();
   unit->program = &program;
+  if (units_.size() > 1) unit->document = program.source;
   unit->activation.kind = Activation::Kind::kFile;
   scopes_.emplace_back();
   unit->scope = &scopes_.back();
@@ -90,7 +91,9 @@ void Resolver::resolve(Unit& unit) {
   if (unit.is_resolved) return;
   unit.is_resolved = true;
   StatementResolver resolver(*this, *unit.scope);
-  unit.body = resolver.body(unit.program->statements);
+  unit.body = unit.document == nullptr
+                  ? resolver.body(unit.program->statements)
+                  : resolver.assignments_only(unit.program->statements);
 }
 
 // Functions and modules are known in their whole scope; the last of a name
@@ -226,6 +229,7 @@ void Resolver::resolve_callable(Callable& callable, ast::Arguments parameters,
 }
 
 void Resolver::resolve(Function& function) {
+  resolve(*function.unit);
   Activation& activation =
       open_activation(Activation::Kind::kFunction, *function.scope->activation);
   activation.callable = &function;
@@ -235,6 +239,7 @@ void Resolver::resolve(Function& function) {
 }
 
 void Resolver::resolve(Module& module) {
+  resolve(*module.unit);
   module.is_resolved = true;
   Activation& activation =
       open_activation(Activation::Kind::kModule, *module.scope->activation);
@@ -263,7 +268,8 @@ ArgumentPlan Resolver::plan(std::span<const Parameter> parameters,
   for (std::uint32_t i = 0; i < arguments.size(); ++i) {
     const std::string_view name = arguments[i].name;
     if (!name.empty()) {
-      if (name[0] != '$' && find(name) == parameters.end()) {
+      const auto known = find(name);
+      if (name[0] != '$' && (known == parameters.end() || known->is_extra)) {
         plan.warnings.push_back("variable " + std::string(name) +
                                 " not specified as parameter");
       }
@@ -291,12 +297,101 @@ ArgumentPlan Resolver::plan(std::span<const Parameter> parameters,
     plan.bound.push_back(bound);
   }
   for (std::uint32_t i = 0; i < parameters.size(); ++i) {
-    if (!resolved.contains(std::string(parameters[i].name)) ||
-        !parameters[i].has_silent_fallback) {
+    if (!parameters[i].is_extra &&
+        (!resolved.contains(std::string(parameters[i].name)) ||
+         !parameters[i].has_silent_fallback)) {
       plan.defaults.push_back(i);
     }
   }
   return plan;
+}
+
+namespace {
+
+// The names among the arguments that are no parameters.
+std::vector<std::string_view> extra_names(
+    std::span<const Parameter> parameters,
+    std::span<const WrittenArgument> arguments) {
+  std::vector<std::string_view> names;
+  for (const WrittenArgument& argument : arguments) {
+    const std::string_view name = argument.name;
+    if (name.empty() || name[0] == '$') continue;
+    const bool is_known =
+        std::any_of(parameters.begin(), parameters.end(),
+                    [&](const Parameter& p) { return p.name == name; }) ||
+        std::find(names.begin(), names.end(), name) != names.end();
+    if (!is_known) names.push_back(name);
+  }
+  return names;
+}
+
+std::string joined(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (const std::string_view name : names) {
+    text += name;
+    text += ',';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::span<Parameter> Resolver::extended_parameters(
+    std::span<const Parameter> parameters,
+    const std::vector<std::string_view>& names, std::uint32_t first_slot) {
+  std::vector<Parameter> all(parameters.begin(), parameters.end());
+  std::uint32_t slot = first_slot;
+  for (const Parameter& parameter : all) {
+    if (parameter.target.kind == Target::Kind::kSlot) {
+      slot = std::max(slot, parameter.target.index + 1);
+    }
+  }
+  for (const std::string_view name : names) {
+    Parameter extra;
+    extra.name = name;
+    extra.is_extra = true;
+    extra.target = {Target::Kind::kSlot, slot++, nullptr};
+    all.push_back(extra);
+  }
+  const std::span<const Parameter> kept = keep(all);
+  return {const_cast<Parameter*>(kept.data()), kept.size()};
+}
+
+Function& Resolver::with_extras(Function& function,
+                                std::span<const WrittenArgument> arguments) {
+  const std::vector<std::string_view> names =
+      extra_names(function.parameters, arguments);
+  if (names.empty()) return function;
+  Function*& extended = extra_functions_[{&function, joined(names)}];
+  if (extended == nullptr) {
+    extended = &functions_.emplace_back();
+    extended->name = function.name;
+    extended->definition = function.definition;
+    extended->range = function.range;
+    extended->scope = function.scope;
+    extended->unit = function.unit;
+    extended->parameters = extended_parameters(function.parameters, names, 0);
+  }
+  return *extended;
+}
+
+Module& Resolver::with_extras(Module& module,
+                              std::span<const WrittenArgument> arguments) {
+  const std::vector<std::string_view> names =
+      extra_names(module.parameters, arguments);
+  if (names.empty()) return module;
+  Module*& extended = extra_modules_[{&module, joined(names)}];
+  if (extended == nullptr) {
+    extended = &modules_.emplace_back();
+    extended->name = module.name;
+    extended->definition = module.definition;
+    extended->range = module.range;
+    extended->scope = module.scope;
+    extended->unit = module.unit;
+    extended->children_slot = module.children_slot;
+    extended->parameters = extended_parameters(module.parameters, names, 1);
+  }
+  return *extended;
 }
 
 const ArgumentPlan& Resolver::plan_for(const CallCode& call,

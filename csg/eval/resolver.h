@@ -63,6 +63,7 @@ struct Scope {
 // A file: the main program or one that is used.
 struct Unit {
   const ast::Program* program = nullptr;
+  const Source* document = nullptr;  // of a used file; null for the design
   Scope* scope = nullptr;
   Activation activation;
   std::vector<const ast::Use*> uses;
@@ -150,9 +151,18 @@ class Resolver {
     Module* module = nullptr;
     bool is_foreign = false;
   };
+  std::span<Parameter> extended_parameters(
+      std::span<const Parameter> parameters,
+      const std::vector<std::string_view>& names, std::uint32_t first_slot);
   Unit* used_unit(const ast::Use& use);
   Callee find_function(const Scope& scope, std::string_view name);
   Callee find_module(const Scope& scope, std::string_view name);
+  // A callee with further parameters for what a caller names although it is no
+  // parameter: OpenSCAD warns, but the callee sees those variables.
+  Function& with_extras(Function& function,
+                        std::span<const WrittenArgument> arguments);
+  Module& with_extras(Module& module,
+                      std::span<const WrittenArgument> arguments);
 
   // Things that live as long as the code.
   Value& keep_constant(Value value) {
@@ -179,6 +189,8 @@ class Resolver {
   std::deque<std::vector<CallCode::TailDefault>> tail_defaults_;
   std::map<std::pair<const CallCode*, const Callable*>, ArgumentPlan>
       literal_plans_;
+  std::map<std::pair<const void*, std::string>, Function*> extra_functions_;
+  std::map<std::pair<const void*, std::string>, Module*> extra_modules_;
   std::deque<Unit> units_;
   std::unordered_map<const ast::Program*, Unit*> unit_of_;
   std::unordered_map<std::string, std::uint32_t> dynamic_index_;

@@ -25,7 +25,7 @@ const T& as(const Expression& expression) {
 // Most messages are never made: keep their code out of the hot functions.
 [[gnu::noinline]] void warn(Frame& frame, SourceRange range,
                             std::string message) {
-  frame.in.warn(range, std::move(message));
+  frame.in.warn(range, std::move(message), frame.document);
 }
 
 }  // namespace
@@ -81,9 +81,9 @@ Value run_dynamic(const Expression& expression, Frame& frame) {
   return Value();
 }
 Value run_unknown_variable(const Expression& expression, Frame& frame) {
-  warn(frame, expression.range,
-       fmt::format("Ignoring unknown variable '{}'",
-                   as<UnknownVariable>(expression).name));
+  frame.in.warn(expression.range,
+                fmt::format("Ignoring unknown variable '{}'",
+                            as<UnknownVariable>(expression).name));
   return Value();
 }
 
@@ -233,7 +233,8 @@ Value run_range(const Expression& expression, Frame& frame) {
     }
     frame.in.deprecate(code.range,
                        "Using ranges of the form [begin:end] with begin value "
-                       "greater than the end value is deprecated");
+                       "greater than the end value is deprecated",
+                       frame.document);
     return Value::range(end, 1, begin);
   }
   const Value step = run(code.step, frame);
@@ -284,6 +285,7 @@ void for_each_value(const Value& values, SourceRange range, Frame& frame,
                          count));
         return;
       }
+      if (r.step == 0) return;
       for (std::uint32_t i = 0; i < count; ++i) give(Value(r.at(i)));
       return;
     }
@@ -356,7 +358,8 @@ void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out) {
   while (run(code.condition, frame).is_true()) {
     code.body->emit(*code.body, frame, out);
     if (rounds++ == kMostElements) {
-      frame.in.fail(element.range, "For loop counter exceeded limit");
+      frame.in.fail(element.range, "For loop counter exceeded limit",
+                    frame.document);
     }
     const DynamicScope update(frame.in);
     run_bindings(code.update, frame);
@@ -452,7 +455,7 @@ Value run_echo(const Expression& expression, Frame& frame) {
 
 void run_assert(const AssertCode& code, Frame& frame) {
   for (const std::string& warning : code.plan->warnings) {
-    frame.in.warn(code.range, warning);
+    warn(frame, code.range, warning);
   }
   const Value condition = run(code.condition, frame);
   const Value message = run(code.message, frame);
@@ -463,7 +466,7 @@ void run_assert(const AssertCode& code, Frame& frame) {
   }
   text += " failed";
   if (!message.is_undef()) text += ": " + to_echo(message);
-  frame.in.fail(code.range, std::move(text));
+  frame.in.fail(code.range, std::move(text), frame.document);
 }
 
 Value run_assert_expression(const Expression& expression, Frame& frame) {
@@ -526,11 +529,11 @@ namespace {
 
 // Notes the call in a failure that passes by.
 template <typename Body>
-Value traced(const CallCode& code, const Body& body) {
+Value traced(const CallCode& code, Frame& frame, const Body& body) {
   try {
     return body();
   } catch (EvaluationFailure& failure) {
-    failure.note_call(code.name, code.range);
+    failure.note_call(code.name, code.range, frame.document);
     throw;
   }
 }
@@ -639,7 +642,7 @@ Value run_body(const Callable& callable, std::string_view name,
   std::uint32_t rounds = 0;
   while (run_round(callable, name, trail_mark, frame, result)) {
     if (rounds++ == kMostTailCalls) {
-      frame.in.fail_recursion(range, "function", name);
+      frame.in.fail_recursion(range, "function", name, frame.document);
     }
   }
   return result;
@@ -657,6 +660,7 @@ Value call_function(const CallCode& code, Frame& frame) {
   }
   const DynamicScope scope(frame.in);
   Frame callee{frame.in};
+  callee.document = function.unit->document;
   if (code.is_foreign) {
     callee.link = &frame.in.enter_unit(*function.unit);
   } else {
@@ -676,11 +680,13 @@ Value call_function(const CallCode& code, Frame& frame) {
 Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
   const Closure& closure = function.as_function();
   const Callable& callable = *closure.code;
+  const Source* callable_document = closure.code->document;
   const ArgumentPlan& plan = frame.in.plan_for(code, callable);
   const DynamicScope scope(frame.in);
   Frame callee{frame.in};
   callee.link = closure.link;
   callee.closure = &closure;
+  callee.document = callable_document;
   Value* memory = LAMINA_FRAME_MEMORY(callable.slot_count);
   const FrameSlots slots(callee, memory, callable.slot_count);
   pass_arguments(plan, callable.parameters, code.arguments, code.range, frame,
@@ -694,8 +700,8 @@ Value call_builtin(const CallCode& code, Frame& frame) {
 }
 
 Value report_unknown(const CallCode& code, Frame& frame) {
-  warn(frame, code.range,
-       fmt::format("Ignoring unknown function '{}'", code.name));
+  frame.in.warn(code.range,
+                fmt::format("Ignoring unknown function '{}'", code.name));
   return Value();
 }
 
@@ -703,19 +709,19 @@ Value report_unknown(const CallCode& code, Frame& frame) {
 
 Value run_call_function(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  frame.in.check_stack(code.range, "function", code.name);
-  return traced(code, [&] { return call_function(code, frame); });
+  frame.in.check_stack(code.range, "function", code.name, frame.document);
+  return traced(code, frame, [&] { return call_function(code, frame); });
 }
 
 Value run_call_math(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  return traced(code, [&] { return call_math(code, frame); });
+  return traced(code, frame, [&] { return call_math(code, frame); });
 }
 
 Value run_call_builtin(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  frame.in.check_stack(code.range, "function", code.name);
-  return traced(code, [&] { return call_builtin(code, frame); });
+  frame.in.check_stack(code.range, "function", code.name, frame.document);
+  return traced(code, frame, [&] { return call_builtin(code, frame); });
 }
 
 Value run_call_unknown(const Expression& expression, Frame& frame) {
@@ -724,8 +730,8 @@ Value run_call_unknown(const Expression& expression, Frame& frame) {
 
 Value run_call_value(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  frame.in.check_stack(code.range, "function", code.name);
-  return traced(code, [&] {
+  frame.in.check_stack(code.range, "function", code.name, frame.document);
+  return traced(code, frame, [&] {
     const Value callee = run(code.callee, frame);
     if (callee.is_function()) {
       if (code.is_name && code.name[0] == '$') {

@@ -47,7 +47,7 @@ void instantiate(const InstantiationCode& code, Frame& frame) {
     const DynamicScope scope(frame.in);
     code.run(code, frame);
   } catch (EvaluationFailure& failure) {
-    failure.note_call(code.name, code.range);
+    failure.note_call(code.name, code.range, frame.document);
     throw;
   }
 }
@@ -85,7 +85,7 @@ void run_module_body(const Module& module, Frame& frame) {
   for (std::uint32_t i = 0; i < module.body.assignments.size(); ++i) {
     const Binding& binding = module.body.assignments[i];
     if (overwrite != module.overwrites.end() && overwrite->first == i) {
-      frame.in.warn(binding.range, overwrite->second);
+      frame.in.warn(binding.range, overwrite->second, frame.document);
       ++overwrite;
     }
     frame.in.assign(binding.target, run(binding.value, frame), frame);
@@ -99,7 +99,7 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
   const auto& code = as<UserModuleCode>(instantiation);
   Interpreter& in = frame.in;
   Module& module = *code.module;
-  in.check_stack(module.range, "module", code.name);
+  in.check_stack(module.range, "module", code.name, module.unit->document);
   if (!module.is_resolved) {
     in.resolver().resolve(module);
     in.grow_dynamic();
@@ -116,6 +116,7 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
       callee.link = callee.link->link;
     }
   }
+  callee.document = module.unit->document;
   callee.children = code.block;
   callee.children_frame = &frame;
   Value* memory = LAMINA_FRAME_MEMORY(module.slot_count);
@@ -179,9 +180,11 @@ void run_loop(const ForCode& code, std::size_t level, Frame& frame) {
         in.warn(code.range,
                 fmt::format("Bad range parameter in for statement: too many "
                             "elements ({})",
-                            count));
+                            count),
+                frame.document);
         return;
       }
+      if (range.step == 0) return;
       for (std::uint32_t i = 0; i < count; ++i) round(Value(range.at(i)));
       return;
     }

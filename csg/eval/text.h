@@ -10,11 +10,9 @@
 
 #include "csg/eval/value.h"
 #include "parser/ast.h"
+#include "parser/text.h"
 
 namespace lamina::csg {
-
-// Appends a number as values show it: 0.333333, 1e+6, inf, nan; never -0.
-void append_number(double number, std::string& text);
 
 // Appends a number as C++ streams show it: 0.333333, 1e+06, inf, -nan, -0.
 void append_stream_number(double number, std::string& text);
@@ -30,8 +28,5 @@ std::string to_echo(const Value& value);
 
 // An expression as OpenSCAD shows it in messages.
 std::string expression_text(const ast::Expr& expression);
-
-// Appends "…" with \t \n \r \" \\ escaped.
-void append_quoted(std::string_view content, std::string& text);
 
 }  // namespace lamina::csg

@@ -87,7 +87,10 @@ struct Range : Object {
 
   // OpenSCAD's count of elements: 2³²-1 for endless ones.
   std::uint32_t count() const;
-  double at(std::uint32_t index) const { return begin + step * index; }
+  // By multiplication, so that no error adds up.
+  double at(std::uint32_t index) const {
+    return index == 0 ? begin : begin + step * index;
+  }
 };
 
 struct Box;
