@@ -1,0 +1,71 @@
+# Debian packages that lamina needs, and how a script gets the missing ones.
+# Sourced by scripts/run and scripts/test.
+
+# To build and run the program.
+LAMINA_BUILD_PACKAGES=(
+  g++ cmake ninja-build pkg-config bison flex
+  libglm-dev libfmt-dev libdouble-conversion-dev libcli11-dev
+  nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev libopenmesh-dev
+)
+
+# To build and run the tests: the oracles above all.
+LAMINA_TEST_PACKAGES=(
+  libgtest-dev libbenchmark-dev libcgal-dev
+  openscad openscad-testing-data openscad-mcad
+)
+
+# install_missing <package>…: installs those that are not there; asks for
+# nothing and needs no root when all are.
+install_missing() {
+  local package missing=()
+  for package in "$@"; do
+    if [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" \
+         != installed ]; then
+      missing+=("$package")
+    fi
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  echo "lamina: installing ${missing[*]}" >&2
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "lamina: run as root: apt-get install ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  # What apt says is shown only if it fails: stdout belongs to the program.
+  run_quietly "${as_root[@]}" apt-get update -q
+  run_quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -q --no-install-recommends "${missing[@]}"
+}
+
+# configure <BUILD_TESTING value>: writes build/release, or leaves it as it is
+# where it already does what is asked for (tests included do no harm to `run`).
+configure() {
+  if [ -f build/release/build.ninja ] &&
+     { [ "$1" = OFF ] ||
+       grep -q '^BUILD_TESTING:BOOL=ON' build/release/CMakeCache.txt; }; then
+    return 0
+  fi
+  run_quietly cmake --preset release -DBUILD_TESTING="$1"
+}
+
+# build <target>…
+build() {
+  # `ninja -n` tells whether there is anything to do.
+  if ! ninja -C build/release -n "$@" | grep -q 'no work to do'; then
+    echo "lamina: building $* (minutes the first time)" >&2
+    run_quietly cmake --build build/release --target "$@"
+  fi
+}
+
+# run_quietly <command>…: shows what it printed only if it fails.
+run_quietly() {
+  local log status=0
+  log=$(mktemp)
+  "$@" >"$log" 2>&1 || status=$?
+  [ "$status" -eq 0 ] || cat "$log" >&2
+  rm -f "$log"
+  return "$status"
+}
