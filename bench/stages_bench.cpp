@@ -1,0 +1,144 @@
+// Times the stages of a run one by one: evaluate, lower, cut leaves, move the
+// ray, over the benchmark scenes at the sizes that the design was measured on.
+//
+//   build/release/bench/stages_bench --benchmark_filter=ring55
+//
+// Whole runs beside one another: bench/whole_program.
+
+#include <cstdint>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include "csg/eval/evaluator.h"
+#include "csg/solid/lower.h"
+#include "ldni/kinetic_ray.h"
+#include "ldni/leaf_section.h"
+#include "parser/loader.h"
+
+namespace {
+
+using namespace lamina;
+
+constexpr std::uint32_t kBlockLayers = 32;
+
+// A scene of bench/scenes with `definitions` as -D gives them.
+struct Design {
+  Design(const std::string& scene, const std::string& definitions)
+      : loader(sources, diagnostics, {}, definitions),
+        program(loader.load(LAMINA_SCENES "/" + scene + ".scad")) {}
+
+  csg::Tree evaluate() {
+    csg::EvaluateOptions options;
+    return csg::evaluate(program, loader, options, diagnostics);
+  }
+  csg::Scene lower(const csg::Tree& tree) {
+    return *csg::lower(tree, {}, diagnostics).scene();
+  }
+
+  SourceStore sources;
+  Diagnostics diagnostics;
+  Loader loader;
+  ast::Program program;
+};
+
+void evaluate(benchmark::State& state, const std::string& scene,
+              const std::string& definitions) {
+  Design design(scene, definitions);
+  for (auto _ : state) benchmark::DoNotOptimize(design.evaluate());
+}
+
+void lower(benchmark::State& state, const std::string& scene,
+           const std::string& definitions) {
+  Design design(scene, definitions);
+  const csg::Tree tree = design.evaluate();
+  for (auto _ : state) benchmark::DoNotOptimize(design.lower(tree));
+}
+
+// Calls `visit` with every block of layers of the scene, cut into chains.
+template <typename Visit>
+void for_each_block(const csg::Scene& scene, double thickness,
+                    ldni::ChainBlock& block, const Visit& visit) {
+  const auto grid =
+      ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z, thickness);
+  const ldni::LeafSectioner sectioner(scene, grid);
+  for (std::uint32_t first = 0; first < grid.layer_count();
+       first += kBlockLayers) {
+    const std::uint32_t count =
+        std::min(kBlockLayers, grid.layer_count() - first);
+    sectioner.cut(first, count, block);
+    visit(count);
+  }
+}
+
+void cut_leaves(benchmark::State& state, const std::string& scene_name,
+                const std::string& definitions, double thickness) {
+  Design design(scene_name, definitions);
+  const csg::Tree tree = design.evaluate();
+  const csg::Scene scene = design.lower(tree);
+  ldni::ChainBlock block;
+  std::size_t points = 0;
+  for (auto _ : state) {
+    points = 0;
+    for_each_block(scene, thickness, block,
+                   [&](std::uint32_t) { points += block.points.size(); });
+  }
+  state.counters["points"] = static_cast<double>(points);
+}
+
+// Cuts as well: the time above is to be taken off.
+void cut_and_sweep(benchmark::State& state, const std::string& scene_name,
+                   const std::string& definitions, double thickness) {
+  Design design(scene_name, definitions);
+  const csg::Tree tree = design.evaluate();
+  const csg::Scene scene = design.lower(tree);
+  ldni::ChainBlock block;
+  ldni::KineticRay ray(scene, 0);
+  ldni::Contours contours;
+  std::size_t points = 0;
+  for (auto _ : state) {
+    points = 0;
+    for_each_block(scene, thickness, block, [&](std::uint32_t count) {
+      for (std::uint32_t layer = 0; layer < count; ++layer) {
+        ray.sweep(block, layer, contours);
+        points += contours.points.size();
+      }
+    });
+  }
+  state.counters["points"] = static_cast<double>(points);
+}
+
+struct Case {
+  std::string name;
+  std::string scene;
+  std::string definitions;
+  double thickness = 0.0762;  // [mm]
+};
+
+void add_case(const Case& c) {
+  const auto add = [&](const std::string& stage, auto function,
+                       auto... arguments) {
+    benchmark::RegisterBenchmark((c.name + "/" + stage).c_str(), function,
+                                 c.scene, c.definitions, arguments...)
+        ->Unit(benchmark::kMillisecond);
+  };
+  add("evaluate", evaluate);
+  add("lower", lower);
+  add("cut", cut_leaves, c.thickness);
+  add("cut_and_sweep", cut_and_sweep, c.thickness);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const Case& c : {Case{"ring55_small", "ring55", ""},
+                        Case{"ring55", "ring55", "k=165;\n"},
+                        Case{"ring55_fine", "ring55", "k=165;\n", 0.0127},
+                        Case{"submarine74", "submarine74", "k=126;\n"},
+                        Case{"lattice20", "lattice", "N=20;\n"},
+                        Case{"lattice40", "lattice", "N=40;\n"}}) {
+    add_case(c);
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
