@@ -28,7 +28,10 @@ $fs = 0.45;
 
 diameter = ring_diameter(ring_size, size_system);
 weave = 0.42 * strand;                          // rise over and under
-radius = diameter / 2 + sleeve + weave + strand / 2 - 0.25;
+// The strands sink into the sleeve as deep as it allows, so that no gap stays
+// between them where they cross over.
+sink = min(sleeve - 0.1, weave + 0.1);
+radius = diameter / 2 + sleeve + weave + strand / 2 - sink;
 width = 2 * swing + strand;
 steps = 24 * plaits;
 
@@ -45,6 +48,6 @@ module plait(phase) {
 }
 
 translate([0, 0, width / 2]) {
-  band(diameter, shank_profile(width - 0.3, sleeve, 0.1, 0.1, 6));
+  band(diameter, shank_profile(width - 0.3, sleeve, 0.1, 0.1));
   for (i = [0 : 2]) plait(120 * i);
 }

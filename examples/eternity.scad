@@ -66,7 +66,7 @@ module prong_pair() {
 module ring() {
   difference() {
     union() {
-      band(diameter, shank_profile(width, sleeve + 0.15, 0.15, 0.2, 6));
+      band(diameter, shank_profile(width, sleeve + 0.15, 0.15, 0.2));
       around(count) on_ring(girdle, 0) cup();
       around(count, 180 / count) prong_pair();
     }

@@ -64,6 +64,6 @@ translate([0, 0, width / 2]) {
   for (i = [0 : wires - 1]) wave(360 * i / wires);
   for (side = [-1, 1])
     translate([0, 0, side * reach])
-      band(diameter, d_profile(rail, rail, 4));
+      band(diameter, d_profile(rail, rail));
   if (grains) crossings();
 }

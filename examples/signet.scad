@@ -72,7 +72,8 @@ module body() {
                : back / cos(tangent_away - min(tangent_away, away)),
          dome = 0.04 + 0.22 * w * smoothstep(0.4 * edge_away, 1.9 * edge_away, away),
          p = shank_profile(w, r - diameter / 2, 0.15,
-                           min(dome, 0.6 * (r - diameter / 2)), 8))
+                           min(dome, 0.6 * (r - diameter / 2)),
+                           dome_facets(width_back)))
     [for (q = p) [diameter / 2 + q[0], q[1]]]]);
 }
 

@@ -56,7 +56,8 @@ module shank() {
     let (away = abs(wrapped(360 * i / n - 90)),  // from the head
          up = rise * smoothstep(62, 24, away) * smoothstep(4, 16, away),
          w = mix(width_head, width_back, smoothstep(25, 150, away)),
-         p = shank_profile(w, thickness + up, 0.2, 0.5 * thickness, 8))
+         p = shank_profile(w, thickness + up, 0.2, 0.5 * thickness,
+                           dome_facets(width_back)))
     [for (q = p) [diameter / 2 + q[0], q[1]]]]);
 }
 

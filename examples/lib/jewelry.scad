@@ -281,14 +281,19 @@ module milgrain(radius, bead = 0.7, angle = 360) {
 
 // === Shanks ==============================================================
 
+// Facets of the dome of a shank.
+function dome_facets(width) = max(6, arc_facets(width / 2, 90));
+
 // Cross-sections of shanks: counter-clockwise points [r, z], r counted from
-// the inner side of the ring outwards, z along the finger, n + 1 points an arc.
+// the inner side of the ring outwards, z along the finger.
 //   inner, outer  rise of the comfort curve inside and of the dome outside
-function shank_profile(width, thickness, inner, outer, n) =
+//   facets        of each of the two arcs; 0: as $fa and $fs ask
+function shank_profile(width, thickness, inner, outer, facets = 0) =
   assert(width >= 0.8 && thickness >= 0.8,
          str("a shank is at least 0.8 × 0.8 mm, got ", width, " × ", thickness))
   assert(inner >= 0 && outer >= 0 && inner + outer < thickness,
          "shank_profile: the curves inner + outer must be less than the thickness")
+  let (n = facets > 0 ? facets : dome_facets(width))
   concat([for (i = [0 : n]) let (a = -90 + 180 * i / n)
             [thickness - outer * (1 - cos(a)), width / 2 * sin(a)]],
          [for (i = [0 : n]) let (a = 90 - 180 * i / n)
@@ -301,16 +306,16 @@ function flat_profile(width, thickness, edge = 0.2) =
    [thickness, w - e], [thickness - e, w], [e, w], [0, w - e]];
 
 // D-shape: flat inside, domed outside.
-function d_profile(width, thickness, n = 8) =
-  let (w = width / 2, dome = thickness * 0.65)
+function d_profile(width, thickness) =
+  let (w = width / 2, n = dome_facets(width), dome = thickness * 0.65)
   concat([[0, -w]],
          [for (i = [0 : n]) let (a = -90 + 180 * i / n)
             [thickness - dome * (1 - cos(a)), w * sin(a)]],
          [[0, w]]);
 
 // Court: domed outside, comfort curve inside.
-function court_profile(width, thickness, n = 8) =
-  shank_profile(width, thickness, thickness * 0.15, thickness * 0.55, n);
+function court_profile(width, thickness) =
+  shank_profile(width, thickness, thickness * 0.15, thickness * 0.55);
 
 // Plain band of a profile; `angle` < 360 gives an arc from +x.
 module band(diameter, profile, angle = 360) {
@@ -374,7 +379,8 @@ module bail(opening = 3, broad = 3.2, narrow = 1.6, wall = 1) {
       ring_sweep([for (i = [0 : n - 1])
         let (a = 360 * i / n,
              w = mix(narrow, broad, (1 + sin(a)) / 2),
-             p = shank_profile(w, wall, 0.12 * wall, 0.45 * wall, 6))
+             p = shank_profile(w, wall, 0.12 * wall, 0.45 * wall,
+                               dome_facets(broad)))
         [for (q = p) [opening / 2 + q[0], q[1]]]]);
 }
 

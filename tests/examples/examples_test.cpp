@@ -1,0 +1,319 @@
+// The designs of examples/, as a goldsmith would check them with calipers.
+//
+// Each runs through the program like a user's own. What the layers must show
+// follows from the parameters: the finger hole measures what the ring size
+// says, a head of six prongs has six tips, every stone has its hole. Volumes
+// are those of OpenSCAD 2021.01's meshes.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "ldni/contours.h"
+#include "tests/support/contour_checks.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using support::LoopCounts;
+
+struct Outcome {
+  int status = 0;
+  std::string output;  // both streams
+};
+
+Outcome run_lamina(const std::string& arguments) {
+  const std::string command =
+      fmt::format("'{}' {} 2>&1", LAMINA_PROGRAM, arguments);
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return {-1, "cannot run " + command};
+  Outcome outcome;
+  std::array<char, 4096> buffer;
+  while (const std::size_t count =
+             std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+    outcome.output.append(buffer.data(), count);
+  }
+  const int status = pclose(pipe);
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+std::string design_path(const std::string& name) {
+  return fmt::format("'{}/{}.scad'", LAMINA_EXAMPLES, name);
+}
+
+struct SlicedLayer {
+  double z = 0;
+  double bottom = 0;
+  double top = 0;
+  ldni::Contours contours;
+};
+using Layers = std::vector<SlicedLayer>;
+
+SlicedLayer to_layer(const nlohmann::json& json) {
+  SlicedLayer layer{json.at("z"), json.at("bottom"), json.at("top"), {}};
+  for (const auto& contour : json.at("contours")) {
+    std::vector<Vec2> points;
+    for (const auto& point : contour.at("points")) {
+      points.emplace_back(point.at(0).get<double>(), point.at(1).get<double>());
+    }
+    support::add_loop(layer.contours, points);
+  }
+  return layer;
+}
+
+// Layers of a design. Any warning is a failure.
+Layers slice(const std::string& name, const std::string& options) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.file("out.layers.json");
+  const Outcome outcome = run_lamina(fmt::format(
+      "{} --hardwarnings -o '{}' {}", design_path(name), file, options));
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  Layers layers;
+  if (outcome.status != 0) return layers;
+  const auto json = nlohmann::json::parse(support::read_file(file));
+  for (const auto& layer : json.at("layers")) {
+    layers.push_back(to_layer(layer));
+  }
+  EXPECT_FALSE(layers.empty());
+  return layers;
+}
+
+// The one layer at height z.
+SlicedLayer slice_at(const std::string& name, double z,
+                     const std::string& options = "") {
+  const Layers layers =
+      slice(name, fmt::format("{} --tolerance 0 --heights {}", options, z));
+  EXPECT_EQ(layers.size(), 1U);
+  return layers.empty() ? SlicedLayer{} : layers.front();
+}
+
+double volume(const Layers& layers) {
+  double sum = 0;
+  for (const SlicedLayer& layer : layers) {
+    sum += support::total_area(layer.contours) * (layer.top - layer.bottom);
+  }
+  return sum;
+}
+
+// The axis of a finger: x = y = 0, or lying along y at height `height`.
+struct Finger {
+  bool lies = false;
+  double height = 0;
+};
+
+// Distance of the edge a-b, at height z, from the finger's axis.
+double distance_to_axis(const Finger& finger, Vec2 a, Vec2 b, double z) {
+  if (finger.lies) {
+    const double x =
+        a.x * b.x <= 0 ? 0 : std::min(std::abs(a.x), std::abs(b.x));
+    return std::hypot(x, z - finger.height);
+  }
+  const Vec2 v = b - a;
+  const double square = v.x * v.x + v.y * v.y;
+  const double t =
+      square > 0 ? std::clamp(-(a.x * v.x + a.y * v.y) / square, 0.0, 1.0) : 0;
+  return std::hypot(a.x + t * v.x, a.y + t * v.y);
+}
+
+// Radius of the largest cylinder round the axis that no wall enters: what ISO
+// 8653 measures.
+double free_radius(const Layers& layers, const Finger& finger) {
+  double least = 1e300;
+  for (const SlicedLayer& layer : layers) {
+    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+      const std::span<const Vec2> loop = layer.contours.loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        least = std::min(
+            least, distance_to_axis(finger, loop[k],
+                                    loop[(k + 1) % loop.size()], layer.z));
+      }
+    }
+  }
+  return least;
+}
+
+struct Design {
+  const char* name;
+  double volume;  // mm³, of `openscad -o x.stl examples/<name>.scad`
+  double height;  // mm, of the same mesh
+};
+
+void PrintTo(const Design& design, std::ostream* out) { *out << design.name; }
+
+class Examples : public testing::TestWithParam<Design> {};
+
+TEST_P(Examples, CompileToSlcWithoutWarningAndPassInspection) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.file("out.slc");
+  const Outcome made = run_lamina(fmt::format(
+      "{} -q --hardwarnings -o '{}'", design_path(GetParam().name), file));
+  ASSERT_EQ(made.status, 0) << made.output;
+  EXPECT_EQ(made.output.find("arning"), std::string::npos) << made.output;
+  const Outcome inspected = run_lamina(fmt::format("inspect '{}'", file));
+  EXPECT_EQ(inspected.status, 0) << inspected.output;
+}
+
+TEST_P(Examples, StandOnTheirPlateAndHaveTheVolumeThatOpenScadGives) {
+  const Layers layers = slice(GetParam().name, "--layer 0.02 --tolerance 0");
+  ASSERT_FALSE(layers.empty());
+  EXPECT_NEAR(layers.front().bottom, 0, 1e-6);
+  EXPECT_NEAR(layers.back().top, GetParam().height, 0.02);
+  EXPECT_NEAR(volume(layers) / GetParam().volume, 1, 0.003);
+}
+
+TEST_P(Examples, HaveSoundContoursInEveryLayer) {
+  for (const SlicedLayer& layer :
+       slice(GetParam().name, "--layer 0.05 --tolerance 0")) {
+    EXPECT_TRUE(support::are_sound(layer.contours)) << "at z = " << layer.z;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Examples,
+                         testing::Values(Design{"solitaire", 255.95, 23.999},
+                                         Design{"eternity", 186.59, 3.0},
+                                         Design{"signet", 947.95, 23.399},
+                                         Design{"hoop", 343.10, 3.6},
+                                         Design{"pendant", 232.40, 4.2},
+                                         Design{"filigree", 334.61, 7.0},
+                                         Design{"braid", 737.97, 5.1}),
+                         [](const testing::TestParamInfo<Design>& design) {
+                           return std::string(design.param.name);
+                         });
+
+struct Ring {
+  const char* name;
+  double size;  // ISO: the circumference
+  bool lies;
+  double back;  // thickness of the shank's back, where the ring stands on it
+};
+
+// Facets stand inside the circle by less than this [mm].
+constexpr double kFacetDepth = 0.02;
+
+TEST(ExampleRings, FitTheFingerThatTheirSizeNames) {
+  for (const Ring& ring :
+       {Ring{"solitaire", 54, true, 1.7}, Ring{"signet", 60, true, 1.7},
+        Ring{"eternity", 54, false, 0}, Ring{"filigree", 54, false, 0},
+        Ring{"braid", 54, false, 0}}) {
+    const double radius = ring.size / (2 * std::numbers::pi);
+    const Layers layers = slice(ring.name, "--layer 0.02 --tolerance 0");
+    const double free = free_radius(layers, {ring.lies, radius + ring.back});
+    EXPECT_LE(free, radius + 1e-3) << ring.name;
+    EXPECT_GE(free, radius - kFacetDepth) << ring.name;
+  }
+}
+
+TEST(ExampleRings, KnowTheSizesOfOtherCountries) {
+  struct Size {
+    const char* options;
+    double diameter;  // from the trade's conversion charts, to 0.05 mm
+  };
+  for (const Size& size :
+       {Size{"-D ring_size=7 -D 'size_system=\"US\"'", 17.32},
+        Size{"-D 'ring_size=\"N\"' -D 'size_system=\"UK\"'", 17.12},
+        Size{"-D 'ring_size=\"Q 1/2\"' -D 'size_system=\"UK\"'", 18.54},
+        Size{"-D ring_size=14 -D 'size_system=\"CH\"'", 17.19},
+        Size{"-D ring_size=14 -D 'size_system=\"JP\"'", 17.33}}) {
+    const Layers layers = slice("eternity", size.options);
+    EXPECT_NEAR(2 * free_radius(layers, {}), size.diameter, 0.07)
+        << size.options;
+  }
+}
+
+TEST(ExampleRings, RefuseSizesThatDoNotExist) {
+  const support::TemporaryFolder folder;
+  const Outcome outcome =
+      run_lamina(fmt::format("{} -D ring_size=7 -o '{}'",
+                             design_path("solitaire"), folder.file("out.slc")));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.output.find("ISO ring size is a circumference"),
+            std::string::npos)
+      << outcome.output;
+  EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+TEST(Solitaire, HasAsManyProngTipsAsItsHeadHasProngs) {
+  // Half a millimetre under the top there is nothing but prongs.
+  EXPECT_EQ(support::count_loops(slice_at("solitaire", 23.5).contours),
+            (LoopCounts{6, 0}));
+  EXPECT_EQ(
+      support::count_loops(slice_at("solitaire", 23.5, "-D prongs=4").contours),
+      (LoopCounts{4, 0}));
+}
+
+TEST(Eternity, HasOneHoleForEveryStone) {
+  // At half the width every culet hole cuts through the band: as many pieces
+  // as stones. 25 stones of 2.3 mm go round ISO 54.
+  EXPECT_EQ(support::count_loops(slice_at("eternity", 1.5).contours),
+            (LoopCounts{25, 0}));
+}
+
+TEST(Signet, ShowsBorderAndInitialsInItsFace) {
+  // A quarter of a millimetre under the face: the rim, and in it the field with
+  // a groove for each letter.
+  const double z = 60 / (2 * std::numbers::pi) + 1.7 +
+                   60 / (2 * std::numbers::pi) + 2.6 - 0.25;
+  EXPECT_EQ(support::count_loops(slice_at("signet", z).contours),
+            (LoopCounts{2, 3}));
+  EXPECT_EQ(support::count_loops(
+                slice_at("signet", z, "-D 'initials=\"I\"'").contours),
+            (LoopCounts{2, 2}));
+}
+
+TEST(Signet, EngravesItsSealInMirrorImage) {
+  const double z = 60 / std::numbers::pi + 1.7 + 2.6 - 0.25;
+  const auto seal = slice_at("signet", z, "-D 'initials=\"F\"'");
+  const auto plain =
+      slice_at("signet", z, "-D 'initials=\"F\"' -D mirrored=false");
+  EXPECT_NEAR(support::total_area(seal.contours),
+              support::total_area(plain.contours), 1e-6);
+  // The stem of an F stands on its left.
+  EXPECT_FALSE(support::contains(plain.contours, Vec2(-1.2, -1)));
+  EXPECT_TRUE(support::contains(plain.contours, Vec2(1.2, -1)));
+  EXPECT_TRUE(support::contains(seal.contours, Vec2(-1.2, -1)));
+  EXPECT_FALSE(support::contains(seal.contours, Vec2(1.2, -1)));
+}
+
+TEST(Hoop, HasTwoPartsAndAPinThroughTheirKnuckles) {
+  // In the lowest knuckle: front with the pin's hole, and the back.
+  const SlicedLayer low = slice_at("hoop", 0.6);
+  EXPECT_EQ(support::count_loops(low.contours), (LoopCounts{2, 1}));
+  // The pin's hole, 0.9 mm wide, stands at (0, -7.9) through all three.
+  EXPECT_FALSE(support::contains(low.contours, Vec2(0, -7.9)));
+  EXPECT_NEAR(support::distance_to_edges(low.contours, Vec2(0, -7.9)), 0.45,
+              0.03);
+  const SlicedLayer middle = slice_at("hoop", 1.8);
+  EXPECT_NEAR(support::distance_to_edges(middle.contours, Vec2(-4, -7.9)), 0.45,
+              0.03);
+  // The ear post is 0.8 mm thick where it crosses the opening.
+  EXPECT_TRUE(support::contains(middle.contours, Vec2(0, 7.9)));
+  EXPECT_NEAR(support::distance_to_edges(middle.contours, Vec2(0, 7.9)), 0.4,
+              0.03);
+}
+
+TEST(Pendant, LetsLightToEveryStoneThroughItsBack) {
+  // 17 small stones and the centre one.
+  EXPECT_EQ(support::count_loops(slice_at("pendant", 0.3).contours).holes, 18U);
+}
+
+TEST(Braid, ShowsACrestOfEachStrandInEveryPlait) {
+  // Below the sleeve's edge there are only the crests of 3 strands in 8 plaits.
+  EXPECT_EQ(support::count_loops(slice_at("braid", 0.1).contours),
+            (LoopCounts{3 * 8, 0}));
+}
+
+}  // namespace
+}  // namespace lamina
