@@ -10,6 +10,30 @@ namespace {
 
 constexpr std::chrono::milliseconds kProgressPeriod{150};
 
+// Endless recursion has as many equal notes as the trace is long: one is
+// shown, with their number.
+Diagnostic with_folded_notes(const Diagnostic& diagnostic) {
+  Diagnostic folded = diagnostic;
+  folded.notes.clear();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < diagnostic.notes.size(); ++i) {
+    const Note& note = diagnostic.notes[i];
+    ++count;
+    const bool is_last = i + 1 == diagnostic.notes.size();
+    if (!is_last && diagnostic.notes[i + 1].message == note.message &&
+        diagnostic.notes[i + 1].range.source == note.range.source &&
+        diagnostic.notes[i + 1].range.begin == note.range.begin) {
+      continue;
+    }
+    folded.notes.push_back(note);
+    if (count > 1) {
+      folded.notes.back().message += fmt::format(" ({} times)", count);
+    }
+    count = 0;
+  }
+  return folded;
+}
+
 }  // namespace
 
 Terminal::Terminal(bool is_quiet)
@@ -21,7 +45,7 @@ Terminal::~Terminal() { finish(); }
 
 void Terminal::show(const Diagnostic& diagnostic) {
   if (is_quiet_ && diagnostic.severity != Severity::kError) return;
-  std::string text = caret_text(diagnostic);
+  std::string text = caret_text(with_folded_notes(diagnostic));
   if (diagnostic.severity == Severity::kEcho) {
     if (echo_count_ > 0 && text == last_echo_) {
       ++echo_count_;

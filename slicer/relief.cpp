@@ -323,22 +323,27 @@ double to_srgb(double linear) {
                              : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-// Gold under a key light from the upper left, a weak one from the right and
-// the sky. In linear light.
+double smooth_step(double from, double to, double value) {
+  const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// Polished gold: a key light from the upper left, a weak one from the right,
+// and a room mirrored in it, dark below and bright above. In linear light.
 Vec3 shade(Vec3 normal, double openness, const View& view) {
-  const Vec3 gold(0.83, 0.52, 0.13);
+  const Vec3 gold(0.92, 0.58, 0.16);
   const Vec3 to_viewer(0, -view.cos_elevation, view.sin_elevation);
   const Vec3 key = unit(Vec3(-0.62, -0.35, 0.75));
   const Vec3 fill = unit(Vec3(0.85, -0.45, 0.25));
-  const double diffuse = 0.82 * std::max(0.0, dot(normal, key)) +
-                         0.22 * std::max(0.0, dot(normal, fill));
-  const double sky = 0.22 * (0.55 + 0.45 * normal.z);
-  const Vec3 half = unit(key + to_viewer);
-  const double shine = 0.55 * std::pow(std::max(0.0, dot(normal, half)), 24.0);
-  const double shade_of_openness = openness * openness;
-  return gold * ((diffuse * (0.35 + 0.65 * shade_of_openness) +
-                  sky * shade_of_openness)) +
-         Vec3(1.0, 0.86, 0.6) * (shine * shade_of_openness);
+  const double open = openness * openness;
+  const double diffuse = 0.55 * std::max(0.0, dot(normal, key)) +
+                         0.12 * std::max(0.0, dot(normal, fill));
+  const Vec3 mirrored = 2 * dot(normal, to_viewer) * normal - to_viewer;
+  const double room = 0.06 + 0.34 * smooth_step(-0.55, 0.95, mirrored.z) +
+                      0.10 * smooth_step(0.1, 0.9, -mirrored.x);
+  const double shine = 0.5 * std::pow(std::max(0.0, dot(mirrored, key)), 14.0);
+  return gold * (diffuse * (0.3 + 0.7 * open) + room * open) +
+         Vec3(1.0, 0.88, 0.62) * (shine * open);
 }
 
 constexpr Rgb kBackgroundTop = {0.955F, 0.955F, 0.95F};
