@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ldni/detail/contour_tracer.h"
@@ -35,9 +36,11 @@ constexpr double kLeastSlabs = 4;
 constexpr double kMostSlabs = 4096;
 constexpr double kMostSlabsOfPitch = 1 << 16;
 
-// Known sets are forgotten between two layers when their members take more
-// than this many entries of 8 bytes.
-constexpr std::size_t kMostSetMembers = std::size_t{1} << 20;
+// Known sets are forgotten between two layers when they are many: more than
+// this, and more than so many times those of the first layer since, so that
+// the tables stay in the cache and still serve several layers.
+constexpr std::size_t kFewSets = 4096;
+constexpr std::size_t kLayersOfSets = 4;
 
 // Swaps in one column before it counts as endless: the pairwise order of n
 // entries needs at most n²/2; rounding could make it a circle.
@@ -121,6 +124,7 @@ struct KineticRay::State {
   const double pitch;
   SweepCounts counts;
   LeafSets sets;
+  std::size_t first_layer_sets = 0;  // known after the first layer; 0: not yet
   Status status;
   TurnSorter sorter;
   ContourTracer tracer;
@@ -150,8 +154,9 @@ struct KineticRay::State {
   std::vector<std::uint32_t> started;
   std::vector<std::uint32_t> to_check;  // lower entries of new pairs
   std::vector<std::uint32_t> fresh;     // entries whose set is in doubt
-  std::vector<std::uint32_t> touched;   // whose survival is in doubt
-  std::vector<std::uint32_t> touches;   // lower entries of pairs that touch
+  std::vector<std::pair<double, std::uint32_t>> fresh_by_y;
+  std::vector<std::uint32_t> touched;  // whose survival is in doubt
+  std::vector<std::uint32_t> touches;  // lower entries of pairs that touch
 };
 
 KineticRay::KineticRay(const csg::Scene& scene, double pitch)
@@ -198,9 +203,10 @@ void KineticRay::State::begin_layer(const ChainBlock& chain_block,
   column_right = -kNever;
   status.begin(chains.size());
   tracer.begin();
-  if (sets.member_count() > kMostSetMembers) {
-    std::vector<LeafSets::Id> none;
-    sets.keep_only(none);
+  if (first_layer_sets == 0) first_layer_sets = sets.size();
+  if (sets.size() > std::max(kFewSets, kLayersOfSets * first_layer_sets)) {
+    sets.clear();
+    first_layer_sets = 0;
   }
   ++counts.layers;
   counts.chains += chains.size();
@@ -489,16 +495,19 @@ void KineticRay::State::plan(std::uint32_t lower, const Outlook& outlook) {
 void KineticRay::State::update_sets() {
   // Bottom-up, so that no set is made from one that is about to change.
   if (fresh.size() > 2) {
-    std::sort(
-        fresh.begin(), fresh.end(), [this](std::uint32_t a, std::uint32_t b) {
-          if (a == status.sentinel()) return false;
-          if (b == status.sentinel()) return true;
-          return status.y_at(a, column_right) < status.y_at(b, column_right);
-        });
+    fresh_by_y.clear();
+    for (const std::uint32_t entry : fresh) {
+      if (!status.is_alive(entry)) continue;
+      fresh_by_y.push_back({status.y_at(entry, column_right), entry});
+    }
+    std::sort(fresh_by_y.begin(), fresh_by_y.end());
+    fresh.clear();
+    for (const auto& [y, entry] : fresh_by_y) fresh.push_back(entry);
   }
   for (const std::uint32_t entry : fresh) {
-    if (entry == status.sentinel() || !status.is_alive(entry)) continue;
-    if (status[entry].is_fresh) update_sets_from(entry);
+    if (status.is_alive(entry) && status[entry].is_fresh) {
+      update_sets_from(entry);
+    }
   }
 }
 

@@ -155,22 +155,4 @@ void LeafSets::grow_index() {
   }
 }
 
-void LeafSets::keep_only(std::vector<Id>& live) {
-  // Take out the survivors, then add them to an empty store.
-  std::vector<std::vector<Member>> kept;
-  kept.reserve(live.size());
-  for (const Id id : live) {
-    const auto begin =
-        members_.begin() + static_cast<std::ptrdiff_t>(sets_[id].first_member);
-    kept.emplace_back(begin, begin + sets_[id].size);
-  }
-  clear();
-  for (std::size_t i = 0; i < live.size(); ++i) {
-    scratch_ = kept[i];
-    std::uint64_t hash = 0;
-    for (const Member& member : scratch_) hash += hash_of(member);
-    live[i] = find_or_add(hash);
-  }
-}
-
 }  // namespace lamina::ldni::detail

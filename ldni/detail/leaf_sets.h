@@ -46,13 +46,11 @@ class LeafSets {
   bool value(Id set) const { return sets_[set].value; }
 
   std::size_t size() const { return sets_.size(); }
-  // Leaves summed over the known sets: what they cost in memory.
-  std::size_t member_count() const { return members_.size(); }
   // Evaluations of the program since construction.
   std::uint64_t evaluations() const { return evaluations_; }
 
-  // Forgets every set but those in `live`, and renumbers them there.
-  void keep_only(std::vector<Id>& live);
+  // Forgets every set but the empty one.
+  void clear();
 
  private:
   struct Member {
@@ -79,7 +77,6 @@ class LeafSets {
   }
   static std::uint64_t hash_of(const Member& member);
 
-  void clear();
   Id make_step(Id set, Step step);
   void write_members(Id set, Step step);
   Id find_or_add(std::uint64_t hash);
