@@ -99,6 +99,7 @@ struct KineticRay::State {
   bool take_changes(double gather_end);
   void settle_order();
   void swap_with_above(std::uint32_t entry);
+  void note_crossing(Entry& a, Entry& b);
   void set_tie(std::uint32_t entry, bool is_tied);
   void plan(std::uint32_t entry, const Outlook& outlook);
   Outlook look(std::uint32_t lower, std::uint32_t upper, double x);
@@ -113,8 +114,16 @@ struct KineticRay::State {
   void end_piece(Entry& entry);
   void start_piece(Entry& entry);
   ChainCursor cursor_before(const Entry& entry) const;
-  double y_before(const Entry& entry) const {
-    return cursor_before(entry).y_at(column_left);
+  // The entry's y on either side of the column.
+  double y_before(const Entry& entry, const ChainCursor& before) const {
+    return crosses_here(entry) ? entry.crossing_y : before.y_at(column_left);
+  }
+  double y_after(const Entry& entry) const {
+    return crosses_here(entry) ? entry.crossing_y
+                               : entry.cursor.y_at(column_right);
+  }
+  bool crosses_here(const Entry& entry) const {
+    return entry.crossing_column == column && column_left == column_right;
   }
   bool is_in_column(double x) const {
     return x >= column_left && x <= column_left + kColumnWidth;
@@ -419,6 +428,7 @@ void KineticRay::State::swap_with_above(std::uint32_t lower) {
   const std::uint32_t below = status[lower].below;
   touched.push_back(below);
   touched.push_back(status[upper].above);
+  note_crossing(status[lower], status[upper]);
   status.swap_with_above(lower);
   for (const std::uint32_t entry : {below, upper, lower}) {
     status[entry].is_tied = false;
@@ -430,6 +440,17 @@ void KineticRay::State::swap_with_above(std::uint32_t lower) {
     fresh.push_back(entry);
     touched.push_back(entry);
   }
+}
+
+// Where two chains cross they have one point, on the flatter one: a steep one's
+// y at the rounded x may be far off.
+void KineticRay::State::note_crossing(Entry& a, Entry& b) {
+  const bool is_a_steeper =
+      std::abs(a.cursor.slope()) > std::abs(b.cursor.slope());
+  Entry& steeper = is_a_steeper ? a : b;
+  const Entry& flatter = is_a_steeper ? b : a;
+  steeper.crossing_y = flatter.cursor.y_at(column_right);
+  steeper.crossing_column = column;
 }
 
 void KineticRay::State::set_tie(std::uint32_t entry, bool is_tied) {
@@ -603,9 +624,10 @@ void KineticRay::State::split_at_touches() {
     if (number == status.sentinel() || !status.is_alive(number)) continue;
     Entry& entry = status[number];
     if (entry.survival == 0 || entry.split_column == column) continue;
-    const double y = status.y_at(number, column_right);
+    entry.cursor.advance(column_right);
+    const double y = y_after(entry);
     if (tracer.has_end_near(y) ||
-        std::abs(y_before(entry) - y) >= kColumnWidth) {
+        std::abs(y_before(entry, cursor_before(entry)) - y) >= kColumnWidth) {
       split_piece(entry);
     }
   }
@@ -633,7 +655,7 @@ ChainCursor KineticRay::State::cursor_before(const Entry& entry) const {
 void KineticRay::State::end_piece(Entry& entry) {
   const ChainCursor cursor = cursor_before(entry);
   const Vec2* last = cursor.last();
-  const double y = cursor.y_at(column_left);
+  const double y = y_before(entry, cursor);
   Vec2 point(column_left, y);
   if (is_in_column(last->x) && std::abs(last->y - y) < kColumnWidth) {
     point = *last;
@@ -645,7 +667,7 @@ void KineticRay::State::end_piece(Entry& entry) {
 void KineticRay::State::start_piece(Entry& entry) {
   entry.cursor.advance(column_right);
   const Vec2* left = entry.cursor.left();
-  const double y = entry.cursor.y_at(column_right);
+  const double y = y_after(entry);
   Vec2 point(column_right, y);
   if (is_in_column(entry.first->x) &&
       std::abs(entry.first->y - y) < kColumnWidth) {

@@ -32,6 +32,7 @@ class ChainCursor {
   const Vec2* last() const { return last_; }  // the chain's last point
   double left_x() const { return left_->x; }
   double right_x() const { return left_[1].x; }
+  double slope() const { return slope_; }
   bool is_last_segment() const { return left_ + 1 == last_; }
 
   void step() {
@@ -83,6 +84,9 @@ struct Entry {
   std::uint32_t outlook = 0;    // stamp of the present look at the pair above
   std::uint32_t column = 0;     // the last one that judged its tie group
   std::uint32_t split_column = 0;  // the last one that ended or began a piece
+
+  double crossing_y = 0;  // where it crosses a flatter chain in that column
+  std::uint32_t crossing_column = 0;
 
   // Least and greatest y up to range_end, as seen in slab range_slab.
   double low = 0;
