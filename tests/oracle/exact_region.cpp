@@ -15,16 +15,17 @@
 #include <CGAL/Arr_extended_dcel.h>
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <boost/container/small_vector.hpp>
 #include <fmt/format.h>
+
+#include "tests/oracle/exact_edge.h"
 
 namespace lamina::oracle {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Number = Kernel::FT;
-using Point = Kernel::Point_2;
+using Number = ExactKernel::FT;
+using Point = ExactKernel::Point_2;
+using Edge = ExactEdge;
 
 // How often the winding number of a label grows on the way across a curve from
 // its right to its left, the curve being directed from its lexicographically
@@ -59,17 +60,12 @@ struct Cell {
   std::size_t index = 0;
 };
 
-using SegmentTraits = CGAL::Arr_segment_traits_2<Kernel>;
+using SegmentTraits = CGAL::Arr_segment_traits_2<ExactKernel>;
 using Traits = CGAL::Arr_curve_data_traits_2<SegmentTraits, Crossings, Join>;
 using Arrangement =
     CGAL::Arrangement_2<Traits, CGAL::Arr_face_extended_dcel<Traits, Cell>>;
 using Halfedge = Arrangement::Halfedge_handle;
 using Face = Arrangement::Face_handle;
-
-struct Edge {
-  Point from;
-  Point to;
-};
 
 struct LabelledEdge {
   Point from;
@@ -338,14 +334,6 @@ std::vector<Edge> edges_of_loops(const ldni::Contours& contours) {
   }
   return edges;
 }
-
-}  // namespace
-
-struct ExactRegion::Edges {
-  std::vector<Edge> all;
-};
-
-namespace {
 
 ExactRegion make_region(std::vector<Edge> edges) {
   return ExactRegion(std::make_shared<const ExactRegion::Edges>(

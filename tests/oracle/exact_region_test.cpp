@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/oracle/test_meshes.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::oracle {
@@ -28,38 +29,6 @@ Contours contours_of(const std::vector<Loop>& loops) {
 
 ExactRegion region_of(const std::vector<Loop>& loops) {
   return region_of_loops(contours_of(loops));
-}
-
-// A box as twelve triangles.
-csg::Mesh box(Vec3 low, Vec3 high) {
-  csg::Mesh mesh;
-  for (unsigned i = 0; i < 8; ++i) {
-    mesh.vertices.push_back({(i & 1) != 0 ? high.x : low.x,
-                             (i & 2) != 0 ? high.y : low.y,
-                             (i & 4) != 0 ? high.z : low.z});
-  }
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
-                    {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
-                    {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
-}
-
-void turn(csg::Mesh& mesh, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  for (Vec3& v : mesh.vertices) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
-}
-
-// One operator over boxes; the first is the minuend.
-WorldScene scene_of(csg::BooleanOp op, std::vector<csg::Mesh> meshes) {
-  WorldScene scene;
-  const auto count = static_cast<std::uint32_t>(meshes.size());
-  scene.program = {{op, 0, false, count}};
-  scene.parent.assign(count, 0);
-  scene.is_minuend.assign(count, false);
-  if (op == csg::BooleanOp::kDifference) scene.is_minuend[0] = true;
-  scene.meshes = std::move(meshes);
-  return scene;
 }
 
 TEST(CountRegions, OfNothingIsNothing) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "csg/solid/leaf_mesh.h"
 
 namespace lamina::oracle {
 namespace {
@@ -18,6 +21,26 @@ double distance_to_nearest(const std::vector<double>& sorted, double value) {
 }
 
 }  // namespace
+
+WorldScene world_scene(const csg::Scene& scene) {
+  std::vector<csg::Mesh> leaves;
+  leaves.reserve(scene.leaves.size());
+  for (const csg::Leaf& leaf : scene.leaves) {
+    leaves.push_back(csg::explicit_mesh(leaf));
+  }
+  WorldScene world;
+  world.program = scene.program;
+  for (const csg::Instance& instance : scene.instances) {
+    csg::Mesh mesh = leaves[instance.leaf];
+    for (Vec3& vertex : mesh.vertices) {
+      vertex = instance.world_from_leaf * Vec4(vertex, 1);
+    }
+    world.meshes.push_back(std::move(mesh));
+    world.parent.push_back(instance.parent);
+    world.is_minuend.push_back(instance.is_minuend);
+  }
+  return world;
+}
 
 bool evaluate_program(const WorldScene& scene, std::span<const int> winding) {
   // What each node has heard from its children.

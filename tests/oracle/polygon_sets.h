@@ -1,0 +1,24 @@
+#pragma once
+// A second opinion on exact sections: CGAL's 2D Boolean sets.
+//
+// The same exact leaf sections as `exact_section`, but united, intersected and
+// subtracted as polygons along the tree of operators, instead of one
+// arrangement whose cells are classified. Slower; so it judges the judge.
+
+#include <string>
+
+#include "tests/oracle/exact_region.h"
+#include "tests/oracle/world_scene.h"
+
+namespace lamina::oracle {
+
+struct SetSection {
+  std::string area;  // exact, as `exact_area` writes it
+  // As the sets count them: polygons, and holes of polygons. Where boundaries
+  // touch in a point this may differ from RegionCounts.
+  RegionCounts counts;
+};
+
+SetSection section_by_sets(const WorldScene& scene, double z);
+
+}  // namespace lamina::oracle
