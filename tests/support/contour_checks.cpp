@@ -317,12 +317,35 @@ double total_perimeter(const ldni::Contours& contours) {
   return sum;
 }
 
-double distance_to_edges(const ldni::Contours& contours, Vec2 point) {
+namespace {
+
+double distance_to(std::span<const Edge> edges, Vec2 point) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Edge& edge : edges_of(contours)) {
+  for (const Edge& edge : edges) {
     nearest = std::min(nearest, segment_distance(edge, point));
   }
   return nearest;
+}
+
+}  // namespace
+
+double distance_to_edges(const ldni::Contours& contours, Vec2 point) {
+  return distance_to(edges_of(contours), point);
+}
+
+double greatest_distance(const ldni::Contours& a, const ldni::Contours& b) {
+  const auto edges_a = edges_of(a);
+  const auto edges_b = edges_of(b);
+  double greatest = 0;
+  for (const auto& [from, to] :
+       {std::pair(&edges_a, &edges_b), std::pair(&edges_b, &edges_a)}) {
+    for (const Edge& edge : *from) {
+      const Vec2 middle = (edge.from + edge.to) * 0.5;
+      greatest = std::max(
+          {greatest, distance_to(*to, edge.from), distance_to(*to, middle)});
+    }
+  }
+  return greatest;
 }
 
 void add_loop(ldni::Contours& contours, const std::vector<Vec2>& points) {

@@ -86,6 +86,10 @@ double total_perimeter(const ldni::Contours& contours);
 // Distance [mm] from a point to the nearest edge; infinite without any.
 double distance_to_edges(const ldni::Contours& contours, Vec2 point);
 
+// Greatest distance [mm] from the vertices and edge middles of either to the
+// edges of the other; infinite where only one is empty. O(points²).
+double greatest_distance(const ldni::Contours& a, const ldni::Contours& b);
+
 // Appends one loop.
 void add_loop(ldni::Contours& contours, const std::vector<Vec2>& points);
 

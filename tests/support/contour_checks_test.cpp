@@ -205,5 +205,15 @@ TEST(DistanceToEdges, IsThatOfTheNearestEdge) {
   EXPECT_DOUBLE_EQ(distance_to_edges(contours, {12, 13}), 5);
 }
 
+TEST(GreatestDistance, SeesBothDirections) {
+  const auto one = contours_of({square(0, 0, 1)});
+  const auto two = contours_of({square(0, 0, 1), square(3, 0, 1)});
+  EXPECT_EQ(greatest_distance(one, one), 0);
+  EXPECT_DOUBLE_EQ(greatest_distance(one, two), 3);
+  EXPECT_DOUBLE_EQ(greatest_distance(two, one), 3);
+  EXPECT_EQ(greatest_distance({}, {}), 0);
+  EXPECT_TRUE(std::isinf(greatest_distance(one, {})));
+}
+
 }  // namespace
 }  // namespace lamina::support
