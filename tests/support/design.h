@@ -1,0 +1,56 @@
+#pragma once
+// The library's whole way from text to layers, for tests.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "csg/scene.h"
+#include "parser/diagnostic.h"
+#include "slicer/layer.h"
+#include "slicer/settings.h"
+
+namespace lamina::support {
+
+// A design read, evaluated and lowered; keeps alive what its scene points to.
+class Design {
+ public:
+  // Both throw std::runtime_error with all messages where the design has errors
+  // or is 2D. A design of nothing has a scene without instances.
+  static Design from_file(const std::filesystem::path& path);
+  static Design from_text(const std::string& text);
+
+  Design(Design&&) noexcept;
+  Design& operator=(Design&&) noexcept;
+  ~Design();
+
+  const csg::Scene& scene() const;
+
+ private:
+  struct State;
+  explicit Design(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+// Takes layers and keeps them.
+class LayerList : public slicer::LayerSink {
+ public:
+  void take(const slicer::Layer& layer) override { layers.push_back(layer); }
+
+  std::vector<slicer::Layer> layers;
+};
+
+// All layers of a scene. Throws what the slicer throws.
+std::vector<slicer::Layer> slice_layers(const csg::Scene& scene,
+                                        const slicer::Settings& settings);
+
+// Sections at exactly these heights, all vertices kept, on one thread.
+//
+// pitch  of the look-ahead rays [mm]; 0 = auto
+std::vector<slicer::Layer> slice_heights(const csg::Scene& scene,
+                                         const std::vector<double>& heights,
+                                         double pitch = 0);
+
+}  // namespace lamina::support
