@@ -391,6 +391,15 @@ ExactRegion shifted(const ExactRegion& region, double distance, Shift shift) {
   return make_region(boundary_of(overlay));
 }
 
+double total_length(std::span<const Edge> edges) {
+  double length = 0;
+  for (const Edge& edge : edges) {
+    const Vec2 step = rounded(edge.to) - rounded(edge.from);
+    length += std::hypot(step.x, step.y);
+  }
+  return length;
+}
+
 constexpr unsigned kExpected = 1;
 constexpr unsigned kActual = 2;
 constexpr unsigned kOverlapping = 4;
@@ -408,10 +417,8 @@ Comparison compare_edges(const ExactRegion& expected,
   Comparison result;
   result.expected_counts = count_components(overlay, kExpected);
   result.actual_counts = count_components(overlay, kActual);
-  for (const Edge& edge : expected.edges().all) {
-    const Vec2 step = rounded(edge.to) - rounded(edge.from);
-    result.expected_perimeter += std::hypot(step.x, step.y);
-  }
+  result.expected_perimeter = total_length(expected.edges().all);
+  result.actual_perimeter = total_length(actual);
   Arrangement& arrangement = overlay.arrangement();
   for (auto f = arrangement.faces_begin(); f != arrangement.faces_end(); ++f) {
     const unsigned kind = f->data().kind;

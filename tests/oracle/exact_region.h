@@ -75,6 +75,7 @@ struct Comparison {
   double expected_area = 0;       // [mm²]
   double actual_area = 0;         // [mm²]
   double expected_perimeter = 0;  // [mm]
+  double actual_perimeter = 0;    // [mm]
   double difference_area = 0;     // of the symmetric difference [mm²]
   // Where loops wind other than 0 or 1 times [mm²]: they overlap or run the
   // wrong way.

@@ -25,6 +25,7 @@ constexpr Allowance kExactAllowance = {2e-6, 2e-8};
 
 struct Verdict {
   Comparison comparison;
+  RegionCounts counts;       // expected, settled where that was needed
   bool was_settled = false;  // counts agree only after settling
   std::string complaint;     // empty: passed
 };

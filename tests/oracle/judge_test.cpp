@@ -75,6 +75,12 @@ TEST(Judge, TakesEitherReadingOfASlitOfRounding) {
   EXPECT_EQ(complaint(closed, slit), "");
 }
 
+TEST(Judge, TakesASliverOfRoundingForNothing) {
+  const std::vector<Loop> sliver = {{{0, 0}, {1, 0}, {1, 1e-15}}};
+  EXPECT_EQ(complaint(sliver, {}), "");
+  EXPECT_EQ(complaint({}, sliver), "");
+}
+
 TEST(Judge, RejectsAShiftedEdge) {
   const auto moved = [](double shift) -> std::vector<Loop> {
     return {{{0, 0}, {4 + shift, 0}, {4 + shift, 4}, {0, 4}}};
