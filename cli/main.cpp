@@ -101,11 +101,7 @@ std::string echo_text(const Run& run) {
   const std::size_t slash = design.rfind('/');
   const std::string folder =
       slash == std::string::npos ? "." : design.substr(0, slash);
-  std::string text;
-  for (const Diagnostic& diagnostic : run.diagnostics.all()) {
-    text += openscad_line(diagnostic, folder);
-  }
-  return text;
+  return openscad_text(run.diagnostics.all(), folder);
 }
 
 ast::Program load(Run& run) {

@@ -1,6 +1,7 @@
 #include "parser/diagnostic.h"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -166,6 +167,19 @@ TEST(OpenscadLine, KnowsEchoesAndMessagesWithoutPlace) {
   EXPECT_EQ(openscad_line({Severity::kEcho, {}, "6"}, ""), "ECHO: 6\n");
   EXPECT_EQ(openscad_line({Severity::kDeprecated, {}, "old"}, ""),
             "DEPRECATED: old\n");
+}
+
+TEST(OpenscadText, LeavesOutWhatRepeatsTheLastFiveWarnings) {
+  const Diagnostic echo{Severity::kEcho, {}, "1"};
+  const Diagnostic warning{Severity::kWarning, {}, "w"};
+  const Diagnostic other{Severity::kWarning, {}, "v"};
+  std::vector<Diagnostic> messages(7, warning);
+  messages.insert(messages.begin() + 3, echo);
+  messages.push_back(other);
+  messages.push_back(warning);
+  EXPECT_EQ(openscad_text(messages, ""),
+            "WARNING: w\nWARNING: w\nWARNING: w\nECHO: 1\nWARNING: w\n"
+            "WARNING: w\nWARNING: v\nWARNING: w\n");
 }
 
 TEST(CaretText, MarksARangeOfSeveralLinesToTheEndOfItsFirst) {
