@@ -54,6 +54,7 @@ std::vector<Interval> evaluate(const Scene& scene,
 
 std::vector<Range> ranges_of(const std::vector<Interval>& intervals) {
   std::vector<Range> ranges;
+  ranges.reserve(intervals.size());
   for (const Interval& interval : intervals) {
     ranges.push_back({interval.enter.depth, interval.exit.depth});
   }

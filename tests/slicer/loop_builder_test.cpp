@@ -155,13 +155,13 @@ struct ImageSample {
 // word by word. `other` may lie outside of the image: an empty ray.
 ImageSample partner(const Image& image, const ImageSample& sample,
                     std::ptrdiff_t side) {
-  static const std::vector<double> kNone;
+  static const std::vector<double> no_samples;
   const std::ptrdiff_t beside = static_cast<std::ptrdiff_t>(sample.ray) + side;
   const bool is_image =
       beside >= 0 && beside < static_cast<std::ptrdiff_t>(image.size());
   const std::vector<double>& own = image[sample.ray];
   const std::vector<double>& other =
-      is_image ? image[static_cast<std::size_t>(beside)] : kNone;
+      is_image ? image[static_cast<std::size_t>(beside)] : no_samples;
   // No sample of either ray lies strictly between two depths.
   const auto is_free = [&](double a, double b) {
     const auto between = [&](double d) {
