@@ -1,7 +1,8 @@
-// The leaf sections against rays evaluated one by one, in
+// The kinetic ray and the leaf sections against rays evaluated one by one, in
 // random scenes that are as hard as they come. `LAMINA_FIRST_SEED` and
 // `LAMINA_SEEDS` in the environment make it a longer run.
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <random>
@@ -11,8 +12,11 @@
 #include <gtest/gtest.h>
 
 #include "ldni/grid.h"
+#include "ldni/kinetic_ray.h"
 #include "ldni/leaf_section.h"
+#include "ldni/sample.h"
 #include "tests/ldni/ray_reference.h"
+#include "tests/support/contour_checks.h"
 #include "tests/support/random_scenes.h"
 
 namespace lamina::ldni {
@@ -43,6 +47,11 @@ struct Case {
       heights.push_back(z);
     }
     return LayerGrid::at_heights(heights);
+  }
+
+  double random_x() {
+    return std::uniform_real_distribution<double>(
+        scene.box.low.x - 0.01, scene.box.high.x + 0.01)(random);
   }
 
   std::mt19937_64 random;
@@ -94,6 +103,55 @@ void check_leaf_sections(std::uint64_t seed, SceneStyle style) {
   }
 }
 
+// Sound, where walls coincide or are apart. Where they are nearer than a tie
+// without coinciding, the loops keep to that distance: then nothing crosses by
+// more.
+::testing::AssertionResult are_simple(const Contours& contours,
+                                      SceneStyle style) {
+  if (style <= SceneStyle::kNoisy) return support::are_sound(contours);
+  support::ContourRules rules;
+  rules.touch_distance = kTieDistance;
+  for (const auto& defect : support::find_defects(contours, rules)) {
+    if (defect.kind == support::ContourDefect::Kind::kCrossing) {
+      return ::testing::AssertionFailure() << defect.message;
+    }
+  }
+  return ::testing::AssertionSuccess();
+}
+
+void check_kinetic_ray(std::uint64_t seed, SceneStyle style) {
+  Case at(seed, style);
+  const LeafSectioner sectioner(at.scene, at.layers);
+  ChainBlock block;
+  sectioner.cut(0, at.layers.layer_count(), block);
+  // Leaves keep to multiples of these pitches: rays run along walls.
+  const double pitches[] = {0, 0.25, 0.02, 10};
+  KineticRay ray(at.scene, pitches[seed % 4]);
+  std::vector<Contours> contours(at.layers.layer_count());
+  for (std::uint32_t layer = 0; layer < contours.size(); ++layer) {
+    ray.sweep(block, layer, contours[layer]);
+    ASSERT_TRUE(are_simple(contours[layer], style))
+        << "seed " << seed << " style " << static_cast<int>(style) << " layer "
+        << layer;
+  }
+  EXPECT_EQ(ray.counts().capped_columns, 0U);
+  EXPECT_EQ(ray.counts().repaired_columns, 0U);
+  for (int rays = 0; rays < 12; ++rays) {
+    double x = at.random_x();
+    const std::vector<Ranges> expected =
+        evaluate_layers(at.scene, at.layers, x);
+    for (std::uint32_t layer = 0; layer < contours.size(); ++layer) {
+      const std::string difference = compare_ranges(
+          cut_contours(contours[layer], x), expected[layer], x,
+          [&](double near) { return cut_contours(contours[layer], near); },
+          reference(at.scene, at.layers, layer));
+      ASSERT_EQ(difference, "")
+          << "seed " << seed << " style " << static_cast<int>(style)
+          << " layer " << layer;
+    }
+  }
+}
+
 class CrossCheck : public ::testing::TestWithParam<int> {
  protected:
   template <typename Check>
@@ -109,6 +167,10 @@ class CrossCheck : public ::testing::TestWithParam<int> {
 
 TEST_P(CrossCheck, ChainsOfEveryLeafMeetTheSamplesOfEveryRay) {
   run(check_leaf_sections);
+}
+
+TEST_P(CrossCheck, ContoursOfTheKineticRayMeetTheIntervalsOfEveryRay) {
+  run(check_kinetic_ray);
 }
 
 INSTANTIATE_TEST_SUITE_P(Styles, CrossCheck,
