@@ -17,9 +17,10 @@ namespace {
 // once more for every block costs little.
 constexpr std::uint32_t kLayersPerBlock = 64;
 
-// Pixels that the images of a block may have together. Local boxes of a jewel
-// need far less; global boxes of many leaves are what this is for.
-constexpr std::uint64_t kPixelsPerBlock = 1 << 24;
+// Pixels that the images of a block may have together, some 50 bytes each with
+// their samples. A jewel in local boxes needs far less; fine rays and global
+// boxes of many leaves are what this is for.
+constexpr std::uint64_t kPixelsPerBlock = 1 << 20;
 
 ldni::RayGrid make_rays(const csg::Scene& scene, const Settings& settings) {
   if (scene.box.is_empty()) return {};
@@ -38,13 +39,12 @@ ldni::GridBox sample_box(const PaperPlan& plan, const csg::Instance& instance) {
 }
 
 std::uint32_t choose_layers_per_block(const PaperPlan& plan) {
-  // Rays that a block has for each of its layers, if every leaf met all.
-  std::uint64_t rays = 0;
+  std::uint64_t pixels = 0;  // of the whole job
   for (const csg::Instance& instance : plan.scene.instances) {
-    rays += sample_box(plan, instance).ray_count;
+    pixels += sample_box(plan, instance).pixel_count();
   }
-  const std::uint64_t layers =
-      kPixelsPerBlock / std::max<std::uint64_t>(rays, 1);
+  const std::uint64_t layers = kPixelsPerBlock * plan.layers.layer_count() /
+                               std::max<std::uint64_t>(pixels, 1);
   return static_cast<std::uint32_t>(
       std::clamp<std::uint64_t>(layers, 1, kLayersPerBlock));
 }
