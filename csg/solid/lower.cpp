@@ -256,6 +256,9 @@ class Lowerer {
 
   Shape lower_op(const Polyhedron& polyhedron, const Node& node,
                  const Affine& world) {
+    if (!are_finite(polyhedron.points, node, "vec3")) {
+      return {Dimension::kSolid};
+    }
     Leaf leaf;
     leaf.meshes.push_back(
         make_polyhedron(polyhedron, node.range, diagnostics_));
@@ -306,6 +309,7 @@ class Lowerer {
   }
 
   Shape lower_op(const Polygon& polygon, const Node& node, const Affine&) {
+    if (!are_finite(polygon.points, node, "vec2")) return {Dimension::kFlat};
     const auto contours = read_paths(polygon, node.range);
     return {Dimension::kFlat, with_range_check(node, [&] {
               return planar::from_contours(contours);
@@ -369,6 +373,22 @@ class Lowerer {
                            "Range check failed for polygon. skipping");
       return {};
     }
+  }
+
+  // Reports the first point that is not one.
+  template <typename Point>
+  bool are_finite(std::span<const Point> points, const Node& node,
+                  std::string_view type) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      // Finite or not, 0 · x tells: NaN and infinity give NaN.
+      if (glm::dot(points[i], Point(0)) == 0) continue;
+      diagnostics_.error(
+          node.range,
+          fmt::format("Unable to convert points[{}] to a {} of numbers", i,
+                      type));
+      return false;
+    }
+    return true;
   }
 
   std::vector<planar::Contour> read_paths(const Polygon& polygon,

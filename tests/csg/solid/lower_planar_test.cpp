@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "tests/csg/solid/lower_fixture.h"
@@ -68,6 +70,14 @@ TEST_F(LowerPlanarTest, PolygonsTakePathsWithHoles) {
 TEST_F(LowerPlanarTest, WithoutPathsAPolygonIsAllPoints) {
   EXPECT_EQ(planar::area(run_flat({b.polygon({{0, 0}, {2, 0}, {0, 2}})})), 2);
   EXPECT_TRUE(run({b.polygon({{0, 0}, {2, 0}})}).is_empty());
+}
+
+TEST_F(LowerPlanarTest, PointsThatAreNoneMakeAnEmptyPolygon) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(run({b.polygon({{0, 0}, {2, 0}, {nan, 2}})}).is_empty());
+  EXPECT_EQ(messages(),
+            (std::vector<std::string>{
+                "Unable to convert points[2] to a vec2 of numbers"}));
 }
 
 TEST_F(LowerPlanarTest, OffsetGrowsTheUnionOfItsChildren) {
