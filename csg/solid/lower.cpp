@@ -434,19 +434,34 @@ class Lowerer {
   // --- Not yet (issue 4) ----------------------------------------------------
 
   Shape lower_op(const Hull&, const Node& node, const Affine&) {
-    fail_unsupported(node, "hull");
+    return lower_later(node, "hull");
   }
-  Shape lower_op(const Minkowski&, const Node& node, const Affine&) {
-    fail_unsupported(node, "minkowski");
+  Shape lower_op(const Minkowski&, const Node& node, const Affine& world) {
+    // The sum of one operand is that operand.
+    if (count_operands(node) == 1) {
+      return lower_children(node, world, BooleanOp::kUnion);
+    }
+    return lower_later(node, "minkowski");
   }
   Shape lower_op(const Resize&, const Node& node, const Affine&) {
-    fail_unsupported(node, "resize");
+    return lower_later(node, "resize");
   }
   Shape lower_op(const Projection&, const Node& node, const Affine&) {
-    fail_unsupported(node, "projection");
+    return lower_later(node, "projection");
   }
   Shape lower_op(const Unsupported& op, const Node& node, const Affine&) {
     fail_unsupported(node, op.name);
+  }
+
+  static std::size_t count_operands(const Node& node) {
+    return static_cast<std::size_t>(
+        std::count_if(node.children.begin(), node.children.end(),
+                      [](const Node* child) { return !child->is_background; }));
+  }
+
+  static Shape lower_later(const Node& node, std::string_view module) {
+    if (count_operands(node) > 0) fail_unsupported(node, module);
+    return {};
   }
 
   // Other sizes than these make OpenSCAD's primitives empty.

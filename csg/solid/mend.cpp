@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -50,6 +51,15 @@ std::size_t merge_vertices(Mesh& mesh) {
 std::size_t drop_degenerate(Mesh& mesh) {
   return std::erase_if(mesh.triangles, [](const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
+}
+
+// Keeps the first of triangles with the same corners in the same order.
+std::size_t drop_repeated(Mesh& mesh) {
+  std::set<Triangle> seen;
+  return std::erase_if(mesh.triangles, [&](Triangle t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return !seen.insert(t).second;
   });
 }
 
@@ -232,6 +242,7 @@ Mending mend(Mesh& mesh) {
   mending.merged_vertices = merge_vertices(mesh);
   mending.dropped_triangles = drop_degenerate(mesh);
   mending.turned_triangles = orient(mesh);
+  mending.repeated_triangles = drop_repeated(mesh);
   mending.closed_holes = close_holes(mesh);
   drop_unused_vertices(mesh);
   if (signed_volume(mesh) < 0) {

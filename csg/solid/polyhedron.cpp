@@ -31,6 +31,12 @@ void report(const Mending& mending, std::size_t triangle_count,
                            "turned {} of {} triangles",
                            mending.turned_triangles, triangle_count));
   }
+  if (mending.repeated_triangles > 0) {
+    diagnostics.warning(
+        range, fmt::format("The given mesh has faces more than once: dropped "
+                           "{} of {} triangles",
+                           mending.repeated_triangles, triangle_count));
+  }
   const std::vector<ClosedHole>& holes = mending.closed_holes;
   if (holes.empty()) return;
   std::vector<Note> notes;

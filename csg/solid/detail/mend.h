@@ -17,8 +17,9 @@ struct ClosedHole {
 // What was found wrong. Nothing for a sound mesh.
 struct Mending {
   std::size_t merged_vertices = 0;
-  std::size_t dropped_triangles = 0;  // of no area: a corner stands twice
-  std::size_t turned_triangles = 0;   // against their neighbours
+  std::size_t dropped_triangles = 0;   // of no area: a corner stands twice
+  std::size_t turned_triangles = 0;    // against their neighbours
+  std::size_t repeated_triangles = 0;  // dropped: there twice
   std::vector<ClosedHole> closed_holes;
 };
 

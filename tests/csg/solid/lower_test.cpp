@@ -192,6 +192,12 @@ TEST_F(LowerTest, UnsupportedModulesEndTheRun) {
   EXPECT_THROW(run({b.node(Unsupported{"text", ""})}), GeometryError);
 }
 
+TEST_F(LowerTest, WithoutOperandsNothingNeedsSupport) {
+  EXPECT_TRUE(run({b.node(Minkowski{}), b.node(Hull{})}).is_empty());
+  EXPECT_EQ(run_solid({b.node(Minkowski{}, {b.cube(Vec3(1))})}).box.high,
+            Vec3(1));
+}
+
 TEST_F(LowerTest, WhatIsNotDrawnNeedNotBeSupported) {
   Node* ghost = b.node(Hull{}, {b.cube(Vec3(1))});
   ghost->is_background = true;

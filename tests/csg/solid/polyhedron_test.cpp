@@ -52,6 +52,15 @@ TEST_F(PolyhedronTest, AMissingFaceIsClosed) {
             "closed a hole of 4 edges around [1, 1.5, 4], 2 x 3 x 0 mm");
 }
 
+TEST_F(PolyhedronTest, AFaceGivenTwiceCountsOnce) {
+  Faces faces = kBoxFaces;
+  faces.push_back(faces[3]);
+  EXPECT_DOUBLE_EQ(volume(kBoxPoints, faces), 24);
+  EXPECT_EQ(messages(), (std::vector<std::string>{
+                            "The given mesh has faces more than once: dropped "
+                            "2 of 14 triangles"}));
+}
+
 TEST_F(PolyhedronTest, EveryFaceMayHaveItsOwnPoints) {
   std::vector<Vec3> points;
   Faces faces;
