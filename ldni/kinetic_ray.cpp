@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ldni/detail/chain_builder.h"
 #include "ldni/detail/contour_tracer.h"
 #include "ldni/detail/leaf_sets.h"
 #include "ldni/detail/outlook.h"
@@ -71,14 +72,19 @@ SweepCounts& SweepCounts::operator+=(const SweepCounts& other) {
   slabs += other.slabs;
   stops += other.stops;
   evaluations += other.evaluations;
+  resolved_layers += other.resolved_layers;
   capped_columns += other.capped_columns;
   repaired_columns += other.repaired_columns;
   return *this;
 }
 
 struct KineticRay::State {
-  State(const csg::Scene& scene, double pitch_of_rays)
-      : pitch(pitch_of_rays), sets(scene) {}
+  State(const csg::Scene& scene, double pitch_of_rays, double tie,
+        LeafSets::Rule rule)
+      : pitch(pitch_of_rays),
+        tie_distance(tie),
+        sets(scene, rule),
+        tracer(tie) {}
 
   void sweep(const ChainBlock& block, std::uint32_t layer, Contours& contours);
   void begin_layer(const ChainBlock& chain_block,
@@ -131,6 +137,7 @@ struct KineticRay::State {
   void check_entries() const;
 
   const double pitch;
+  const double tie_distance;
   SweepCounts counts;
   LeafSets sets;
   std::size_t first_layer_sets = 0;  // known after the first layer; 0: not yet
@@ -168,14 +175,53 @@ struct KineticRay::State {
   std::vector<std::uint32_t> touches;  // lower entries of pairs that touch
 };
 
+// Boundary that changes over between tied chains jumps by up to a tie, and may
+// run into other boundary there. Such loops are swept once more as one leaf
+// that may overlap itself: solid is where they wind around in the positive
+// sense, ties are what rounding leaves.
+struct KineticRay::Resolver {
+  Resolver() : state(scene, 0, kColumnWidth, LeafSets::Rule::kPositive) {}
+
+  void resolve(Contours& contours) {
+    block.layer_count = 1;
+    builder.begin(block);
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const auto loop = contours.loop(i);
+      builder.loop().assign(loop.begin(), loop.end());
+      builder.close_loop(0, 0, 1);
+    }
+    builder.finish(block);
+    state.sweep(block, 0, contours);
+  }
+
+  static csg::Scene one_leaf() {
+    csg::Scene scene;
+    scene.leaves.resize(1);
+    scene.leaves[0].may_overlap_itself = true;
+    scene.instances.resize(1);
+    scene.program.push_back({csg::BooleanOp::kUnion, 0, false, 1});
+    return scene;
+  }
+
+  csg::Scene scene = one_leaf();
+  State state;
+  detail::ChainBuilder builder;
+  ChainBlock block;
+};
+
 KineticRay::KineticRay(const csg::Scene& scene, double pitch)
-    : state_(std::make_unique<State>(scene, pitch)) {}
+    : state_(std::make_unique<State>(scene, pitch, kTieDistance,
+                                     LeafSets::Rule::kNonZero)) {}
 
 KineticRay::~KineticRay() = default;
 
 void KineticRay::sweep(const ChainBlock& block, std::uint32_t layer,
                        Contours& contours) {
   state_->sweep(block, layer, contours);
+  if (!state_->tracer.has_jumps()) return;
+  if (!resolver_) resolver_ = std::make_unique<Resolver>();
+  resolver_->resolve(contours);
+  ++state_->counts.resolved_layers;
 }
 
 const SweepCounts& KineticRay::counts() const { return state_->counts; }
@@ -355,9 +401,9 @@ bool KineticRay::State::is_above(std::uint32_t number, double y,
   Entry& entry = status[number];
   entry.cursor.advance(column_right);
   const double distance = entry.cursor.y_at(column_right) - y;
-  if (std::abs(distance) > kTieDistance) return distance > 0;
-  const Outlook outlook =
-      detail::look_ahead(cursor, entry.cursor, column_right, column_right);
+  if (std::abs(distance) > tie_distance) return distance > 0;
+  const Outlook outlook = detail::look_ahead(cursor, entry.cursor, column_right,
+                                             column_right, tie_distance);
   return outlook.relation > 0 || (outlook.relation == 0 && distance > 0);
 }
 
@@ -470,12 +516,12 @@ Outlook KineticRay::State::look(std::uint32_t lower, std::uint32_t upper,
   Entry& b = status[upper];
   find_range(a, limit);
   find_range(b, limit);
-  if (a.high + kTieDistance < b.low) {
+  if (a.high + tie_distance < b.low) {
     Outlook outlook;
     outlook.horizon = std::min(a.range_end, b.range_end);
     return outlook;
   }
-  return detail::look_ahead(a.cursor, b.cursor, x, limit);
+  return detail::look_ahead(a.cursor, b.cursor, x, limit, tie_distance);
 }
 
 void KineticRay::State::find_range(Entry& entry, double limit) {

@@ -18,7 +18,10 @@ struct SweepCounts {
   std::uint64_t points = 0;  // vertices of chains
   std::uint64_t slabs = 0;
   std::uint64_t stops = 0;
-  std::uint64_t evaluations = 0;       // of sets by the Boolean program
+  std::uint64_t evaluations = 0;  // of sets by the Boolean program
+  // Layers with faces nearer than a tie but not the same: their loops were
+  // swept once more, see kinetic_ray.cpp.
+  std::uint64_t resolved_layers = 0;
   std::uint64_t capped_columns = 0;    // bubbling reached its cap: always 0
   std::uint64_t repaired_columns = 0;  // I4 did not hold: always 0
 
@@ -42,7 +45,9 @@ class KineticRay {
 
  private:
   struct State;
+  struct Resolver;
   std::unique_ptr<State> state_;
+  std::unique_ptr<Resolver> resolver_;
 };
 
 }  // namespace lamina::ldni

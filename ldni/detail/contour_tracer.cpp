@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "ldni/leaf_section.h"
-#include "ldni/sample.h"
 
 namespace lamina::ldni::detail {
 namespace {
@@ -18,6 +17,10 @@ constexpr double kMergeDistance = kColumnWidth;
 // Loops with less area [mm²] are dropped: 31 nm squared, the leftovers of
 // faces that coincide up to rounding.
 constexpr double kLeastArea = 1e-9;
+
+// How far [tie distances] a change between tied chains may reach: groups of
+// ties can be a few ties wide.
+constexpr double kMostJump = 4;
 
 // Ends of a stop in one point may be on both sides of its column.
 constexpr double kPinchDistance = 2 * kColumnWidth;
@@ -56,6 +59,7 @@ void ContourTracer::begin() {
   pieces_.clear();
   ends_.clear();
   pinches_.clear();
+  has_jumps_ = false;
 }
 
 std::uint32_t ContourTracer::start_piece(Vec2 point, double key,
@@ -87,9 +91,9 @@ bool ContourTracer::has_end_near(double y) const {
 
 // The order of y; among ends of one side that could tie, the order in which
 // their chains come from, or go to, the next vertex.
-bool ContourTracer::is_lower(const End& a, const End& b) {
+bool ContourTracer::is_lower(const End& a, const End& b) const {
   const double distance = b.key - a.key;
-  if (a.is_left != b.is_left || std::abs(distance) > 2 * kTieDistance) {
+  if (a.is_left != b.is_left || std::abs(distance) > 2 * tie_distance_) {
     return distance > 0;
   }
   const double x = a.is_left ? std::max(a.segment[0].x, b.segment[0].x)
@@ -151,6 +155,8 @@ void ContourTracer::link(const End& a, const End& b) {
   const End& departing = a.arrives ? b : a;
   pieces_[arriving.piece].next = departing.piece;
   pieces_[departing.piece].previous = arriving.piece;
+  const double jump = std::abs(a.point.y - b.point.y);
+  has_jumps_ |= jump > kMergeDistance && jump <= kMostJump * tie_distance_;
 }
 
 std::uint32_t ContourTracer::arriving_piece(const End& end) const {

@@ -24,6 +24,9 @@ namespace lamina::ldni::detail {
 
 class ContourTracer {
  public:
+  // Ends of one side of a stop nearer than this [mm] could tie.
+  explicit ContourTracer(double tie_distance) : tie_distance_(tie_distance) {}
+
   // Forgets the layer before.
   void begin();
 
@@ -46,6 +49,10 @@ class ContourTracer {
 
   // Replaces `contours` by the loops of the layer.
   void trace(Contours& contours);
+
+  // Whether the layer's boundary changed over between tied chains that are not
+  // the same up to rounding.
+  bool has_jumps() const { return has_jumps_; }
 
   // Ends that found no partner, since construction: always 0.
   std::uint64_t unlinked_ends() const { return unlinked_ends_; }
@@ -77,7 +84,7 @@ class ContourTracer {
     End second;
   };
 
-  static bool is_lower(const End& a, const End& b);
+  bool is_lower(const End& a, const End& b) const;
   void sort_ends();
   void take_end(const End& end);
   void link(const End& a, const End& b);
@@ -89,6 +96,8 @@ class ContourTracer {
   void add_point(const Vec2& point);
   void close_loop(Contours& contours);
 
+  const double tie_distance_;
+  bool has_jumps_ = false;
   std::vector<Piece> pieces_;
   std::vector<End> ends_;
   std::vector<End> waiting_;  // without partner, the lowest first

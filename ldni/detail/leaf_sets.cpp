@@ -11,7 +11,8 @@ constexpr std::size_t kFirstCapacity = 1024;  // of the tables; a power of 2
 
 }  // namespace
 
-LeafSets::LeafSets(const csg::Scene& scene) : program_(scene) {
+LeafSets::LeafSets(const csg::Scene& scene, Rule rule)
+    : rule_(rule), program_(scene) {
   is_counted_.reserve(scene.instances.size());
   for (const csg::Instance& instance : scene.instances) {
     is_counted_.push_back(scene.leaves[instance.leaf].may_overlap_itself);
@@ -106,14 +107,14 @@ bool LeafSets::evaluate(const Set& set) {
   const Member* begin = members_.data() + set.first_member;
   const Member* end = begin + set.size;
   for (const Member* member = begin; member != end; ++member) {
-    marks_[member->instance] = evaluations_;
+    if (is_inside(*member)) marks_[member->instance] = evaluations_;
   }
   for (std::size_t i = program_.inside().size(); i-- > 0;) {
     const std::uint32_t instance = program_.inside()[i];
     if (marks_[instance] != evaluations_) program_.flip(instance, false);
   }
   for (const Member* member = begin; member != end; ++member) {
-    if (!program_.is_inside(member->instance)) {
+    if (is_inside(*member) && !program_.is_inside(member->instance)) {
       program_.flip(member->instance, true);
     }
   }

@@ -10,7 +10,7 @@
 //
 // A step passes a chain upwards. It toggles the leaf; for a leaf that may
 // overlap itself it adds the chain's winding to the leaf's count, and the leaf
-// contains the interval where the count is not 0.
+// contains the interval where the count is not 0, or, on demand, positive.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,10 @@ class LeafSets {
   using Step = std::uint32_t;
   static constexpr Id kEmpty = 0;
 
-  explicit LeafSets(const csg::Scene& scene);
+  // Which counts of a leaf that may overlap itself are inside it.
+  enum class Rule : std::uint8_t { kNonZero, kPositive };
+
+  LeafSets(const csg::Scene& scene, Rule rule);
 
   // The step of passing a chain of `instance` upwards.
   Step step_of(std::uint32_t instance, std::int32_t winding) const {
@@ -81,10 +84,14 @@ class LeafSets {
   void write_members(Id set, Step step);
   Id find_or_add(std::uint64_t hash);
   bool evaluate(const Set& set);
+  bool is_inside(const Member& member) const {
+    return rule_ == Rule::kNonZero || member.count > 0;
+  }
   void insert_step(Id set, Step step, Id result);
   void grow_steps();
   void grow_index();
 
+  const Rule rule_;
   ProgramState program_;
   std::vector<bool> is_counted_;  // an instance
   std::vector<Set> sets_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ldni/sample.h"
+#include "ldni/leaf_section.h"
 
 namespace lamina::ldni::detail {
 namespace {
@@ -11,8 +11,9 @@ namespace {
 // Two chains between successive vertices of either.
 class PairCursor {
  public:
-  PairCursor(const ChainCursor& lower, const ChainCursor& upper)
-      : lower_(lower), upper_(upper) {
+  PairCursor(const ChainCursor& lower, const ChainCursor& upper,
+             double tie_distance)
+      : lower_(lower), upper_(upper), tie_distance_(tie_distance) {
     left_ = std::max(lower.left_x(), upper.left_x());
     left_distance_ = distance_at(left_);
     find_right();
@@ -36,8 +37,8 @@ class PairCursor {
   }
 
   bool crosses() const {
-    return std::min(left_distance_, right_distance_) < -kTieDistance &&
-           std::max(left_distance_, right_distance_) > kTieDistance;
+    return std::min(left_distance_, right_distance_) < -tie_distance_ &&
+           std::max(left_distance_, right_distance_) > tie_distance_;
   }
   bool touches_at_left() const {
     return std::abs(left_distance_) < kColumnWidth;
@@ -47,8 +48,8 @@ class PairCursor {
     return std::clamp(left_ + t * (right_ - left_), left_, right_);
   }
   int relation_at_left() const {
-    if (std::abs(left_distance_) <= kTieDistance &&
-        std::abs(right_distance_) <= kTieDistance) {
+    if (std::abs(left_distance_) <= tie_distance_ &&
+        std::abs(right_distance_) <= tie_distance_) {
       return 0;
     }
     if (crosses()) return left_distance_ > 0 ? 1 : -1;
@@ -64,6 +65,7 @@ class PairCursor {
 
   ChainCursor lower_;
   ChainCursor upper_;
+  double tie_distance_ = 0;
   double left_ = 0;
   double right_ = 0;
   double left_distance_ = 0;
@@ -73,8 +75,8 @@ class PairCursor {
 }  // namespace
 
 Outlook look_ahead(const ChainCursor& lower, const ChainCursor& upper, double x,
-                   double limit) {
-  PairCursor pair(lower, upper);
+                   double limit, double tie_distance) {
+  PairCursor pair(lower, upper, tie_distance);
   Outlook outlook;
   outlook.relation = pair.relation_at_left();
   if (pair.crosses()) {

@@ -3,7 +3,7 @@
 //
 // Between successive vertices of either chain both are straight. On such a
 // piece their relation is one of three, by their distances at its two ends:
-//   both within kTieDistance: tied, as good as one curve;
+//   both within the tie distance: tied, as good as one curve;
 //   beyond it with opposite signs: they cross where the distance is 0, and on
 //     each side of the crossing are apart;
 //   else apart, in the order that the sum of the distances tells.
@@ -33,6 +33,6 @@ struct Outlook {
 // end of a chain comes before. relation < 0 ends the look: then
 // the pair has to be swapped first.
 Outlook look_ahead(const ChainCursor& lower, const ChainCursor& upper, double x,
-                   double limit);
+                   double limit, double tie_distance);
 
 }  // namespace lamina::ldni::detail

@@ -21,6 +21,7 @@
 #include "ldni/grid.h"
 #include "ldni/kinetic_ray.h"
 #include "ldni/leaf_section.h"
+#include "ldni/sample.h"
 #include "tests/ldni/section_reference.h"
 #include "tests/support/contour_checks.h"
 
@@ -50,14 +51,18 @@ struct Rules {
   double doubtful = 0;       // points nearer to a face are not judged
 };
 Rules rules_of(SceneStyle style) {
+  Rules rules;
   switch (style) {
     case SceneStyle::kGeneric:
     case SceneStyle::kAligned:
     case SceneStyle::kNoisy:
-      return {};
+      break;
     default:
-      return {1e-5, 1e-3, 4e-6};
+      rules.beside = 1e-5;
+      rules.least_edge = 1e-3;
+      rules.doubtful = 4 * kTieDistance;
   }
+  return rules;
 }
 
 class SceneJudge {
