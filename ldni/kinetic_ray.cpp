@@ -43,6 +43,11 @@ constexpr double kMostSlabsOfPitch = 1 << 16;
 constexpr std::size_t kFewSets = 4096;
 constexpr std::size_t kLayersOfSets = 4;
 
+// Points nearer than this [mm] are one where near ties were resolved: what is
+// left of faces apart by less than a tie is that small. Else they are one
+// where a column can have moved them, kColumnWidth.
+constexpr double kResolvedMergeDistance = 1e-8;
+
 // Swaps in one column before it counts as endless: the pairwise order of n
 // entries needs at most n²/2; rounding could make it a circle.
 constexpr std::uint64_t kMostSwapsPerEntry = 64;
@@ -79,12 +84,12 @@ SweepCounts& SweepCounts::operator+=(const SweepCounts& other) {
 }
 
 struct KineticRay::State {
-  State(const csg::Scene& scene, double pitch_of_rays, double tie,
+  State(const csg::Scene& scene, double pitch_of_rays, double tie, double merge,
         LeafSets::Rule rule)
       : pitch(pitch_of_rays),
         tie_distance(tie),
         sets(scene, rule),
-        tracer(tie) {}
+        tracer(tie, merge) {}
 
   void sweep(const ChainBlock& block, std::uint32_t layer, Contours& contours);
   void begin_layer(const ChainBlock& chain_block,
@@ -100,6 +105,8 @@ struct KineticRay::State {
   void take_turns(double gather_end);
   void end_chain(std::uint32_t entry);
   void start_chain(std::uint32_t entry);
+  void note_disorder_before(std::uint32_t lower, std::uint32_t upper);
+  void note_disorder_after(std::uint32_t lower, std::uint32_t upper);
   bool is_above(std::uint32_t entry, double y, const ChainCursor& cursor);
   std::uint32_t find_place(const Vec2& point, const ChainCursor& cursor);
   bool take_changes(double gather_end);
@@ -180,7 +187,9 @@ struct KineticRay::State {
 // that may overlap itself: solid is where they wind around in the positive
 // sense, ties are what rounding leaves.
 struct KineticRay::Resolver {
-  Resolver() : state(scene, 0, kColumnWidth, LeafSets::Rule::kPositive) {}
+  Resolver()
+      : state(scene, 0, kColumnWidth, kResolvedMergeDistance,
+              LeafSets::Rule::kPositive) {}
 
   void resolve(Contours& contours) {
     block.layer_count = 1;
@@ -210,7 +219,7 @@ struct KineticRay::Resolver {
 };
 
 KineticRay::KineticRay(const csg::Scene& scene, double pitch)
-    : state_(std::make_unique<State>(scene, pitch, kTieDistance,
+    : state_(std::make_unique<State>(scene, pitch, kTieDistance, kColumnWidth,
                                      LeafSets::Rule::kNonZero)) {}
 
 KineticRay::~KineticRay() = default;
@@ -359,6 +368,8 @@ void KineticRay::State::end_chain(std::uint32_t number) {
   Entry& entry = status[number];
   if (entry.survival != 0) {
     end_piece(entry);
+    note_disorder_before(entry.below, number);
+    note_disorder_before(number, entry.above);
     entry.survival = 0;
   }
   const std::uint32_t below = entry.below;
@@ -371,6 +382,29 @@ void KineticRay::State::end_chain(std::uint32_t number) {
   touched.push_back(above);
   status[above].is_fresh = true;
   fresh.push_back(above);
+}
+
+// Neighbours that both survive may be out of order by less than a tie: on the
+// left of the column, where a chain is about to end, or on its right.
+void KineticRay::State::note_disorder_before(std::uint32_t lower,
+                                             std::uint32_t upper) {
+  const Entry& a = status[lower];
+  const Entry& b = status[upper];
+  if (a.survival == 0 || b.survival == 0 || a.is_tied) return;
+  const double distance =
+      y_before(b, cursor_before(b)) - y_before(a, cursor_before(a));
+  if (distance <= -kColumnWidth) tracer.note_jump();
+}
+
+void KineticRay::State::note_disorder_after(std::uint32_t lower,
+                                            std::uint32_t upper) {
+  if (lower == status.sentinel() || upper == status.sentinel()) return;
+  const Entry& a = status[lower];
+  const Entry& b = status[upper];
+  if (a.survival == 0 || b.survival == 0 || a.is_tied) return;
+  const double distance =
+      status.y_at(upper, column_right) - status.y_at(lower, column_right);
+  if (distance <= -kColumnWidth) tracer.note_jump();
 }
 
 void KineticRay::State::start_chain(std::uint32_t number) {
@@ -662,6 +696,7 @@ void KineticRay::State::split_at_touches() {
     if (a.survival == 0 || b.survival == 0) continue;
     const double distance =
         status.y_at(upper, column_right) - status.y_at(lower, column_right);
+    if (distance <= -kColumnWidth) tracer.note_jump();
     if (std::abs(distance) >= kColumnWidth) continue;
     split_piece(a);
     split_piece(b);
@@ -669,7 +704,10 @@ void KineticRay::State::split_at_touches() {
   for (const std::uint32_t number : touched) {
     if (number == status.sentinel() || !status.is_alive(number)) continue;
     Entry& entry = status[number];
-    if (entry.survival == 0 || entry.split_column == column) continue;
+    if (entry.survival == 0) continue;
+    note_disorder_after(entry.below, number);
+    note_disorder_after(number, entry.above);
+    if (entry.split_column == column) continue;
     entry.cursor.advance(column_right);
     const double y = y_after(entry);
     if (tracer.has_end_near(y) ||

@@ -10,10 +10,6 @@
 namespace lamina::ldni::detail {
 namespace {
 
-// Points nearer than this [mm] are one, and a point nearer than this to the
-// line through its neighbours is left out: what a column can move a point by.
-constexpr double kMergeDistance = kColumnWidth;
-
 // Loops with less area [mm²] are dropped: 31 nm squared, the leftovers of
 // faces that coincide up to rounding.
 constexpr double kLeastArea = 1e-9;
@@ -27,24 +23,6 @@ constexpr double kPinchDistance = 2 * kColumnWidth;
 
 bool are_near(const Vec2& a, const Vec2& b, double distance) {
   return std::abs(a.x - b.x) < distance && std::abs(a.y - b.y) < distance;
-}
-
-// Whether leaving out `point` changes nothing: it repeats a neighbour, lies on
-// the line between them, or is the tip of a spike without width.
-bool is_redundant(const Vec2& before, const Vec2& point, const Vec2& after) {
-  if (are_near(before, point, kMergeDistance)) return true;
-  const Vec2 in = point - before;
-  const Vec2 out = after - point;
-  const double cross = in.x * out.y - in.y * out.x;
-  const double longer =
-      std::max(in.x * in.x + in.y * in.y, out.x * out.x + out.y * out.y);
-  const Vec2 base = after - before;
-  const double base_squared = base.x * base.x + base.y * base.y;
-  const bool is_spike = in.x * out.x + in.y * out.y < 0;
-  // Distance from the line: from the base's, or from the longer side's for a
-  // spike, whose base may be short.
-  const double line_squared = is_spike ? longer : base_squared;
-  return cross * cross <= kMergeDistance * kMergeDistance * line_squared;
 }
 
 double y_on_segment(const Vec2* segment, double x) {
@@ -156,7 +134,7 @@ void ContourTracer::link(const End& a, const End& b) {
   pieces_[arriving.piece].next = departing.piece;
   pieces_[departing.piece].previous = arriving.piece;
   const double jump = std::abs(a.point.y - b.point.y);
-  has_jumps_ |= jump > kMergeDistance && jump <= kMostJump * tie_distance_;
+  has_jumps_ |= jump > kColumnWidth && jump <= kMostJump * tie_distance_;
 }
 
 std::uint32_t ContourTracer::arriving_piece(const End& end) const {
@@ -223,12 +201,31 @@ void ContourTracer::walk(std::uint32_t start) {
   }
 }
 
+// Whether leaving out `point` changes nothing: it repeats a neighbour, lies on
+// the line between them, or is the tip of a spike without width.
+bool ContourTracer::is_redundant(const Vec2& before, const Vec2& point,
+                                 const Vec2& after) const {
+  if (are_near(before, point, merge_distance_)) return true;
+  const Vec2 in = point - before;
+  const Vec2 out = after - point;
+  const double cross = in.x * out.y - in.y * out.x;
+  const double longer =
+      std::max(in.x * in.x + in.y * in.y, out.x * out.x + out.y * out.y);
+  const Vec2 base = after - before;
+  const double base_squared = base.x * base.x + base.y * base.y;
+  const bool is_spike = in.x * out.x + in.y * out.y < 0;
+  // Distance from the line: from the base's, or from the longer side's for a
+  // spike, whose base may be short.
+  const double line_squared = is_spike ? longer : base_squared;
+  return cross * cross <= merge_distance_ * merge_distance_ * line_squared;
+}
+
 void ContourTracer::add_point(const Vec2& point) {
   while (loop_.size() >= 2 &&
          is_redundant(loop_[loop_.size() - 2], loop_.back(), point)) {
     loop_.pop_back();
   }
-  if (!loop_.empty() && are_near(loop_.back(), point, kMergeDistance)) return;
+  if (!loop_.empty() && are_near(loop_.back(), point, merge_distance_)) return;
   loop_.push_back(point);
 }
 
@@ -239,7 +236,7 @@ void ContourTracer::close_loop(Contours& contours) {
   std::size_t end = loop_.size();
   for (bool is_clean = false; !is_clean && end - begin >= 3;) {
     is_clean = true;
-    if (are_near(loop_[end - 1], loop_[begin], kMergeDistance) ||
+    if (are_near(loop_[end - 1], loop_[begin], merge_distance_) ||
         is_redundant(loop_[end - 2], loop_[end - 1], loop_[begin])) {
       --end;
       is_clean = false;

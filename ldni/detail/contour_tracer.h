@@ -24,8 +24,12 @@ namespace lamina::ldni::detail {
 
 class ContourTracer {
  public:
-  // Ends of one side of a stop nearer than this [mm] could tie.
-  explicit ContourTracer(double tie_distance) : tie_distance_(tie_distance) {}
+  // tie_distance    ends of one side of a stop nearer than this could tie [mm]
+  // merge_distance  points of a loop nearer than this are one, and a point
+  //                 nearer than this to the line through its neighbours is
+  //                 left out [mm]
+  ContourTracer(double tie_distance, double merge_distance)
+      : tie_distance_(tie_distance), merge_distance_(merge_distance) {}
 
   // Forgets the layer before.
   void begin();
@@ -53,6 +57,8 @@ class ContourTracer {
   // Whether the layer's boundary changed over between tied chains that are not
   // the same up to rounding.
   bool has_jumps() const { return has_jumps_; }
+  // Notes that boundary passed other boundary by less than a tie.
+  void note_jump() { has_jumps_ = true; }
 
   // Ends that found no partner, since construction: always 0.
   std::uint64_t unlinked_ends() const { return unlinked_ends_; }
@@ -93,10 +99,13 @@ class ContourTracer {
   void number_loop(std::uint32_t piece, std::uint32_t loop);
   void split_pinches();
   void walk(std::uint32_t start);
+  bool is_redundant(const Vec2& before, const Vec2& point,
+                    const Vec2& after) const;
   void add_point(const Vec2& point);
   void close_loop(Contours& contours);
 
   const double tie_distance_;
+  const double merge_distance_;
   bool has_jumps_ = false;
   std::vector<Piece> pieces_;
   std::vector<End> ends_;

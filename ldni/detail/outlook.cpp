@@ -40,9 +40,7 @@ class PairCursor {
     return std::min(left_distance_, right_distance_) < -tie_distance_ &&
            std::max(left_distance_, right_distance_) > tie_distance_;
   }
-  bool touches_at_left() const {
-    return std::abs(left_distance_) < kColumnWidth;
-  }
+  bool touches_at_left() const { return left_distance_ < kColumnWidth; }
   double crossing() const {
     const double t = left_distance_ / (left_distance_ - right_distance_);
     return std::clamp(left_ + t * (right_ - left_), left_, right_);
