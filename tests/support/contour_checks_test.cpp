@@ -106,6 +106,14 @@ TEST(FindDefects, AllowsLoopsThatTouchInACorner) {
       {turned(square(0, 0, 2), 0.3), turned(square(2, 2, 2), 0.3)})));
 }
 
+TEST(FindDefects, AllowsACornerInTheMiddleOfALongestEdge) {
+  const auto diamond = turned(square(0, 0, std::sqrt(2)), std::numbers::pi / 4);
+  auto shifted = diamond;
+  for (Vec2& point : shifted) point += Vec2(-1, 1);
+  EXPECT_TRUE(
+      are_sound(contours_of({{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, shifted})));
+}
+
 TEST(FindDefects, FindsALoopThatTouchesItself) {
   const auto contours = contours_of(
       {{{0, 0}, {2, 0}, {2, 2}, {4, 2}, {4, 4}, {2, 4}, {2, 2}, {0, 2}}});
