@@ -160,6 +160,40 @@ INSTANTIATE_TEST_SUITE_P(Oracle, Scene, ::testing::ValuesIn(scene_names()),
 
 TEST(Scenes, AreAtLeastTwentyFive) { EXPECT_GE(scene_names().size(), 25U); }
 
+// The designs of bench/ and examples/, what goldsmiths make and some more,
+// at the default values of their parameters.
+class WholeDesign : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(WholeDesign, EqualsTheExactSections) {
+  constexpr std::size_t kManyHeights = 20;
+  const support::Design design =
+      support::Design::from_file(fs::path(LAMINA_SOURCES) / GetParam());
+  const csg::Scene& scene = design.scene();
+  const WorldScene world = world_scene(scene);
+  const auto heights =
+      generic_heights(world, scene.box.low.z, scene.box.high.z, kManyHeights);
+  const auto layers = support::slice_heights(scene, heights);
+  ASSERT_EQ(layers.size(), heights.size());
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    SCOPED_TRACE(fmt::format("z = {}", heights[i]));
+    EXPECT_TRUE(support::are_sound(layers[i].contours));
+    const Verdict verdict = judge(exact_section(world, heights[i]),
+                                  layers[i].contours, kExactAllowance);
+    EXPECT_EQ(verdict.complaint, "");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Oracle, WholeDesign,
+    ::testing::Values("bench/scenes/ring55.scad",
+                      "bench/scenes/submarine74.scad",
+                      "bench/scenes/lattice.scad", "bench/scenes/thin_gap.scad",
+                      "bench/scenes/ring_mesh.scad", "examples/braid.scad",
+                      "examples/eternity.scad", "examples/filigree.scad",
+                      "examples/hoop.scad", "examples/pendant.scad",
+                      "examples/signet.scad", "examples/solitaire.scad"),
+    [](const auto& design) { return fs::path(design.param).stem().string(); });
+
 class NefScene : public Scene {};
 
 TEST_P(NefScene, EqualsTheSectionsOfANefPolyhedron) {
