@@ -129,7 +129,8 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   csg::EvaluateOptions options;
   options.stack_bytes = run.evaluation_stack;
   // As openscad sets it for each of its outputs.
-  options.preview = run.options.format == OutputFormat::kCsg;
+  options.preview = run.options.format == OutputFormat::kCsg ||
+                    run.options.format == OutputFormat::kEcho;
   const std::size_t errors = count_errors(run.diagnostics);
   return timed(run.report.evaluate_seconds, [&]() -> Evaluated {
     try {
