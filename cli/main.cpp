@@ -44,7 +44,7 @@ constexpr int kDone = 0;
 constexpr int kFault = 1;
 
 // Recursion of a design's functions ends here, long before memory does.
-constexpr std::size_t kEvaluationStack = std::size_t{256} << 20;
+constexpr std::size_t kEvaluationStack = std::size_t{128} << 20;
 
 // What the passes of a run share.
 struct Run {

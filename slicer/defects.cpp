@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "ldni/contours.h"
@@ -67,8 +68,9 @@ class EdgeGrid {
 
   void find_crossings(std::vector<Defect>& defects) const;
 
-  // Sum of windings of the other boundaries around a point of `boundary`.
-  int winding_around(Vec2 point, std::uint32_t boundary) const;
+  // Sum of windings of the other boundaries around a point of `boundary`; none
+  // where one of them passes through it.
+  std::optional<int> winding_around(Vec2 point, std::uint32_t boundary) const;
 
  private:
   void collect_edges(const SlcLayer& layer);
@@ -245,24 +247,45 @@ void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
   }
 }
 
-int EdgeGrid::winding_around(Vec2 point, std::uint32_t boundary) const {
+std::optional<int> EdgeGrid::winding_around(Vec2 point,
+                                            std::uint32_t boundary) const {
   int winding = 0;
   const std::uint32_t column = column_of(point.x);
-  for (std::uint32_t row = 0; row <= row_of(point.y); ++row) {
+  const std::uint32_t last_row = row_of(point.y);
+  for (std::uint32_t row = 0; row <= last_row; ++row) {
     for (const std::uint32_t i :
          members(std::size_t{row} * columns_ + column)) {
       const Edge& edge = edges_[i];
       if (edge.boundary == boundary) continue;
       const bool begins_left = edge.from.x <= point.x;
       if (begins_left == (edge.to.x <= point.x)) continue;
-      const double y = edge.from.y + (point.x - edge.from.x) *
-                                         (edge.to.y - edge.from.y) /
-                                         (edge.to.x - edge.from.x);
-      // An edge stands in several cells; that of the crossing counts it.
-      if (y < point.y && row_of(y) == row) winding += begins_left ? 1 : -1;
+      const Vec2 left = begins_left ? edge.from : edge.to;
+      const Vec2 right = begins_left ? edge.to : edge.from;
+      const int side = turn(left, right, point);
+      if (side == 0) return std::nullopt;
+      // An edge stands in several cells: that of the crossing counts it.
+      const double y =
+          left.y + (point.x - left.x) * (right.y - left.y) / (right.x - left.x);
+      if (side > 0 && std::min(row_of(y), last_row) == row) {
+        winding += begins_left ? 1 : -1;
+      }
     }
   }
   return winding;
+}
+
+// Whether a boundary turns against what its nesting asks for. Judged at the
+// middle of an edge that nothing else touches; the first few are tried.
+bool is_turned_wrongly(const EdgeGrid& grid, std::span<const Vec2> points,
+                       std::uint32_t boundary) {
+  constexpr std::size_t kTries = 16;
+  const int wanted = ldni::signed_area(points) < 0 ? 1 : 0;
+  for (std::size_t i = 0; i + 1 < std::min(points.size(), kTries); ++i) {
+    const Vec2 middle = (points[i] + points[i + 1]) / 2.0;
+    const std::optional<int> winding = grid.winding_around(middle, boundary);
+    if (winding) return *winding != wanted;
+  }
+  return false;
 }
 
 // Defects of a boundary by itself; true if it encloses something.
@@ -322,9 +345,7 @@ std::vector<Defect> find_defects(const SlcLayer& layer) {
   if (defects.size() > known) return defects;
   for (const std::uint32_t b : enclosing) {
     const std::vector<Vec2>& points = layer.boundaries[b].points;
-    const Vec2 middle = (points[0] + points[1]) / 2.0;
-    const bool is_hole = ldni::signed_area(points) < 0;
-    if (grid.winding_around(middle, b) != (is_hole ? 1 : 0)) {
+    if (is_turned_wrongly(grid, points, b)) {
       defects.push_back({DefectKind::kOrientation, b, points.front()});
     }
   }

@@ -22,12 +22,6 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-// Layers of a block share the walk over the leaves, so few large blocks are
-// cheap; many small ones keep all threads busy and memory low.
-constexpr std::uint32_t kLargestBlock = 32;
-constexpr std::uint32_t kSmallestBlock = 8;
-constexpr std::uint32_t kWantedBlocks = 12;
-
 // Blocks in flight, for each thread: one in work, one waiting for its turn to
 // be written.
 constexpr std::size_t kBlocksPerThread = 2;
@@ -85,16 +79,31 @@ class PaperBlockSlicer : public BlockSlicer {
   std::uint32_t first_layer_ = 0;
 };
 
+// Layers of a block share the walk over the leaves, so few large blocks are
+// cheap; many small ones keep all threads busy and memory low.
+struct BlockSizes {
+  std::uint32_t smallest;  // layers
+  std::uint32_t largest;
+  std::uint32_t wanted_blocks;
+
+  // Depends on the job alone, not on the number of threads.
+  std::uint32_t choose(std::uint32_t layer_count) const {
+    return std::min(largest, std::max(layer_count / wanted_blocks, smallest));
+  }
+};
+constexpr BlockSizes kFaithfulBlocks = {16, 32, 12};
+constexpr BlockSizes kPaperBlocks = {16, 64, 4};
+
 // What a job's threads share, and how they get what is their own.
 struct Plan {
-  std::uint32_t largest_block = kLargestBlock;
+  BlockSizes blocks = kFaithfulBlocks;
   std::function<std::unique_ptr<BlockSlicer>()> make_slicer;
 };
 
 Plan plan_faithful(const csg::Scene& scene, const Settings& settings,
                    const ldni::LayerGrid& grid) {
   auto sectioner = std::make_shared<ldni::LeafSectioner>(scene, grid);
-  return {kLargestBlock, [&scene, sectioner, pitch = settings.ray_pitch] {
+  return {kFaithfulBlocks, [&scene, sectioner, pitch = settings.ray_pitch] {
             return std::make_unique<FaithfulSlicer>(scene, *sectioner, pitch);
           }};
 }
@@ -102,8 +111,9 @@ Plan plan_faithful(const csg::Scene& scene, const Settings& settings,
 Plan plan_paper(const csg::Scene& scene, const Settings& settings,
                 const ldni::LayerGrid& grid) {
   auto plan = std::make_shared<PaperPlan>(scene, grid, settings);
-  return {plan->layers_per_block,
-          [plan] { return std::make_unique<PaperBlockSlicer>(*plan); }};
+  BlockSizes blocks = kPaperBlocks;
+  blocks.largest = std::min(blocks.largest, plan->layers_per_block);
+  return {blocks, [plan] { return std::make_unique<PaperBlockSlicer>(*plan); }};
 }
 
 // Consecutive layers on their way through the pipeline. Blocks are used again
@@ -196,9 +206,7 @@ class Job {
           return Worker{plan.make_slicer(), Simplifier(tolerance)};
         }),
         blocks_(kBlocksPerThread * threads) {
-    const std::uint32_t size = std::min(
-        plan.largest_block,
-        std::clamp(layer_count / kWantedBlocks, kSmallestBlock, kLargestBlock));
+    const std::uint32_t size = plan.blocks.choose(layer_count);
     block_count_ = (layer_count + size - 1) / size;
   }
 

@@ -119,8 +119,7 @@ TEST(SlcWriter, HeaderEndsWithin2048BytesAndHolds1AOnlyThere) {
 TEST(SlcWriter, DropsPointsThatFallOnTheirNeighbourInFloat32) {
   // At 100 mm float32 steps by 7.6e-6 mm.
   const auto layers = layers_of(write_slc({layer_at(
-      0, 1,
-      {{{100, 0}, {100 + 1e-7, 0}, {101, 0}, {101, 1}, {100, 1e-46}}})}));
+      0, 1, {{{100, 0}, {100 + 1e-7, 0}, {101, 0}, {101, 1}, {100, 1e-46}}})}));
   ASSERT_EQ(layers.at(0).boundaries.size(), 1U);
   const std::vector<Vec2> expected = {{100, 0}, {101, 0}, {101, 1}, {100, 0}};
   EXPECT_EQ(layers.at(0).boundaries[0].points, expected);
