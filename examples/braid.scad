@@ -14,11 +14,11 @@ size_system = "ISO"; // [ISO, EU, US, UK, CH, JP, mm]
 
 /* [Braid] */
 // thickness of a strand [mm]
-strand = 1.7; // [1.2 : 0.1 : 3]
+strand = 1.7; // [1.2 : 0.1 : 2.2]
 // plaits round the ring; not a multiple of 3 makes the strands one endless wire
-plaits = 8; // [5 : 20]
+plaits = 8; // [4 : 10]
 // half width of the plait, middle to middle [mm]
-swing = 1.7; // [1 : 0.1 : 4]
+swing = 1.7; // [1 : 0.1 : 2.5]
 // thickness of the sleeve [mm]
 sleeve = 0.9; // [0.8 : 0.1 : 2]
 

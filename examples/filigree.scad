@@ -14,11 +14,11 @@ size_system = "ISO"; // [ISO, EU, US, UK, CH, JP, mm]
 
 /* [Trellis] */
 // width of the ring [mm]
-width = 7; // [4 : 0.5 : 14]
+width = 7; // [5 : 0.5 : 12]
 // waves of each wire round the ring
-waves = 7; // [4 : 16]
+waves = 7; // [3 : 9]
 // number of wires
-wires = 5; // [2 : 7]
+wires = 5; // [3 : 7]
 // thickness of the wires [mm]
 wire = 0.9; // [0.8 : 0.05 : 1.4]
 // thickness of the rails [mm]
