@@ -1,0 +1,221 @@
+// The boundary in a column: sets of leaves, survival, pieces (ray_sweep.h).
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "ldni/detail/ray_sweep.h"
+
+namespace lamina::ldni::detail {
+
+// --- Sets and survival ------------------------------------------------------
+
+void RaySweep::update_sets() {
+  // Bottom-up, so that no set is made from one that is about to change.
+  if (fresh_.size() > 2) {
+    fresh_by_y_.clear();
+    for (const std::uint32_t entry : fresh_) {
+      if (!status_.is_alive(entry)) continue;
+      fresh_by_y_.push_back({status_.y_at(entry, column_right_), entry});
+    }
+    std::sort(fresh_by_y_.begin(), fresh_by_y_.end());
+    fresh_.clear();
+    for (const auto& [y, entry] : fresh_by_y_) fresh_.push_back(entry);
+  }
+  for (const std::uint32_t entry : fresh_) {
+    if (status_.is_alive(entry) && status_[entry].is_fresh) {
+      update_sets_from(entry);
+    }
+  }
+}
+
+// I2: the set above an entry is the set below it after the entry's step.
+// Restores that from `entry` up to where nothing changes any more, so that a
+// vertical wall costs only the entries that it spans.
+void RaySweep::update_sets_from(std::uint32_t entry) {
+  while (status_[status_[entry].below].is_fresh &&
+         status_[entry].below != status_.sentinel()) {
+    entry = status_[entry].below;
+  }
+  LeafSets::Id set = status_[status_[entry].below].set;
+  for (; entry != status_.sentinel(); entry = status_[entry].above) {
+    Entry& e = status_[entry];
+    set = sets_.after(set, e.step);
+    if (!e.is_fresh && e.set == set) return;
+    e.is_fresh = false;
+    e.set = set;
+    e.value = sets_.value(set);
+    touched_.push_back(entry);
+  }
+}
+
+void RaySweep::update_survival() {
+  for (const std::uint32_t entry : touched_) {
+    if (entry == status_.sentinel() || !status_.is_alive(entry)) continue;
+    if (status_[entry].column != column_) update_group(entry);
+  }
+}
+
+// Tied entries are one curve: the solid below the lowest against that above
+// the highest decides, and one member stands for all.
+void RaySweep::update_group(std::uint32_t member) {
+  const std::uint32_t sentinel = status_.sentinel();
+  std::uint32_t first = member;
+  while (status_[first].below != sentinel &&
+         status_[status_[first].below].is_tied) {
+    first = status_[first].below;
+  }
+  std::uint32_t last = first;
+  while (status_[last].is_tied) last = status_[last].above;
+  const bool below = status_[status_[first].below].value;
+  const bool above = status_[last].value;
+  const auto survival = static_cast<std::int8_t>(above - below);
+
+  // Whoever stood for it before goes on.
+  std::uint32_t chosen = first;
+  if (survival != 0) {
+    for (std::uint32_t e = first;; e = status_[e].above) {
+      if (status_[e].survival == survival) {
+        chosen = e;
+        break;
+      }
+      if (e == last) break;
+    }
+  }
+  for (std::uint32_t e = first;; e = status_[e].above) {
+    status_[e].column = column_;
+    change_survival(status_[e], e == chosen ? survival : std::int8_t{0});
+    if (e == last) break;
+  }
+}
+
+void RaySweep::change_survival(Entry& entry, std::int8_t survival) {
+  if (entry.survival == survival) return;
+  if (entry.survival != 0) end_piece(entry);
+  entry.survival = survival;
+  if (survival != 0) start_piece(entry);
+}
+
+// --- Touches ----------------------------------------------------------------
+
+// Cuts boundary that goes on straight through the column where it touches
+// other boundary in a point, so that the tracer sees the touch, and where it
+// runs along the column past ends.
+void RaySweep::split_at_touches() {
+  for (const std::uint32_t lower : touches_) split_pair_that_touches(lower);
+  for (const std::uint32_t number : touched_) split_where_others_end(number);
+}
+
+void RaySweep::split_pair_that_touches(std::uint32_t lower) {
+  if (!status_.is_alive(lower)) return;
+  Entry& a = status_[lower];
+  if (a.above == status_.sentinel()) return;
+  Entry& b = status_[a.above];
+  if (a.survival == 0 || b.survival == 0) return;
+  note_disorder_after(lower, a.above);
+  if (std::abs(y_after(b) - y_after(a)) >= kColumnWidth) return;
+  split_piece(a);
+  split_piece(b);
+}
+
+void RaySweep::split_where_others_end(std::uint32_t number) {
+  if (!status_.is_alive(number)) return;
+  Entry& entry = status_[number];
+  if (entry.survival == 0) return;
+  note_disorder_after(entry.below, number);
+  note_disorder_after(number, entry.above);
+  if (entry.split_column == column_) return;
+  const double y = y_after(entry);
+  const bool runs_along = std::abs(y_before(entry) - y) >= kColumnWidth;
+  if (runs_along || tracer_.has_end_near(y)) split_piece(entry);
+}
+
+void RaySweep::split_piece(Entry& entry) {
+  if (entry.split_column == column_) return;
+  end_piece(entry);
+  start_piece(entry);
+}
+
+// Neighbours that both survive may be out of order by less than a tie: on the
+// left of the column, where a chain is about to end, or on its right.
+void RaySweep::note_disorder_before(std::uint32_t lower, std::uint32_t upper) {
+  const Entry& a = status_[lower];
+  const Entry& b = status_[upper];
+  if (!both_survive_apart(a, b)) return;
+  if (y_before(b) - y_before(a) <= -kColumnWidth) tracer_.note_jump();
+}
+
+void RaySweep::note_disorder_after(std::uint32_t lower, std::uint32_t upper) {
+  Entry& a = status_[lower];
+  Entry& b = status_[upper];
+  if (!both_survive_apart(a, b)) return;
+  if (y_after(b) - y_after(a) <= -kColumnWidth) tracer_.note_jump();
+}
+
+// --- Pieces -----------------------------------------------------------------
+
+// The entry's cursor where it meets the column from the left.
+ChainCursor RaySweep::cursor_before(const Entry& entry) const {
+  const Vec2* left = entry.cursor.left();
+  const Vec2* last = entry.cursor.last();
+  while (left != entry.first && left->x >= column_left_) --left;
+  while (left + 1 != last && left[1].x < column_left_) ++left;
+  return {left, last};
+}
+
+// I5: where a chain starts or ends in the column, its turn is the point,
+// exactly. Only a chain that runs along the column is taken where the order of
+// its side holds, so that the region stays the union of trapezoids between
+// columns (I4).
+void RaySweep::end_piece(Entry& entry) {
+  const double y = y_before(entry);
+  const ChainCursor cursor = cursor_before(entry);
+  const Vec2& last = *cursor.last();
+  Vec2 point(column_left_, y);
+  if (is_in_column(last.x) && std::abs(last.y - y) < kColumnWidth) point = last;
+  tracer_.end_piece(entry.piece, point, y, cursor.left());
+  entry.split_column = column_;
+}
+
+void RaySweep::start_piece(Entry& entry) {
+  const double y = y_after(entry);
+  const Vec2& first = *entry.first;
+  Vec2 point(column_right_, y);
+  if (is_in_column(first.x) && std::abs(first.y - y) < kColumnWidth) {
+    point = first;
+  }
+  entry.piece =
+      tracer_.start_piece(point, y, entry.cursor.left(), entry.survival);
+  entry.split_column = column_;
+}
+
+// --- Invariants -------------------------------------------------------------
+
+// I1 and I2: from the bottom up, the steps lead to the sets and back to the
+// empty one. I3: neighbours are apart or tied, as far as the rounding of steep
+// chains lets their y tell. Debug builds only; long rays at some columns.
+void RaySweep::check_entries() {
+#ifndef NDEBUG
+  constexpr std::size_t kLongRay = 100;
+  if (chains_.size() > kLongRay && column_ % kLongRay != 0) return;
+  LeafSets::Id set = LeafSets::kEmpty;
+  for (std::uint32_t e = status_.first(); e != status_.sentinel();
+       e = status_[e].above) {
+    Entry& lower = status_[e];
+    set = sets_.after(set, lower.step);
+    assert(!lower.is_fresh);
+    assert(lower.set == set);
+    if (lower.above == status_.sentinel()) break;
+    Entry& upper = status_[lower.above];
+    const double distance = y_after(upper) - y_after(lower);
+    const double slope = std::max(std::abs(lower.cursor.slope()),
+                                  std::abs(upper.cursor.slope()));
+    const double rounding = 1e-12 * slope + 1e-9;
+    assert(distance >= -2 * tie_distance_ - rounding);
+    assert(!lower.is_tied || distance <= 2 * tie_distance_ + rounding);
+  }
+  assert(set == LeafSets::kEmpty);
+#endif
+}
+
+}  // namespace lamina::ldni::detail
