@@ -12,6 +12,7 @@
 #include <double-conversion/double-conversion.h>
 #include <fmt/format.h>
 
+#include "cli/help.h"
 #include "slicer/version.h"
 
 namespace lamina::cli {
@@ -19,23 +20,6 @@ namespace {
 
 constexpr int kUsageStatus = 2;
 constexpr int kFaultStatus = 1;
-
-constexpr std::string_view kDescription =
-    "lamina compiles OpenSCAD designs straight to the layers of a 3D printer.";
-constexpr std::string_view kFooter =
-    R"(Output, by the extension of FILE:
-  .slc           layers for wax and resin printers (the default)
-  .layers.json   layers with every digit, for programs
-  .csg .echo .ast   what the design evaluates to, says, and is
-
-Examples:
-  lamina ring.scad                          makes ring.slc, layers of 0.05 mm
-  lamina ring.scad -o ring.slc --layer 0.025 -D size=54
-  lamina inspect ring.slc                   checks it and lists its layers
-  lamina view ring.slc -o ring.png          draws it
-
-Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
-130 interrupted.)";
 
 // A number and nothing else; finite.
 std::optional<double> parse_number(std::string_view text) {
@@ -100,113 +84,70 @@ Affine turn_to_axis(std::string_view axis) {
   return Affine(1.0);
 }
 
-// An option whose text `use` reads; `use` throws CLI::ValidationError.
+// An option whose text `use` reads; `use` throws CLI::ValidationError. `value`
+// is what messages call its value.
 CLI::Option* add_text(CLI::App& app, const std::string& name,
-                      const std::string& help,
+                      const std::string& value,
                       std::function<void(const std::string&)> use) {
-  return app.add_option_function<std::string>(name, std::move(use), help);
+  return app.add_option_function<std::string>(name, std::move(use))
+      ->type_name(value);
+}
+
+// An option with one of a few words.
+void add_choice(CLI::App& app, const std::string& name,
+                const std::vector<std::string>& words,
+                std::function<void(const std::string&)> use) {
+  add_text(app, name, "word", std::move(use))->check(CLI::IsMember(words));
 }
 
 void add_slicing_options(CLI::App& app, DesignOptions& options) {
   slicer::Settings& settings = options.settings;
-  const char* const group = "Slicing";
-  add_text(app, "--layer", "Thickness of a layer",
-           [&](const std::string& text) {
-             settings.layer_thickness = require_positive("--layer", text);
-           })
-      ->type_name("MM")
-      ->default_str("0.05")
-      ->group(group);
-  add_text(app, "--heights",
-           "Sections at exactly these heights instead, ascending",
-           [&](const std::string& text) {
-             settings.heights = parse_heights("--heights", text);
-           })
-      ->type_name("Z1,Z2,…")
-      ->group(group);
-  add_text(app, "--tolerance",
-           "Leave out vertices that move the contour by less; 0 keeps all",
-           [&](const std::string& text) {
-             settings.tolerance = require_number("--tolerance", text);
-             if (settings.tolerance < 0) {
-               throw CLI::ValidationError("--tolerance",
-                                          "must not be negative");
-             }
-           })
-      ->type_name("MM")
-      ->default_str("0.001")
-      ->group(group);
-  app.add_option_function<std::string>(
-         "--axis",
-         [&](const std::string& axis) {
-           options.world_from_design = turn_to_axis(axis);
-         },
-         "Direction of building")
-      ->check(CLI::IsMember({"z", "x", "y", "-x", "-y", "-z"}))
-      ->type_name("z|x|y|-x|-y|-z")
-      ->default_str("z")
-      ->group(group);
-  add_text(app, "--ray", "Distance of rays: speed only, unless --contour paper",
-           [&](const std::string& text) {
-             settings.ray_pitch =
-                 text == "auto" ? 0 : require_positive("--ray", text);
-           })
-      ->type_name("auto|MM")
-      ->default_str("auto")
-      ->group(group);
-  app.add_option_function<std::string>(
-         "--contour",
-         [&](const std::string& mode) {
-           settings.contour = mode == "paper" ? slicer::ContourMode::kPaper
-                                              : slicer::ContourMode::kFaithful;
-         },
-         "Exact contours, or those of Zeng et al. 2011")
-      ->check(CLI::IsMember({"faithful", "paper"}))
-      ->type_name("faithful|paper")
-      ->default_str("faithful")
-      ->group(group);
-  app.add_option_function<std::string>(
-         "--boxes",
-         [&](const std::string& mode) {
-           settings.boxes = mode == "global" ? slicer::BoxMode::kGlobal
-                                             : slicer::BoxMode::kLocal;
-         },
-         "Of --contour paper: sample each leaf in its own box or in the whole")
-      ->check(CLI::IsMember({"local", "global"}))
-      ->type_name("local|global")
-      ->default_str("local")
-      ->group(group);
-  app.add_option_function<std::string>(
-         "--sampler",
-         [&](const std::string& kind) {
-           settings.sampler = kind == "gl" ? slicer::SamplerKind::kGl
-                                           : slicer::SamplerKind::kScanline;
-         },
-         "Of --contour paper: how rays are sampled")
-      ->check(CLI::IsMember({"scanline", "gl"}))
-      ->type_name("scanline|gl")
-      ->default_str("scanline")
-      ->group(group);
-  app.add_option("--threads", settings.threads,
-                 "Threads; as many as the machine has unless given")
+  add_text(app, "--layer", "length", [&](const std::string& text) {
+    settings.layer_thickness = require_positive("--layer", text);
+  });
+  add_text(app, "--heights", "list", [&](const std::string& text) {
+    settings.heights = parse_heights("--heights", text);
+  });
+  add_text(app, "--tolerance", "length", [&](const std::string& text) {
+    settings.tolerance = require_number("--tolerance", text);
+    if (settings.tolerance < 0) {
+      throw CLI::ValidationError("--tolerance", "must not be negative");
+    }
+  });
+  add_text(app, "--ray", "length", [&](const std::string& text) {
+    settings.ray_pitch = text == "auto" ? 0 : require_positive("--ray", text);
+  });
+  add_choice(app, "--axis", {"z", "x", "y", "-x", "-y", "-z"},
+             [&](const std::string& axis) {
+               options.world_from_design = turn_to_axis(axis);
+             });
+  add_choice(
+      app, "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
+        settings.contour = mode == "paper" ? slicer::ContourMode::kPaper
+                                           : slicer::ContourMode::kFaithful;
+      });
+  add_choice(app, "--boxes", {"local", "global"}, [&](const std::string& mode) {
+    settings.boxes =
+        mode == "global" ? slicer::BoxMode::kGlobal : slicer::BoxMode::kLocal;
+  });
+  add_choice(app, "--sampler", {"scanline", "gl"},
+             [&](const std::string& kind) {
+               settings.sampler = kind == "gl" ? slicer::SamplerKind::kGl
+                                               : slicer::SamplerKind::kScanline;
+             });
+  app.add_option("--threads", settings.threads)
       ->check(CLI::Range(1U, 1024U))
-      ->type_name("N")
-      ->group(group);
+      ->type_name("number");
 }
 
 void add_design_options(CLI::App& app, DesignOptions& options,
                         std::vector<std::string>& definitions) {
-  app.add_option("-D", definitions,
-                 "Set a variable of the design; may be repeated")
+  app.add_option("-D", definitions)
       ->type_name("NAME=VALUE")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Design");
-  app.add_flag("--hardwarnings", options.has_hard_warnings,
-               "Stop at the first warning")
-      ->group("Design");
-  app.add_flag("-q,--quiet", options.is_quiet, "Say nothing but errors")
-      ->group("Messages");
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--hardwarnings", options.has_hard_warnings);
+  app.add_flag("-q,--quiet", options.is_quiet);
 }
 
 // All that the parsed words are bound to.
@@ -219,72 +160,44 @@ struct Parsed {
   std::vector<std::string> view_definitions;
 };
 
+void add_options(CLI::App& app, Parsed& parsed) {
+  app.set_help_flag("-h,--help");
+  app.set_version_flag("-v,--version",
+                       fmt::format("lamina {}", slicer::version()));
+  app.add_option("design", parsed.design.design);
+  app.add_option("-o", parsed.design.output)->type_name("file");
+  app.add_option("--export-format", parsed.export_format)->type_name("format");
+  app.add_option("--report", parsed.design.report)->type_name("file");
+  add_design_options(app, parsed.design, parsed.definitions);
+  add_slicing_options(app, parsed.design);
+}
+
 CLI::App* add_inspect(CLI::App& app, InspectOptions& options) {
-  CLI::App* inspect =
-      app.add_subcommand("inspect", "Check a .slc file and list its layers");
-  inspect->add_option("file", options.file, "An .slc file")->required();
-  inspect->add_flag("--all", options.lists_all_layers,
-                    "List every layer of a long file");
+  CLI::App* inspect = app.add_subcommand("inspect");
+  inspect->add_option("file", options.file)->required();
+  inspect->add_flag("--all", options.lists_all_layers);
   return inspect;
 }
 
 CLI::App* add_view(CLI::App& app, ViewOptions& options,
                    std::vector<std::string>& definitions) {
-  CLI::App* view =
-      app.add_subcommand("view", "Draw the layers of a .slc file or a design");
-  view->add_option("file", options.design.design, "A .slc, .scad or .csg file")
-      ->required();
-  view->add_option("-o", options.design.output, "The picture, a .png file")
-      ->type_name("FILE")
-      ->required();
-  view->add_option_function<std::string>(
-          "--style",
-          [&](const std::string& style) {
-            options.picture.style = style == "stack"
-                                        ? slicer::PictureStyle::kStack
-                                        : slicer::PictureStyle::kSheet;
-          },
-          "A sheet of single layers, or all of them stacked as a solid")
-      ->check(CLI::IsMember({"sheet", "stack"}))
-      ->type_name("sheet|stack")
-      ->default_str("sheet");
-  view->add_option("--layers", options.picture.layer_count,
-                   "Layers on the sheet")
+  CLI::App* view = app.add_subcommand("view");
+  view->add_option("file", options.design.design)->required();
+  view->add_option("-o", options.design.output)->type_name("file")->required();
+  add_choice(
+      *view, "--style", {"sheet", "stack"}, [&](const std::string& style) {
+        options.picture.style = style == "stack" ? slicer::PictureStyle::kStack
+                                                 : slicer::PictureStyle::kSheet;
+      });
+  view->add_option("--layers", options.picture.layer_count)
       ->check(CLI::Range(1U, 400U))
-      ->type_name("N")
-      ->default_str(std::to_string(options.picture.layer_count));
-  view->add_option("--width", options.picture.width, "Width of the picture")
+      ->type_name("number");
+  view->add_option("--width", options.picture.width)
       ->check(CLI::Range(200U, 8000U))
-      ->type_name("PIXELS")
-      ->default_str(std::to_string(options.picture.width));
+      ->type_name("number");
   add_design_options(*view, options.design, definitions);
   add_slicing_options(*view, options.design);
   return view;
-}
-
-void add_options(CLI::App& app, Parsed& parsed) {
-  app.set_help_flag("-h,--help", "Print this help");
-  app.set_version_flag("-v,--version",
-                       fmt::format("lamina {}", slicer::version()));
-  app.footer(std::string(kFooter));
-  app.get_formatter()->column_width(34);
-  app.add_option("design", parsed.design.design, "A .scad or .csg file")
-      ->type_name("FILE");
-  app.add_option("-o", parsed.design.output,
-                 "Output, by its extension; '-' is standard output; without "
-                 "it, ring.slc beside ring.scad")
-      ->type_name("FILE")
-      ->group("Output");
-  app.add_option("--export-format", parsed.export_format,
-                 "Format of the output, whatever its name")
-      ->type_name("FORMAT")
-      ->group("Output");
-  app.add_option("--report", parsed.design.report,
-                 "Write times, counts and memory as JSON")
-      ->type_name("FILE")
-      ->group("Messages");
-  add_design_options(app, parsed.design, parsed.definitions);
-  add_slicing_options(app, parsed.design);
 }
 
 std::string join_definitions(const std::vector<std::string>& definitions) {
@@ -310,6 +223,12 @@ std::string without_extension(const std::string& path) {
 Command finish_design(Parsed& parsed) {
   DesignOptions& options = parsed.design;
   if (options.design.empty()) return usage_error("no design was given");
+  if (options.design.ends_with(".slc")) {
+    return usage_error(
+        fmt::format("'{0}' holds layers already; try 'lamina "
+                    "inspect {0}' or 'lamina view {0}'",
+                    options.design));
+  }
   options.definitions = join_definitions(parsed.definitions);
   if (options.settings.sampler == slicer::SamplerKind::kGl) {
     return Exit{kFaultStatus, "lamina: --sampler gl is not supported yet\n"};
@@ -346,7 +265,7 @@ Command finish_view(Parsed& parsed) {
 
 Command parse_command_line(int argc, const char* const* argv) {
   Parsed parsed;
-  CLI::App app{std::string(kDescription), "lamina"};
+  CLI::App app("", "lamina");
   add_options(app, parsed);
   const CLI::App* inspect = add_inspect(app, parsed.inspect);
   const CLI::App* view = add_view(app, parsed.view, parsed.view_definitions);
@@ -354,10 +273,9 @@ Command parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    const CLI::App* asked = inspect->parsed() ? inspect
-                            : view->parsed()  ? view
-                                              : &app;
-    return Exit{0, asked->help()};
+    return Exit{0, std::string(inspect->parsed() ? kInspectHelp
+                               : view->parsed()  ? kViewHelp
+                                                 : kHelp)};
   } catch (const CLI::CallForVersion& version) {
     return Exit{0, fmt::format("{}\n", version.what())};
   } catch (const CLI::ParseError& error) {

@@ -81,8 +81,10 @@ class Inspector {
           header.package.empty() ? "an unnamed program" : header.package);
     if (header.extents) {
       const auto& [x, y, z] = *header.extents;
-      print("extents   x {} … {}   y {} … {}   z {} … {}\n", x.x, x.y, y.x, y.y,
-            z.x, z.y);
+      print(
+          "extents   x {:.4f} … {:.4f}   y {:.4f} … {:.4f}   z {:.4f} … "
+          "{:.4f}\n",
+          x.x, x.y, y.x, y.y, z.x, z.y);
     }
     for (const SlcSampling& row : reader_.sampling()) {
       print("sampling  from z {}: layers of {}", row.min_z, row.thickness);
@@ -144,7 +146,7 @@ class Inspector {
       vertices += line.vertices;
       empty += line.loops == 0 ? 1 : 0;
     }
-    print("\nlayers    {}, {} of them empty; top of the part z {}\n",
+    print("\nlayers    {}, {} of them empty; top of the part z {:.6g}\n",
           lines_.size(), empty, reader_.top());
     print("loops     {}, {} of them holes; {} vertices\n", loops, holes,
           vertices);

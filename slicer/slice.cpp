@@ -91,7 +91,7 @@ struct BlockSizes {
     return std::min(largest, std::max(layer_count / wanted_blocks, smallest));
   }
 };
-constexpr BlockSizes kFaithfulBlocks = {16, 32, 12};
+constexpr BlockSizes kFaithfulBlocks = {8, 32, 12};
 constexpr BlockSizes kPaperBlocks = {16, 64, 4};
 
 // What a job's threads share, and how they get what is their own.
