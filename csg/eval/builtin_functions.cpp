@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "csg/degrees.h"
+#include "csg/eval/builtin_dxf.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/operators.h"
 #include "csg/eval/text.h"
@@ -576,7 +577,7 @@ Value builtin_search(const CallCode& code, Frame& frame) {
 
 // --- About the program ------------------------------------------------------
 
-constexpr double kVersion[] = {2021, 1};
+constexpr double kVersion[] = {2021, 1, 0};
 
 Value builtin_version(const CallCode&, Frame&) {
   return Value::numbers(kVersion);
@@ -672,6 +673,8 @@ const Table& builtin_table() {
       {"version", {builtin_version, nullptr}},
       {"version_num", {builtin_version_num, nullptr}},
       {"parent_module", {builtin_parent_module, nullptr}},
+      {"dxf_dim", {builtin_dxf_dim, nullptr}},
+      {"dxf_cross", {builtin_dxf_cross, nullptr}},
       {"is_undef", {builtin_is_undef, nullptr}},
       {"is_bool", {is_type<Type::kBool>, nullptr}},
       {"is_string", {is_type<Type::kString>, nullptr}},

@@ -1,10 +1,15 @@
 #include "csg/eval/evaluator.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "csg/eval/conversions.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/resolver.h"
+#include "csg/eval/text.h"
 
 namespace lamina::csg {
 
@@ -31,6 +36,39 @@ void run_program(Unit& unit, Interpreter& in) {
   run_block(unit.body, frame);
 }
 
+bool assigns(const Unit& unit, std::uint32_t dynamic_index) {
+  return std::any_of(unit.body.assignments.begin(), unit.body.assignments.end(),
+                     [&](const Binding& binding) {
+                       return binding.target.kind == Target::Kind::kDynamic &&
+                              binding.target.index == dynamic_index;
+                     });
+}
+
+// OpenSCAD sets its camera to what the design says, and says so.
+void check_view(const Unit& unit, Interpreter& in) {
+  bool is_set = false;
+  const auto check = [&](std::uint32_t index, const char* name, bool is_point) {
+    if (!assigns(unit, index)) return;
+    const Value& value = in.dynamic(index);
+    Vec3 point(0.0);
+    if (value.is_undef()) return;
+    if (is_point ? read_vec3(value, 0.0, point) : value.is_number()) {
+      is_set = true;
+      return;
+    }
+    in.warn({},
+            fmt::format("Unable to convert {}={} to a {}", name, to_echo(value),
+                        is_point ? "vec3 or vec2 of numbers" : "number"));
+  };
+  check(kViewRotation, "$vpr", true);
+  check(kViewTranslation, "$vpt", true);
+  check(kViewDistance, "$vpd", false);
+  check(kViewField, "$vpf", false);
+  // Of no interest to who makes layers.
+  if (is_set && in.options().preview)
+    in.warn({}, "Viewall and autocenter disabled in favor of $vp*");
+}
+
 }  // namespace
 
 Tree evaluate(const ast::Program& program, const Loader& loader,
@@ -51,6 +89,7 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
     in.drop_nodes(0);
     diagnostics.report(std::move(failure.diagnostic));
   }
+  check_view(unit, in);
   InstantiationCode root;
   root.name = "group";
   in.make_node(Group{}, root, 0);

@@ -14,17 +14,21 @@ namespace fs = std::filesystem;
 
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame) {
-  if (name.empty() || fs::path(name).is_absolute()) return std::string(name);
   const fs::path own = fs::absolute(code.unit->program->source->path());
-  const fs::path here = own.parent_path() / name;
-  const fs::path fallback = fs::path(frame.in.design_folder()) / name;
+  return find_file(name, own.parent_path().string(), frame.in);
+}
+
+std::string find_file(std::string_view name, const std::string& from,
+                      Interpreter& in) {
+  if (name.empty() || fs::path(name).is_absolute()) return std::string(name);
+  const fs::path here = fs::path(from) / name;
+  const fs::path fallback = fs::path(in.design_folder()) / name;
   std::error_code ignored;
   if (!fs::exists(here, ignored) && fs::exists(fallback, ignored)) {
-    frame.in.deprecate(
-        {}, fmt::format("Imported file ({}) found in document root instead of "
-                        "relative to the importing module. This behavior is "
-                        "deprecated",
-                        name));
+    in.deprecate({}, fmt::format("Imported file ({}) found in document root "
+                                 "instead of relative to the importing module. "
+                                 "This behavior is deprecated",
+                                 name));
     return fallback.string();
   }
   return here.string();

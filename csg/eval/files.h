@@ -14,6 +14,9 @@ namespace lamina::csg {
 // Empty for an empty name. The file need not exist.
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame);
+// The same for a file that code of the folder `from` names.
+std::string find_file(std::string_view name, const std::string& from,
+                      Interpreter& in);
 
 // The path relative to the design's folder, quoted.
 std::string relative_quoted(const std::string& path, Frame& frame);

@@ -1,0 +1,95 @@
+#include "tests/csg/eval/evaluate_text.h"
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <regex>
+#include <sstream>
+
+#include <pthread.h>
+
+#include "csg/eval/csg_printer.h"
+#include "csg/eval/evaluator.h"
+#include "parser/diagnostic.h"
+#include "parser/loader.h"
+
+namespace lamina::csg {
+
+namespace {
+
+void run_on_stack(std::size_t bytes, std::function<void()> work) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, bytes);
+  pthread_t thread = {};
+  const auto enter = [](void* argument) -> void* {
+    (*static_cast<std::function<void()>*>(argument))();
+    return nullptr;
+  };
+  pthread_create(&thread, &attributes, enter, &work);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+}
+
+Evaluated evaluate_with(std::size_t stack_bytes, const std::string& path,
+                        const std::string* text, const std::string& definitions,
+                        bool check_ranges) {
+  Evaluated result;
+  run_on_stack(stack_bytes, [&] {
+    SourceStore sources;
+    Diagnostics diagnostics;
+    try {
+      Loader loader(sources, diagnostics, library_folders(), definitions);
+      const ast::Program program =
+          text != nullptr ? loader.load_text(path, *text) : loader.load(path);
+      EvaluateOptions options;
+      options.stack_bytes = stack_bytes - (std::size_t{1} << 20);
+      options.check_ranges = check_ranges;
+      const Tree tree = evaluate(program, loader, options, diagnostics);
+      result.csg = print_csg(tree, *select_root(tree, diagnostics));
+    } catch (const SyntaxError&) {
+      // Reported; there is no tree.
+    }
+    const std::string folder =
+        std::filesystem::absolute(path).parent_path().string();
+    result.echo = openscad_text(diagnostics.all(), folder);
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+      if (diagnostic.severity != Severity::kEcho) {
+        result.terminal += caret_text(diagnostic);
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+Evaluated evaluate_text(const std::string& text, std::size_t stack_bytes) {
+  return evaluate_with(stack_bytes, "test.scad", &text, "", false);
+}
+
+Evaluated evaluate_file(const std::string& path, const std::string& definitions,
+                        bool check_ranges) {
+  return evaluate_with(std::size_t{256} << 20, path, nullptr, definitions,
+                       check_ranges);
+}
+
+std::string normalized(std::string text) {
+  static const std::regex kTimestamp(", timestamp = [0-9]+");
+  static const std::regex kFolders("(file = \")([^\"/]*/)*([^\"]*\")");
+  text = std::regex_replace(text, kTimestamp, "");
+  text = std::regex_replace(text, kFolders, "$1$3");
+  const std::size_t first = text.find_first_not_of('\n');
+  if (first == std::string::npos) return "\n";
+  const std::size_t last = text.find_last_not_of('\n');
+  return text.substr(first, last - first + 1) + "\n";
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,31 @@
+#pragma once
+// Evaluating a program for a test.
+
+#include <string>
+
+namespace lamina::csg {
+
+// What a program says and makes, as openscad's `.echo` and `.csg` hold it.
+struct Evaluated {
+  std::string echo;
+  std::string csg;
+  std::string terminal;  // caret form, echoes left out
+};
+
+enum class Output { kEcho, kCsg };
+
+// Evaluates on a thread with a stack of `stack_bytes`.
+Evaluated evaluate_text(const std::string& text,
+                        std::size_t stack_bytes = std::size_t{256} << 20);
+Evaluated evaluate_file(const std::string& path,
+                        const std::string& definitions = {},
+                        bool check_ranges = false);
+
+// A text as openscad's own test suite compares it: without time stamps and
+// folders of files, without blank lines at the ends.
+std::string normalized(std::string text);
+
+// The file's content; empty if there is none.
+std::string read_text(const std::string& path);
+
+}  // namespace lamina::csg

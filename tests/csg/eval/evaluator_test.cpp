@@ -1,0 +1,150 @@
+#include "csg/eval/evaluator.h"
+
+#include <chrono>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "csg/eval/csg_printer.h"
+#include "tests/csg/eval/evaluate_text.h"
+
+namespace lamina::csg {
+namespace {
+
+double seconds_for(const std::string& text) {
+  const auto start = std::chrono::steady_clock::now();
+  evaluate_text(text);
+  const auto end = std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(end - start).count();
+}
+
+// --- Recursion --------------------------------------------------------------
+
+TEST(Evaluate, RecursesAHundredThousandDeepOutsideTailPosition) {
+  EXPECT_EQ(evaluate_text("function f(n) = n == 0 ? 0 : 1 + f(n - 1);\n"
+                          "echo(f(100000));\n")
+                .echo,
+            "ECHO: 100000\n");
+}
+
+TEST(Evaluate, TurnsTailCallsIntoJumps) {
+  // A stack for a few hundred calls at most.
+  EXPECT_EQ(evaluate_text("function f(n, sum = 0) =\n"
+                          "  n == 0 ? sum : let(s = sum + n) f(n - 1, s);\n"
+                          "echo(f(900000));\n",
+                          std::size_t{2} << 20)
+                .echo,
+            "ECHO: 4.05e+11\n");
+}
+
+TEST(Evaluate, EndsEndlessRecursionWithAnErrorAndAnEmptyTree) {
+  const Evaluated endless = evaluate_text(
+      "cube(1);\nmodule m() { m(); }\nm();\n", std::size_t{8} << 20);
+  EXPECT_EQ(endless.csg, "\n");
+  EXPECT_TRUE(endless.echo.starts_with(
+      "ERROR: Recursion detected calling module 'm' in file test.scad, line "
+      "2\nTRACE: called by 'm' in file test.scad, line 2\n"))
+      << endless.echo;
+}
+
+TEST(Evaluate, EndsEndlessTailRecursion) {
+  EXPECT_EQ(evaluate_text("function f(n) = f(n + 1);\nx = f(0);\n").echo,
+            "ERROR: Recursion detected calling function 'f' in file "
+            "test.scad, line 1\n"
+            "TRACE: called by 'f' in file test.scad, line 2\n");
+}
+
+TEST(Evaluate, FreesVectorsNestedAMillionDeep) {
+  EXPECT_EQ(evaluate_text("function f(n, v = []) = n == 0 ? v : f(n - 1, [v]);"
+                          "\necho(len(f(999999)));\n",
+                          std::size_t{2} << 20)
+                .echo,
+            "ECHO: 1\n");
+}
+
+// --- Cost -------------------------------------------------------------------
+
+TEST(Evaluate, BuildsListsAndStringsInLinearTime) {
+  // Quadratic copying would take 200 GB of memory traffic each.
+  const std::string list =
+      "function f(n, v = []) = n == 0 ? v : f(n - 1, concat(v, [n]));\n"
+      "echo(len(f(150000)));\n";
+  const std::string string =
+      "function f(n, s = \"\") = n == 0 ? s : f(n - 1, str(s, \"ab\"));\n"
+      "echo(len(f(900000)));\n";
+  EXPECT_LT(seconds_for(list), 5.0);
+  EXPECT_LT(seconds_for(string), 5.0);
+}
+
+TEST(Evaluate, RefusesARangeWithoutEndAtOnce) {
+  EXPECT_EQ(evaluate_text("for (i = [0 : 1e12]) cube(1);\n").echo,
+            "WARNING: Bad range parameter in for statement: too many elements "
+            "(4294967295) in file test.scad, line 1\n");
+}
+
+// --- Closures ---------------------------------------------------------------
+
+TEST(Evaluate, LetsAClosureSeeAVariableThatIsSetAfterIt) {
+  EXPECT_EQ(evaluate_text("f = let(g = function(n) n < 2 ? 1 : n * g(n - 1))\n"
+                          "    function(n) g(n);\n"
+                          "echo(f(5));\n")
+                .echo,
+            "ECHO: 120\n");
+}
+
+TEST(Evaluate, LetsAClosureOutliveTheCallThatMadeIt) {
+  EXPECT_EQ(evaluate_text("function add(a) = function(b) a + b;\n"
+                          "fs = [for (i = [1 : 3]) add(i * 10)];\n"
+                          "echo([for (f = fs) f(1)]);\n")
+                .echo,
+            "ECHO: [11, 21, 31]\n");
+}
+
+// --- Echo -------------------------------------------------------------------
+
+TEST(Evaluate, EchoesNothingAsALineOfItsOwn) {
+  EXPECT_EQ(evaluate_text("echo();\n").echo, "ECHO: \n");
+}
+
+// --- Tree -------------------------------------------------------------------
+
+TEST(Evaluate, ItsCsgIsAProgramThatMakesTheSameCsg) {
+  const Evaluated first = evaluate_text(
+      "$fn = 12;\n"
+      "module ring(n) { for (i = [0 : n - 1]) rotate(360 / n * i)\n"
+      "  translate([5, 0]) children(i % $children); }\n"
+      "difference() { cylinder(r1 = 6, r2 = 1/3, h = 1e-7); \n"
+      "  #ring(7) { cube([1, 2, 3e6]); %sphere(d = 1.5); }\n"
+      "  linear_extrude(3, twist = 30, slices = 5, scale = 0.1)\n"
+      "    polygon([[0, 0], [1, 0], [0.1, 1]]);\n"
+      "  resize([1, 0, 2], auto = true) hull() { circle(2); square(); } }\n");
+  ASSERT_EQ(first.echo, "");
+  EXPECT_EQ(evaluate_text(first.csg).csg, first.csg);
+}
+
+TEST(Evaluate, SelectsTheFirstRootModifier) {
+  EXPECT_EQ(evaluate_text("cube(1); translate([1, 2, 3]) !sphere(1);\n").csg,
+            "sphere($fn = 0, $fa = 12, $fs = 2, r = 1);\n\n");
+}
+
+TEST(Evaluate, ShowsTheChainOfCallsWithAFailedAssertion) {
+  EXPECT_EQ(evaluate_text("function f(x) = assert(x > 0, \"positive\") x;\n"
+                          "module m() { cube(f(-1)); }\n"
+                          "m();\n")
+                .terminal,
+            "test.scad:1:17: error: Assertion '(x > 0)' failed: \"positive\"\n"
+            "    1 | function f(x) = assert(x > 0, \"positive\") x;\n"
+            "      |                 ^~~~~~~~~~~~~~~~~~~~~~~~~~~\n"
+            "test.scad:2:19: note: called by 'f'\n"
+            "    2 | module m() { cube(f(-1)); }\n"
+            "      |                   ^~~~~\n"
+            "test.scad:2:14: note: called by 'cube'\n"
+            "    2 | module m() { cube(f(-1)); }\n"
+            "      |              ^~~~~~~~~~~\n"
+            "test.scad:3:1: note: called by 'm'\n"
+            "    3 | m();\n"
+            "      | ^~~\n");
+}
+
+}  // namespace
+}  // namespace lamina::csg
