@@ -9,6 +9,7 @@
 
 #include "tests/support/contour_checks.h"
 #include "tests/support/leaf_scenes.h"
+#include "tests/support/random_scenes.h"
 
 namespace lamina::slicer {
 namespace {
@@ -142,6 +143,23 @@ TEST(PaperSlicer, TouchingAndCoplanarSolidsLeaveNoInnerWallAndNoSkin) {
   ASSERT_TRUE(support::are_sound(contours));
   EXPECT_EQ(contours.loop_count(), 1U);
   EXPECT_NEAR(support::total_area(contours), 3, 0.5);
+}
+
+TEST(PaperSlicer, ContoursOfHardScenesAreSimpleDisjointAndOriented) {
+  for (int style = 0; style < support::kSceneStyleCount; ++style) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const Scene scene = support::random_scene(
+          seed, static_cast<support::SceneStyle>(style), 20);
+      const LayerGrid layers =
+          LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.5);
+      Settings settings;
+      settings.ray_pitch = 0.07;
+      for (const Contours& contours : slice_all(scene, layers, settings, 64)) {
+        ASSERT_TRUE(support::are_sound(contours))
+            << "style " << style << " seed " << seed;
+      }
+    }
+  }
 }
 
 TEST(PaperSlicer, GlobalBoxesGiveTheContoursOfLocalOnesBitForBit) {
