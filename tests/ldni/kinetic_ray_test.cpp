@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -149,6 +150,136 @@ TEST(KineticRay, ASelfOverlappingLeafIsSolidWhereItsWindingIsNotZero) {
   const Contours contours = section(builder.finish(), 0.5);
   EXPECT_EQ(contours.loop_count(), 1U);
   EXPECT_NEAR(support::total_area(contours), 7, 1e-9);
+}
+
+// --- Laws -------------------------------------------------------------------
+
+// A scene of one operator over leaves that overlap each other in every way.
+csg::Scene mixed_scene(BooleanOp op, const Affine& placement,
+                       bool is_reversed = false) {
+  const std::vector<std::pair<csg::Leaf, Affine>> leaves = {
+      {cube_leaf({4, 4, 4}), translated({-2, -2, -2})},
+      {sphere_leaf(2.3, 24), translated({1.1, 0.4, 0.2})},
+      {cylinder_leaf(1.5, 0.7, 5, 15), rotated(70, {1, 1, 0})},
+      {torus_leaf(2.2, 0.6, 20, 12), rotated(25, {0, 1, 0})}};
+  SceneBuilder builder(op);
+  // The minuend of a difference stays the first.
+  const bool keeps_first = op == BooleanOp::kDifference;
+  if (keeps_first) builder.add(leaves[0].first, placement * leaves[0].second);
+  const std::size_t first = keeps_first ? 1 : 0;
+  for (std::size_t i = first; i < leaves.size(); ++i) {
+    const std::size_t k = is_reversed ? leaves.size() - 1 - (i - first) : i;
+    builder.add(leaves[k].first, placement * leaves[k].second);
+  }
+  return builder.finish();
+}
+
+constexpr BooleanOp kOperators[] = {BooleanOp::kUnion, BooleanOp::kIntersection,
+                                    BooleanOp::kDifference};
+
+TEST(KineticRay, TurningMirroringAndShiftingKeepAreaAndLoops) {
+  for (const BooleanOp op : kOperators) {
+    for (const double height : {-0.77, 0.13, 0.9}) {
+      const Contours original = section(mixed_scene(op, kIdentity), height);
+      for (const Affine& placement :
+           {rotated(90, {0, 0, 1}), rotated(33, {0, 0, 1}), scaled({-1, 1, 1}),
+            scaled({1, -1, 1}), translated({123.25, -77.5, 0})}) {
+        const Contours moved = section(mixed_scene(op, placement), height);
+        EXPECT_EQ(support::count_loops(moved), support::count_loops(original));
+        EXPECT_NEAR(support::total_area(moved), support::total_area(original),
+                    1e-9);
+        EXPECT_NEAR(support::total_perimeter(moved),
+                    support::total_perimeter(original), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(KineticRay, TheOrderOfOperandsDoesNotMatter) {
+  for (const BooleanOp op : kOperators) {
+    const Contours one = section(mixed_scene(op, kIdentity), 0.13);
+    const Contours other = section(mixed_scene(op, kIdentity, true), 0.13);
+    EXPECT_EQ(one.points.size(), other.points.size());
+    EXPECT_EQ(support::count_loops(one), support::count_loops(other));
+    EXPECT_NEAR(support::total_area(one), support::total_area(other), 1e-10);
+  }
+}
+
+TEST(KineticRay, UnionAndIntersectionHaveTheAreaOfBothOperands) {
+  for (double height = -1.9; height < 2; height += 0.29) {
+    const auto area = [&](BooleanOp op, bool first, bool second) {
+      SceneBuilder builder(op);
+      if (first) builder.add(sphere_leaf(2, 40));
+      if (second) {
+        builder.add(torus_leaf(1.7, 0.6, 30, 20), rotated(60, {1, 0, 0}));
+      }
+      return support::total_area(section(builder.finish(), height));
+    };
+    const double both = area(BooleanOp::kUnion, true, true);
+    const double common = area(BooleanOp::kIntersection, true, true);
+    const double rest = area(BooleanOp::kDifference, true, true);
+    const double sphere = area(BooleanOp::kUnion, true, false);
+    const double torus = area(BooleanOp::kUnion, false, true);
+    EXPECT_NEAR(both + common, sphere + torus, 1e-10);
+    EXPECT_NEAR(rest + common, sphere, 1e-10);
+  }
+}
+
+TEST(KineticRay, TheContoursAreTheSameBitsAtEveryPitch) {
+  for (const BooleanOp op : kOperators) {
+    const csg::Scene scene = mixed_scene(op, rotated(13, {0, 0, 1}));
+    const Contours automatic = section(scene, 0.13, 0);
+    for (const double pitch : {0.02, 0.0762, 0.5, 10.0}) {
+      const Contours contours = section(scene, 0.13, pitch);
+      EXPECT_EQ(contours.ends, automatic.ends);
+      EXPECT_EQ(contours.points, automatic.points);
+    }
+  }
+}
+
+TEST(KineticRay, ManyLeavesOverOnePointCountLikeFew) {
+  // 300 discs about one axis: sets of 300 leaves in the middle.
+  SceneBuilder builder;
+  for (int i = 0; i < 300; ++i) {
+    builder.add(cylinder_leaf(1 + 0.01 * i, 1 + 0.01 * i, 1, 24),
+                rotated(0.37 * i, {0, 0, 1}) * translated({0.001 * i, 0, 0}));
+  }
+  const Contours contours = section(builder.finish(), 0.5);
+  EXPECT_EQ(support::count_loops(contours), (LoopCounts{1, 0}));
+  const double largest = 3.99 * 3.99 * 12 * std::sin(kPi / 12);
+  EXPECT_GE(support::total_area(contours), largest);
+  EXPECT_LE(support::total_area(contours), kPi * 4.3 * 4.3);
+}
+
+TEST(KineticRay, StackedCubesUniteInEveryLayer) {
+  // The upper cube stands on the lower one: at its foot the section is the
+  // upper one, for a solid fills [bottom, top).
+  SceneBuilder builder;
+  builder.add(cube_leaf({4, 4, 1}));
+  builder.add(cube_leaf({2, 2, 1}), translated({1, 1, 1}));
+  const csg::Scene scene = builder.finish();
+  EXPECT_EQ(support::total_area(section(scene, 0)), 16);
+  EXPECT_EQ(support::total_area(section(scene, 1)), 4);
+  EXPECT_TRUE(section(scene, 2).is_empty());
+}
+
+TEST(KineticRay, ABlindHoleEndsExactlyAtItsBottom) {
+  // The pocket's floor and the plate's top lie on faces of the tool.
+  SceneBuilder builder(BooleanOp::kDifference);
+  builder.add(cube_leaf({4, 4, 2}));
+  builder.add(cube_leaf({2, 2, 1}), translated({1, 1, 1}));
+  const csg::Scene scene = builder.finish();
+  EXPECT_EQ(section(scene, 0.999).loop_count(), 1U);
+  EXPECT_EQ(section(scene, 1).loop_count(), 2U);
+  EXPECT_TRUE(section(scene, 2).is_empty());
+}
+
+TEST(KineticRay, AnEmptyLayerHasNoLoops) {
+  SceneBuilder builder;
+  builder.add(cube_leaf({1, 1, 1}));
+  const csg::Scene scene = builder.finish();
+  EXPECT_TRUE(section(scene, 5).is_empty());
+  EXPECT_TRUE(section(scene, -5).is_empty());
 }
 
 }  // namespace
