@@ -37,8 +37,9 @@ class Arena {
   std::span<const T> copy(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
     if (values.empty()) return {};
-    T* target =
-        static_cast<T*>(allocate(values.size() * sizeof(T), alignof(T)));
+    // T may be a pointer.  NOLINTNEXTLINE(bugprone-sizeof-expression)
+    const std::size_t bytes = values.size() * sizeof(T);
+    T* target = static_cast<T*>(allocate(bytes, alignof(T)));
     std::uninitialized_copy(values.begin(), values.end(), target);
     return {target, values.size()};
   }

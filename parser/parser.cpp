@@ -2,7 +2,10 @@
 
 #include <new>
 
+#include "parser/detail/builder.h"
+#include "parser/detail/parser_stack.h"
 #include "parser/detail/reader.h"
+#include "parser/detail/syntax_errors.h"
 #include "scad_grammar.h"
 
 // Made by Flex.
@@ -33,11 +36,14 @@ class Scanner {
 
 ast::Program parse(const Source& source, const Source* user, Loader& loader,
                    Diagnostics& diagnostics) {
-  detail::Reader reader(source, user, loader, diagnostics);
+  detail::SyntaxErrors errors(diagnostics);
+  detail::Builder builder(source, user, errors, diagnostics);
+  detail::Reader reader(source, builder.arena(), loader, errors, diagnostics);
+  detail::ParserStack stack;
   const Scanner scanner(reader);
-  // The reader knows of every error, so the parser's answer says nothing new.
-  scadparse(scanner.get(), reader);
-  return reader.finish();
+  // The errors are counted, so the parser's answer says nothing new.
+  scadparse(scanner.get(), reader, builder, errors, stack);
+  return builder.finish();
 }
 
 }  // namespace lamina

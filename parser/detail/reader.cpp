@@ -1,15 +1,15 @@
 #include "parser/detail/reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <functional>
+#include <span>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "parser/detail/paths.h"
 #include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"
 
@@ -47,48 +47,18 @@ bool is_character(std::uint32_t code) {
   return code != 0 && code < 0x110000 && !is_surrogate;
 }
 
-bool is_font(std::string_view file) {
-  std::string end(file.substr(file.size() < 4 ? 0 : file.size() - 4));
-  for (char& c : end) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return end == ".ttf" || end == ".otf";
-}
-
-bool same_file(const Source& a, const Source& b) {
-  return &a == &b || absolute_path(a.path()) == absolute_path(b.path());
-}
-
 std::string quote(std::string_view text) { return fmt::format("'{}'", text); }
 
 }  // namespace
 
-std::size_t Reader::ScopedNameHash::operator()(const ScopedName& key) const {
-  return std::hash<std::string_view>()(key.name) ^
-         key.scope * std::size_t{0x9e3779b97f4a7c15};
-}
-
-Reader::Reader(const Source& source, const Source* user, Loader& loader,
-               Diagnostics& diagnostics)
-    : program_{std::make_shared<ast::Arena>(), &source, {}, {}, {}},
-      arena_(*program_.arena),
+Reader::Reader(const Source& source, ast::Arena& arena, Loader& loader,
+               SyntaxErrors& errors, Diagnostics& diagnostics)
+    : arena_(arena),
       loader_(loader),
-      diagnostics_(diagnostics),
-      user_(user) {
+      errors_(errors),
+      diagnostics_(diagnostics) {
   open_file(source);
 }
-
-ast::Program Reader::finish() {
-  if (error_count_ > 0) throw SyntaxError(first_error_);
-  program_.statements = arena_.copy(std::span<const ast::Statement* const>(
-      statements_.data(), statements_.size()));
-  std::reverse(uses_.begin(), uses_.end());
-  program_.uses = arena_.copy(std::span<const ast::Use>(uses_));
-  program_.fonts = arena_.copy(std::span<const ast::Use>(fonts_));
-  return std::move(program_);
-}
-
-// --- For the scanner -------------------------------------------------------
 
 void Reader::open_file(const Source& source) {
   // A zero byte ends a text, in OpenSCAD without a word.
@@ -201,20 +171,6 @@ bool Reader::read_number(const char* begin, const char* end,
   return value < 1;
 }
 
-// --- Errors ----------------------------------------------------------------
-
-void Reader::report_error(SourceRange range, std::string_view message,
-                          std::vector<Note> hints) {
-  Diagnostic error{Severity::kError,
-                   range,
-                   fmt::format("Parser error: {}", message),
-                   {},
-                   std::move(hints)};
-  if (error_count_ == 0) first_error_ = error;
-  ++error_count_;
-  diagnostics_.report(std::move(error));
-}
-
 void Reader::report_syntax_error(SourceRange range, std::string_view symbol,
                                  std::vector<std::string_view> expected) {
   const std::string_view text = range.text();
@@ -231,10 +187,10 @@ void Reader::report_syntax_error(SourceRange range, std::string_view symbol,
   // is not to be trusted.
   const std::string pair = std::string(opening.text()) + std::string(text);
   const bool is_pair = pair == "()" || pair == "[]" || pair == "{}";
-  if (opening.is_known() && !is_pair && error_count_ == 0) {
+  if (opening.is_known() && !is_pair && errors_.is_empty()) {
     hints.push_back({opening, "opened here"});
   }
-  report_error(range, "syntax error", std::move(hints));
+  errors_.report(range, "syntax error", std::move(hints));
 }
 
 SourceRange Reader::last_text(SourceRange before) const {
@@ -245,300 +201,12 @@ SourceRange Reader::last_text(SourceRange before) const {
 }
 
 void Reader::report_unterminated(const char* what) {
-  report_unterminated(what, place(), {{opening_, "it begins here"}});
+  errors_.report(place(), fmt::format("Unterminated {}", what),
+                 {{opening_, "it begins here"}});
 }
 
 void Reader::report_unterminated_name(const char* what) {
-  report_unterminated(what, opening_, {});
-}
-
-void Reader::report_unterminated(const char* what, SourceRange range,
-                                 std::vector<Note> hints) {
-  report_error(range, fmt::format("Unterminated {}", what), std::move(hints));
-}
-
-void Reader::report_depth(SourceRange range) {
-  if (too_deep_) return;
-  too_deep_ = true;
-  report_error(range, "memory exhausted",
-               {{{}, fmt::format("nested more than {} deep", kDeepestTree)}});
-}
-
-bool Reader::grow_stack(std::ptrdiff_t& size) {
-  constexpr std::ptrdiff_t kMost = kDeepestTree;
-  if (size == kMost) {
-    report_depth(place());
-    return false;
-  }
-  size = std::min(4 * size, kMost);
-  return true;
-}
-
-// --- Statements ------------------------------------------------------------
-
-void Reader::add_use(const ast::Use& use) {
-  if (is_font(use.file)) {
-    if (!std::filesystem::is_regular_file(use.file)) {
-      diagnostics_.report({Severity::kError,
-                           {},
-                           "Can't read font with path " + quote(use.file),
-                           {},
-                           {{use.range, "used here"}}});
-    }
-    fonts_.push_back(use);
-    return;
-  }
-  std::erase_if(uses_, [&](const ast::Use& u) { return u.file == use.file; });
-  uses_.push_back(use);
-}
-
-Scope Reader::open_scope() {
-  const Scope scope{static_cast<std::uint32_t>(statements_.size()), scope_};
-  scope_ = scope_count_++;
-  return scope;
-}
-
-ast::Statements Reader::close_scope(Scope scope) {
-  const auto statements = arena_.copy(
-      std::span<const ast::Statement* const>(statements_).subspan(scope.begin));
-  statements_.resize(scope.begin);
-  scope_ = scope.outer;
-  return statements;
-}
-
-void Reader::add_statement(const ast::Statement* statement) {
-  if (statement != nullptr) statements_.push_back(statement);
-}
-
-void Reader::add_assignment(SourceRange name, Tree value, SourceRange range) {
-  const std::string_view text = name.text();
-  add_statement(
-      arena_.make(ast::Statement{ast::Assignment{text, value.expr}, range}));
-  const auto [place, is_new] =
-      assigned_.try_emplace(ScopedName{scope_, text}, range);
-  if (is_new) return;
-  // After an error the scopes are not what they seem.
-  if (!file_ended_ && error_count_ == 0) {
-    warn_overwritten(text, place->second, range);
-  }
-  place->second = range;
-}
-
-void Reader::warn_overwritten(std::string_view name, SourceRange before,
-                              SourceRange now) {
-  const Source* main = user_ == nullptr ? program_.source : nullptr;
-  const bool was_in_main = main != nullptr && same_file(*before.source, *main);
-  const bool is_in_main = main != nullptr && same_file(*now.source, *main);
-  const std::uint32_t line = before.source->openscad_line(before.begin);
-  std::string message = fmt::format("{} was assigned on line {}", name, line);
-  if (!was_in_main || !is_in_main) {
-    // Included once more, or meant to be overwritten by the main file?
-    const bool is_same = same_file(*before.source, *now.source);
-    if (is_same && line == now.source->openscad_line(now.begin)) return;
-    if (!is_same && !was_in_main) return;
-    const Source& base = user_ == nullptr ? *program_.source : *user_;
-    message += fmt::format(" of \"{}\"", relative_path(before.source->path(),
-                                                       folder_of(base.path())));
-  }
-  diagnostics_.report({Severity::kWarning,
-                       now,
-                       message + " but was overwritten",
-                       {},
-                       {{before, "assigned here"}}});
-}
-
-void Reader::add_function(SourceRange name, List parameters, Tree body,
-                          SourceRange range) {
-  const ast::Arguments list = close_arguments(parameters);
-  add_statement(arena_.make(ast::Statement{
-      ast::FunctionDefinition{name.text(), list, body.expr}, range}));
-}
-
-void Reader::add_module(SourceRange name, List parameters, Scope scope,
-                        SourceRange range) {
-  const ast::Statements body = close_scope(scope);
-  const ast::Arguments list = close_arguments(parameters);
-  add_statement(arena_.make(
-      ast::Statement{ast::ModuleDefinition{name.text(), list, body}, range}));
-}
-
-ast::Statement* Reader::make_instantiation(SourceRange name, List arguments,
-                                           SourceRange range) {
-  const ast::Arguments list = close_arguments(arguments);
-  return arena_.make(
-      ast::Statement{ast::Instantiation{name.text(), list, {}, {}}, range});
-}
-
-ast::Statement* Reader::set_children(ast::Statement* instantiation,
-                                     Scope scope) {
-  std::get<ast::Instantiation>(instantiation->node).children =
-      close_scope(scope);
-  return instantiation;
-}
-
-ast::Statement* Reader::make_if(Tree condition, Scope scope,
-                                SourceRange range) {
-  const ast::Statements if_true = close_scope(scope);
-  return arena_.make(ast::Statement{
-      ast::IfElse{condition.expr, if_true, {}, false, {}}, range});
-}
-
-ast::Statement* Reader::set_else(ast::Statement* if_else, Scope scope) {
-  auto& node = std::get<ast::IfElse>(if_else->node);
-  node.if_false = close_scope(scope);
-  node.has_else = true;
-  return if_else;
-}
-
-ast::Statement* Reader::set_modifier(ast::Statement* instantiation,
-                                     bool ast::Modifiers::*modifier) {
-  if (instantiation == nullptr) return nullptr;
-  if (auto* plain = std::get_if<ast::Instantiation>(&instantiation->node)) {
-    plain->modifiers.*modifier = true;
-  } else {
-    std::get<ast::IfElse>(instantiation->node).modifiers.*modifier = true;
-  }
-  return instantiation;
-}
-
-SourceRange Reader::place_head(SourceRange keyword, SourceRange close) const {
-  const SourceRange whole{keyword.source, keyword.begin, close.end};
-  if (keyword.source != close.source) return close;
-  return whole.text().find('\n') == std::string_view::npos ? whole : close;
-}
-
-// --- Expressions -----------------------------------------------------------
-
-Tree Reader::make_string(Text string, SourceRange range) {
-  return make(ast::String{{string.data, string.size}}, 1, range);
-}
-
-Tree Reader::make_unary(ast::UnaryOp op, Tree operand, SourceRange range) {
-  return make(ast::Unary{op, operand.expr}, operand.depth + 1, range);
-}
-
-Tree Reader::make_binary(ast::BinaryOp op, Tree left, Tree right,
-                         SourceRange range) {
-  return make(ast::Binary{op, left.expr, right.expr},
-              std::max(left.depth, right.depth) + 1, range);
-}
-
-Tree Reader::make_conditional(Tree condition, Tree if_true, Tree if_false,
-                              SourceRange range) {
-  const std::uint32_t depth =
-      std::max({condition.depth, if_true.depth, if_false.depth});
-  return make(ast::Conditional{condition.expr, if_true.expr, if_false.expr},
-              depth + 1, range);
-}
-
-Tree Reader::make_range(Tree begin, Tree step, Tree end, SourceRange range) {
-  const std::uint32_t depth = std::max({begin.depth, step.depth, end.depth});
-  return make(ast::Range{begin.expr, step.expr, end.expr}, depth + 1, range);
-}
-
-Tree Reader::make_index(Tree object, Tree index, SourceRange range) {
-  return make(ast::Index{object.expr, index.expr},
-              std::max(object.depth, index.depth) + 1, range);
-}
-
-Tree Reader::make_member(Tree object, SourceRange name, SourceRange range) {
-  return make(ast::Member{object.expr, name.text()}, object.depth + 1, range);
-}
-
-Tree Reader::make_call(Tree callee, List arguments, SourceRange range) {
-  const std::uint32_t depth = std::max(callee.depth, arguments.depth);
-  return make(ast::Call{callee.expr, close_arguments(arguments)}, depth + 1,
-              range);
-}
-
-Tree Reader::make_function(List parameters, Tree body, SourceRange range) {
-  return make_body<ast::FunctionLiteral>(parameters, body, range);
-}
-
-Tree Reader::make_each(Tree body, SourceRange range) {
-  return make(ast::EachElements{body.expr}, body.depth + 1, range);
-}
-
-Tree Reader::make_if_elements(Tree condition, Tree if_true, Tree if_false,
-                              SourceRange range) {
-  const std::uint32_t depth =
-      std::max({condition.depth, if_true.depth, if_false.depth});
-  return make(ast::IfElements{condition.expr, if_true.expr, if_false.expr},
-              depth + 1, range);
-}
-
-Tree Reader::make_for_c(List init, Tree condition, List update, Tree body,
-                        SourceRange range) {
-  const std::uint32_t depth =
-      std::max({init.depth, condition.depth, update.depth, body.depth});
-  const ast::Arguments last = close_arguments(update);
-  const ast::Arguments first = close_arguments(init);
-  const auto* head = arena_.make(ast::ForCHead{first, condition.expr, last});
-  return make(ast::ForCElements{head, body.expr}, depth + 1, range);
-}
-
-bool Reader::collect_numbers(std::uint32_t begin) {
-  numbers_.clear();
-  for (std::size_t i = begin; i < elements_.size(); ++i) {
-    const ast::Expr* element = elements_[i];
-    const auto* sign = std::get_if<ast::Unary>(&element->node);
-    const bool is_negated =
-        sign != nullptr && sign->op == ast::UnaryOp::kNegate;
-    if (is_negated) element = sign->operand;
-    const auto* number = std::get_if<ast::Number>(&element->node);
-    if (number == nullptr) return false;
-    numbers_.push_back(is_negated ? -number->value : number->value);
-  }
-  return true;
-}
-
-Tree Reader::make_vector(ast::Arena::Mark mark, List elements,
-                         SourceRange range) {
-  if (collect_numbers(elements.begin)) {
-    arena_.release(mark);
-    elements_.resize(elements.begin);
-    const auto copy = arena_.copy(std::span<const double>(numbers_));
-    return make(ast::Numbers{copy}, 1, range);
-  }
-  const auto copy = arena_.copy(
-      std::span<const ast::Expr* const>(elements_).subspan(elements.begin));
-  elements_.resize(elements.begin);
-  return make(ast::Vector{copy}, elements.depth + 1, range);
-}
-
-List Reader::start_elements(Tree first) {
-  elements_.push_back(first.expr);
-  return {static_cast<std::uint32_t>(elements_.size() - 1), first.depth};
-}
-
-List Reader::append_element(List elements, Tree element) {
-  elements_.push_back(element.expr);
-  return {elements.begin, std::max(elements.depth, element.depth)};
-}
-
-std::uint32_t Reader::add_argument(SourceRange name, Tree value,
-                                   SourceRange range) {
-  arguments_.push_back({name.text(), value.expr, range});
-  return value.depth;
-}
-
-List Reader::start_arguments() const {
-  return {static_cast<std::uint32_t>(arguments_.size()), 0};
-}
-
-List Reader::start_arguments(std::uint32_t first_depth) const {
-  return {static_cast<std::uint32_t>(arguments_.size() - 1), first_depth};
-}
-
-List Reader::append_argument(List arguments, std::uint32_t depth) const {
-  return {arguments.begin, std::max(arguments.depth, depth)};
-}
-
-ast::Arguments Reader::close_arguments(List arguments) {
-  const auto copy = arena_.copy(
-      std::span<const ast::Argument>(arguments_).subspan(arguments.begin));
-  arguments_.resize(arguments.begin);
-  return copy;
+  errors_.report(opening_, fmt::format("Unterminated {}", what), {});
 }
 
 }  // namespace lamina::detail

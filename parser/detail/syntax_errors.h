@@ -1,0 +1,40 @@
+#pragma once
+// Errors of the parser, in OpenSCAD's words ("Parser error: …") with hints
+// that only the terminal shows.
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "parser/diagnostic.h"
+#include "parser/source.h"
+
+namespace lamina::detail {
+
+// Greatest depth of a tree, and of Bison's stack. A pass that needs up to
+// 4 KiB a level fits in a stack of 1 GiB; OpenSCAD ends at 20000.
+constexpr std::uint32_t kDeepestTree = 250'000;
+
+class SyntaxErrors {
+ public:
+  explicit SyntaxErrors(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void report(SourceRange range, std::string_view message,
+              std::vector<Note> hints);
+  // Nested beyond kDeepestTree: reported once.
+  void report_depth(SourceRange range);
+
+  bool is_empty() const { return count_ == 0; }
+  // Whether a text has so many errors that reading on tells nothing new.
+  bool are_too_many() const;
+  // There must be one.
+  [[noreturn]] void throw_first() const;
+
+ private:
+  Diagnostics& diagnostics_;
+  int count_ = 0;
+  bool is_too_deep_ = false;
+  Diagnostic first_;
+};
+
+}  // namespace lamina::detail
