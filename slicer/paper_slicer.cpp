@@ -20,7 +20,7 @@ constexpr std::uint32_t kLayersPerBlock = 64;
 // Pixels that the images of a block may have together, some 50 bytes each with
 // their samples. A jewel in local boxes needs far less; fine rays and global
 // boxes of many leaves are what this is for.
-constexpr std::uint64_t kPixelsPerBlock = 1 << 20;
+constexpr std::uint64_t kPixelsPerBlock = 1 << 18;
 
 ldni::RayGrid make_rays(const csg::Scene& scene, const Settings& settings) {
   if (scene.box.is_empty()) return {};
