@@ -21,10 +21,12 @@ constexpr double kCleanDistance = 1.415;
 // OpenSCAD's limit for spikes at sharp corners of delta offsets [amounts].
 constexpr double kMiterLimit = 1000000;
 
+[[noreturn]] void fail_range_check() {
+  throw std::range_error("Range check failed for polygon");
+}
+
 ClipperLib::cInt to_grid(double x) {
-  if (!(std::abs(x) <= kGreatestCoordinate)) {
-    throw std::range_error("Range check failed for polygon");
-  }
+  if (!(std::abs(x) <= kGreatestCoordinate)) fail_range_check();
   return std::llround(x * kGridPerMm);
 }
 
@@ -130,7 +132,12 @@ Region offset(const Region& region, double amount, Join join,
   offsetter.AddPaths(to_paths(region.contours), to_join_type(join),
                      ClipperLib::etClosedPolygon);
   ClipperLib::Paths result;
-  offsetter.Execute(result, amount * kGridPerMm);
+  try {
+    offsetter.Execute(result, static_cast<double>(to_grid(amount)));
+  } catch (const ClipperLib::clipperException&) {
+    // A sharp corner's spike went too far.
+    fail_range_check();
+  }
   return to_region(result);
 }
 

@@ -305,6 +305,7 @@ Vec2 typical_point(const Contour& contour) {
 std::vector<std::size_t> find_owners(const Region& region) {
   const auto& contours = region.contours;
   std::vector<double> areas;
+  areas.reserve(contours.size());
   for (const Contour& contour : contours) {
     areas.push_back(signed_area(contour));
   }

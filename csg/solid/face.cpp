@@ -90,8 +90,8 @@ std::vector<Triangle> split_quad(const planar::Contour& quad) {
       planar::orientation(left, right, quad[order[2]]);
   const std::uint32_t from = order[1];
   const std::uint32_t to = are_on_two_sides ? order[2] : order[3];
-  const std::vector<Triangle> halves{{from, (from + 1) % 4, (from + 2) % 4},
-                                     {from, (from + 2) % 4, (from + 3) % 4}};
+  std::vector<Triangle> halves{{from, (from + 1) % 4, (from + 2) % 4},
+                               {from, (from + 2) % 4, (from + 3) % 4}};
   const bool is_diagonal = to == (from + 2) % 4;
   const bool is_inside =
       std::all_of(halves.begin(), halves.end(), [&](const Triangle& t) {

@@ -4,17 +4,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "csg/degrees.h"
-#include "csg/planar/clip.h"
 #include "csg/planar/facets.h"
 #include "csg/solid/detail/extrude.h"
+#include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/leaf_box.h"
 #include "csg/solid/detail/leaf_store.h"
 #include "csg/solid/detail/polyhedron.h"
@@ -138,11 +136,14 @@ class Lowerer {
     Shape shape =
         lower_children(node, compose(world, *op.matrix), BooleanOp::kUnion);
     if (shape.dimension == Dimension::kFlat) {
-      return transform_region(std::move(shape), *op.matrix);
+      return {Dimension::kFlat,
+              transform_region(std::move(shape.region), *op.matrix, node.range,
+                               diagnostics_)};
     }
     if (shape.dimension == Dimension::kSolid &&
         determinant(Affine(*op.matrix)) == 0) {
-      diagnostics_.warning({}, "Scaling a 3D object with 0 - removing object");
+      diagnostics_.warning(node.range,
+                           "Scaling a 3D object with 0 - removing object");
       builder_.drop(mark);
     }
     return shape;
@@ -208,7 +209,8 @@ class Lowerer {
         return {};
       case Dimension::kFlat:
         if (operands.regions.empty()) return {Dimension::kFlat};
-        return combine_regions(node, operands.regions, op);
+        return {Dimension::kFlat, combine_regions(op, operands.regions,
+                                                  node.range, diagnostics_)};
       case Dimension::kSolid:
         break;
     }
@@ -256,9 +258,6 @@ class Lowerer {
 
   Shape lower_op(const Polyhedron& polyhedron, const Node& node,
                  const Affine& world) {
-    if (!are_finite(polyhedron.points, node, "vec3")) {
-      return {Dimension::kSolid};
-    }
     Leaf leaf;
     leaf.meshes.push_back(
         make_polyhedron(polyhedron, node.range, diagnostics_));
@@ -309,26 +308,14 @@ class Lowerer {
   }
 
   Shape lower_op(const Polygon& polygon, const Node& node, const Affine&) {
-    if (!are_finite(polygon.points, node, "vec2")) return {Dimension::kFlat};
-    const auto contours = read_paths(polygon, node.range);
-    return {Dimension::kFlat, with_range_check(node, [&] {
-              return planar::from_contours(contours);
-            })};
+    return {Dimension::kFlat, make_polygon(polygon, node.range, diagnostics_)};
   }
 
   Shape lower_op(const Offset& op, const Node& node, const Affine& world) {
     const Shape shape = flatten_children(node, world);
     if (shape.dimension == Dimension::kNone) return {};
-    const double distance = std::abs(op.amount);
-    const int n = planar::fragment_count(distance, op.facets);
-    const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
-    const planar::Join join = !op.is_delta ? planar::Join::kRound
-                              : op.chamfer ? planar::Join::kBevel
-                                           : planar::Join::kMiter;
-    return {Dimension::kFlat, with_range_check(node, [&] {
-              return planar::offset(shape.region, op.amount, join,
-                                    arc_tolerance);
-            })};
+    return {Dimension::kFlat,
+            offset_region(op, shape.region, node.range, diagnostics_)};
   }
 
   // The children's union in the plane, whatever else there is.
@@ -344,91 +331,9 @@ class Lowerer {
     if (operands.regions.empty()) {
       return {operands.count > 1 ? Dimension::kFlat : Dimension::kNone};
     }
-    return combine_regions(node, operands.regions, BooleanOp::kUnion);
-  }
-
-  Shape combine_regions(const Node& node,
-                        const std::vector<planar::Region>& regions,
-                        BooleanOp op) {
-    return {Dimension::kFlat, with_range_check(node, [&] {
-              switch (op) {
-                case BooleanOp::kDifference:
-                  return planar::subtract(regions);
-                case BooleanOp::kIntersection:
-                  return planar::intersect(regions);
-                case BooleanOp::kUnion:
-                  break;
-              }
-              return planar::unite(regions);
-            })};
-  }
-
-  // Coordinates too large to be clipped make the result empty.
-  template <typename Make>
-  planar::Region with_range_check(const Node& node, Make make) {
-    try {
-      return make();
-    } catch (const std::range_error&) {
-      diagnostics_.warning(node.range,
-                           "Range check failed for polygon. skipping");
-      return {};
-    }
-  }
-
-  // Reports the first point that is not one.
-  template <typename Point>
-  bool are_finite(std::span<const Point> points, const Node& node,
-                  std::string_view type) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      // Finite or not, 0 · x tells: NaN and infinity give NaN.
-      if (glm::dot(points[i], Point(0)) == 0) continue;
-      diagnostics_.error(
-          node.range,
-          fmt::format("Unable to convert points[{}] to a {} of numbers", i,
-                      type));
-      return false;
-    }
-    return true;
-  }
-
-  std::vector<planar::Contour> read_paths(const Polygon& polygon,
-                                          SourceRange range) {
-    const auto points = polygon.points;
-    if (!polygon.paths || polygon.paths->empty()) {
-      return {planar::Contour(points.begin(), points.end())};
-    }
-    std::vector<planar::Contour> contours;
-    for (std::size_t path = 0; path < polygon.paths->size(); ++path) {
-      contours.emplace_back();
-      const auto& indices = (*polygon.paths)[path];
-      for (std::size_t i = 0; i < indices.size(); ++i) {
-        if (indices[i] < points.size()) {
-          contours.back().push_back(points[indices[i]]);
-        } else {
-          diagnostics_.warning(
-              range, fmt::format("Point index {} is out of bounds (from "
-                                 "paths[{}][{}])",
-                                 indices[i], path, i));
-        }
-      }
-    }
-    return contours;
-  }
-
-  Shape transform_region(Shape shape, const Mat4& m) {
-    const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    if (det == 0) {
-      diagnostics_.warning({}, "Scaling a 2D object with 0 - removing object");
-      return {Dimension::kFlat};
-    }
-    for (planar::Contour& contour : shape.region.contours) {
-      for (Vec2& point : contour) {
-        point = {m[0][0] * point.x + m[1][0] * point.y + m[3][0],
-                 m[0][1] * point.x + m[1][1] * point.y + m[3][1]};
-      }
-      if (det < 0) std::reverse(contour.begin(), contour.end());
-    }
-    return shape;
+    return {Dimension::kFlat,
+            combine_regions(BooleanOp::kUnion, operands.regions, node.range,
+                            diagnostics_)};
   }
 
   // --- Not yet (issue 4) ----------------------------------------------------

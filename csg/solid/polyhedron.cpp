@@ -7,6 +7,7 @@
 
 #include "csg/solid/detail/face.h"
 #include "csg/solid/detail/mend.h"
+#include "csg/solid/detail/points.h"
 
 namespace lamina::csg {
 namespace {
@@ -76,6 +77,7 @@ std::vector<std::uint32_t> read_face(const Polyhedron& polyhedron,
 
 Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
                      Diagnostics& diagnostics) {
+  if (!check_points(polyhedron.points, "vec3", range, diagnostics)) return {};
   Mesh mesh;
   mesh.vertices.assign(polyhedron.points.begin(), polyhedron.points.end());
   bool has_degenerate = false;

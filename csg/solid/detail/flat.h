@@ -1,0 +1,32 @@
+#pragma once
+// The 2D modules of the tree, as regions.
+//
+// What is wrong with their parameters is reported with OpenSCAD's words;
+// coordinates too large to be clipped make the result empty, as there.
+
+#include <span>
+
+#include "csg/planar/region.h"
+#include "csg/scene.h"
+#include "csg/tree.h"
+#include "parser/diagnostic.h"
+
+namespace lamina::csg {
+
+planar::Region make_polygon(const Polygon& polygon, SourceRange range,
+                            Diagnostics& diagnostics);
+
+// regions  at least one
+planar::Region combine_regions(BooleanOp op,
+                               std::span<const planar::Region> regions,
+                               SourceRange range, Diagnostics& diagnostics);
+
+planar::Region offset_region(const Offset& offset, const planar::Region& region,
+                             SourceRange range, Diagnostics& diagnostics);
+
+// Applies the part of the matrix that acts in the plane. Outer contours stay
+// counter-clockwise.
+planar::Region transform_region(planar::Region region, const Mat4& matrix,
+                                SourceRange range, Diagnostics& diagnostics);
+
+}  // namespace lamina::csg

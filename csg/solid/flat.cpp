@@ -1,0 +1,114 @@
+#include "csg/solid/detail/flat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "csg/degrees.h"
+#include "csg/planar/clip.h"
+#include "csg/planar/facets.h"
+#include "csg/solid/detail/points.h"
+
+namespace lamina::csg {
+namespace {
+
+using planar::Contour;
+using planar::Region;
+
+template <typename Make>
+Region with_range_check(SourceRange range, Diagnostics& diagnostics,
+                        Make make) {
+  try {
+    return make();
+  } catch (const std::range_error&) {
+    diagnostics.warning(range, "Range check failed for polygon. skipping");
+    return {};
+  }
+}
+
+std::vector<Contour> read_paths(const Polygon& polygon, SourceRange range,
+                                Diagnostics& diagnostics) {
+  const auto points = polygon.points;
+  if (!polygon.paths || polygon.paths->empty()) {
+    return {Contour(points.begin(), points.end())};
+  }
+  std::vector<Contour> contours;
+  for (std::size_t path = 0; path < polygon.paths->size(); ++path) {
+    contours.emplace_back();
+    const auto& indices = (*polygon.paths)[path];
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      if (indices[i] < points.size()) {
+        contours.back().push_back(points[indices[i]]);
+      } else {
+        diagnostics.warning(range,
+                            fmt::format("Point index {} is out of bounds (from "
+                                        "paths[{}][{}])",
+                                        indices[i], path, i));
+      }
+    }
+  }
+  return contours;
+}
+
+planar::Join join_of(const Offset& offset) {
+  if (!offset.is_delta) return planar::Join::kRound;
+  return offset.chamfer ? planar::Join::kBevel : planar::Join::kMiter;
+}
+
+}  // namespace
+
+Region make_polygon(const Polygon& polygon, SourceRange range,
+                    Diagnostics& diagnostics) {
+  if (!check_points(polygon.points, "vec2", range, diagnostics)) return {};
+  const auto contours = read_paths(polygon, range, diagnostics);
+  return with_range_check(range, diagnostics,
+                          [&] { return planar::from_contours(contours); });
+}
+
+Region combine_regions(BooleanOp op, std::span<const Region> regions,
+                       SourceRange range, Diagnostics& diagnostics) {
+  return with_range_check(range, diagnostics, [&] {
+    switch (op) {
+      case BooleanOp::kDifference:
+        return planar::subtract(regions);
+      case BooleanOp::kIntersection:
+        return planar::intersect(regions);
+      case BooleanOp::kUnion:
+        break;
+    }
+    return planar::unite(regions);
+  });
+}
+
+Region offset_region(const Offset& offset, const Region& region,
+                     SourceRange range, Diagnostics& diagnostics) {
+  const double distance = std::abs(offset.amount);
+  const int n = planar::fragment_count(distance, offset.facets);
+  const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
+  return with_range_check(range, diagnostics, [&] {
+    return planar::offset(region, offset.amount, join_of(offset),
+                          arc_tolerance);
+  });
+}
+
+Region transform_region(Region region, const Mat4& m, SourceRange range,
+                        Diagnostics& diagnostics) {
+  const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  if (det == 0) {
+    diagnostics.warning(range, "Scaling a 2D object with 0 - removing object");
+    return {};
+  }
+  for (Contour& contour : region.contours) {
+    for (Vec2& point : contour) {
+      point = {m[0][0] * point.x + m[1][0] * point.y + m[3][0],
+               m[0][1] * point.x + m[1][1] * point.y + m[3][1]};
+    }
+    if (det < 0) std::reverse(contour.begin(), contour.end());
+  }
+  return region;
+}
+
+}  // namespace lamina::csg
