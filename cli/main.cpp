@@ -6,10 +6,12 @@
 // the run must end; here, and only here, messages are printed, exceptions
 // caught, and exit statuses chosen.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -236,8 +238,8 @@ class LayerList : public slicer::LayerSink {
   std::vector<slicer::Layer> layers;
 };
 
-// All layers of a file or of a design; none where the design failed.
-std::vector<slicer::Layer> layers_of(Run& run) {
+// All layers of a file or of a design; no value where the design failed.
+std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
   LayerList list;
   if (run.options.design.ends_with(".slc")) {
     slicer::SlcReader reader(run.options.design);
@@ -247,18 +249,25 @@ std::vector<slicer::Layer> layers_of(Run& run) {
   }
   const ast::Program program = load(run);
   const Evaluated evaluated = evaluate(run, program);
-  if (!evaluated.has_failed) make_layers(run, evaluated.tree, list);
+  if (evaluated.has_failed) return std::nullopt;
+  make_layers(run, evaluated.tree, list);
   return std::move(list.layers);
 }
 
 int view(Run& run, const slicer::PictureOptions& options) {
-  const std::vector<slicer::Layer> layers = layers_of(run);
-  if (layers.empty()) return kFault;
+  const auto layers = layers_of(run);
+  if (!layers) return kFault;
+  if (std::all_of(layers->begin(), layers->end(), [](const auto& layer) {
+        return layer.contours.points.empty();
+      })) {
+    refuse_geometry(
+        fmt::format("{} has no contour to draw", run.options.design));
+  }
   const std::size_t slash = run.options.design.rfind('/');
   const std::string title =
       run.options.design.substr(slash == std::string::npos ? 0 : slash + 1);
   slicer::OutputFile output(run.options.output, run.temporary_files);
-  write_png(draw_picture(layers, title, options), output);
+  write_png(draw_picture(*layers, title, options), output);
   output.commit();
   return kDone;
 }

@@ -212,7 +212,8 @@ HeightPicture draw_heights(const std::vector<Layer>& layers, const View& view,
       corners.push_back(frame(view(p)));
     }
     const double thickness = layer->top - layer->bottom;
-    const int steps = 1 + static_cast<int>(frame.scale * view.up(thickness));
+    const int steps = static_cast<int>(std::clamp(
+        1 + frame.scale * view.up(thickness), 1.0, 1.0 + frame.height));
     for (int step = 0; step < steps; ++step) {
       const double z = layer->top - thickness * step / steps;
       filler.fill(corners, layer->contours.ends, -frame.scale * view.up(z),

@@ -59,7 +59,7 @@ void Simplifier::simplify(ldni::Contours& contours) {
     points_.insert(points_.end(), loop.begin(), first + 1);
     loop_ends_.push_back(static_cast<std::uint32_t>(points_.size()));
   }
-  fill_cells();
+  has_cells_ = false;
   result_.clear();
   std::uint32_t begin = 0;
   for (const std::uint32_t end : loop_ends_) {
@@ -70,15 +70,16 @@ void Simplifier::simplify(ldni::Contours& contours) {
 }
 
 void Simplifier::fill_cells() {
+  has_cells_ = true;
   Vec2 low = points_.front();
   Vec2 high = low;
   for (const Vec2& p : points_) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  // Choose cells: about two a vertex, of equal width and height.
+  // Choose cells: about four a vertex, of equal width and height.
   const Vec2 size = high - low;
-  const double wanted = 2.0 * static_cast<double>(points_.size());
+  const double wanted = 4.0 * static_cast<double>(points_.size());
   const double longest = std::max({size.x, size.y, kRimWidth});
   cells_.x0 = low.x;
   cells_.y0 = low.y;
@@ -95,9 +96,9 @@ void Simplifier::fill_cells() {
     for (std::uint32_t i = begin; i + 1 < end; ++i) {
       const Vec2 at = (points_[i] - low) * cells_.cells_per_mm;
       std::uint32_t& last =
-          cells_.last[std::size_t{cell_index(at.y, cells_.rows)} *
+          cells_.last[std::size_t{static_cast<std::uint32_t>(at.y)} *
                           cells_.columns +
-                      cell_index(at.x, cells_.columns)];
+                      static_cast<std::uint32_t>(at.x)];
       if (i > begin && last == i - 1) {
         run_begin_[i] = run_begin_[i - 1];
       } else {
@@ -132,6 +133,14 @@ void Simplifier::simplify_loop(std::uint32_t begin, std::uint32_t end) {
 // all vertices between within the tolerance (by the cone alone).
 std::uint32_t Simplifier::longest_run(std::uint32_t anchor, std::uint32_t end,
                                       double tolerance) const {
+  if (end < anchor + 2) return end;
+  // Most runs of a coarse section end at once; that is cheap to see.
+  const Vec2 first = points_[anchor + 1] - points_[anchor];
+  const Vec2 second = points_[anchor + 2] - points_[anchor];
+  const double area = cross(first, second);
+  if (area * area > tolerance * tolerance * dot(second, second)) {
+    return anchor + 1;
+  }
   Vec2 right{0, 0};  // of the cone; no cone yet while it is 0
   Vec2 left{0, 0};
   double farthest = 0;
@@ -153,7 +162,7 @@ std::uint32_t Simplifier::longest_run(std::uint32_t anchor, std::uint32_t end,
 }
 
 bool Simplifier::is_safe(std::uint32_t anchor, std::uint32_t last,
-                         double tolerance) const {
+                         double tolerance) {
   const Vec2 shortcut = points_[last] - points_[anchor];
   const double length = std::sqrt(dot(shortcut, shortcut));
   if (length == 0) return false;
@@ -168,8 +177,9 @@ bool Simplifier::is_safe(std::uint32_t anchor, std::uint32_t last,
     lowest = std::min(lowest, deviation);
     highest = std::max(highest, deviation);
   }
-  return highest <= tolerance && -lowest <= tolerance &&
-         !has_foreign_vertex(anchor, last, along, length, lowest, highest);
+  if (highest > tolerance || -lowest > tolerance) return false;
+  if (!has_cells_) fill_cells();
+  return !has_foreign_vertex(anchor, last, along, length, lowest, highest);
 }
 
 bool Simplifier::has_foreign_vertex(std::uint32_t anchor, std::uint32_t last,

@@ -95,6 +95,11 @@ Value SlcReader::read_value(std::string_view what) {
   return value;
 }
 
+void SlcReader::require_finite(float value) const {
+  if (std::isfinite(value)) return;
+  fail(fmt::format("a number before byte {} is infinite or none", offset_));
+}
+
 void SlcReader::read_header() {
   std::array<char, 8> begin{};
   const std::size_t got =
@@ -145,6 +150,7 @@ void SlcReader::read_sampling() {
   if (rows == 0) fail("the sampling table has no row");
   for (unsigned i = 0; i < rows; ++i) {
     const auto row = read_value<std::array<float, 4>>("the sampling table");
+    for (const float value : row) require_finite(value);
     sampling_.push_back({row[0], row[1], row[2]});
   }
 }
@@ -152,6 +158,7 @@ void SlcReader::read_sampling() {
 bool SlcReader::read_layer(SlcLayer& layer) {
   const auto z = read_value<float>("the height of a layer");
   const auto boundaries = read_value<std::uint32_t>("the head of a layer");
+  require_finite(z);
   layer.z = static_cast<double>(z) * mm_per_unit_;
   if (boundaries == kEndOfLayers) {
     top_ = layer.z;
@@ -188,10 +195,8 @@ void SlcReader::read_points(std::uint32_t count, std::vector<Vec2>& points) {
          "the vertices of a boundary");
     for (std::uint32_t i = 0; i < now; ++i) {
       const auto& [x, y] = piece[i];
-      if (!std::isfinite(x) || !std::isfinite(y)) {
-        fail(fmt::format("a coordinate before byte {} is not a number",
-                         offset_));
-      }
+      require_finite(x);
+      require_finite(y);
       points.emplace_back(x * mm_per_unit_, y * mm_per_unit_);
     }
     count -= now;

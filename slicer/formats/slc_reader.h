@@ -76,6 +76,7 @@ class SlcReader {
   void read(char* bytes, std::size_t count, std::string_view what);
   template <typename Value>
   Value read_value(std::string_view what);
+  void require_finite(float value) const;
   void read_header();
   void read_sampling();
   void read_points(std::uint32_t count, std::vector<Vec2>& points);

@@ -58,6 +58,16 @@ TEST(View, DrawsASheetAndAStackOfAFile) {
   }
 }
 
+TEST(View, AFileWithoutContoursIsAnError) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  ASSERT_EQ(run(folder, {"a.scad", "--heights", "5,6"}).status, 0);
+  const auto result = run(folder, {"view", "a.slc", "-o", "a.png"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find("no contour to draw"), std::string::npos);
+  EXPECT_EQ(folder.entry_count(), 2U);
+}
+
 TEST(View, DrawsADesignDirectly) {
   const TemporaryFolder folder;
   folder.write("a.scad", "w = 1; cube([5, 3, w]);");

@@ -102,8 +102,8 @@ TEST(TemporaryFiles, DiscardAllRemovesWhatIsUnderWay) {
   const TemporaryFolder folder;
   // Never destroyed: after discard_all nothing can be, as in a process that
   // is about to end.
-  auto* files = new TemporaryFiles;
-  auto* output = new OutputFile(folder.file("a"), *files);
+  static auto* const files = new TemporaryFiles;
+  static auto* const output = new OutputFile(folder.file("a"), *files);
   output->write("hello");
   EXPECT_EQ(folder.entry_count(), 1U);
   files->discard_all();
