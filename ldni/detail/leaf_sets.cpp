@@ -24,10 +24,10 @@ LeafSets::LeafSets(const csg::Scene& scene, Rule rule)
 void LeafSets::clear() {
   sets_.assign(1, {});  // the empty set
   members_.clear();
-  index_.assign(kFirstCapacity, kNone);
+  index_.assign(std::max(index_.size(), kFirstCapacity), kNone);
   index_[0] = kEmpty;  // hash 0
-  steps_.assign(kFirstCapacity, {});
-  shift_ = 64 - std::countr_zero(kFirstCapacity);
+  steps_.assign(std::max(steps_.size(), kFirstCapacity), {});
+  shift_ = 64 - std::countr_zero(steps_.size());
   step_count_ = 0;
 }
 
