@@ -15,6 +15,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "csg/solid/detail/face.h"
 #include "csg/solid/leaf_mesh.h"
 
@@ -22,6 +24,11 @@ namespace lamina::csg {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
+
+// Vertices closer than this [mm] are one where a mesh is open otherwise: the
+// grid on which OpenSCAD puts its vertices. Points of neighbouring faces that
+// were computed apart differ by rounding, 1e-15 or so; nobody prints 1e-6.
+constexpr double kMergeDistance = 0.00000095367431640625;
 
 struct VertexLess {
   bool operator()(const Vec3& a, const Vec3& b) const {
@@ -31,21 +38,49 @@ struct VertexLess {
   }
 };
 
+void rename_corners(Mesh& mesh, const std::vector<std::uint32_t>& new_names) {
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& corner : t) corner = new_names[corner];
+  }
+}
+
 // Lets triangles name the first of equal vertices.
-std::size_t merge_vertices(Mesh& mesh) {
+void merge_equal_vertices(Mesh& mesh) {
   std::map<Vec3, std::uint32_t, VertexLess> first;
   std::vector<std::uint32_t> merged;
-  std::size_t count = 0;
+  merged.reserve(mesh.vertices.size());
   for (const Vec3& vertex : mesh.vertices) {
     const auto id = static_cast<std::uint32_t>(merged.size());
-    const auto [place, is_new] = first.try_emplace(vertex, id);
-    merged.push_back(place->second);
-    if (!is_new) ++count;
+    merged.push_back(first.try_emplace(vertex, id).first->second);
   }
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& corner : t) corner = merged[corner];
+  rename_corners(mesh, merged);
+}
+
+// Lets triangles name the first of vertices within kMergeDistance, found in
+// the cells of that size around each.
+void merge_near_vertices(Mesh& mesh) {
+  std::map<Vec3, std::uint32_t, VertexLess> first_in_cell;
+  std::vector<std::uint32_t> merged;
+  merged.reserve(mesh.vertices.size());
+  const auto find_near = [&](const Vec3& vertex, const Vec3& cell) {
+    for (int i = 0; i < 27; ++i) {
+      const Vec3 shift(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      const auto found = first_in_cell.find(cell + shift);
+      if (found != first_in_cell.end() &&
+          glm::distance(mesh.vertices[found->second], vertex) <=
+              kMergeDistance) {
+        return found->second;
+      }
+    }
+    return static_cast<std::uint32_t>(merged.size());
+  };
+  for (const Vec3& vertex : mesh.vertices) {
+    const Vec3 cell = glm::floor(vertex / kMergeDistance);
+    const std::uint32_t name = find_near(vertex, cell);
+    if (name == merged.size()) first_in_cell.try_emplace(cell, name);
+    merged.push_back(name);
   }
-  return count;
+  rename_corners(mesh, merged);
 }
 
 std::size_t drop_degenerate(Mesh& mesh) {
@@ -101,6 +136,15 @@ void for_each_edge(const std::vector<Side>& sides, Visit visit) {
     while (end < sides.size() && sides[end].is_same_edge(sides[begin])) ++end;
     visit(begin, end);
   }
+}
+
+// True where an edge has no partner, however the triangles are turned.
+bool is_open(const Mesh& mesh) {
+  bool is_any_odd = false;
+  for_each_edge(collect_sides(mesh), [&](std::size_t begin, std::size_t end) {
+    is_any_odd = is_any_odd || (end - begin) % 2 == 1;
+  });
+  return is_any_odd;
 }
 
 // Triangles that share a plain edge, and whether they run against each other.
@@ -239,8 +283,12 @@ void drop_unused_vertices(Mesh& mesh) {
 
 Mending mend(Mesh& mesh) {
   Mending mending;
-  mending.merged_vertices = merge_vertices(mesh);
+  merge_equal_vertices(mesh);
   mending.dropped_triangles = drop_degenerate(mesh);
+  if (is_open(mesh)) {
+    merge_near_vertices(mesh);
+    mending.dropped_triangles += drop_degenerate(mesh);
+  }
   mending.turned_triangles = orient(mesh);
   mending.repeated_triangles = drop_repeated(mesh);
   mending.closed_holes = close_holes(mesh);

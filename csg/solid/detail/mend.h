@@ -16,17 +16,17 @@ struct ClosedHole {
 
 // What was found wrong. Nothing for a sound mesh.
 struct Mending {
-  std::size_t merged_vertices = 0;
   std::size_t dropped_triangles = 0;   // of no area: a corner stands twice
   std::size_t turned_triangles = 0;    // against their neighbours
   std::size_t repeated_triangles = 0;  // dropped: there twice
   std::vector<ClosedHole> closed_holes;
 };
 
-// Merges equal vertices, turns triangles to agree with their neighbours, and
-// closes what is still open. Afterwards every directed edge is matched by as
-// many of the opposite direction, whatever came in; edges of more than two
-// triangles are kept, winding numbers have no trouble with them. Each
+// Merges equal vertices (and where the mesh is open otherwise, those that are
+// no further apart than 1e-6 mm), turns triangles to agree with their
+// neighbours, and closes what is still open. Afterwards every directed edge is
+// matched by as many of the opposite direction, whatever came in; edges of more
+// than two triangles are kept, winding numbers have no trouble with them. Each
 // component keeps the direction of most of its triangles, and a mesh whose
 // volume comes out negative is turned as a whole.
 Mending mend(Mesh& mesh);

@@ -75,6 +75,21 @@ TEST_F(PolyhedronTest, EveryFaceMayHaveItsOwnPoints) {
   EXPECT_TRUE(diagnostics.all().empty());
 }
 
+TEST_F(PolyhedronTest, PointsThatDifferByRoundingAreOne) {
+  std::vector<Vec3> points;
+  Faces faces;
+  for (const auto& face : kBoxFaces) {
+    faces.emplace_back();
+    for (const std::uint32_t i : face) {
+      faces.back().push_back(static_cast<std::uint32_t>(points.size()));
+      const double noise = 1e-13 * static_cast<double>(points.size() % 5);
+      points.push_back(kBoxPoints[i] + Vec3(noise, -noise, noise));
+    }
+  }
+  EXPECT_NEAR(volume(points, faces), 24, 1e-10);
+  EXPECT_TRUE(diagnostics.all().empty());
+}
+
 TEST_F(PolyhedronTest, ConcaveFacesAreNotFilled) {
   // An L-shaped prism.
   const std::vector<Vec2> outline{{0, 0}, {3, 0}, {3, 1},
