@@ -102,32 +102,42 @@ void RaySweep::change_survival(Entry& entry, std::int8_t survival) {
 // other boundary in a point, so that the tracer sees the touch, and where it
 // runs along the column past ends.
 void RaySweep::split_at_touches() {
-  for (const std::uint32_t lower : touches_) split_pair_that_touches(lower);
-  for (const std::uint32_t number : touched_) split_where_others_end(number);
+  for (const std::uint32_t lower : touches_) {
+    if (!status_.is_alive(lower)) continue;
+    const std::uint32_t upper = status_[lower].above;
+    if (upper == status_.sentinel()) continue;
+    note_disorder_after(lower, upper);
+    const double y = y_after(status_[lower]);
+    if (std::abs(y_after(status_[upper]) - y) < kColumnWidth) {
+      split_all_near(lower, y);
+    }
+  }
+  for (const std::uint32_t number : touched_) {
+    if (!status_.is_alive(number)) continue;
+    Entry& entry = status_[number];
+    const double y = y_after(entry);
+    if (entry.survival != 0) {
+      note_disorder_after(entry.below, number);
+      note_disorder_after(number, entry.above);
+      if (std::abs(y_before(entry) - y) >= kColumnWidth) split_piece(entry);
+    }
+    if (tracer_.has_end_near(y)) split_all_near(number, y);
+  }
 }
 
-void RaySweep::split_pair_that_touches(std::uint32_t lower) {
-  if (!status_.is_alive(lower)) return;
-  Entry& a = status_[lower];
-  if (a.above == status_.sentinel()) return;
-  Entry& b = status_[a.above];
-  if (a.survival == 0 || b.survival == 0) return;
-  note_disorder_after(lower, a.above);
-  if (std::abs(y_after(b) - y_after(a)) >= kColumnWidth) return;
-  split_piece(a);
-  split_piece(b);
-}
-
-void RaySweep::split_where_others_end(std::uint32_t number) {
-  if (!status_.is_alive(number)) return;
-  Entry& entry = status_[number];
-  if (entry.survival == 0) return;
-  note_disorder_after(entry.below, number);
-  note_disorder_after(number, entry.above);
-  if (entry.split_column == column_) return;
-  const double y = y_after(entry);
-  const bool runs_along = std::abs(y_before(entry) - y) >= kColumnWidth;
-  if (runs_along || tracer_.has_end_near(y)) split_piece(entry);
+// Cuts all boundary through a point of the column. `number` is an entry there;
+// others may lie between it and the boundary.
+void RaySweep::split_all_near(std::uint32_t number, double y) {
+  for (std::uint32_t e = number; e != status_.sentinel();
+       e = status_[e].below) {
+    if (std::abs(y_after(status_[e]) - y) >= kColumnWidth) break;
+    if (status_[e].survival != 0) split_piece(status_[e]);
+  }
+  for (std::uint32_t e = status_[number].above; e != status_.sentinel();
+       e = status_[e].above) {
+    if (std::abs(y_after(status_[e]) - y) >= kColumnWidth) break;
+    if (status_[e].survival != 0) split_piece(status_[e]);
+  }
 }
 
 void RaySweep::split_piece(Entry& entry) {

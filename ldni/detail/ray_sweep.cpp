@@ -299,18 +299,21 @@ void RaySweep::set_tie(std::uint32_t entry, bool is_tied) {
 }
 
 // Looks at a pair from x to the end of the slab, in the last one to the end of
-// a chain. Chains whose ranges are apart there need no look at their points.
+// a chain, but past the column of x in any case, so that none is left before
+// all of it is known. Chains whose ranges are apart need no look at their
+// points.
 Outlook RaySweep::look(std::uint32_t lower, std::uint32_t upper, double x) {
   Entry& a = status_[lower];
   Entry& b = status_[upper];
   a.cursor.advance(x);
   b.cursor.advance(x);
-  const double limit = agenda_.slab_end();
+  const double limit = std::max(agenda_.slab_end(), x + kColumnWidth);
   find_range(a, limit);
   find_range(b, limit);
-  if (a.high + tie_distance_ < b.low) {
+  const double range_end = std::min(a.range_end, b.range_end);
+  if (a.high + tie_distance_ < b.low && range_end > x + kColumnWidth) {
     Outlook outlook;
-    outlook.horizon = std::min(a.range_end, b.range_end);
+    outlook.horizon = range_end;
     return outlook;
   }
   return look_ahead(a.cursor, b.cursor, x, limit, tie_distance_);

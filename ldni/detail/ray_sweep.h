@@ -101,8 +101,7 @@ class RaySweep {
   void update_group(std::uint32_t member);
   void change_survival(Entry& entry, std::int8_t survival);
   void split_at_touches();
-  void split_pair_that_touches(std::uint32_t lower);
-  void split_where_others_end(std::uint32_t number);
+  void split_all_near(std::uint32_t number, double y);
   void split_piece(Entry& entry);
   void note_disorder_before(std::uint32_t lower, std::uint32_t upper);
   void note_disorder_after(std::uint32_t lower, std::uint32_t upper);
