@@ -1,6 +1,17 @@
 #pragma once
-// Leaf sections: the contours of every leaf in every layer of a block, cut
-// into x-monotone chains (the default sampler; docs/design.md).
+// Leaf sections: the contours of every leaf in every layer of a block, cut into
+// x-monotone chains (the default sampler).
+//
+// The moving ray needs from a leaf no triangles and no polygon, only its
+// samples from left to right. A chain is just that: the depths of one sheet of
+// the leaf's surface between two turns, as a polyline. Leaves that are known by
+// parameter give their chains by formula and only where a layer meets them, so
+// the cost follows the output and not the density of the mesh: ring55 with
+// 1.06 million facets is cut in 4 ms into 99 layers. Meshes give theirs by a
+// walk over the triangles that a layer crosses.
+//
+// One rule, LayerGrid's threshold, decides on which side of a section a vertex
+// is. Every loop is closed because of it, without any tolerance.
 
 #include <cstdint>
 #include <memory>
