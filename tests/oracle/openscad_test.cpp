@@ -22,7 +22,7 @@ class OpenScad : public ::testing::Test {
   ~OpenScad() override { fs::remove_all(folder_); }
 
   fs::path write(const std::string& text) {
-    const fs::path path = folder_ / "design.scad";
+    fs::path path = folder_ / "design.scad";
     std::ofstream(path) << text;
     return path;
   }

@@ -91,6 +91,7 @@ class Scene : public ::testing::TestWithParam<std::string> {
 
 TEST_P(Scene, EqualsTheExactSections) {
   std::vector<ExactRegion> sections;
+  sections.reserve(heights_.size());
   for (const double z : heights_) sections.push_back(exact_section(world_, z));
 
   Row worst;

@@ -14,7 +14,7 @@ class Writer {
   Writer(RandomKind kind, std::uint32_t seed) : kind_(kind), random_(seed) {}
 
   std::string design(std::size_t leaf_count) {
-    const std::string body = tree(leaf_count, 0);
+    std::string body = tree(leaf_count, 0);
     if (kind_ != RandomKind::kTurnedGrid) return body;
     return fmt::format("rotate([{:.3f}, {:.3f}, {:.3f}])\n{}",
                        below(2) == 0 ? 0 : uniform(-40, 40),

@@ -29,6 +29,7 @@ bool check_design(const std::string& text) {
   const auto heights =
       generic_heights(world, scene.box.low.z, scene.box.high.z, kHeights);
   std::vector<ExactRegion> sections;
+  sections.reserve(heights.size());
   for (const double z : heights) sections.push_back(exact_section(world, z));
   for (const double pitch : {0.02, 0.0762, 0.5}) {
     const auto layers = support::slice_heights(scene, heights, pitch);

@@ -92,6 +92,16 @@ std::vector<Contours> turned_around(const std::vector<Contours>& all) {
   return result;
 }
 
+// `head { bodies }`, the bodies one after another.
+std::string enclose(const std::string& head,
+                    const std::vector<std::string>& bodies) {
+  std::string text = head;
+  text += " {";
+  for (const std::string& body : bodies) text += body;
+  text += "}";
+  return text;
+}
+
 std::vector<double> shifted(std::vector<double> heights, double shift,
                             double factor = 1) {
   for (double& z : heights) z = factor * z + shift;
@@ -109,7 +119,7 @@ TEST(Laws, ATurnTurnsTheLayers) {
     SCOPED_TRACE(angle_deg);
     expect_equal(
         expected,
-        sections("rotate(" + std::to_string(angle_deg) + ") {" + kPart + "}"),
+        sections(enclose("rotate(" + std::to_string(angle_deg) + ")", {kPart})),
         kTie);
   }
 }
@@ -120,12 +130,12 @@ TEST(Laws, AMirrorImageMirrorsTheLayers) {
                                     [](Vec2 p) -> Vec2 {
                                       return {-p.x, p.y};
                                     })),
-               sections("mirror([1, 0, 0]) {" + kPart + "}"), kTie);
+               sections(enclose("mirror([1, 0, 0])", {kPart})), kTie);
   expect_equal(turned_around(mapped(plain,
                                     [](Vec2 p) -> Vec2 {
                                       return {p.y, p.x};
                                     })),
-               sections("mirror([1, -1, 0]) {" + kPart + "}"), kTie);
+               sections(enclose("mirror([1, -1, 0])", {kPart})), kTie);
 }
 
 TEST(Laws, AMirrorImageInZReversesTheLayers) {
@@ -134,7 +144,7 @@ TEST(Laws, AMirrorImageInZReversesTheLayers) {
   for (auto z = kHeights.rbegin(); z != kHeights.rend(); ++z) {
     heights.push_back(-*z);
   }
-  auto mirrored = sections("mirror([0, 0, 1]) {" + kPart + "}", heights);
+  auto mirrored = sections(enclose("mirror([0, 0, 1])", {kPart}), heights);
   expect_equal(plain, {mirrored.rbegin(), mirrored.rend()}, kTie);
 }
 
@@ -142,7 +152,7 @@ TEST(Laws, AShiftShiftsTheLayers) {
   const auto expected =
       mapped(sections(kPart), [](Vec2 p) { return p + Vec2(12.5, -3.25); });
   expect_equal(expected,
-               sections("translate([12.5, -3.25, 7.125]) {" + kPart + "}",
+               sections(enclose("translate([12.5, -3.25, 7.125])", {kPart}),
                         shifted(kHeights, 7.125)),
                kTie);
 }
@@ -153,7 +163,7 @@ TEST(Laws, AScaleScalesTheLayers) {
         mapped(sections(kPart), [&](Vec2 p) { return factor * p; });
     expect_equal(
         expected,
-        sections("scale(" + std::to_string(factor) + ") {" + kPart + "}",
+        sections(enclose("scale(" + std::to_string(factor) + ")", {kPart}),
                  shifted(kHeights, 0, factor)),
         kTie * factor + kTie);
   }
@@ -215,11 +225,11 @@ TEST(Laws, OrderOfChildrenChangesNothing) {
   const std::string c =
       "translate([3, -1, 0]) cylinder(r = 2, h = 5, $fn = 9);";
   for (const std::string op : {"union()", "intersection()"}) {
-    expect_equal(sections(op + "{" + a + b + c + "}"),
-                 sections(op + "{" + c + a + b + "}"), kRounding);
+    expect_equal(sections(enclose(op, {a, b, c})),
+                 sections(enclose(op, {c, a, b})), kRounding);
   }
-  expect_equal(sections("difference() {" + a + b + c + "}"),
-               sections("difference() {" + a + c + b + "}"), kRounding);
+  expect_equal(sections(enclose("difference()", {a, b, c})),
+               sections(enclose("difference()", {a, c, b})), kRounding);
 }
 
 TEST(Laws, AreasOfUnionAndIntersectionAddUp) {
@@ -227,10 +237,10 @@ TEST(Laws, AreasOfUnionAndIntersectionAddUp) {
   const std::string b =
       "translate([2, 2, 0]) cylinder(r1 = 3, r2 = 1, h = 6, $fn = 40);";
   const auto both = sections(a + b);
-  const auto common = sections("intersection() {" + a + b + "}");
+  const auto common = sections(enclose("intersection()", {a, b}));
   const auto only_a = sections(a);
   const auto only_b = sections(b);
-  const auto rest = sections("difference() {" + a + b + "}");
+  const auto rest = sections(enclose("difference()", {a, b}));
   for (std::size_t i = 0; i < both.size(); ++i) {
     const double sum =
         support::total_area(only_a[i]) + support::total_area(only_b[i]);
@@ -246,29 +256,31 @@ TEST(Laws, DifferenceOfAUnionIsTheIntersectionOfDifferences) {
   const std::string b = "translate([1, 1, 0]) sphere(r = 3, $fn = 21);";
   const std::string c =
       "translate([4, 3, -1]) rotate([0, 15, 0]) cube([1, 9, 9]);";
-  expect_equal(sections("difference() {" + a + b + c + "}"),
-               sections("intersection() { difference() {" + a + b +
-                        "} difference() {" + a + c + "} }"),
-               kTie);
+  expect_equal(
+      sections(enclose("difference()", {a, b, c})),
+      sections(enclose("intersection()", {enclose("difference()", {a, b}),
+                                          enclose("difference()", {a, c})})),
+      kTie);
 }
 
 TEST(Laws, ASolidWithItselfIsItself) {
   const auto plain = sections(kPart);
-  expect_equal(plain, sections("union() {" + kPart + kPart + "}"), kRounding);
-  expect_equal(plain, sections("intersection() {" + kPart + kPart + "}"),
+  expect_equal(plain, sections(enclose("union()", {kPart, kPart})), kRounding);
+  expect_equal(plain, sections(enclose("intersection()", {kPart, kPart})),
                kRounding);
   for (const Contours& contours :
-       sections("difference() {" + kPart + kPart + "}")) {
+       sections(enclose("difference()", {kPart, kPart}))) {
     EXPECT_TRUE(contours.is_empty());
   }
 }
 
 TEST(Laws, CutInTwoAndUnitedAgainIsTheSame) {
   const std::string half = "translate([4.3, -50, -50]) cube([100, 100, 100]);";
-  expect_equal(sections(kPart),
-               sections("union() { difference() {" + kPart + half +
-                        "} intersection() {" + kPart + half + "} }"),
-               kTie);
+  expect_equal(
+      sections(kPart),
+      sections(enclose("union()", {enclose("difference()", {kPart, half}),
+                                   enclose("intersection()", {kPart, half})})),
+      kTie);
 }
 
 }  // namespace

@@ -177,7 +177,8 @@ TEST(FindDefects, HandlesLargeLayers) {
     add_loop(contours, i % 2 == 0 ? loop : reversed(loop));
   }
   for (int i = 0; i < 50'000; ++i) {
-    add_loop(contours, square(12 + (i % 250), i / 250, 0.9));
+    const int row = i / 250;
+    add_loop(contours, square(12 + i % 250, row, 0.9));
   }
   EXPECT_TRUE(are_sound(contours));
   EXPECT_EQ(count_loops(contours), (LoopCounts{50'100, 100}));
