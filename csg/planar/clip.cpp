@@ -8,7 +8,7 @@
 namespace lamina::planar {
 namespace {
 
-constexpr double kGridPerMm = 1 << 24;
+constexpr double kGridPerMm = 1e8;
 
 // Clipper multiplies coordinates in 128 bits; this leaves it all the room that
 // it asks for (2^62 grid units).

@@ -1,9 +1,12 @@
 #pragma once
 // Booleans and offsets of regions.
 //
-// Coordinates are rounded to a grid of 2^-24 mm (6e-8 mm), 256 times finer
-// than OpenSCAD's, because the polygon clipper underneath is exact on integers
-// and on nothing else. A region that needs no clipping is not rounded.
+// Coordinates are rounded to a grid of 1e-8 mm, 1500 times finer than
+// OpenSCAD's 2^-16 mm, because the polygon clipper underneath is exact on
+// integers and on nothing else. The grid is decimal, so that a coordinate such
+// as 2.4 comes back as the same double, and a face that stands at a layer's
+// height in the design still does. A region that needs no clipping is not
+// rounded.
 
 #include <span>
 

@@ -54,6 +54,17 @@ TEST(Clip, SubtractingEverythingLeavesNothing) {
   EXPECT_TRUE(subtract(operands).is_empty());
 }
 
+TEST(Clip, GivesDecimalsBackAsTheyWere) {
+  const Region operands[] = {square({2.4, 0.1}, false),
+                             square({12.34567891, 0.1}, false)};
+  const Region both = unite(operands);
+  ASSERT_EQ(both.contours.size(), 1U);
+  for (const Vec2 point : both.contours[0]) {
+    EXPECT_TRUE(point.x == 0 || point.x == 12.34567891) << point.x;
+    EXPECT_TRUE(point.y == 0 || point.y == 0.1) << point.y;
+  }
+}
+
 TEST(Clip, RefusesCoordinatesBeyondItsRange) {
   const Contour contour[] = {{{0, 0}, {1e12, 0}, {0, 1}}};
   EXPECT_THROW(from_contours(contour), std::range_error);
