@@ -59,7 +59,7 @@ void write_png(const Image& image, OutputFile& output) {
   for (unsigned y = 0; y < image.height; ++y) {
     for (unsigned x = 0; x < image.width; ++x) {
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        row[3 * x + channel] = to_byte(image.at(x, y)[channel]);
+        row[std::size_t{3} * x + channel] = to_byte(image.at(x, y)[channel]);
       }
     }
     png_write_row(writer.png, row.data());

@@ -275,7 +275,8 @@ class Openness {
       const double angle = 2 * 3.14159265358979 * (i + 0.5) / kDirections;
       for (int step = 1; step <= kSteps; ++step) {
         const double distance = reach * step * step / (kSteps * kSteps);
-        places_[static_cast<std::size_t>(i * kSteps + step - 1)] = {
+        places_[static_cast<std::size_t>(i) * kSteps +
+                static_cast<std::size_t>(step) - 1] = {
             static_cast<int>(std::lround(distance * std::cos(angle))),
             static_cast<int>(std::lround(distance * std::sin(angle)))};
       }
@@ -289,8 +290,8 @@ class Openness {
     for (int i = 0; i < kDirections; ++i) {
       double steepest = 0;
       for (int step = 0; step < kSteps; ++step) {
-        const auto& [dx, dy] =
-            places_[static_cast<std::size_t>(i * kSteps + step)];
+        const auto& [dx, dy] = places_[static_cast<std::size_t>(i) * kSteps +
+                                       static_cast<std::size_t>(step)];
         const float height = picture.at(x + dx, y + dy);
         if (height <= center) continue;
         const double rise = height - center;
