@@ -148,11 +148,38 @@ void LeafSets::grow_steps() {
 
 void LeafSets::grow_index() {
   index_.assign(2 * index_.size(), kNone);
+  for (Id id = 0; id < sets_.size(); ++id) add_to_index(id);
+}
+
+void LeafSets::add_to_index(Id id) {
   const std::size_t mask = index_.size() - 1;
-  for (Id id = 0; id < sets_.size(); ++id) {
-    std::size_t i = sets_[id].hash & mask;
-    while (index_[i] != kNone) i = (i + 1) & mask;
-    index_[i] = id;
+  std::size_t i = sets_[id].hash & mask;
+  while (index_[i] != kNone) i = (i + 1) & mask;
+  index_[i] = id;
+}
+
+void LeafSets::keep_only(std::vector<Id>& live) {
+  const std::vector<Set> old_sets = std::move(sets_);
+  const std::vector<Member> old_members = std::move(members_);
+  std::vector<Id> new_ids(old_sets.size(), kNone);
+  new_ids[kEmpty] = kEmpty;
+  clear();
+  for (Id& id : live) {
+    if (new_ids[id] == kNone) {
+      new_ids[id] = static_cast<Id>(sets_.size());
+      Set set = old_sets[id];
+      const auto begin =
+          old_members.begin() + static_cast<std::ptrdiff_t>(set.first_member);
+      set.first_member = members_.size();
+      members_.insert(members_.end(), begin, begin + set.size);
+      sets_.push_back(set);
+      if (2 * sets_.size() > index_.size()) {
+        grow_index();
+      } else {
+        add_to_index(new_ids[id]);
+      }
+    }
+    id = new_ids[id];
   }
 }
 

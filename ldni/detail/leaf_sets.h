@@ -52,8 +52,14 @@ class LeafSets {
   // Evaluations of the program since construction.
   std::uint64_t evaluations() const { return evaluations_; }
 
+  // Leaves summed over the known sets: what they cost in memory.
+  std::size_t member_count() const { return members_.size(); }
+
   // Forgets every set but the empty one.
   void clear();
+  // Forgets every set but the empty one and those in `live`, and renumbers
+  // them there.
+  void keep_only(std::vector<Id>& live);
 
  private:
   struct Member {
@@ -83,6 +89,7 @@ class LeafSets {
   Id make_step(Id set, Step step);
   void write_members(Id set, Step step);
   Id find_or_add(std::uint64_t hash);
+  void add_to_index(Id id);
   bool evaluate(const Set& set);
   bool is_inside(const Member& member) const {
     return rule_ == Rule::kNonZero || member.count > 0;

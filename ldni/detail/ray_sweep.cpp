@@ -20,6 +20,11 @@ constexpr double kMostSlabsOfPitch = 1 << 16;
 constexpr std::size_t kFewSets = 4096;
 constexpr std::size_t kLayersOfSets = 4;
 
+// Within a layer, sets that no entry has any more are forgotten when all have
+// more than this many members (8 bytes each), or so many times what is left.
+constexpr std::size_t kMostMembers = std::size_t{1} << 21;
+constexpr std::size_t kGrowthOfMembers = 3;
+
 // Swaps in one column, for each chain of the layer, before it counts as
 // endless: rounding could make the pairwise order of entries a circle.
 constexpr std::uint64_t kMostSwapsPerEntry = 64;
@@ -63,10 +68,12 @@ void RaySweep::begin_layer(const ChainBlock& block,
   status_.begin(chains_.size());
   tracer_.begin();
   if (first_layer_sets_ == 0) first_layer_sets_ = sets_.size();
-  if (sets_.size() > std::max(kFewSets, kLayersOfSets * first_layer_sets_)) {
+  if (sets_.size() > std::max(kFewSets, kLayersOfSets * first_layer_sets_) ||
+      sets_.member_count() > kMostMembers) {
     sets_.clear();
     first_layer_sets_ = 0;
   }
+  most_members_ = kMostMembers;
   ++counts_.layers;
   counts_.chains += chains_.size();
   for (const Chain& chain : chains_) counts_.points += chain.point_count;
@@ -105,9 +112,27 @@ void RaySweep::look_again() {
   });
 }
 
+// Keeps the sets of the entries on the ray, where thousands of leaves overlap.
+void RaySweep::forget_old_sets() {
+  std::vector<LeafSets::Id> live;
+  for (std::uint32_t e = status_.first(); e != status_.sentinel();
+       e = status_[e].above) {
+    live.push_back(status_[e].set);
+  }
+  sets_.keep_only(live);
+  auto id = live.begin();
+  for (std::uint32_t e = status_.first(); e != status_.sentinel();
+       e = status_[e].above) {
+    status_[e].set = *id++;
+  }
+  most_members_ =
+      std::max(kMostMembers, kGrowthOfMembers * sets_.member_count());
+}
+
 // --- The order in a column --------------------------------------------------
 
 void RaySweep::process_column(double x) {
+  if (sets_.member_count() > most_members_) forget_old_sets();
   ++counts_.stops;
   ++column_;
   column_left_ = x;

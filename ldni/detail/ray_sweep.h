@@ -77,6 +77,7 @@ class RaySweep {
   void begin_layer(const ChainBlock& block, std::span<const Chain> chains);
   std::uint32_t slab_count(double width) const;
   void look_again();
+  void forget_old_sets();
 
   // The order in a column.
   void process_column(double x);
@@ -136,6 +137,7 @@ class RaySweep {
   SweepCounts counts_;
   LeafSets sets_;
   std::size_t first_layer_sets_ = 0;  // known after the first layer; 0: not yet
+  std::size_t most_members_ = 0;      // of sets, before old ones are forgotten
   Status status_;
   Agenda agenda_;
   TurnSorter sorter_;
