@@ -251,6 +251,26 @@ TEST(KineticRay, ManyLeavesOverOnePointCountLikeFew) {
   EXPECT_LE(support::total_area(contours), kPi * 4.3 * 4.3);
 }
 
+TEST(KineticRay, ThousandsOfCrossingsUnderHundredsOfLeavesKeepTheOutline) {
+  // Discs of radius 3 with centres strewn over a disc of radius 2: every two
+  // cross. So many sets occur that old ones have to be forgotten on the way.
+  const auto discs = [](bool is_reversed) {
+    SceneBuilder builder;
+    for (int i = 0; i < 200; ++i) {
+      const int k = is_reversed ? 199 - i : i;
+      const double distance = 2 * std::sqrt(k / 199.0);
+      builder.add(cylinder_leaf(3, 3, 1, 12),
+                  translated({distance * std::sin(2.4 * k),
+                              distance * std::cos(2.4 * k), 0}));
+    }
+    return section(builder.finish(), 0.5);
+  };
+  const Contours contours = discs(false);
+  EXPECT_EQ(support::count_loops(contours), (LoopCounts{1, 0}));
+  EXPECT_NEAR(support::total_area(contours), support::total_area(discs(true)),
+              1e-9);
+}
+
 TEST(KineticRay, StackedCubesUniteInEveryLayer) {
   // The upper cube stands on the lower one: at its foot the section is the
   // upper one, for a solid fills [bottom, top).
