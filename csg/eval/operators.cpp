@@ -416,7 +416,7 @@ Value apply_binary(BinaryOp op, const Value& left, const Value& right,
     return undefined(op, left, right, reason);
   }
   return Value(op == BinaryOp::kModulo
-                   ? std::fmod(left.as_number(), right.as_number())
+                   ? modulo(left.as_number(), right.as_number())
                    : std::pow(left.as_number(), right.as_number()));
 }
 

@@ -5,12 +5,27 @@
 // left in `reason`, in the words of OpenSCAD's warning. An undef inside a
 // resulting vector has no reason: OpenSCAD keeps quiet about those.
 
+#include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "csg/eval/value.h"
 #include "parser/ast.h"
 
 namespace lamina::csg {
+
+// std::fmod, quicker where both are whole numbers, as they mostly are.
+inline double modulo(double a, double b) {
+  constexpr double kWhole = 0x1p53;
+  if (std::fabs(a) < kWhole && std::fabs(b) < kWhole && b != 0) {
+    const auto i = static_cast<std::int64_t>(a);
+    const auto k = static_cast<std::int64_t>(b);
+    if (static_cast<double>(i) == a && static_cast<double>(k) == b) {
+      return std::copysign(static_cast<double>(i % k), a);
+    }
+  }
+  return std::fmod(a, b);
+}
 
 // All but `&&` and `||`, which do not evaluate both sides.
 Value apply_binary(ast::BinaryOp op, const Value& left, const Value& right,

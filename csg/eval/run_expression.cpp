@@ -129,7 +129,7 @@ Value on_numbers(double a, double b) {
   if constexpr (op == BinaryOp::kSubtract) return Value(a - b);
   if constexpr (op == BinaryOp::kMultiply) return Value(a * b);
   if constexpr (op == BinaryOp::kDivide) return Value(a / b);
-  if constexpr (op == BinaryOp::kModulo) return Value(std::fmod(a, b));
+  if constexpr (op == BinaryOp::kModulo) return Value(modulo(a, b));
   if constexpr (op == BinaryOp::kPower) return Value(std::pow(a, b));
 }
 
@@ -540,14 +540,14 @@ Value traced(const CallCode& code, Frame& frame, const Body& body) {
 
 // `$` variables that a tail call's arguments and enclosing lets bind stay
 // bound; everything else of the frame is overwritten.
-bool jump(const CallCode& call, const ArgumentPlan& plan,
+void jump(const CallCode& call, const ArgumentPlan& plan,
           std::size_t trail_mark, Frame& frame) {
-  constexpr std::size_t kFew = 8;
-  Value few[kFew];
-  std::vector<Value> many(plan.bound.size() > kFew ? plan.bound.size() : 0);
-  Value* values = many.empty() ? few : many.data();
-  for (std::size_t i = 0; i < plan.bound.size(); ++i) {
-    values[i] = run(call.arguments[plan.bound[i].written].value, frame);
+  const auto count = static_cast<std::uint32_t>(plan.bound.size());
+  Frame scratch{frame.in};
+  Value* memory = LAMINA_FRAME_MEMORY(count);
+  const FrameSlots values(scratch, memory, count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    memory[i] = run(call.arguments[plan.bound[i].written].value, frame);
   }
   const auto store = [&](const Target& target, Value value) {
     if (target.kind == Target::Kind::kDynamic) {
@@ -564,10 +564,9 @@ bool jump(const CallCode& call, const ArgumentPlan& plan,
       store(fallback.target, fallback.cached);
     }
   }
-  for (std::size_t i = 0; i < plan.bound.size(); ++i) {
-    store(plan.bound[i].target, std::move(values[i]));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    store(plan.bound[i].target, std::move(memory[i]));
   }
-  return true;
 }
 
 // A tail call of a function literal by the name that it was called by is a
@@ -582,7 +581,9 @@ bool jump_to_literal(const CallCode& call, const Callable& callable,
     return false;
   }
   const ArgumentPlan& plan = frame.in.plan_for(call, callable);
-  return plan.defaults.empty() && jump(call, plan, trail_mark, frame);
+  if (!plan.defaults.empty()) return false;
+  jump(call, plan, trail_mark, frame);
+  return true;
 }
 
 // Follows the tail positions of a body. True: start again.
@@ -612,11 +613,13 @@ bool run_round(const Callable& callable, std::string_view name,
         break;
       case Expression::Kind::kTailCall: {
         const auto& call = as<CallCode>(*code);
-        const bool is_jump =
-            call.tail_defaults != nullptr
-                ? jump(call, *call.plan, trail_mark, frame)
-                : jump_to_literal(call, callable, name, trail_mark, frame);
-        if (is_jump) return true;
+        if (call.tail_defaults != nullptr) {
+          jump(call, *call.plan, trail_mark, frame);
+          return true;
+        }
+        if (jump_to_literal(call, callable, name, trail_mark, frame)) {
+          return true;
+        }
         result = run(code, frame);
         return false;
       }

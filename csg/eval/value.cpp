@@ -40,20 +40,27 @@ void copy_values(std::span<const Value> from, Value* to) {
 // likely to be appended to again.
 std::size_t grown(std::size_t needed) { return needed + needed / 2 + 8; }
 
-// The 128 strings of one ASCII character, made once and never freed: indexing
-// a string mostly gives these.
-StringBuffer* ascii_string(unsigned char c) {
-  static const std::vector<StringBuffer*> strings = [] {
-    std::vector<StringBuffer*> all;
+// The 128 strings of one ASCII character, made once per thread: indexing a
+// string mostly gives these.
+struct AsciiStrings {
+  StringBuffer* strings[128];
+  AsciiStrings() {
     for (int i = 0; i < 128; ++i) {
-      StringBuffer* buffer = allocate_string(1);
-      buffer->data()[0] = static_cast<char>(i);
-      buffer->used = 1;
-      all.push_back(buffer);
+      strings[i] = allocate_string(1);
+      strings[i]->data()[0] = static_cast<char>(i);
+      strings[i]->used = 1;
     }
-    return all;
-  }();
-  return strings[c];
+  }
+  ~AsciiStrings() {
+    for (StringBuffer* string : strings) std::free(string);
+  }
+  AsciiStrings(const AsciiStrings&) = delete;
+  AsciiStrings& operator=(const AsciiStrings&) = delete;
+};
+
+StringBuffer* ascii_string(unsigned char c) {
+  thread_local const AsciiStrings table;
+  return table.strings[c];
 }
 
 }  // namespace
