@@ -77,9 +77,6 @@ struct LinearExtrudeParams {
   bool has_twist = false;
   int slices = 0;  // 0: not given; csg/planar/facets.h has the rules
   Vec2 scale = Vec2(1);
-  std::string_view file = {};  // deprecated file=, layer=, origin=
-  std::string_view layer = {};
-  Vec2 origin = Vec2(0);
   Facets facets = {};
 };
 struct LinearExtrude {
@@ -89,7 +86,6 @@ struct RotateExtrude {
   double angle_deg = 360;
   int convexity = 2;
   Facets facets = {};
-  std::string_view file = {};  // deprecated
 };
 
 // --- Leaves ---------------------------------------------------------------
@@ -131,8 +127,9 @@ struct Polygon {
   int convexity = 1;
   std::string_view csg_text = {};  // as for Polyhedron
 };
-// Modules whose geometry is not supported yet keep the text that `.csg`
-// prints for them (`text(text = "a", …)`), whole.
+// Modules whose geometry is not supported yet, extrusions with the deprecated
+// file= among them, keep the text that `.csg` prints for them
+// (`text(text = "a", …)`), whole.
 struct Unsupported {
   std::string_view name;
   std::string_view csg_text;

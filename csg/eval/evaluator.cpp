@@ -85,9 +85,9 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
   bind_well_known(options, in);
   try {
     run_program(unit, in);
-  } catch (EvaluationFailure& failure) {
+  } catch (const EvaluationFailure&) {
     in.drop_nodes(0);
-    diagnostics.report(std::move(failure.diagnostic));
+    diagnostics.report(in.take_failure());
   }
   check_view(unit, in);
   InstantiationCode root;

@@ -28,10 +28,10 @@ struct EvaluateOptions {
   bool preview = true;     // $preview
   double time = 0;         // $t
   std::uint32_t seed = 0;  // of rands() without a seed
-  // C++ stack that evaluation may use below the caller's frame. Recursion
-  // costs about 400 bytes a call; where the stack ends, so does the evaluation,
-  // with OpenSCAD's error. Callers should run evaluate() on a thread with a
-  // large stack and say so here.
+  // C++ stack that evaluation may use below the caller's frame. A call takes
+  // about 700 bytes of it, more where it stands deep in an expression; 200,000
+  // may be nested. Where either ends, so does the evaluation, with OpenSCAD's
+  // error. Callers should run evaluate() on a thread with a large stack.
   std::size_t stack_bytes = std::size_t{6} << 20;
   // Numbers outside their range (`--check-parameter-ranges`) are warned of.
   bool check_ranges = false;

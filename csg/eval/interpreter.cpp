@@ -8,14 +8,6 @@
 
 namespace lamina::csg {
 
-void EvaluationFailure::note_call(std::string_view name, SourceRange range,
-                                  const Source* document) {
-  if (calls_to_note == 0) return;
-  --calls_to_note;
-  diagnostic.notes.push_back(
-      {range, fmt::format("called by '{}'", name), document});
-}
-
 namespace {
 std::uintptr_t lowest_stack(std::size_t bytes) {
   // What building a message needs below the last frame that passed the check.
@@ -99,12 +91,20 @@ void Interpreter::note(std::string text) {
 
 void Interpreter::fail(SourceRange range, std::string message,
                        const Source* document) {
-  EvaluationFailure failure;
-  failure.diagnostic.severity = Severity::kError;
-  failure.diagnostic.range = range;
-  failure.diagnostic.message = std::move(message);
-  failure.diagnostic.document = document;
-  throw failure;
+  failure_ = std::make_unique<Diagnostic>();
+  failure_->severity = Severity::kError;
+  failure_->range = range;
+  failure_->message = std::move(message);
+  failure_->document = document;
+  throw EvaluationFailure();
+}
+
+void Interpreter::note_call(std::string_view name, SourceRange range,
+                            const Source* document) {
+  constexpr std::size_t kMostNotes = 12;
+  if (failure_->notes.size() == kMostNotes) return;
+  failure_->notes.push_back(
+      {range, fmt::format("called by '{}'", name), document});
 }
 
 void Interpreter::fail_recursion(SourceRange range, std::string_view kind,

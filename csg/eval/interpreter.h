@@ -21,15 +21,8 @@ namespace lamina::csg {
 
 class Resolver;
 
-// Thrown to end the evaluation; the message collects up to 12 calls on its way
-// out, as OpenSCAD's TRACE lines do.
-struct EvaluationFailure {
-  Diagnostic diagnostic;
-  int calls_to_note = 12;
-
-  void note_call(std::string_view name, SourceRange range,
-                 const Source* document);
-};
+// Thrown to end the evaluation; the interpreter keeps the message.
+struct EvaluationFailure {};
 
 class Interpreter {
  public:
@@ -53,17 +46,29 @@ class Interpreter {
   [[noreturn]] void fail(SourceRange range, std::string message,
                          const Source* document);
 
-  // Throws OpenSCAD's error where the C++ stack is nearly used up.
-  void check_stack(SourceRange range, std::string_view kind,
-                   std::string_view name, const Source* document) {
-    if (reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
-        stack_limit_) {
-      fail_recursion(range, kind, name, document);
-    }
-  }
   [[noreturn]] void fail_recursion(SourceRange range, std::string_view kind,
                                    std::string_view name,
                                    const Source* document);
+  // The message of the failure that ended the evaluation.
+  Diagnostic take_failure() { return std::move(*failure_); }
+
+  // --- Calls being run
+  // Throws OpenSCAD's error where calls are nested too deep, or the C++ stack
+  // is nearly used up.
+  void check_depth(SourceRange range, std::string_view kind,
+                   std::string_view name, const Source* document) {
+    if (depth_ > kMostNestedCalls ||
+        reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
+            stack_limit_) {
+      fail_recursion(range, kind, name, document);
+    }
+  }
+  void enter_call() { ++depth_; }
+  void leave_call(std::string_view name, SourceRange range,
+                  const Source* document) {
+    --depth_;
+    if (failure_ != nullptr) note_call(name, range, document);
+  }
 
   // --- Variables
   // Value of a `$` variable; unset if nothing gave it one.
@@ -148,6 +153,11 @@ class Interpreter {
     Value value;
   };
 
+  // Far more than any design needs, few enough to fail within a second.
+  static constexpr std::uint32_t kMostNestedCalls = 200000;
+
+  void note_call(std::string_view name, SourceRange range,
+                 const Source* document);
   void unwind_trail(std::size_t mark);
   void find_plan(const CallCode& call, const Callable& callable);
   void assign_unit(Unit& unit, Frame& frame);
@@ -157,6 +167,8 @@ class Interpreter {
   Diagnostics& diagnostics_;
   std::pmr::monotonic_buffer_resource& arena_;
   std::uintptr_t stack_limit_;
+  std::uint32_t depth_ = 0;
+  std::unique_ptr<Diagnostic> failure_;  // while it makes its way out
   std::string design_folder_;
   std::vector<Value> dynamic_;
   std::vector<Saved> trail_;
@@ -172,6 +184,26 @@ class Interpreter {
     std::vector<Value> slots;
   };
   std::deque<UnitFrame> unit_frames_;
+};
+
+// A call while it runs. A failure that passes by takes a note of it, as
+// OpenSCAD's TRACE lines do; a destructor does that without the cost that
+// catching and throwing again has a hundred thousand calls deep.
+template <typename Code>
+class ActiveCall {
+ public:
+  ActiveCall(const Code& code, Frame& frame) : code_(code), frame_(frame) {
+    frame.in.enter_call();
+  }
+  ~ActiveCall() {
+    frame_.in.leave_call(code_.name, code_.range, frame_.document);
+  }
+  ActiveCall(const ActiveCall&) = delete;
+  ActiveCall& operator=(const ActiveCall&) = delete;
+
+ private:
+  const Code& code_;
+  Frame& frame_;
 };
 
 // Restores the `$` variables at the end of a scope.

@@ -527,17 +527,6 @@ void pass_arguments(const ArgumentPlan& plan,
 
 namespace {
 
-// Notes the call in a failure that passes by.
-template <typename Body>
-Value traced(const CallCode& code, Frame& frame, const Body& body) {
-  try {
-    return body();
-  } catch (EvaluationFailure& failure) {
-    failure.note_call(code.name, code.range, frame.document);
-    throw;
-  }
-}
-
 // `$` variables that a tail call's arguments and enclosing lets bind stay
 // bound; everything else of the frame is overwritten.
 void jump(const CallCode& call, const ArgumentPlan& plan,
@@ -712,19 +701,22 @@ Value report_unknown(const CallCode& code, Frame& frame) {
 
 Value run_call_function(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  frame.in.check_stack(code.range, "function", code.name, frame.document);
-  return traced(code, frame, [&] { return call_function(code, frame); });
+  frame.in.check_depth(code.range, "function", code.name, frame.document);
+  const ActiveCall active(code, frame);
+  return call_function(code, frame);
 }
 
 Value run_call_math(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  return traced(code, frame, [&] { return call_math(code, frame); });
+  const ActiveCall active(code, frame);
+  return call_math(code, frame);
 }
 
 Value run_call_builtin(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  frame.in.check_stack(code.range, "function", code.name, frame.document);
-  return traced(code, frame, [&] { return call_builtin(code, frame); });
+  frame.in.check_depth(code.range, "function", code.name, frame.document);
+  const ActiveCall active(code, frame);
+  return call_builtin(code, frame);
 }
 
 Value run_call_unknown(const Expression& expression, Frame& frame) {
@@ -733,28 +725,27 @@ Value run_call_unknown(const Expression& expression, Frame& frame) {
 
 Value run_call_value(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  frame.in.check_stack(code.range, "function", code.name, frame.document);
-  return traced(code, frame, [&] {
-    const Value callee = run(code.callee, frame);
-    if (callee.is_function()) {
-      if (code.is_name && code.name[0] == '$') {
-        warn(frame, code.range,
-             "Can't call function on dynamically scoped variable");
-        return Value();
-      }
-      return call_closure(code, callee, frame);
-    }
-    if (!code.is_name) {
+  frame.in.check_depth(code.range, "function", code.name, frame.document);
+  const ActiveCall active(code, frame);
+  const Value callee = run(code.callee, frame);
+  if (callee.is_function()) {
+    if (code.is_name && code.name[0] == '$') {
       warn(frame, code.range,
-           fmt::format("Can't call function on {}", type_name(callee.type())));
+           "Can't call function on dynamically scoped variable");
       return Value();
     }
-    if (code.function != nullptr) return call_function(code, frame);
-    if (code.builtin != nullptr || code.math != nullptr) {
-      return call_builtin(code, frame);
-    }
-    return report_unknown(code, frame);
-  });
+    return call_closure(code, callee, frame);
+  }
+  if (!code.is_name) {
+    warn(frame, code.range,
+         fmt::format("Can't call function on {}", type_name(callee.type())));
+    return Value();
+  }
+  if (code.function != nullptr) return call_function(code, frame);
+  if (code.builtin != nullptr || code.math != nullptr) {
+    return call_builtin(code, frame);
+  }
+  return report_unknown(code, frame);
 }
 
 }  // namespace lamina::csg

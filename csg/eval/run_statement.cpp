@@ -43,13 +43,9 @@ void run_block(const Block& block, Frame& frame) {
 }
 
 void instantiate(const InstantiationCode& code, Frame& frame) {
-  try {
-    const DynamicScope scope(frame.in);
-    code.run(code, frame);
-  } catch (EvaluationFailure& failure) {
-    failure.note_call(code.name, code.range, frame.document);
-    throw;
-  }
+  const ActiveCall active(code, frame);
+  const DynamicScope scope(frame.in);
+  code.run(code, frame);
 }
 
 // --- Modules of the user ----------------------------------------------------
@@ -99,7 +95,7 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
   const auto& code = as<UserModuleCode>(instantiation);
   Interpreter& in = frame.in;
   Module& module = *code.module;
-  in.check_stack(module.range, "module", code.name, module.unit->document);
+  in.check_depth(module.range, "module", code.name, module.unit->document);
   if (!module.is_resolved) {
     in.resolver().resolve(module);
     in.grow_dynamic();

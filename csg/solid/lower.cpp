@@ -268,9 +268,6 @@ class Lowerer {
 
   Shape lower_op(const LinearExtrude& op, const Node& node,
                  const Affine& world) {
-    if (!op.params->file.empty()) {
-      fail_unsupported(node, "linear_extrude(file = …)");
-    }
     const Shape shape = flatten_children(node, world);
     if (shape.dimension == Dimension::kNone) return {};
     place_leaf(extrude_linearly(*op.params, shape.region), node, world);
@@ -279,7 +276,6 @@ class Lowerer {
 
   Shape lower_op(const RotateExtrude& op, const Node& node,
                  const Affine& world) {
-    if (!op.file.empty()) fail_unsupported(node, "rotate_extrude(file = …)");
     const Shape shape = flatten_children(node, world);
     if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
     const ProfileRange range = profile_range(shape.region);
