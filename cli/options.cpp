@@ -145,6 +145,7 @@ void add_design_options(CLI::App& app, DesignOptions& options,
   app.add_option("-D", definitions)
       ->type_name("NAME=VALUE")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("--hardwarnings", options.has_hard_warnings);
   app.add_flag("-q,--quiet", options.is_quiet);

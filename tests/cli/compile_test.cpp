@@ -94,6 +94,13 @@ TEST(Compile, DefinitionsOverrideTheDesign) {
   EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 18, 1e-4);
 }
 
+TEST(Compile, ADefinitionTakesOneWordOnly) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "w = 1; h = 1; cube([w, 1, h]);");
+  ASSERT_EQ(run(folder, {"-D", "w=3", "-D", "h=2*w", "a.scad"}).status, 0);
+  EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 18, 1e-4);
+}
+
 TEST(Compile, EveryAxisKeepsVolumeAndTurnsRightHanded) {
   const TemporaryFolder folder;
   // Three arms of different length show each turn.
