@@ -104,9 +104,9 @@ void append_carets(std::string& text, SourceRange range) {
   constexpr std::size_t kWidest = 200;  // bytes; longer lines are not shown
   const LineColumn place = range.source->line_column(range.begin);
   const std::string_view line = range.source->line_text(place.line);
+  if (line.size() > kWidest) return;
   const std::string shown = printable(line);
-  const bool is_blank = shown.find_first_not_of(' ') == std::string::npos;
-  if (is_blank || line.size() > kWidest) return;
+  if (shown.find_first_not_of(' ') == std::string::npos) return;
   const std::size_t begin =
       std::min<std::size_t>(place.column - 1, line.size());
   const std::size_t end = std::clamp<std::size_t>(

@@ -34,6 +34,10 @@ Scope& Resolver::open_scope(Scope& parent, Activation& activation) {
   scopes_.emplace_back();
   Scope& scope = scopes_.back();
   scope.parent = &parent;
+  const bool has_definitions =
+      !parent.functions.empty() || !parent.modules.empty();
+  scope.definitions_outside =
+      has_definitions ? &parent : parent.definitions_outside;
   scope.activation = &activation;
   scope.unit = parent.unit;
   return scope;
@@ -129,7 +133,7 @@ void Resolver::declare(Scope& scope, ast::Statements statements, Unit& unit) {
 
 Resolver::Callee Resolver::find_function(const Scope& scope,
                                          std::string_view name) {
-  for (const Scope* s = &scope; s != nullptr; s = s->parent) {
+  for (const Scope* s = &scope; s != nullptr; s = s->definitions_outside) {
     const auto found = s->functions.find(name);
     if (found != s->functions.end()) return {found->second, nullptr, false};
   }
@@ -146,7 +150,7 @@ Resolver::Callee Resolver::find_function(const Scope& scope,
 
 Resolver::Callee Resolver::find_module(const Scope& scope,
                                        std::string_view name) {
-  for (const Scope* s = &scope; s != nullptr; s = s->parent) {
+  for (const Scope* s = &scope; s != nullptr; s = s->definitions_outside) {
     const auto found = s->modules.find(name);
     if (found != s->modules.end()) return {nullptr, found->second, false};
   }

@@ -50,6 +50,9 @@ struct Activation {
 
 struct Scope {
   Scope* parent = nullptr;
+  // The nearest scope outside that defines functions or modules: a look-up
+  // need not climb through a thousand nested blocks.
+  const Scope* definitions_outside = nullptr;
   Activation* activation = nullptr;
   Unit* unit = nullptr;
   bool is_definition_scope = false;  // of a file or module

@@ -101,6 +101,16 @@ TEST(Compile, ADefinitionTakesOneWordOnly) {
   EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 18, 1e-4);
 }
 
+// Names are looked up, and scopes opened, at every level.
+TEST(Compile, NestsAHundredThousandModules) {
+  const TemporaryFolder folder;
+  std::string design;
+  for (int level = 0; level < 100000; ++level) design += "translate([0, 0]) ";
+  folder.write("a.scad", design + "cube(1);");
+  ASSERT_EQ(run(folder, {"a.scad"}).status, 0);
+  EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 1, 1e-4);
+}
+
 TEST(Compile, EveryAxisKeepsVolumeAndTurnsRightHanded) {
   const TemporaryFolder folder;
   // Three arms of different length show each turn.
