@@ -53,6 +53,8 @@ std::string report_json(const RunReport& report) {
   add("slabs", slice.sweep.slabs);
   add("stops", slice.sweep.stops);
   add("evaluations", slice.sweep.evaluations);
+  add("resolved_layers", slice.sweep.resolved_layers);
+  add("open_paths", slice.open_paths);
   add("capped_columns", slice.sweep.capped_columns);
   add("repaired_columns", slice.sweep.repaired_columns);
   json += "\n}\n";

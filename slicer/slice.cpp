@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
@@ -37,6 +38,7 @@ class BlockSlicer {
   // Replaces `contours` by the loops of layer `index` of the block.
   virtual void make_contours(std::uint32_t index, ldni::Contours& contours) = 0;
   virtual ldni::SweepCounts counts() const = 0;
+  virtual std::uint64_t open_paths() const { return 0; }
 };
 
 // Leaf sections and the kinetic ray.
@@ -48,16 +50,19 @@ class FaithfulSlicer : public BlockSlicer {
 
   void section(std::uint32_t first_layer, std::uint32_t layer_count) override {
     sectioner_.cut(first_layer, layer_count, chains_);
+    open_paths_ += chains_.open_paths;
   }
   void make_contours(std::uint32_t index, ldni::Contours& contours) override {
     ray_.sweep(chains_, index, contours);
   }
   ldni::SweepCounts counts() const override { return ray_.counts(); }
+  std::uint64_t open_paths() const override { return open_paths_; }
 
  private:
   const ldni::LeafSectioner& sectioner_;
   ldni::KineticRay ray_;
   ldni::ChainBlock chains_;
+  std::uint64_t open_paths_ = 0;
 };
 
 // Depth images and links.
@@ -222,8 +227,10 @@ class Job {
             tbb::make_filter<Block*, void>(
                 tbb::filter_mode::serial_in_order,
                 [&](Block* block) { hand_on(*block, output, report); }));
-    for (const Worker& worker : workers_)
+    for (const Worker& worker : workers_) {
       report.sweep += worker.slicer->counts();
+      report.open_paths += worker.slicer->open_paths();
+    }
   }
 
  private:
@@ -287,6 +294,20 @@ class Job {
   std::uint32_t started_ = 0;
 };
 
+// What must not happen, and would be a fault of ours, is never silent.
+void warn_of_broken_promises(const SliceReport& report,
+                             Diagnostics& diagnostics) {
+  const auto warn = [&](std::uint64_t count, const char* what) {
+    if (count == 0) return;
+    diagnostics.warning({}, fmt::format("{} {}; the layers may be wrong there, "
+                                        "please report",
+                                        count, what));
+  };
+  warn(report.open_paths, "open paths in the sections of leaves were closed");
+  warn(report.sweep.capped_columns, "stops of the ray did not settle");
+  warn(report.sweep.repaired_columns, "ends of boundary found no partner");
+}
+
 [[noreturn]] void throw_empty() {
   throw GeometryError(
       {Severity::kError, {}, "Current top level object is empty.", {}});
@@ -295,7 +316,7 @@ class Job {
 }  // namespace
 
 SliceReport slice(const csg::Scene& scene, const Settings& settings,
-                  LayerSink& sink, Diagnostics& /*diagnostics*/) {
+                  LayerSink& sink, Diagnostics& diagnostics) {
   const bool keeps_empty = !settings.heights.empty();
   if (scene.box.is_empty() && !keeps_empty) throw_empty();
   const unsigned threads =
@@ -314,6 +335,7 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   OrderedOutput output(grid, keeps_empty, sink, report);
   Job(plan, grid.layer_count(), settings.tolerance, threads)
       .run(output, report);
+  warn_of_broken_promises(report, diagnostics);
   if (report.layers == 0) throw_empty();
   return report;
 }

@@ -14,6 +14,8 @@ namespace lamina::slicer {
 // threads.
 struct SliceReport {
   ldni::SweepCounts sweep;
+  std::uint64_t open_paths =
+      0;                       // of leaves' sections, closed: 0 if all is well
   double section_seconds = 0;  // leaves to chains, or to samples
   double sweep_seconds = 0;    // Boolean and contours
   double output_seconds = 0;   // simplification and writing

@@ -124,5 +124,19 @@ TEST(Slice, NothingToSliceIsAnError) {
   EXPECT_TRUE(list.layers.empty());
 }
 
+// Lowering mends every mesh, so this is a fault of ours, which must not pass
+// in silence.
+TEST(Slice, WarnsWhereALeafIsOpen) {
+  csg::Scene scene = drilled_ball();
+  auto& triangles = scene.leaves[0].meshes[0].triangles;
+  triangles.erase(triangles.begin() + 1000);
+  LayerList list;
+  Diagnostics diagnostics;
+  const SliceReport report = slice(scene, {}, list, diagnostics);
+  EXPECT_GT(report.open_paths, 0U);
+  ASSERT_EQ(diagnostics.all().size(), 1U);
+  EXPECT_EQ(diagnostics.all()[0].severity, Severity::kWarning);
+}
+
 }  // namespace
 }  // namespace lamina::slicer
