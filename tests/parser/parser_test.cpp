@@ -266,7 +266,8 @@ TEST(HostileInput, DeepNestingIsAResultOrAClearError) {
       Parsed(std::string("x=") + repeat("[", kDeep) + repeat("]", kDeep) + ";")
           .ast()
           .size(),
-      std::string("//Parameter(\"\")\nx = ;\n").size() + std::size_t{2} * kDeep);
+      std::string("//Parameter(\"\")\nx = ;\n").size() +
+          std::size_t{2} * kDeep);
   const std::string words =
       "ERROR: Parser error: memory exhausted in file x.scad, line 1\n";
   for (const char* nested : {"[", "(", "{", "-", "a?b:", "2^", "translate()",
