@@ -127,9 +127,50 @@ struct Polygon {
   int convexity = 1;
   std::string_view csg_text = {};  // as for Polyhedron
 };
-// Modules whose geometry is not supported yet, extrusions with the deprecated
-// file= among them, keep the text that `.csg` prints for them
-// (`text(text = "a", …)`), whole.
+// What comes from fonts and files keeps, beside its parameters, the text that
+// `.csg` prints for it (`text(text = "a", …)`), whole: paths and time stamps
+// are in it as OpenSCAD shows them.
+struct TextParams {
+  std::string_view text;  // UTF-8
+  double size = 10;
+  double spacing = 1;
+  std::string_view font;       // as fontconfig reads it; empty: the default
+  std::string_view direction;  // "ltr", "rtl", "ttb", "btt"
+  std::string_view language;
+  std::string_view script;  // ISO 15924; empty: none
+  std::string_view halign;  // as given, valid or not
+  std::string_view valign;
+  Facets facets = {};
+  std::string_view csg_text;
+};
+struct Text {
+  const TextParams* params;
+};
+struct ImportParams {
+  std::string_view path;  // to open; of what format, its extension says
+  std::string_view layer;
+  Vec2 origin = Vec2(0);
+  bool center = false;
+  double dpi = 72;
+  double scale = 1;
+  int convexity = 1;
+  Facets facets = {};
+  std::string_view csg_text;
+};
+struct Import {
+  const ImportParams* params;
+};
+struct SurfaceParams {
+  std::string_view path;  // to open
+  bool center = false;
+  bool invert = false;
+  int convexity = 1;
+  std::string_view csg_text;
+};
+struct Surface {
+  const SurfaceParams* params;
+};
+// Extrusions with the deprecated file=, not supported yet.
 struct Unsupported {
   std::string_view name;
   std::string_view csg_text;
@@ -139,7 +180,7 @@ struct Node {
   std::variant<Group, Union, Difference, Intersection, Hull, Minkowski, Render,
                Transform, Color, Resize, Offset, Projection, LinearExtrude,
                RotateExtrude, Cube, Sphere, Cylinder, Polyhedron, Square,
-               Circle, Polygon, Unsupported>
+               Circle, Polygon, Text, Import, Surface, Unsupported>
       op;
   std::span<const Node* const> children;
   SourceRange range;

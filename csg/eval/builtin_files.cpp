@@ -34,10 +34,13 @@ void append_number_field(std::string_view name, double number,
   text += ", ";
 }
 
-void make_leaf(std::string_view name, const std::string& csg_text,
+// Makes a leaf that stands for itself in `.csg` with `csg_text`.
+template <typename Leaf, typename Params>
+void make_leaf(Params params, const std::string& csg_text,
                const BuiltinModuleCode& code, Frame& frame) {
   Interpreter& in = frame.in;
-  in.make_node(Unsupported{name, in.keep_text(csg_text)}, code, in.node_mark());
+  params.csg_text = in.keep_text(csg_text);
+  in.make_node(Leaf{in.keep(params)}, code, in.node_mark());
 }
 
 // --- text -------------------------------------------------------------------
@@ -62,12 +65,22 @@ void text(const BuiltinModuleCode& code, Frame& frame) {
     kSpacing
   };
   const ModuleArguments arguments(code, frame);
-  const Facets facets = current_facets(frame.in);
+  Interpreter& in = frame.in;
   const std::string content = string_or(arguments[kText], "");
   const std::string script =
       text_script(content, string_or(arguments[kScript], ""));
-  const std::string direction =
-      text_direction(script, string_or(arguments[kDirection], ""));
+  TextParams params;
+  params.text = in.keep_text(content);
+  params.size = number_or(arguments[kSize], 10.0);
+  params.spacing = number_or(arguments[kSpacing], 1.0);
+  params.font = in.keep_text(string_or(arguments[kFont], ""));
+  params.direction = in.keep_text(
+      text_direction(script, string_or(arguments[kDirection], "")));
+  params.language = in.keep_text(string_or(arguments[kLanguage], "en"));
+  params.script = in.keep_text(script);
+  params.halign = in.keep_text(string_or(arguments[kHalign], "left"));
+  params.valign = in.keep_text(string_or(arguments[kValign], "baseline"));
+  params.facets = current_facets(in);
   std::string csg = "text(";
   // Quoted, but not escaped: so OpenSCAD has it.
   const auto append_string = [&csg](std::string_view name,
@@ -77,17 +90,17 @@ void text(const BuiltinModuleCode& code, Frame& frame) {
     csg += value;
     csg += "\", ";
   };
-  append_string("text", content);
-  append_number_field("size", number_or(arguments[kSize], 10.0), csg);
-  append_number_field("spacing", number_or(arguments[kSpacing], 1.0), csg);
-  append_string("font", string_or(arguments[kFont], ""));
-  append_string("direction", direction);
-  append_string("language", string_or(arguments[kLanguage], "en"));
+  append_string("text", params.text);
+  append_number_field("size", params.size, csg);
+  append_number_field("spacing", params.spacing, csg);
+  append_string("font", params.font);
+  append_string("direction", params.direction);
+  append_string("language", params.language);
   if (!script.empty()) append_string("script", script);
-  append_string("halign", string_or(arguments[kHalign], "left"));
-  append_string("valign", string_or(arguments[kValign], "baseline"));
-  append_facets(facets, csg);
-  make_leaf("text", csg + ")", code, frame);
+  append_string("halign", params.halign);
+  append_string("valign", params.valign);
+  append_facets(params.facets, csg);
+  make_leaf<Text>(params, csg + ")", code, frame);
 }
 
 // --- surface ----------------------------------------------------------------
@@ -99,12 +112,18 @@ void surface(const BuiltinModuleCode& code, Frame& frame) {
   const std::string path =
       find_file(file.is_undef() ? "" : to_text(file), code, frame);
   const auto is_true = [&](std::size_t i) {
-    return arguments[i].is_bool() && arguments[i].as_bool() ? "true" : "false";
+    return arguments[i].is_bool() && arguments[i].as_bool();
   };
-  std::string csg = "surface(file = " + relative_quoted(path, frame);
-  csg += fmt::format(", center = {}, invert = {}, {})", is_true(kCenter),
-                     is_true(kInvert), timestamp_text(path));
-  make_leaf("surface", csg, code, frame);
+  SurfaceParams params;
+  params.path = frame.in.keep_text(path);
+  params.center = is_true(kCenter);
+  params.invert = is_true(kInvert);
+  params.convexity = std::max(to_int(arguments[kConvexity]), 1);
+  const std::string csg =
+      fmt::format("surface(file = {}, center = {}, invert = {}, {})",
+                  relative_quoted(path, frame), params.center, params.invert,
+                  timestamp_text(path));
+  make_leaf<Surface>(params, csg, code, frame);
 }
 
 // --- import -----------------------------------------------------------------
@@ -156,29 +175,36 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
                               "converted",
                               to_echo(origin)));
   }
-  const Vec2 shift = given.value_or(Vec2(0.0));
+  Interpreter& in = frame.in;
+  ImportParams params;
+  params.path = in.keep_text(path);
+  params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
+  params.origin = given.value_or(Vec2(0.0));
+  params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
+  constexpr double kDefaultDpi = 72.0;
+  const double dpi = number_or(arguments[kDpi], kDefaultDpi);
+  params.dpi = dpi < 0.001 ? kDefaultDpi : dpi;
+  const double scale = arguments[kScale].number_or_zero();
+  params.scale = scale <= 0 ? 1 : scale;
+  params.convexity = std::max(to_int(arguments[kConvexity]), 1);
+  params.facets = current_facets(in);
   std::string csg = "import(file = " + relative_quoted(path, frame);
   csg += ", layer = ";
-  append_quoted(layer.is_undef() ? "" : to_text(layer), csg);
+  append_quoted(params.layer, csg);
   csg += ", origin = [";
-  append_stream_number(shift.x, csg);
+  append_stream_number(params.origin.x, csg);
   csg += ", ";
-  append_stream_number(shift.y, csg);
+  append_stream_number(params.origin.y, csg);
   csg += "], ";
   if (ends_like(path, ".svg") && code.name == "import") {
-    const bool center =
-        arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
-    csg += fmt::format("center = {}, ", center);
-    constexpr double kDefaultDpi = 72.0;
-    const double dpi = number_or(arguments[kDpi], kDefaultDpi);
-    append_number_field("dpi", dpi < 0.001 ? kDefaultDpi : dpi, csg);
+    csg += fmt::format("center = {}, ", params.center);
+    append_number_field("dpi", params.dpi, csg);
   }
-  const double scale = arguments[kScale].number_or_zero();
-  append_number_field("scale", scale <= 0 ? 1 : scale, csg);
-  csg += fmt::format("convexity = {}, ",
-                     std::max(to_int(arguments[kConvexity]), 1));
-  append_facets(current_facets(frame.in), csg);
-  make_leaf("import", csg + ", " + timestamp_text(path) + ")", code, frame);
+  append_number_field("scale", params.scale, csg);
+  csg += fmt::format("convexity = {}, ", params.convexity);
+  append_facets(params.facets, csg);
+  make_leaf<Import>(params, csg + ", " + timestamp_text(path) + ")", code,
+                    frame);
 }
 
 }  // namespace

@@ -179,6 +179,9 @@ struct OpPrinter {
     }
     out << ", convexity = " << op.convexity << ")";
   }
+  void operator()(const Text& op) { out << op.params->csg_text; }
+  void operator()(const Import& op) { out << op.params->csg_text; }
+  void operator()(const Surface& op) { out << op.params->csg_text; }
   void operator()(const Unsupported& op) { out << op.csg_text; }
 };
 

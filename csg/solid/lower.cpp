@@ -350,6 +350,15 @@ class Lowerer {
   Shape lower_op(const Projection&, const Node& node, const Affine&) {
     return lower_later(node, "projection");
   }
+  Shape lower_op(const Text&, const Node& node, const Affine&) {
+    fail_unsupported(node, "text");
+  }
+  Shape lower_op(const Import&, const Node& node, const Affine&) {
+    fail_unsupported(node, "import");
+  }
+  Shape lower_op(const Surface&, const Node& node, const Affine&) {
+    fail_unsupported(node, "surface");
+  }
   Shape lower_op(const Unsupported& op, const Node& node, const Affine&) {
     fail_unsupported(node, op.name);
   }

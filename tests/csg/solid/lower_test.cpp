@@ -189,7 +189,7 @@ TEST_F(LowerTest, BoxesAreThoseOfTheVertices) {
 
 TEST_F(LowerTest, UnsupportedModulesEndTheRun) {
   EXPECT_THROW(run({b.node(Hull{}, {b.cube(Vec3(1))})}), GeometryError);
-  EXPECT_THROW(run({b.node(Unsupported{"text", ""})}), GeometryError);
+  EXPECT_THROW(run({b.node(Unsupported{"linear_extrude", ""})}), GeometryError);
 }
 
 TEST_F(LowerTest, WithoutOperandsNothingNeedsSupport) {
