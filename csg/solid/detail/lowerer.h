@@ -1,0 +1,120 @@
+#pragma once
+// The walk that lowers a tree, one overload for each kind of node.
+//
+// Cut by what a node is: lower_operators.cpp has the operators and how
+// operands of two and three dimensions meet, lower_leaves.cpp the solids that
+// stand at the bottom, lower_planar.cpp what lies in the plane, and
+// lower_boundary.cpp the operators that need the explicit boundary of their
+// subtree (hull, minkowski, resize, projection).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "csg/planar/region.h"
+#include "csg/scene.h"
+#include "csg/solid/detail/leaf_store.h"
+#include "csg/solid/detail/program_builder.h"
+#include "csg/tree.h"
+#include "parser/diagnostic.h"
+
+namespace lamina::csg {
+
+// What a subtree is. A solid's parts stand on the program builder's stack, and
+// there may be none: an empty solid still is three-dimensional.
+enum class Dimension { kNone, kFlat, kSolid };
+struct Shape {
+  Dimension dimension = Dimension::kNone;
+  planar::Region region = {};
+};
+
+class Lowerer {
+ public:
+  // instances  about as many as there will be
+  Lowerer(std::size_t instances, Diagnostics& diagnostics);
+
+  // The solid parts of the subtree are left on top of the builder's stack, in
+  // world coordinates; a region is in the node's own coordinates.
+  Shape lower(const Node& node, const Affine& world);
+
+  Scene take_scene();
+  bool has_parts() const { return builder_.mark() > 0; }
+
+ private:
+  // --- lower_operators.cpp --------------------------------------------------
+  Shape lower_op(const Group&, const Node& node, const Affine& world);
+  Shape lower_op(const Union&, const Node& node, const Affine& world);
+  Shape lower_op(const Render&, const Node& node, const Affine& world);
+  Shape lower_op(const Color&, const Node& node, const Affine& world);
+  Shape lower_op(const Difference&, const Node& node, const Affine& world);
+  Shape lower_op(const Intersection&, const Node& node, const Affine& world);
+  Shape lower_op(const Transform& op, const Node& node, const Affine& world);
+  Shape lower_op(const Unsupported& op, const Node& node, const Affine& world);
+
+  // The operands of an operator: those of the first child's dimension.
+  struct Operands {
+    Dimension dimension = Dimension::kNone;
+    std::size_t count = 0;
+    std::vector<std::size_t> begins;  // on the stack; not kept for a union
+    std::vector<planar::Region> regions;
+    std::vector<const Node*> strays;  // of the other dimension
+    const Node* first_mixed = nullptr;
+  };
+  void add_operand(const Node& child, const Affine& world, bool is_union,
+                   Operands& operands);
+  void report_strays(const Operands& operands);
+  Shape lower_children(const Node& node, const Affine& world, BooleanOp op);
+
+  // --- lower_leaves.cpp -----------------------------------------------------
+  Shape lower_op(const Cube& cube, const Node& node, const Affine& world);
+  Shape lower_op(const Sphere& sphere, const Node& node, const Affine& world);
+  Shape lower_op(const Cylinder& c, const Node& node, const Affine& world);
+  Shape lower_op(const Polyhedron& polyhedron, const Node& node,
+                 const Affine& world);
+  Shape lower_op(const LinearExtrude& op, const Node& node,
+                 const Affine& world);
+  Shape lower_op(const RotateExtrude& op, const Node& node,
+                 const Affine& world);
+  Shape lower_op(const Surface& op, const Node& node, const Affine& world);
+
+  void place_leaf(Leaf leaf, const Node& node, const Affine& world);
+  void place(std::uint32_t leaf, Vec3 size, const Node& node,
+             const Affine& world);
+  Box3 bound(std::uint32_t leaf, const Affine& m);
+
+  // --- lower_planar.cpp -----------------------------------------------------
+  Shape lower_op(const Square& op, const Node& node, const Affine& world);
+  Shape lower_op(const Circle& op, const Node& node, const Affine& world);
+  Shape lower_op(const Polygon& op, const Node& node, const Affine& world);
+  Shape lower_op(const Offset& op, const Node& node, const Affine& world);
+  Shape lower_op(const Text& op, const Node& node, const Affine& world);
+  // A solid or a region: its file says.
+  Shape lower_op(const Import& op, const Node& node, const Affine& world);
+
+  // The children's union in the plane, whatever else there is.
+  Shape flatten_children(const Node& node, const Affine& world);
+
+  // --- lower_boundary.cpp ---------------------------------------------------
+  Shape lower_op(const Hull& op, const Node& node, const Affine& world);
+  Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
+  Shape lower_op(const Resize& op, const Node& node, const Affine& world);
+  Shape lower_op(const Projection& op, const Node& node, const Affine& world);
+
+  struct KeptBox {
+    std::uint32_t leaf = 0;
+    Affine linear{0.0};
+    Box3 box;
+  };
+
+  Diagnostics& diagnostics_;
+  LeafStore leaves_;
+  ProgramBuilder builder_;
+  std::array<KeptBox, 64> kept_boxes_;
+};
+
+// Throws GeometryError, with the node's chain of calls.
+[[noreturn]] void fail_unsupported(const Node& node, std::string_view module);
+
+}  // namespace lamina::csg

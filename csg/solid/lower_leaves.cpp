@@ -1,0 +1,128 @@
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "csg/planar/facets.h"
+#include "csg/solid/detail/extrude.h"
+#include "csg/solid/detail/leaf_box.h"
+#include "csg/solid/detail/lowerer.h"
+#include "csg/solid/detail/polyhedron.h"
+
+namespace lamina::csg {
+namespace {
+
+// Other sizes than these make OpenSCAD's primitives empty.
+bool is_size(double x) { return x > 0 && std::isfinite(x); }
+
+}  // namespace
+
+Shape Lowerer::lower_op(const Cube& cube, const Node& node,
+                        const Affine& world) {
+  if (is_size(cube.size.x) && is_size(cube.size.y) && is_size(cube.size.z)) {
+    place(leaves_.unit_cube(cube.center), cube.size, node, world);
+  }
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Sphere& sphere, const Node& node,
+                        const Affine& world) {
+  if (is_size(sphere.r)) {
+    const int n = planar::fragment_count(sphere.r, sphere.facets);
+    place(leaves_.unit_sphere(n), Vec3(sphere.r), node, world);
+  }
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Cylinder& c, const Node& node,
+                        const Affine& world) {
+  const double r = std::fmax(c.r1, c.r2);
+  if (!is_size(c.h) || !is_size(r) || !(c.r1 >= 0 && c.r2 >= 0)) {
+    return {Dimension::kSolid};
+  }
+  const int n = planar::fragment_count(r, c.facets);
+  // A cone keeps its radii: their ratio would not give back the same bits.
+  const bool is_straight = c.r1 == c.r2;
+  const Vec3 size = is_straight ? Vec3(r, r, c.h) : Vec3(1, 1, c.h);
+  const std::uint32_t leaf =
+      is_straight ? leaves_.unit_height_cone(1, 1, c.center, n)
+                  : leaves_.unit_height_cone(c.r1, c.r2, c.center, n);
+  place(leaf, size, node, world);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
+                        const Affine& world) {
+  Leaf leaf;
+  leaf.meshes.push_back(make_polyhedron(polyhedron, node.range, diagnostics_));
+  leaf.may_overlap_itself = true;
+  place_leaf(std::move(leaf), node, world);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const LinearExtrude& op, const Node& node,
+                        const Affine& world) {
+  const Shape shape = flatten_children(node, world);
+  if (shape.dimension == Dimension::kNone) return {};
+  place_leaf(extrude_linearly(*op.params, shape.region), node, world);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
+                        const Affine& world) {
+  const Shape shape = flatten_children(node, world);
+  if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
+  const ProfileRange range = profile_range(shape.region);
+  if (range.crosses_axis()) {
+    diagnostics_.error(
+        node.range,
+        fmt::format("all points for rotate_extrude() must have the same X "
+                    "coordinate sign (range is {:.2f} -> {:.2f})",
+                    range.low, range.high));
+    return {};
+  }
+  const int n = planar::fragment_count(range.high - range.low, op.facets);
+  place_leaf(extrude_around(shape.region, op.angle_deg, n), node, world);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Surface&, const Node& node, const Affine&) {
+  fail_unsupported(node, "surface");
+}
+
+void Lowerer::place_leaf(Leaf leaf, const Node& node, const Affine& world) {
+  const bool is_empty =
+      leaf.sweeps.empty() &&
+      (leaf.meshes.empty() || leaf.meshes.front().triangles.empty());
+  if (!is_empty) {
+    place(leaves_.add(std::move(leaf)), Vec3(1), node, world);
+  }
+}
+
+void Lowerer::place(std::uint32_t leaf, Vec3 size, const Node& node,
+                    const Affine& world) {
+  Instance instance;
+  instance.leaf = leaf;
+  instance.world_from_leaf = {world[0] * size.x, world[1] * size.y,
+                              world[2] * size.z, world[3]};
+  instance.box = bound(leaf, instance.world_from_leaf);
+  instance.range = node.range;
+  instance.caller = node.caller;
+  builder_.push(instance);
+}
+
+// Many instances of a leaf differ in their shift only: recent boxes are kept.
+Box3 Lowerer::bound(std::uint32_t leaf, const Affine& m) {
+  const double mix = m[0].x + 3 * m[0].y + 5 * m[1].y + 7 * m[2].z + leaf;
+  const std::size_t slot =
+      (std::bit_cast<std::uint64_t>(mix) * 0x9e3779b97f4a7c15u) >> 58;
+  KeptBox& kept = kept_boxes_[slot];
+  const bool is_same = kept.leaf == leaf && kept.linear[0] == m[0] &&
+                       kept.linear[1] == m[1] && kept.linear[2] == m[2];
+  if (!is_same) kept = {leaf, m, bound_leaf(leaves_[leaf], m)};
+  return shift_box(kept.box, m[3]);
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,53 @@
+#include "csg/planar/facets.h"
+#include "csg/solid/detail/flat.h"
+#include "csg/solid/detail/lowerer.h"
+
+namespace lamina::csg {
+
+Shape Lowerer::lower_op(const Square& square, const Node&, const Affine&) {
+  return {Dimension::kFlat, planar::square(square.size, square.center)};
+}
+
+Shape Lowerer::lower_op(const Circle& circle, const Node&, const Affine&) {
+  const int n = planar::fragment_count(circle.r, circle.facets);
+  return {Dimension::kFlat, planar::circle(circle.r, n)};
+}
+
+Shape Lowerer::lower_op(const Polygon& polygon, const Node& node,
+                        const Affine&) {
+  return {Dimension::kFlat, make_polygon(polygon, node.range, diagnostics_)};
+}
+
+Shape Lowerer::lower_op(const Offset& op, const Node& node,
+                        const Affine& world) {
+  const Shape shape = flatten_children(node, world);
+  if (shape.dimension == Dimension::kNone) return {};
+  return {Dimension::kFlat,
+          offset_region(op, shape.region, node.range, diagnostics_)};
+}
+
+Shape Lowerer::lower_op(const Text&, const Node& node, const Affine&) {
+  fail_unsupported(node, "text");
+}
+
+Shape Lowerer::lower_op(const Import&, const Node& node, const Affine&) {
+  fail_unsupported(node, "import");
+}
+
+Shape Lowerer::flatten_children(const Node& node, const Affine& world) {
+  Operands operands;
+  operands.dimension = Dimension::kFlat;
+  for (const Node* child : node.children) {
+    if (child->is_background) continue;
+    add_operand(*child, world, true, operands);
+  }
+  operands.first_mixed = nullptr;
+  report_strays(operands);
+  if (operands.regions.empty()) {
+    return {operands.count > 1 ? Dimension::kFlat : Dimension::kNone};
+  }
+  return {Dimension::kFlat, combine_regions(BooleanOp::kUnion, operands.regions,
+                                            node.range, diagnostics_)};
+}
+
+}  // namespace lamina::csg
