@@ -468,6 +468,12 @@ ExactRegion exact_section(const csg::Mesh& mesh, double z, double gap) {
   return region_of_edges(cutter.edges());
 }
 
+double overlap_of_section(const csg::Mesh& mesh, double z, double gap) {
+  MeshCutter cutter(mesh, z);
+  cutter.join_open_ends(gap);
+  return compare_edges(ExactRegion(), cutter.edges()).overlap_area;
+}
+
 ExactRegion region_of_loops(const ldni::Contours& contours) {
   return region_of_edges(edges_of_loops(contours));
 }

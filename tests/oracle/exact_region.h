@@ -54,6 +54,10 @@ ExactRegion exact_section(const WorldScene& scene, double z);
 // Open ends no further apart than `gap` [mm] are joined; others throw.
 ExactRegion exact_section(const csg::Mesh& mesh, double z, double gap);
 
+// Where the section of a mesh winds other than 0 or 1 times [mm²]: the mesh
+// overlaps itself or is turned inside out.
+double overlap_of_section(const csg::Mesh& mesh, double z, double gap);
+
 // Where loops wind at least once.
 ExactRegion region_of_loops(const ldni::Contours& contours);
 

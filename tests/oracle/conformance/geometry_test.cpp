@@ -1,0 +1,231 @@
+// Geometry of the designs that come with OpenSCAD: its tests and examples.
+//
+// Each is rendered by openscad and by lamina; sections of openscad's mesh at
+// seven generic heights, or the outline of a 2D design, judge lamina's layers:
+// regions and holes equal, the symmetric difference within openscad's own
+// rounding times the perimeter. A mesh that is open or overlaps itself in a
+// section, or that openscad left a part out of, is no judge of that design.
+// Every case leaves a row for the table that `geometry_table` prints;
+// docs/conformance.md lists the exceptions.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/oracle/conformance/reference.h"
+#include "tests/oracle/exact_region.h"
+#include "tests/oracle/judge.h"
+#include "tests/oracle/openscad.h"
+#include "tests/oracle/world_scene.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::oracle {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = "/usr/share/openscad";
+const fs::path kRows = LAMINA_GEOMETRY_ROWS;
+
+constexpr std::size_t kHeights = 7;
+constexpr int kLaminaSeconds = 60;
+
+// OpenSCAD's own grid of 2D designs, 2^-16 mm, and a bit [mm].
+constexpr double kOpenScadDistance = 2e-5;
+
+std::vector<std::string> design_names() {
+  std::vector<std::string> names;
+  for (const char* folder :
+       {"examples", "testdata/scad/2D", "testdata/scad/3D", "testdata/scad/svg",
+        "testdata/scad/dxf", "testdata/scad/stl", "testdata/scad/amf",
+        "testdata/scad/3mf"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      if (entry.path().extension() != ".scad") continue;
+      names.push_back(entry.path().lexically_relative(kRoot).string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// Whether docs/conformance.md has a row for the design.
+bool is_exception(const std::string& name) {
+  static const std::string page =
+      support::read_file(LAMINA_SOURCES "/docs/conformance.md");
+  return page.find(fmt::format("| `{}` |", name)) != std::string::npos;
+}
+
+struct LaminaResult {
+  bool is_empty = false;
+  std::string complaint;  // why there are no layers
+  std::vector<ldni::Contours> layers;
+};
+
+LaminaResult run_lamina(const fs::path& design,
+                        const std::vector<double>& heights) {
+  const support::TemporaryFolder folder;
+  const std::string output = folder.file("out.layers.json");
+  std::vector<std::string> arguments = {
+      "timeout",      std::to_string(kLaminaSeconds),
+      LAMINA_PROGRAM, design,
+      "-o",           output,
+      "--tolerance",  "0"};
+  if (!heights.empty()) {
+    arguments.push_back(fmt::format("--heights={}", fmt::join(heights, ",")));
+  }
+  const auto result = support::run_process(arguments);
+  LaminaResult lamina;
+  lamina.is_empty = result.errors.find("object is empty") != std::string::npos;
+  if (result.status != 0) {
+    const std::string& words = result.errors;
+    const std::size_t error = words.find("error: ");
+    lamina.complaint =
+        fmt::format("lamina ends with {}: {}", result.status,
+                    words.substr(error == std::string::npos ? 0 : error, 200));
+    return lamina;
+  }
+  const auto json = nlohmann::json::parse(support::read_file(output));
+  for (const auto& layer : json["layers"]) {
+    ldni::Contours contours;
+    for (const auto& contour : layer["contours"]) {
+      for (const auto& p : contour["points"])
+        contours.points.push_back({p[0], p[1]});
+      contours.ends.push_back(
+          static_cast<std::uint32_t>(contours.points.size()));
+    }
+    lamina.layers.push_back(std::move(contours));
+  }
+  return lamina;
+}
+
+struct Outcome {
+  std::string verdict;    // equal, differs, no-judge, empty, failed, slow
+  std::string complaint;  // of a design that differs
+  double distance = 0;    // symmetric difference / perimeter [mm]
+};
+
+std::vector<double> heights_of(const csg::Mesh& mesh) {
+  const auto [low, high] = std::minmax_element(
+      mesh.vertices.begin(), mesh.vertices.end(),
+      [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+  return generic_heights({{mesh}, {}, {}, {}}, low->z, high->z, kHeights);
+}
+
+// Why openscad's mesh is no judge of a section that differs; empty: it is one.
+std::string fault_of(const Reference& reference, double z, double distance) {
+  constexpr std::string_view kPartMissing =
+      "Unable to convert to CGAL_Nef_Polyhedron";
+  if (reference.words.find(kPartMissing) != std::string::npos) {
+    return fmt::format("openscad left a part out: {}", kPartMissing);
+  }
+  const double overlap = overlap_of_section(reference.mesh, z, distance);
+  const double allowed =
+      distance *
+      compare(exact_section(reference.mesh, z, distance), ExactRegion())
+          .expected_perimeter;
+  if (overlap <= allowed) return "";
+  return fmt::format("overlaps itself at z = {} in {:.3g} mm²", z, overlap);
+}
+
+Outcome judge_mesh(const Reference& reference, const fs::path& design) {
+  const csg::Mesh& mesh = reference.mesh;
+  const double distance = kOpenScadDistance + float32_spacing(mesh);
+  const bool is_outline = reference.kind == ReferenceKind::kOutline;
+  const std::vector<double> heights =
+      is_outline ? std::vector<double>{0.5} : heights_of(mesh);
+
+  std::vector<ExactRegion> sections;
+  for (const double z : heights) {
+    try {
+      sections.push_back(exact_section(mesh, z, distance));
+    } catch (const std::runtime_error& error) {
+      return {"no-judge", error.what()};
+    }
+  }
+  const LaminaResult lamina =
+      run_lamina(design, is_outline ? std::vector<double>{} : heights);
+  if (!lamina.complaint.empty()) return {"differs", lamina.complaint};
+  if (lamina.layers.size() != heights.size()) {
+    return {"differs", fmt::format("{} layers", lamina.layers.size())};
+  }
+  Outcome outcome = {"equal", "", 0};
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const Verdict verdict =
+        judge(sections[i], lamina.layers[i], {distance, distance});
+    if (!verdict.complaint.empty()) {
+      const std::string fault = fault_of(reference, heights[i], distance);
+      if (!fault.empty()) return {"no-judge", fault};
+      outcome.verdict = "differs";
+      outcome.complaint +=
+          fmt::format("z = {}: {}\n", heights[i], verdict.complaint);
+    }
+    if (verdict.comparison.expected_perimeter > 0) {
+      outcome.distance =
+          std::max(outcome.distance, verdict.comparison.difference_area /
+                                         verdict.comparison.expected_perimeter);
+    }
+  }
+  return outcome;
+}
+
+Outcome judge_design(const std::string& name) {
+  const fs::path design = kRoot / name;
+  const Reference reference = render_reference(kRoot, design);
+  switch (reference.kind) {
+    case ReferenceKind::kSolid:
+    case ReferenceKind::kOutline:
+      return judge_mesh(reference, design);
+    case ReferenceKind::kEmpty: {
+      const LaminaResult lamina = run_lamina(design, {});
+      if (lamina.is_empty) return {"empty", ""};
+      return {"differs", "openscad's is empty; " + lamina.complaint};
+    }
+    case ReferenceKind::kFailed:
+      return {"failed", reference.words};
+    case ReferenceKind::kTooSlow:
+      return {"slow", ""};
+  }
+  throw std::logic_error("no such kind");
+}
+
+class Geometry : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Geometry, EqualsWhatOpenScadRenders) {
+  const std::string& name = GetParam();
+  const Outcome outcome = judge_design(name);
+  fs::create_directories(kRows);
+  std::string row = name;
+  std::replace(row.begin(), row.end(), '/', ':');
+  std::ofstream(kRows / row)
+      << fmt::format("{} {:.2e} {}\n{}\n", outcome.verdict, outcome.distance,
+                     is_exception(name), outcome.complaint);
+  if (is_exception(name)) {
+    EXPECT_EQ(outcome.verdict, "differs")
+        << "docs/conformance.md calls " << name << " an exception";
+  } else {
+    EXPECT_NE(outcome.verdict, "differs") << outcome.complaint;
+  }
+}
+
+std::string case_name(const ::testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param.substr(0, info.param.size() - 5);
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, Geometry,
+                         ::testing::ValuesIn(design_names()), case_name);
+
+}  // namespace
+}  // namespace lamina::oracle
