@@ -1,4 +1,4 @@
-/* The tokens of OpenSCAD 2021.01.
+/* The tokens of OpenSCAD 2021.01, and the shifts of later versions.
 
    Names may begin with a digit, numbers may begin or end with a point, and
    bytes outside ASCII may stand only in strings and comments, the no-break
@@ -157,6 +157,8 @@ undef                   { return TOKEN_UNDEF; }
                           return yyextra->read_number(yytext, yytext + yyleng, value->number)
                                      ? TOKEN_NUMBER : TOKEN_INVALID;
                         }
+ /* 0xff is a name too, as in 2021.01; where nothing has that name, it is a
+    number (csg/eval/literals.h). */
 "$"?[a-zA-Z0-9_]+       { return TOKEN_NAME; }
 
 "<="                    { return TOKEN_LESS_EQUAL; }
@@ -165,6 +167,8 @@ undef                   { return TOKEN_UNDEF; }
 "!="                    { return TOKEN_NOT_EQUAL; }
 "&&"                    { return TOKEN_AND; }
 "||"                    { return TOKEN_OR; }
+"<<"                    { return TOKEN_SHIFT_LEFT; }
+">>"                    { return TOKEN_SHIFT_RIGHT; }
 
 [(\[{]                  { yyextra->open_bracket(*range); return yytext[0]; }
 [)\]}]                  { yyextra->close_bracket(); return yytext[0]; }

@@ -33,7 +33,7 @@ struct Argument {
 };
 using Arguments = std::span<const Argument>;
 
-enum class UnaryOp : std::uint8_t { kNot, kNegate };
+enum class UnaryOp : std::uint8_t { kNot, kNegate, kBitNot };
 enum class BinaryOp : std::uint8_t {
   kOr,
   kAnd,
@@ -43,6 +43,10 @@ enum class BinaryOp : std::uint8_t {
   kLessEqual,
   kGreater,
   kGreaterEqual,
+  kBitOr,
+  kBitAnd,
+  kShiftLeft,
+  kShiftRight,
   kAdd,
   kSubtract,
   kMultiply,

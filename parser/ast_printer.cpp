@@ -30,6 +30,14 @@ const char* symbol(BinaryOp op) {
       return " > ";
     case BinaryOp::kGreaterEqual:
       return " >= ";
+    case BinaryOp::kBitOr:
+      return " | ";
+    case BinaryOp::kBitAnd:
+      return " & ";
+    case BinaryOp::kShiftLeft:
+      return " << ";
+    case BinaryOp::kShiftRight:
+      return " >> ";
     case BinaryOp::kAdd:
       return " + ";
     case BinaryOp::kSubtract:
@@ -44,6 +52,18 @@ const char* symbol(BinaryOp op) {
       return " ^ ";
   }
   return "";
+}
+
+char symbol(UnaryOp op) {
+  switch (op) {
+    case UnaryOp::kNot:
+      return '!';
+    case UnaryOp::kNegate:
+      return '-';
+    case UnaryOp::kBitNot:
+      return '~';
+  }
+  return ' ';
 }
 
 // Writes expressions to the end of a text.
@@ -72,7 +92,7 @@ class ExpressionPrinter {
   void operator()(const Variable& node) { text_ += node.name; }
 
   void operator()(const Unary& node) {
-    text_ += node.op == UnaryOp::kNot ? '!' : '-';
+    text_ += symbol(node.op);
     print(*node.operand);
   }
 

@@ -103,6 +103,12 @@ struct Constant : Expression {
   const Value* value = nullptr;
 };
 
+// A number that was warned of each time it is looked at.
+struct InexactLiteral : Expression {
+  double value = 0;
+  std::string_view warning;
+};
+
 struct UnknownVariable : Expression {
   std::string_view name;
 };

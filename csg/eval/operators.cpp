@@ -23,6 +23,14 @@ std::string_view symbol(BinaryOp op) {
       return ">";
     case BinaryOp::kGreaterEqual:
       return ">=";
+    case BinaryOp::kBitOr:
+      return "|";
+    case BinaryOp::kBitAnd:
+      return "&";
+    case BinaryOp::kShiftLeft:
+      return "<<";
+    case BinaryOp::kShiftRight:
+      return ">>";
     case BinaryOp::kAdd:
       return "+";
     case BinaryOp::kSubtract:
@@ -354,6 +362,46 @@ Value divide(const Value& left, const Value& right, std::string& reason) {
   return undefined(BinaryOp::kDivide, left, right, reason);
 }
 
+// --- Bits -------------------------------------------------------------------
+
+// What bitwise operators see: the number cut to an integer of 64 bits in two's
+// complement. All that does not fit is the least integer, as x86 converts it.
+std::int64_t to_bits(double number) {
+  const bool fits = number >= -0x1p63 && number < 0x1p63;
+  return fits ? static_cast<std::int64_t>(number)
+              : std::numeric_limits<std::int64_t>::min();
+}
+
+Value apply_bitwise(BinaryOp op, double left, double right,
+                    std::string& reason) {
+  const std::int64_t a = to_bits(left);
+  const std::int64_t b = to_bits(right);
+  const bool is_shift =
+      op == BinaryOp::kShiftLeft || op == BinaryOp::kShiftRight;
+  if (is_shift && (b < 0 || b >= 64)) {
+    reason = b < 0 ? "negative shift" : "shift too large";
+    return Value();
+  }
+  switch (op) {
+    case BinaryOp::kBitOr:
+      return Value(static_cast<double>(a | b));
+    case BinaryOp::kBitAnd:
+      return Value(static_cast<double>(a & b));
+    case BinaryOp::kShiftLeft:
+      return Value(static_cast<double>(a << b));
+    default:
+      return Value(static_cast<double>(a >> b));
+  }
+}
+
+Value invert(const Value& value, std::string& reason) {
+  if (value.is_number()) {
+    return Value(static_cast<double>(~to_bits(value.as_number())));
+  }
+  reason = fmt::format("undefined operation (~{})", type_name(value.type()));
+  return Value();
+}
+
 }  // namespace
 
 bool are_equal(const Value& left, const Value& right) {
@@ -415,9 +463,23 @@ Value apply_binary(BinaryOp op, const Value& left, const Value& right,
   if (!left.is_number() || !right.is_number()) {
     return undefined(op, left, right, reason);
   }
-  return Value(op == BinaryOp::kModulo
-                   ? modulo(left.as_number(), right.as_number())
-                   : std::pow(left.as_number(), right.as_number()));
+  const double a = left.as_number();
+  const double b = right.as_number();
+  if (op == BinaryOp::kModulo) return Value(modulo(a, b));
+  if (op == BinaryOp::kPower) return Value(std::pow(a, b));
+  return apply_bitwise(op, a, b, reason);
+}
+
+Value apply_unary(ast::UnaryOp op, const Value& value, std::string& reason) {
+  switch (op) {
+    case ast::UnaryOp::kNot:
+      return Value(!value.is_true());
+    case ast::UnaryOp::kNegate:
+      return negate(value, reason);
+    case ast::UnaryOp::kBitNot:
+      return invert(value, reason);
+  }
+  return Value();
 }
 
 Value negate(const Value& value, std::string& reason) {
@@ -465,11 +527,33 @@ Value index(const Value& object, const Value& index) {
   }
 }
 
+namespace {
+
+// Elements by the letters of coordinates or of colours, not both at once.
+Value swizzle(std::span<const Value> elements, std::string_view letters) {
+  constexpr std::size_t kMostLetters = 4;
+  if (letters.empty() || letters.size() > kMostLetters) return Value();
+  const bool is_colour =
+      std::string_view("rgba").find(letters[0]) != std::string_view::npos;
+  const std::string_view axes = is_colour ? "rgba" : "xyzw";
+  VectorBuilder result(letters.size());
+  for (const char letter : letters) {
+    const std::size_t i = axes.find(letter);
+    if (i == std::string_view::npos) return Value();
+    result.push(i < elements.size() ? elements[i] : Value());
+  }
+  return result.size() == 1 ? result.values()[0] : result.finish();
+}
+
+}  // namespace
+
 Value member(const Value& object, std::string_view name) {
+  // v.x, v.y and v.z are most of all members.
   if (object.is_vector() && name.size() == 1 && name[0] >= 'x' &&
       name[0] <= 'z') {
     return index(object, Value(static_cast<double>(name[0] - 'x')));
   }
+  if (object.is_vector()) return swizzle(object.as_vector(), name);
   if (object.is_range()) {
     const Range& range = object.as_range();
     if (name == "begin") return Value(range.begin);

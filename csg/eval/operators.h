@@ -31,6 +31,7 @@ inline double modulo(double a, double b) {
 Value apply_binary(ast::BinaryOp op, const Value& left, const Value& right,
                    std::string& reason);
 
+Value apply_unary(ast::UnaryOp op, const Value& value, std::string& reason);
 Value negate(const Value& value, std::string& reason);
 
 // left == right; never undefined.
@@ -42,7 +43,8 @@ bool is_less(const Value& left, const Value& right);
 // object[index]; undef without a word where there is no such element.
 Value index(const Value& object, const Value& index);
 
-// object.name: x, y, z of a vector, begin, step, end of a range.
+// object.name: begin, step, end of a range; of a vector one of xyzw or rgba
+// (its first four elements), or a vector of up to four from one of the two.
 Value member(const Value& object, std::string_view name);
 
 }  // namespace lamina::csg

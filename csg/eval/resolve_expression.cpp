@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "csg/eval/builtin_functions.h"
+#include "csg/eval/literals.h"
 #include "csg/eval/operators.h"
 #include "csg/eval/run_expression.h"
 #include "csg/eval/text.h"
@@ -192,6 +193,8 @@ const Expression* ExpressionResolver::variable(std::string_view name,
   if (!is_certain) {
     if (name == "PI") {
       otherwise = constant(Value(std::numbers::pi), range);
+    } else if (is_hex_literal(name)) {
+      otherwise = hex_literal(name, range);
     } else if (unknown == Unknown::kSilent) {
       otherwise = constant(Value(), range);
     } else {
@@ -210,6 +213,18 @@ const Expression* ExpressionResolver::variable(std::string_view name,
     candidates.pop_back();
   }
   return otherwise;
+}
+
+const Expression* ExpressionResolver::hex_literal(std::string_view name,
+                                                  SourceRange range) {
+  const HexLiteral literal = read_hex_literal(name);
+  if (literal.warning.empty()) return constant(Value(literal.value), range);
+  auto* code = resolver_.make<InexactLiteral>();
+  code->run = run_inexact_literal;
+  code->range = range;
+  code->value = literal.value;
+  code->warning = resolver_.keep_text(literal.warning);
+  return code;
 }
 
 // --- Expressions ------------------------------------------------------------
@@ -248,14 +263,13 @@ struct ExpressionVisitor {
                          ExpressionResolver::Unknown::kWarn);
   }
   const Expression* operator()(const ast::Unary& unary) const {
-    const bool is_not = unary.op == ast::UnaryOp::kNot;
     const Expression* operand = self.resolve(*unary.operand);
     if (const Value* value = constant_value(operand)) {
       std::string reason;
-      Value result = is_not ? Value(!value->is_true()) : negate(*value, reason);
+      Value result = apply_unary(unary.op, *value, reason);
       if (reason.empty()) return self.constant(std::move(result), range);
     }
-    auto* code = make<UnaryCode>(is_not ? run_not : run_negate);
+    auto* code = make<UnaryCode>(unary_runner(unary.op));
     code->operand = operand;
     return code;
   }

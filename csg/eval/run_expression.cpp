@@ -80,6 +80,11 @@ Value run_dynamic(const Expression& expression, Frame& frame) {
   }
   return Value();
 }
+Value run_inexact_literal(const Expression& expression, Frame& frame) {
+  const auto& code = as<InexactLiteral>(expression);
+  warn(frame, code.range, std::string(code.warning));
+  return Value(code.value);
+}
 Value run_unknown_variable(const Expression& expression, Frame& frame) {
   frame.in.warn(expression.range,
                 fmt::format("Ignoring unknown variable '{}'",
@@ -88,6 +93,8 @@ Value run_unknown_variable(const Expression& expression, Frame& frame) {
 }
 
 // --- Operators --------------------------------------------------------------
+
+namespace {
 
 Value run_not(const Expression& expression, Frame& frame) {
   Value spill;
@@ -105,9 +112,32 @@ Value run_negate(const Expression& expression, Frame& frame) {
   return result;
 }
 
+Value run_bit_not(const Expression& expression, Frame& frame) {
+  Value spill;
+  const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
+  std::string reason;
+  Value result = apply_unary(ast::UnaryOp::kBitNot, operand, reason);
+  if (!reason.empty()) warn(frame, expression.range, std::move(reason));
+  return result;
+}
+
+}  // namespace
+
+Expression::Run unary_runner(ast::UnaryOp op) {
+  switch (op) {
+    case ast::UnaryOp::kNot:
+      return run_not;
+    case ast::UnaryOp::kNegate:
+      return run_negate;
+    case ast::UnaryOp::kBitNot:
+      return run_bit_not;
+  }
+  return run_not;
+}
+
 namespace {
 
-// Operands that are not both numbers.
+// Operands that are not both numbers, or bits.
 [[gnu::noinline]] Value run_binary_any(const BinaryCode& code,
                                        const Value& left, const Value& right,
                                        Frame& frame) {
@@ -146,6 +176,15 @@ Value run_binary(const Expression& expression, Frame& frame) {
   return run_binary_any(code, left, right, frame);
 }
 
+Value run_bitwise(const Expression& expression, Frame& frame) {
+  const auto& code = as<BinaryCode>(expression);
+  Value spill_left;
+  Value spill_right;
+  const Value& left = look(code.left, frame, spill_left);
+  return run_binary_any(code, left, look(code.right, frame, spill_right),
+                        frame);
+}
+
 Value run_and(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
   Value spill;
@@ -179,6 +218,11 @@ Expression::Run binary_runner(BinaryOp op) {
       return run_binary<BinaryOp::kGreater>;
     case BinaryOp::kGreaterEqual:
       return run_binary<BinaryOp::kGreaterEqual>;
+    case BinaryOp::kBitOr:
+    case BinaryOp::kBitAnd:
+    case BinaryOp::kShiftLeft:
+    case BinaryOp::kShiftRight:
+      return run_bitwise;
     case BinaryOp::kAdd:
       return run_binary<BinaryOp::kAdd>;
     case BinaryOp::kSubtract:

@@ -13,10 +13,9 @@ Value run_outer(const Expression& expression, Frame& frame);
 Value run_far_outer(const Expression& expression, Frame& frame);
 Value run_captured(const Expression& expression, Frame& frame);
 Value run_dynamic(const Expression& expression, Frame& frame);
+Value run_inexact_literal(const Expression& expression, Frame& frame);
 Value run_unknown_variable(const Expression& expression, Frame& frame);
 
-Value run_not(const Expression& expression, Frame& frame);
-Value run_negate(const Expression& expression, Frame& frame);
 Value run_conditional(const Expression& expression, Frame& frame);
 Value run_index(const Expression& expression, Frame& frame);
 Value run_member(const Expression& expression, Frame& frame);
@@ -27,7 +26,8 @@ Value run_echo(const Expression& expression, Frame& frame);
 Value run_assert_expression(const Expression& expression, Frame& frame);
 Value run_function_literal(const Expression& expression, Frame& frame);
 
-// The function that runs an operator.
+// The functions that run an operator.
+Expression::Run unary_runner(ast::UnaryOp op);
 Expression::Run binary_runner(ast::BinaryOp op);
 
 // A call by a name that only a function can have: a user's function, a

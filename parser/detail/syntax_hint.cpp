@@ -64,14 +64,14 @@ std::string describe_token(std::string_view symbol, std::string_view text) {
 std::string describe_expected(Symbols symbols) {
   remove(symbols, {"use <file>", "end of file", "end of the file"});
   if (contains(symbols, "||")) {
-    remove(symbols,
-           {"||", "&&", "==", "!=", "<=", ">=", "'<'", "'>'", "'+'", "'-'",
-            "'*'", "'/'", "'%'", "'^'", "'('", "'['", "'.'", "'?'"});
+    remove(symbols, {"||",  "&&",  "==",  "!=",  "<=",  ">=",  "<<",  ">>",
+                     "'<'", "'>'", "'|'", "'&'", "'+'", "'-'", "'*'", "'/'",
+                     "'%'", "'^'", "'('", "'['", "'.'", "'?'"});
   }
   if (contains(symbols, "number")) {
     remove(symbols, {"number", "string", "name", "true", "false", "undef",
                      "let", "assert", "echo", "function", "for", "if", "each",
-                     "'('", "'['", "'+'", "'-'", "'!'"});
+                     "'('", "'['", "'+'", "'-'", "'!'", "'~'"});
     symbols.insert(symbols.begin(), "an expression");
   }
   if (contains(symbols, "'#'")) {

@@ -45,6 +45,26 @@ TEST(SyntaxErrors, ShowWhatCouldStandThere) {
             "note: unexpected '==', expected '(' or '='\n");
 }
 
+TEST(SyntaxErrors, KnowTheBitwiseOperators) {
+  EXPECT_EQ(terminal_text("a = 1 | ;\nb = 1 &&& 2;\nc = 5 ~ 3;\nd = 1 <<< 2;"),
+            "x.scad:1:9: error: Parser error: syntax error\n"
+            "    1 | a = 1 | ;\n"
+            "      |         ^\n"
+            "note: unexpected ';', expected an expression\n"
+            "x.scad:2:9: error: Parser error: syntax error\n"
+            "    2 | b = 1 &&& 2;\n"
+            "      |         ^\n"
+            "note: unexpected '&', expected an expression\n"
+            "x.scad:3:7: error: Parser error: syntax error\n"
+            "    3 | c = 5 ~ 3;\n"
+            "      |       ^\n"
+            "note: unexpected '~', expected ';'\n"
+            "x.scad:4:9: error: Parser error: syntax error\n"
+            "    4 | d = 1 <<< 2;\n"
+            "      |         ^\n"
+            "note: unexpected '<', expected an expression\n");
+}
+
 TEST(SyntaxErrors, ShowTheBracketThatWasLeftOpen) {
   EXPECT_EQ(terminal_text("for (i = [0:1:10) cube(i);"),
             "x.scad:1:17: error: Parser error: syntax error\n"
