@@ -163,13 +163,15 @@ Value on_numbers(double a, double b) {
   if constexpr (op == BinaryOp::kPower) return Value(std::pow(a, b));
 }
 
+// The right operand goes first, as in the released openscad: messages of both
+// come in that order.
 template <BinaryOp op>
 Value run_binary(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
   Value spill_left;
   Value spill_right;
-  const Value& left = look(code.left, frame, spill_left);
   const Value& right = look(code.right, frame, spill_right);
+  const Value& left = look(code.left, frame, spill_left);
   if (left.is_number() && right.is_number()) [[likely]] {
     return on_numbers<op>(left.as_number(), right.as_number());
   }
@@ -253,8 +255,8 @@ Value run_index(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
   Value spill_object;
   Value spill_index;
-  const Value& object = look(code.left, frame, spill_object);
-  return index(object, look(code.right, frame, spill_index));
+  const Value& position = look(code.right, frame, spill_index);
+  return index(look(code.left, frame, spill_object), position);
 }
 
 Value run_member(const Expression& expression, Frame& frame) {
