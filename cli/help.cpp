@@ -26,6 +26,8 @@ Slicing (lengths in millimetres):
   --layer MM          thickness of a layer [0.05]
   --heights Z1,Z2,... sections at exactly these heights instead, ascending
   --axis AXIS         direction of building: z, x, y, -x, -y or -z [z]
+  --chordal-error MM  distance of facets from curves where $fn does not say
+                      [$fa and $fs decide]
   --tolerance MM      leave out vertices that move a contour by less; 0 keeps
                       all [0.001]
   --ray auto|MM       distance of the rays; speed only, except for

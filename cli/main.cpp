@@ -177,7 +177,9 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   // Lowering comes before slicing because transforms, 2D parts and hulls need
   // the whole tree, layers only the leaves.
   const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
-    return csg::lower(tree, {run.options.world_from_design}, run.diagnostics);
+    return csg::lower(
+        tree, {run.options.world_from_design, run.options.chordal_error},
+        run.diagnostics);
   });
   if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
   if (const planar::Region* outline = lowered.outline()) {

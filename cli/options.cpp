@@ -69,6 +69,9 @@ std::vector<double> parse_heights(const std::string& option,
   }
 }
 
+// Finer facets than these are finer than samples that count as one.
+constexpr double kLeastChordalError = 1e-6;  // mm
+
 // The right-handed turn that makes `axis` the building direction.
 Affine turn_to_axis(std::string_view axis) {
   const Vec3 x(1, 0, 0);
@@ -107,6 +110,13 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
   });
   add_text(app, "--heights", "list", [&](const std::string& text) {
     settings.heights = parse_heights("--heights", text);
+  });
+  add_text(app, "--chordal-error", "length", [&](const std::string& text) {
+    options.chordal_error = require_number("--chordal-error", text);
+    if (!(options.chordal_error >= kLeastChordalError)) {
+      throw CLI::ValidationError("--chordal-error",
+                                 "must be at least 0.000001 mm");
+    }
   });
   add_text(app, "--tolerance", "length", [&](const std::string& text) {
     settings.tolerance = require_number("--tolerance", text);

@@ -20,6 +20,7 @@ struct DesignOptions {
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
   std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
   Affine world_from_design{1.0};  // --axis
+  double chordal_error = 0;       // [mm]; 0: $fa and $fs decide
   slicer::Settings settings;
   std::string report;  // path; empty: none
   bool is_quiet = false;

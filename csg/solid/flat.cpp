@@ -83,10 +83,11 @@ Region combine_regions(BooleanOp op, std::span<const Region> regions,
   });
 }
 
-Region offset_region(const Offset& offset, const Region& region,
-                     SourceRange range, Diagnostics& diagnostics) {
+Region offset_region(const Offset& offset, const Fineness& fineness,
+                     const Region& region, SourceRange range,
+                     Diagnostics& diagnostics) {
   const double distance = std::abs(offset.amount);
-  const int n = planar::fragment_count(distance, offset.facets);
+  const int n = circle_fragments(distance, fineness);
   const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
   return with_range_check(range, diagnostics, [&] {
     return planar::offset(region, offset.amount, join_of(offset),

@@ -12,9 +12,9 @@
 #include <glm/geometric.hpp>
 
 #include "csg/degrees.h"
-#include "csg/planar/facets.h"
 #include "csg/planar/triangulate.h"
 #include "csg/solid/detail/extrude.h"
+#include "csg/solid/detail/fineness.h"
 
 namespace lamina::csg {
 namespace {
@@ -42,6 +42,25 @@ double max_shift(const Region& region, Vec2 scale) {
     }
   }
   return shift;
+}
+
+// The region with points added so that no edge is longer; 0: as it is.
+Region split_edges(const Region& region, double longest) {
+  if (longest == 0) return region;
+  Region split;
+  for (const Contour& contour : region.contours) {
+    Contour& points = split.contours.emplace_back();
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 begin = contour[i];
+      const Vec2 edge = contour[(i + 1) % contour.size()] - begin;
+      const double parts =
+          std::max(std::ceil(glm::length(edge) / longest), 1.0);
+      for (double k = 0; k < parts; ++k) {
+        points.push_back(begin + edge * (k / parts));
+      }
+    }
+  }
+  return split;
 }
 
 Leaf sweep_contours(const Region& region, double low, double high,
@@ -182,7 +201,8 @@ class TwistedExtruder {
 
 }  // namespace
 
-Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region) {
+Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region,
+                      double chordal_error) {
   const double height = params.height;
   if (!(height > 0) || !std::isfinite(height) || region.is_empty()) return {};
   const double low = params.center ? -height / 2 : 0;
@@ -190,12 +210,13 @@ Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region) {
   if (!params.has_twist && params.scale.x == params.scale.y) {
     return sweep_contours(region, low, high, params.scale.x);
   }
-  const int slices = params.slices > 0
-                         ? params.slices
-                         : planar::slice_count(params, max_radius(region),
-                                               max_shift(region, params.scale));
+  const ExtrusionSteps steps =
+      extrusion_steps(params, max_radius(region),
+                      max_shift(region, params.scale), chordal_error);
+  const Region outline = split_edges(region, steps.longest_edge);
   Leaf leaf;
-  leaf.meshes.push_back(TwistedExtruder(params, region, low, slices).extrude());
+  leaf.meshes.push_back(
+      TwistedExtruder(params, outline, low, steps.slices).extrude());
   // A slice that turns far can have sides that cut each other.
   leaf.may_overlap_itself = true;
   return leaf;

@@ -19,6 +19,9 @@ namespace lamina::csg {
 struct LowerOptions {
   // Put in front of every instance's matrix (`--axis`). Orthogonal.
   Affine world_from_design{1.0};
+  // Greatest distance in the world of facets from the round surface that they
+  // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
+  double chordal_error = 0;
 };
 
 // What a design is: nothing, an outline in the plane (in the design's

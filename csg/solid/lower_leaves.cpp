@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "csg/planar/facets.h"
 #include "csg/solid/detail/extrude.h"
 #include "csg/solid/detail/leaf_box.h"
 #include "csg/solid/detail/lowerer.h"
@@ -30,7 +29,7 @@ Shape Lowerer::lower_op(const Cube& cube, const Node& node,
 Shape Lowerer::lower_op(const Sphere& sphere, const Node& node,
                         const Affine& world) {
   if (is_size(sphere.r)) {
-    const int n = planar::fragment_count(sphere.r, sphere.facets);
+    const int n = sphere_fragments(sphere.r, fineness(sphere.facets, world));
     place(leaves_.unit_sphere(n), Vec3(sphere.r), node, world);
   }
   return {Dimension::kSolid};
@@ -42,7 +41,7 @@ Shape Lowerer::lower_op(const Cylinder& c, const Node& node,
   if (!is_size(c.h) || !is_size(r) || !(c.r1 >= 0 && c.r2 >= 0)) {
     return {Dimension::kSolid};
   }
-  const int n = planar::fragment_count(r, c.facets);
+  const int n = circle_fragments(r, fineness(c.facets, world));
   // A cone keeps its radii: their ratio would not give back the same bits.
   const bool is_straight = c.r1 == c.r2;
   const Vec3 size = is_straight ? Vec3(r, r, c.h) : Vec3(1, 1, c.h);
@@ -64,15 +63,23 @@ Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
 
 Shape Lowerer::lower_op(const LinearExtrude& op, const Node& node,
                         const Affine& world) {
-  const Shape shape = flatten_children(node, world);
+  const LinearExtrudeParams& params = *op.params;
+  // Where the sides are curved they and the outline share the chordal error.
+  const bool is_curved = params.has_twist || params.scale.x != params.scale.y;
+  const double share = is_curved ? 0.25 : 1;
+  const Shape shape = flatten_finely(node, world, share);
   if (shape.dimension == Dimension::kNone) return {};
-  place_leaf(extrude_linearly(*op.params, shape.region), node, world);
+  const double error =
+      (1 - share) * fineness(params.facets, world).chordal_error;
+  place_leaf(extrude_linearly(params, shape.region, error), node, world);
   return {Dimension::kSolid};
 }
 
 Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
                         const Affine& world) {
-  const Shape shape = flatten_children(node, world);
+  // The turn and its profile share the chordal error.
+  constexpr double kShare = 0.5;
+  const Shape shape = flatten_finely(node, world, kShare);
   if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
   const ProfileRange range = profile_range(shape.region);
   if (range.crosses_axis()) {
@@ -83,13 +90,29 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
                     range.low, range.high));
     return {};
   }
-  const int n = planar::fragment_count(range.high - range.low, op.facets);
+  Fineness turn = fineness(op.facets, world);
+  turn.chordal_error *= 1 - kShare;
+  const int n = turn_fragments(range, op.angle_deg, turn);
   place_leaf(extrude_around(shape.region, op.angle_deg, n), node, world);
   return {Dimension::kSolid};
 }
 
 Shape Lowerer::lower_op(const Surface&, const Node& node, const Affine&) {
   fail_unsupported(node, "surface");
+}
+
+Fineness Lowerer::fineness(const Facets& facets, const Affine& world) const {
+  if (chordal_error_ == 0) return {facets};
+  return {facets, chordal_error_ / greatest_stretch(world)};
+}
+
+Shape Lowerer::flatten_finely(const Node& node, const Affine& world,
+                              double share) {
+  const double whole = chordal_error_;
+  chordal_error_ *= share;
+  Shape shape = flatten_children(node, world);
+  chordal_error_ = whole;
+  return shape;
 }
 
 void Lowerer::place_leaf(Leaf leaf, const Node& node, const Affine& world) {

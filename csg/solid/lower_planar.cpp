@@ -1,4 +1,3 @@
-#include "csg/planar/facets.h"
 #include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/lowerer.h"
 
@@ -8,8 +7,9 @@ Shape Lowerer::lower_op(const Square& square, const Node&, const Affine&) {
   return {Dimension::kFlat, planar::square(square.size, square.center)};
 }
 
-Shape Lowerer::lower_op(const Circle& circle, const Node&, const Affine&) {
-  const int n = planar::fragment_count(circle.r, circle.facets);
+Shape Lowerer::lower_op(const Circle& circle, const Node&,
+                        const Affine& world) {
+  const int n = circle_fragments(circle.r, fineness(circle.facets, world));
   return {Dimension::kFlat, planar::circle(circle.r, n)};
 }
 
@@ -23,7 +23,8 @@ Shape Lowerer::lower_op(const Offset& op, const Node& node,
   const Shape shape = flatten_children(node, world);
   if (shape.dimension == Dimension::kNone) return {};
   return {Dimension::kFlat,
-          offset_region(op, shape.region, node.range, diagnostics_)};
+          offset_region(op, fineness(op.facets, world), shape.region,
+                        node.range, diagnostics_)};
 }
 
 Shape Lowerer::lower_op(const Text&, const Node& node, const Affine&) {

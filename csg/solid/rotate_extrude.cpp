@@ -185,13 +185,11 @@ Leaf extrude_around(const Region& region, double angle_deg, int fragments) {
     }
     return turn.take();
   }
-  const int count =
-      std::max(static_cast<int>(fragments * std::abs(angle_deg) / 360), 1);
   Leaf leaf;
-  leaf.meshes.push_back(PartTurn(region, angle_deg, count)
+  leaf.meshes.push_back(PartTurn(region, angle_deg, fragments)
                             .extrude((angle_deg < 0) != (side < 0)));
   // One facet for half a turn or more reaches beyond the axis.
-  leaf.may_overlap_itself = std::abs(angle_deg) / count >= 180;
+  leaf.may_overlap_itself = std::abs(angle_deg) / fragments >= 180;
   return leaf;
 }
 

@@ -29,12 +29,12 @@ struct Design::State {
 
   // Reads by `load` and goes on to the scene.
   template <typename Load>
-  void build(const Load& load) {
+  void build(const Load& load, const csg::LowerOptions& options = {}) {
     loader.emplace(sources, diagnostics, std::vector<std::string>());
     try {
       program = load(*loader);
       tree = csg::evaluate(program, *loader, {}, diagnostics);
-      lowered = csg::lower(tree, {}, diagnostics);
+      lowered = csg::lower(tree, options, diagnostics);
     } catch (const Error& error) {
       throw std::runtime_error(messages() + error.what());
     }
@@ -58,10 +58,13 @@ Design Design::from_file(const std::filesystem::path& path) {
   return Design(std::move(state));
 }
 
-Design Design::from_text(const std::string& text) {
+Design Design::from_text(const std::string& text, double chordal_error) {
   auto state = std::make_unique<State>();
+  csg::LowerOptions options;
+  options.chordal_error = chordal_error;
   state->build(
-      [&](Loader& loader) { return loader.load_text("test.scad", text); });
+      [&](Loader& loader) { return loader.load_text("test.scad", text); },
+      options);
   return Design(std::move(state));
 }
 

@@ -19,7 +19,8 @@ class Design {
   // Both throw std::runtime_error with all messages where the design has errors
   // or is 2D. A design of nothing has a scene without instances.
   static Design from_file(const std::filesystem::path& path);
-  static Design from_text(const std::string& text);
+  // chordal_error  [mm]; 0: $fa and $fs decide
+  static Design from_text(const std::string& text, double chordal_error = 0);
 
   Design(Design&&) noexcept;
   Design& operator=(Design&&) noexcept;

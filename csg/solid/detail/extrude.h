@@ -1,8 +1,6 @@
 #pragma once
 // linear_extrude and rotate_extrude.
 
-#include <optional>
-
 #include "csg/planar/region.h"
 #include "csg/scene.h"
 #include "csg/tree.h"
@@ -13,8 +11,11 @@ namespace lamina::csg {
 // twisted and unevenly scaled ones are meshes with OpenSCAD's vertices and
 // diagonals, because their sides are not planar. No sweep and no mesh where
 // the height or the region is nothing.
+//
+// chordal_error  of sides that are not planar, where neither $fn nor slices
+//                decide [mm]; 0: $fa and $fs decide
 Leaf extrude_linearly(const LinearExtrudeParams& params,
-                      const planar::Region& region);
+                      const planar::Region& region, double chordal_error);
 
 // Least and greatest x of the region, 0 included [mm].
 struct ProfileRange {
@@ -29,7 +30,7 @@ ProfileRange profile_range(const planar::Region& region);
 // Sweeps, less gives a mesh. The region must not cross the axis.
 //
 // angle_deg  in (-360, 360]
-// fragments  of a full circle
+// fragments  over the whole angle
 Leaf extrude_around(const planar::Region& region, double angle_deg,
                     int fragments);
 

@@ -8,6 +8,7 @@
 
 #include "csg/planar/region.h"
 #include "csg/scene.h"
+#include "csg/solid/detail/fineness.h"
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
 
@@ -21,8 +22,9 @@ planar::Region combine_regions(BooleanOp op,
                                std::span<const planar::Region> regions,
                                SourceRange range, Diagnostics& diagnostics);
 
-planar::Region offset_region(const Offset& offset, const planar::Region& region,
-                             SourceRange range, Diagnostics& diagnostics);
+planar::Region offset_region(const Offset& offset, const Fineness& fineness,
+                             const planar::Region& region, SourceRange range,
+                             Diagnostics& diagnostics);
 
 // Applies the part of the matrix that acts in the plane. Outer contours stay
 // counter-clockwise.

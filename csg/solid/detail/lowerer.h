@@ -15,6 +15,7 @@
 
 #include "csg/planar/region.h"
 #include "csg/scene.h"
+#include "csg/solid/detail/fineness.h"
 #include "csg/solid/detail/leaf_store.h"
 #include "csg/solid/detail/program_builder.h"
 #include "csg/tree.h"
@@ -33,7 +34,9 @@ struct Shape {
 class Lowerer {
  public:
   // instances  about as many as there will be
-  Lowerer(std::size_t instances, Diagnostics& diagnostics);
+  // chordal_error  see LowerOptions
+  Lowerer(std::size_t instances, double chordal_error,
+          Diagnostics& diagnostics);
 
   // The solid parts of the subtree are left on top of the builder's stack, in
   // world coordinates; a region is in the node's own coordinates.
@@ -79,6 +82,11 @@ class Lowerer {
                  const Affine& world);
   Shape lower_op(const Surface& op, const Node& node, const Affine& world);
 
+  // For a node with these $fn, $fa, $fs.
+  Fineness fineness(const Facets& facets, const Affine& world) const;
+  // flatten_children with a share of the chordal error.
+  Shape flatten_finely(const Node& node, const Affine& world, double share);
+
   void place_leaf(Leaf leaf, const Node& node, const Affine& world);
   void place(std::uint32_t leaf, Vec3 size, const Node& node,
              const Affine& world);
@@ -108,6 +116,7 @@ class Lowerer {
     Box3 box;
   };
 
+  double chordal_error_;
   Diagnostics& diagnostics_;
   LeafStore leaves_;
   ProgramBuilder builder_;

@@ -1,0 +1,169 @@
+// --chordal-error: contours lie within λ of the true surface's section, and
+// somewhere at least λ/4 from it, for facets finer than asked for are waste.
+//
+// The true sections are known by formula. Contours are measured at points
+// along every edge, at heights all over the design.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "csg/vec.h"
+#include "tests/support/design.h"
+
+namespace lamina {
+namespace {
+
+using std::numbers::pi;
+
+// Distance of a point at height z from the true surface [mm].
+using Distance = std::function<double(Vec2, double z)>;
+
+struct Solid {
+  std::string name;
+  std::string text;
+  double low = 0;
+  double high = 0;
+  Distance distance;
+};
+
+double to_circle(Vec2 p, double r) { return std::abs(glm::length(p) - r); }
+
+double to_segment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 edge = b - a;
+  const double t =
+      std::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
+  return glm::length(p - a - t * edge);
+}
+
+// To the border of the rectangle [-w, w] × [-h, h] turned by `angle`.
+double to_rectangle(Vec2 p, double w, double h, double angle) {
+  const Vec2 q(std::cos(angle) * p.x + std::sin(angle) * p.y,
+               -std::sin(angle) * p.x + std::cos(angle) * p.y);
+  const std::vector<Vec2> corners = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
+  double least = 1e9;
+  for (std::size_t i = 0; i < 4; ++i) {
+    least = std::min(least, to_segment(q, corners[i], corners[(i + 1) % 4]));
+  }
+  return least;
+}
+
+double radians(double deg) { return deg * pi / 180; }
+
+const std::vector<Solid>& solids() {
+  static const std::vector<Solid> all = {
+      {"sphere", "sphere(7);", -7, 7,
+       [](Vec2 p, double z) { return std::abs(std::hypot(p.x, p.y, z) - 7); }},
+      {"scaled_sphere", "scale(10) sphere(0.7);", -7, 7,
+       [](Vec2 p, double z) { return std::abs(std::hypot(p.x, p.y, z) - 7); }},
+      {"cylinder", "cylinder(h = 5, r = 4);", 0, 5,
+       [](Vec2 p, double) { return to_circle(p, 4); }},
+      {"cone", "cylinder(h = 5, r1 = 4, r2 = 1);", 0, 5,
+       [](Vec2 p, double z) { return to_circle(p, 4 - 3 * z / 5); }},
+      {"torus", "rotate_extrude() translate([8, 0]) circle(2);", -2, 2,
+       [](Vec2 p, double z) {
+         return std::abs(std::hypot(glm::length(p) - 8, z) - 2);
+       }},
+      {"bowl", "rotate_extrude() translate([3, 0]) square([5, 2]);", 0, 2,
+       [](Vec2 p, double) {
+         return std::min(to_circle(p, 3), to_circle(p, 8));
+       }},
+      {"half_turn",
+       "rotate_extrude(angle = 180) translate([3, 0]) square([5, 2]);", 0, 2,
+       [](Vec2 p, double) {
+         return std::min({to_circle(p, 3), to_circle(p, 8),
+                          to_segment(p, {3, 0}, {8, 0}),
+                          to_segment(p, {-3, 0}, {-8, 0})});
+       }},
+      {"twisted_bar",
+       "linear_extrude(height = 20, twist = 90) square([8, 3], center = true);",
+       0, 20,
+       [](Vec2 p, double z) {
+         return to_rectangle(p, 4, 1.5, -radians(90 * z / 20));
+       }},
+      {"tapered_twist",
+       "linear_extrude(height = 20, twist = -200, scale = 0.4) "
+       "square([8, 3], center = true);",
+       0, 20,
+       [](Vec2 p, double z) {
+         const double s = 1 - 0.6 * z / 20;
+         return to_rectangle(p, 4 * s, 1.5 * s, radians(200 * z / 20));
+       }},
+  };
+  return all;
+}
+
+class ChordalError
+    : public ::testing::TestWithParam<std::tuple<std::size_t, double>> {};
+
+// Greatest distance of the contours from the true surface.
+double measure(const Solid& solid, double chordal_error) {
+  const support::Design design =
+      support::Design::from_text(solid.text, chordal_error);
+  std::vector<double> heights;
+  // Not at regular places: facets are.
+  constexpr int kHeights = 61;
+  for (int i = 0; i < kHeights; ++i) {
+    const double t = (i + 0.5 + 0.3 * std::sin(7.0 * i)) / kHeights;
+    heights.push_back(solid.low + (solid.high - solid.low) * t);
+  }
+  const auto layers = support::slice_heights(design.scene(), heights);
+  double greatest = 0;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const ldni::Contours& contours = layers[k].contours;
+    EXPECT_GT(contours.loop_count(), 0U) << "z = " << heights[k];
+    for (std::size_t l = 0; l < contours.loop_count(); ++l) {
+      const auto loop = contours.loop(l);
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 a = loop[i];
+        const Vec2 b = loop[(i + 1) % loop.size()];
+        constexpr int kSteps = 8;
+        for (int s = 0; s < kSteps; ++s) {
+          const Vec2 p = a + (b - a) * (static_cast<double>(s) / kSteps);
+          greatest = std::max(greatest, solid.distance(p, heights[k]));
+        }
+      }
+    }
+  }
+  return greatest;
+}
+
+TEST_P(ChordalError, IsKeptAndNotWasted) {
+  const auto& [index, error] = GetParam();
+  const Solid& solid = solids()[index];
+  const double measured = measure(solid, error);
+  RecordProperty("measured", fmt::format("{:.3g}", measured));
+  EXPECT_LE(measured, error * (1 + 1e-9) + 1e-9);
+  EXPECT_GE(measured, error / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Slices, ChordalError,
+    ::testing::Combine(::testing::Range(std::size_t{0}, std::size_t{9}),
+                       ::testing::Values(0.1, 0.01, 0.001, 0.0001)),
+    [](const auto& solid_case) {
+      return fmt::format(
+          "{}_{}", solids()[std::get<0>(solid_case.param)].name,
+          -std::lround(std::log10(std::get<1>(solid_case.param))));
+    });
+
+TEST(ChordalErrorRule, HasNoSayWhereFnIsGiven) {
+  const auto points = [](const std::string& text) {
+    const auto design = support::Design::from_text(text, 0.0001);
+    return support::slice_heights(design.scene(), {0.5})[0]
+        .contours.points.size();
+  };
+  EXPECT_EQ(points("cylinder(r = 5, $fn = 17);"), 17U);
+  EXPECT_GT(points("cylinder(r = 5);"), 300U);
+}
+
+}  // namespace
+}  // namespace lamina
