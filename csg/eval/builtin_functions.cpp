@@ -11,7 +11,9 @@
 
 #include "csg/degrees.h"
 #include "csg/eval/builtin_dxf.h"
+#include "csg/eval/builtin_objects.h"
 #include "csg/eval/interpreter.h"
+#include "csg/eval/object.h"
 #include "csg/eval/operators.h"
 #include "csg/eval/text.h"
 #include "csg/eval/utf8.h"
@@ -321,6 +323,9 @@ Value builtin_len(const CallCode& code, Frame& frame) {
   }
   if (value.is_string()) {
     return Value(static_cast<double>(value.character_count()));
+  }
+  if (value.is_object()) {
+    return Value(static_cast<double>(value.as_object().places.size()));
   }
   return wrong_type(code, frame);
 }
@@ -681,6 +686,10 @@ const Table& builtin_table() {
       {"is_list", {is_type<Type::kVector>, nullptr}},
       {"is_function", {is_type<Type::kFunction>, nullptr}},
       {"is_num", {builtin_is_num, nullptr}},
+      {"is_object", {builtin_is_object, nullptr}},
+      {"object", {builtin_object, nullptr}},
+      {"has_key", {builtin_has_key, nullptr}},
+      {"import", {builtin_import, nullptr}},
   };
   return table;
 }

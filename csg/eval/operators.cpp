@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/object.h"
+
 namespace lamina::csg {
 
 namespace {
@@ -425,6 +427,10 @@ bool are_equal(const Value& left, const Value& right) {
     }
     case Type::kRange:
       return are_equal_ranges(left.as_range(), right.as_range());
+    case Type::kFunction:
+      return are_equal_functions(left, right);
+    case Type::kObject:
+      return are_equal_objects(left, right);
     default:
       return left.is_same_object(right);
   }
@@ -497,6 +503,9 @@ Value negate(const Value& value, std::string& reason) {
 }
 
 Value index(const Value& object, const Value& index) {
+  if (object.is_object() && index.is_string()) {
+    return find_member(object, index.as_string());
+  }
   if (!index.is_number()) return Value();
   const double number = index.as_number();
   // Cut towards zero, so -0.5 is the first element; no number beyond 32 bits
@@ -554,6 +563,7 @@ Value member(const Value& object, std::string_view name) {
     return index(object, Value(static_cast<double>(name[0] - 'x')));
   }
   if (object.is_vector()) return swizzle(object.as_vector(), name);
+  if (object.is_object()) return find_member(object, name);
   if (object.is_range()) {
     const Range& range = object.as_range();
     if (name == "begin") return Value(range.begin);

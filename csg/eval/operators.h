@@ -40,11 +40,13 @@ bool are_equal(const Value& left, const Value& right);
 // left < right, false where that is undefined (min, max and search use it).
 bool is_less(const Value& left, const Value& right);
 
-// object[index]; undef without a word where there is no such element.
+// object[index], or object["name"] of an object; undef without a word where
+// there is no such element.
 Value index(const Value& object, const Value& index);
 
-// object.name: begin, step, end of a range; of a vector one of xyzw or rgba
-// (its first four elements), or a vector of up to four from one of the two.
+// object.name: a member of an object; begin, step, end of a range; of a vector
+// one of xyzw or rgba (its first four elements), or a vector of up to four from
+// one of the two.
 Value member(const Value& object, std::string_view name);
 
 }  // namespace lamina::csg

@@ -7,6 +7,7 @@
 
 #include "csg/eval/builtin_functions.h"
 #include "csg/eval/interpreter.h"
+#include "csg/eval/object.h"
 #include "csg/eval/operators.h"
 #include "csg/eval/resolver.h"
 #include "csg/eval/text.h"
@@ -338,6 +339,11 @@ void for_each_value(const Value& values, SourceRange range, Frame& frame,
     case Type::kVector:
       for (const Value& value : values.as_vector()) give(Value(value));
       return;
+    case Type::kObject:
+      for (const Value& key : values.as_object().keys.as_vector()) {
+        give(Value(key));
+      }
+      return;
     case Type::kString: {
       const std::uint32_t count = values.character_count();
       for (std::uint32_t i = 0; i < count; ++i) give(values.character(i));
@@ -431,6 +437,8 @@ void emit_each(const Element& element, Frame& frame, VectorBuilder& out) {
   const auto spread = [&](const Value& value) {
     if (value.is_vector()) {
       out.push_all(value.as_vector());
+    } else if (value.is_object()) {
+      out.push(value);  // `for` sees its keys, `each` the object
     } else {
       for_each_value(value, element.range, frame,
                      [&](Value one) { out.push(std::move(one)); });
@@ -610,6 +618,7 @@ bool jump_to_literal(const CallCode& call, const Callable& callable,
                      std::string_view name, std::size_t trail_mark,
                      Frame& frame) {
   if (call.callee == nullptr || call.name != name) return false;
+  if (frame.closure->method != nullptr) return false;
   const Value callee = run(call.callee, frame);
   if (!callee.is_function() || callee.as_function().code != &callable ||
       &callee.as_function() != frame.closure) {
@@ -714,6 +723,14 @@ Value call_function(const CallCode& code, Frame& frame) {
   return run_body(function, function.name, function.range, callee);
 }
 
+// The parameter `this` of a method is its object, whatever else was given.
+[[gnu::noinline]] void pass_this(const Closure& closure, Frame& callee) {
+  for (const Parameter& parameter : closure.code->parameters) {
+    if (parameter.name != "this") continue;
+    callee.in.assign(parameter.target, closure.method->object, callee);
+  }
+}
+
 // The callee holds a function; `function` keeps it alive.
 Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
   const Closure& closure = function.as_function();
@@ -729,6 +746,8 @@ Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
   const FrameSlots slots(callee, memory, callable.slot_count);
   pass_arguments(plan, callable.parameters, code.arguments, code.range, frame,
                  callee);
+  if (closure.method != nullptr) [[unlikely]]
+    pass_this(closure, callee);
   return run_body(callable, code.name, code.range, callee);
 }
 

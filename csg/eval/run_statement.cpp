@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "csg/eval/interpreter.h"
+#include "csg/eval/object.h"
 #include "csg/eval/resolver.h"
 #include "csg/eval/text.h"
 
@@ -186,6 +187,9 @@ void run_loop(const ForCode& code, std::size_t level, Frame& frame) {
     }
     case Type::kVector:
       for (const Value& value : values.as_vector()) round(value);
+      return;
+    case Type::kObject:
+      for (const Value& key : values.as_object().keys.as_vector()) round(key);
       return;
     case Type::kString:
       for (std::uint32_t i = 0; i < values.character_count(); ++i) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "csg/eval/code.h"
+#include "csg/eval/object.h"
 #include "parser/ast_printer.h"
 
 namespace lamina::csg {
@@ -70,6 +71,19 @@ void append_text(const Value& value, std::string& text) {
     case Type::kFunction:
       text += value.as_function().code->text();
       return;
+    case Type::kObject: {
+      const Members& members = value.as_object();
+      const std::span<const Value> keys = members.keys.as_vector();
+      text += "{ ";
+      for (std::size_t i = 0; i < keys.size(); ++i) {
+        text += keys[i].as_string();
+        text += " = ";
+        append_echo(members.values.as_vector()[i], text);
+        text += "; ";
+      }
+      text += '}';
+      return;
+    }
     default:
       text += "undef";
   }

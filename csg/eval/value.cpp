@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 
+#include "csg/eval/object.h"
 #include "csg/eval/utf8.h"
 
 namespace lamina::csg {
@@ -79,6 +80,8 @@ std::string_view type_name(Type type) {
       return "range";
     case Type::kFunction:
       return "function";
+    case Type::kObject:
+      return "object";
     default:
       return "undefined";
   }
@@ -136,6 +139,7 @@ bool Value::is_true() const {
       return payload_.number != 0;
     case Type::kString:
     case Type::kVector:
+    case Type::kObject:
       return length_ != 0;
     case Type::kRange:
     case Type::kFunction:
@@ -143,6 +147,10 @@ bool Value::is_true() const {
     default:
       return false;
   }
+}
+
+const Members& Value::as_object() const {
+  return *static_cast<const Members*>(payload_.object);
 }
 
 // --- Characters -----------------------------------------------------------
@@ -249,6 +257,22 @@ Value Value::with_appended(std::span<const Value> elements) const {
 
 // --- Freeing --------------------------------------------------------------
 
+// Lets a vector that nobody refers to any more, or the values of such an
+// object, join the queue of what is to be freed.
+void Value::join(VectorBuffer*& dying) {
+  if (is_object()) {
+    auto* members = static_cast<Members*>(payload_.object);
+    Value values = std::move(members->values);
+    delete members;
+    if (--values.payload_.object->references == 0) values.join(dying);
+    values.type_ = Type::kUndef;
+    return;
+  }
+  VectorBuffer& buffer = vector_buffer();
+  buffer.next_dying = dying;
+  dying = &buffer;
+}
+
 void Value::destroy() {
   switch (type_) {
     case Type::kString: {
@@ -269,21 +293,18 @@ void Value::destroy() {
     default:
       break;
   }
-  // Vectors: what dies with a vector joins a queue instead of a recursion.
-  VectorBuffer* dying = &vector_buffer();
+  // What dies with a vector or object joins a queue instead of a recursion.
+  VectorBuffer* dying = nullptr;
+  join(dying);
   while (dying != nullptr) {
     VectorBuffer* buffer = dying;
     dying = buffer->next_dying;
     for (std::uint32_t i = 0; i < buffer->used; ++i) {
       Value& value = buffer->data()[i];
-      if (!value.is_vector()) {
+      if (!value.is_vector() && !value.is_object()) {
         value.~Value();
-        continue;
-      }
-      VectorBuffer& child = value.vector_buffer();
-      if (--child.references == 0) {
-        child.next_dying = dying;
-        dying = &child;
+      } else if (--value.payload_.object->references == 0) {
+        value.join(dying);
       }
     }
     std::free(buffer);

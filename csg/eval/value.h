@@ -1,6 +1,6 @@
 #pragma once
-// Values of the language: undef, booleans, numbers, strings, vectors, ranges
-// and functions.
+// Values of the language: undef, booleans, numbers, strings, vectors, ranges,
+// functions and objects.
 //
 // A Value is 16 bytes: a type, a length and either the number itself or a
 // pointer to a counted, immutable object; copying one never allocates. The
@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,7 @@ enum class Type : std::uint8_t {
   kVector,
   kRange,
   kFunction,
+  kObject,
   kBox,  // no value of the language: a variable that closures share
 };
 
@@ -95,6 +97,7 @@ struct Range : Object {
 
 struct Box;
 struct Closure;
+struct Members;  // of an object: csg/eval/object.h
 
 class Value {
  public:
@@ -161,6 +164,7 @@ class Value {
   bool is_vector() const { return type_ == Type::kVector; }
   bool is_range() const { return type_ == Type::kRange; }
   bool is_function() const { return type_ == Type::kFunction; }
+  bool is_object() const { return type_ == Type::kObject; }
 
   // Only for a value of that type.
   double as_number() const { return payload_.number; }
@@ -175,6 +179,7 @@ class Value {
     return *static_cast<const Range*>(payload_.object);
   }
   const Closure& as_function() const;
+  const Members& as_object() const;
   Box& as_box() const;
 
   // Elements of a vector; none for any other type.
@@ -209,6 +214,7 @@ class Value {
     if (--payload_.object->references == 0) destroy();
   }
   void destroy();
+  void join(VectorBuffer*& dying);
   StringBuffer& string_buffer() const {
     return *static_cast<StringBuffer*>(payload_.object);
   }
@@ -223,7 +229,8 @@ class Value {
   };
 
   Type type_ = Type::kUndef;
-  std::uint32_t length_ = 0;  // bytes of a string, elements of a vector
+  // Bytes of a string, elements of a vector, members of an object.
+  std::uint32_t length_ = 0;
   Payload payload_ = {.object = nullptr};
 };
 static_assert(sizeof(Value) == 16);
@@ -238,11 +245,19 @@ struct Box : Object {
   Box* next = nullptr;
 };
 
+// What a function that was taken out of an object is: that function, and the
+// object as its parameter `this`.
+struct Method {
+  Value function;
+  Value object;
+};
+
 // A function value: its code and the variables that it took along.
 struct Closure : Object {
   const FunctionLiteral* code = nullptr;
   Frame* link = nullptr;  // variables of the module or file around it
   std::vector<Value> captured;
+  std::unique_ptr<const Method> method;  // mostly null
 };
 
 inline const Closure& Value::as_function() const {

@@ -1,0 +1,20 @@
+#pragma once
+// JSON files as values: objects with their members in the order of their
+// names, as OpenSCAD has them (of one name twice the last counts), null as
+// undef, every number as a number of the language.
+
+#include <string>
+
+#include "csg/eval/value.h"
+
+namespace lamina::csg {
+
+struct JsonResult {
+  Value value;
+  bool can_read = true;
+  std::string fault;  // why it is no JSON; empty: it is
+};
+
+JsonResult read_json(const std::string& path);
+
+}  // namespace lamina::csg
