@@ -183,9 +183,9 @@ Value run_bitwise(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
   Value spill_left;
   Value spill_right;
+  const Value& right = look(code.right, frame, spill_right);
   const Value& left = look(code.left, frame, spill_left);
-  return run_binary_any(code, left, look(code.right, frame, spill_right),
-                        frame);
+  return run_binary_any(code, left, right, frame);
 }
 
 Value run_and(const Expression& expression, Frame& frame) {

@@ -1,0 +1,47 @@
+// The programs that the manual shows give what it says.
+
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/csg/eval/evaluate_text.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::csg {
+namespace {
+
+// The lines of a section that are set in from the margin.
+std::string code_of_section(const std::string& heading) {
+  std::istringstream lines(read_text(LAMINA_USAGE));
+  std::string code;
+  bool is_inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) is_inside = line == heading;
+    if (is_inside && line.starts_with("    ")) code += line.substr(4) + '\n';
+  }
+  return code;
+}
+
+// What stands behind each `echo(…);  //`, as lines of the `.echo` file.
+std::string echoes_in_comments(const std::string& code) {
+  std::istringstream lines(code);
+  std::string echoes;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("echo(")) continue;
+    echoes += "ECHO: " + line.substr(line.rfind("// ") + 3) + '\n';
+  }
+  return echoes;
+}
+
+TEST(Usage, WhatIsNewerThan2021DoesWhatTheManualSays) {
+  const std::string code = code_of_section("### Newer than OpenSCAD 2021.01");
+  ASSERT_FALSE(code.empty());
+  const support::TemporaryFolder folder;
+  folder.write("ring.json", R"({"stones": [{"d": 2}, {"d": 1.25}]})");
+  EXPECT_EQ(evaluate_file(folder.write("usage.scad", code)).echo,
+            echoes_in_comments(code));
+}
+
+}  // namespace
+}  // namespace lamina::csg
