@@ -177,7 +177,12 @@ std::span<Parameter> Resolver::make_parameters(ast::Arguments written,
     parameter.fallback_text = argument.value;
     parameter.has_silent_fallback =
         argument.value == nullptr || is_literal(*argument.value);
-    if (is_dynamic_name(argument.name)) {
+    const auto earlier = std::find_if(
+        parameters.begin(), parameters.end(),
+        [&](const Parameter& p) { return p.name == argument.name; });
+    if (earlier != parameters.end()) {
+      parameter.target = earlier->target;  // a name is one variable
+    } else if (is_dynamic_name(argument.name)) {
       parameter.target = {Target::Kind::kDynamic, dynamic_index(argument.name),
                           nullptr};
     } else {
