@@ -212,6 +212,7 @@ std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
   std::deque<std::string> last;
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics) {
+    if (diagnostic.is_further) continue;
     const bool can_fold = diagnostic.severity == Severity::kWarning ||
                           diagnostic.severity == Severity::kError;
     for (std::string& line : openscad_lines(diagnostic, base_folder)) {

@@ -34,6 +34,8 @@ struct Diagnostic {
   // A file in whose folder OpenSCAD starts the path that it shows (for much of
   // what comes up in a used file, that file); null: the design.
   const Source* document = nullptr;
+  // OpenSCAD ended before: shown on the terminal only.
+  bool is_further = false;
 };
 
 // Thrown to end the run; only main catches.

@@ -13,6 +13,7 @@ void SyntaxErrors::report(SourceRange range, std::string_view message,
                    fmt::format("Parser error: {}", message),
                    {},
                    std::move(hints)};
+  error.is_further = count_ > 0;
   if (count_ == 0) first_ = error;
   ++count_;
   diagnostics_.report(std::move(error));

@@ -114,22 +114,31 @@ TEST(SyntaxErrors, TellWhatNoTextMayHold) {
             "unexpected '1e999', which is beyond the greatest number");
 }
 
+// OpenSCAD ends at the first one, and so do the lines of `.echo`.
 TEST(SyntaxErrors, OfOneRunAreAllReported) {
-  EXPECT_EQ(Parsed("a = ;\n"
-                   "module m() {\n"
-                   "  x = [1, 2;\n"
-                   "  cube(;\n"
-                   "  sphere(3);\n"
-                   "}\n"
-                   "translate([1, 2, 3) { cube(1) }\n"
-                   "b = 1;\n"
-                   "c = b +;\n")
-                .openscad_text(),
-            "ERROR: Parser error: syntax error in file x.scad, line 1\n"
-            "ERROR: Parser error: syntax error in file x.scad, line 3\n"
-            "ERROR: Parser error: syntax error in file x.scad, line 4\n"
-            "ERROR: Parser error: syntax error in file x.scad, line 7\n"
-            "ERROR: Parser error: syntax error in file x.scad, line 9\n");
+  const Parsed parsed(
+      "a = ;\n"
+      "module m() {\n"
+      "  x = [1, 2;\n"
+      "  cube(;\n"
+      "  sphere(3);\n"
+      "}\n"
+      "translate([1, 2, 3) { cube(1) }\n"
+      "b = 1;\n"
+      "c = b +;\n");
+  std::vector<std::string> lines;
+  for (const Diagnostic& error : parsed.messages()) {
+    lines.push_back(openscad_line(error, ""));
+  }
+  EXPECT_EQ(
+      lines,
+      std::vector<std::string>(
+          {"ERROR: Parser error: syntax error in file x.scad, line 1\n",
+           "ERROR: Parser error: syntax error in file x.scad, line 3\n",
+           "ERROR: Parser error: syntax error in file x.scad, line 4\n",
+           "ERROR: Parser error: syntax error in file x.scad, line 7\n",
+           "ERROR: Parser error: syntax error in file x.scad, line 9\n"}));
+  EXPECT_EQ(parsed.openscad_text(), lines.front());
 }
 
 TEST(SyntaxErrors, InABlockDoNotSpoilWhatFollowsIt) {

@@ -57,7 +57,7 @@ std::string Parsed::expression(const std::string& text) {
 std::string Parsed::openscad_text() const {
   std::string text;
   for (const Diagnostic& message : messages()) {
-    text += openscad_line(message, "");
+    if (!message.is_further) text += openscad_line(message, "");
   }
   return text;
 }
