@@ -301,10 +301,12 @@ void Value::destroy() {
     dying = buffer->next_dying;
     for (std::uint32_t i = 0; i < buffer->used; ++i) {
       Value& value = buffer->data()[i];
-      if (!value.is_vector() && !value.is_object()) {
-        value.~Value();
-      } else if (--value.payload_.object->references == 0) {
+      if (!value.is_counted()) continue;
+      if (--value.payload_.object->references != 0) continue;
+      if (value.is_vector() || value.is_object()) {
         value.join(dying);
+      } else {
+        value.destroy();
       }
     }
     std::free(buffer);
