@@ -6,6 +6,7 @@ LAMINA_BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config bison flex
   libglm-dev libfmt-dev libdouble-conversion-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
+  libqhull-dev
 )
 
 # To build and run the tests: the oracles above all.

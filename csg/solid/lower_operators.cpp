@@ -94,6 +94,16 @@ Shape Lowerer::lower_op(const Unsupported& op, const Node& node,
 // --- Children
 // -----------------------------------------------------------------
 
+Lowerer::Operands Lowerer::lower_operands(const Node& node, const Affine& world,
+                                          bool is_union, Dimension dimension) {
+  Operands operands;
+  operands.dimension = dimension;
+  for (const Node* child : node.children) {
+    if (!child->is_background) add_operand(*child, world, is_union, operands);
+  }
+  return operands;
+}
+
 void Lowerer::add_operand(const Node& child, const Affine& world, bool is_union,
                           Operands& operands) {
   const std::size_t begin = builder_.mark();
@@ -132,11 +142,8 @@ void Lowerer::report_strays(const Operands& operands) {
 Shape Lowerer::lower_children(const Node& node, const Affine& world,
                               BooleanOp op) {
   const std::size_t mark = builder_.mark();
-  Operands operands;
-  for (const Node* child : node.children) {
-    if (child->is_background) continue;
-    add_operand(*child, world, op == BooleanOp::kUnion, operands);
-  }
+  const Operands operands =
+      lower_operands(node, world, op == BooleanOp::kUnion, Dimension::kNone);
   report_strays(operands);
   switch (operands.dimension) {
     case Dimension::kNone:

@@ -36,12 +36,7 @@ Shape Lowerer::lower_op(const Import&, const Node& node, const Affine&) {
 }
 
 Shape Lowerer::flatten_children(const Node& node, const Affine& world) {
-  Operands operands;
-  operands.dimension = Dimension::kFlat;
-  for (const Node* child : node.children) {
-    if (child->is_background) continue;
-    add_operand(*child, world, true, operands);
-  }
+  Operands operands = lower_operands(node, world, true, Dimension::kFlat);
   operands.first_mixed = nullptr;
   report_strays(operands);
   if (operands.regions.empty()) {

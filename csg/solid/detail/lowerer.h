@@ -65,6 +65,9 @@ class Lowerer {
     std::vector<const Node*> strays;  // of the other dimension
     const Node* first_mixed = nullptr;
   };
+  // All children; `dimension` decides unless it is kNone.
+  Operands lower_operands(const Node& node, const Affine& world, bool is_union,
+                          Dimension dimension);
   void add_operand(const Node& child, const Affine& world, bool is_union,
                    Operands& operands);
   void report_strays(const Operands& operands);
@@ -109,6 +112,14 @@ class Lowerer {
   Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
   Shape lower_op(const Resize& op, const Node& node, const Affine& world);
   Shape lower_op(const Projection& op, const Node& node, const Affine& world);
+
+  // A node's children lowered by themselves, in the node's coordinates.
+  struct Apart {
+    Dimension dimension = Dimension::kNone;
+    std::vector<planar::Region> regions;  // one for each child that has one
+    Scene scene;                          // their union
+  };
+  Apart lower_apart(const Node& node, const Affine& world);
 
   struct KeptBox {
     std::uint32_t leaf = 0;

@@ -1,0 +1,24 @@
+#pragma once
+// The convex hull of points in space, by Qhull.
+//
+// Qhull decides in floating point and merges facets until the hull is convex
+// within what rounding can do; its input is never joggled. So facets are
+// polygons, the same whatever the diagonals were, and cut into triangles here.
+// Source: Barber, Dobkin, Huhdanpaa, "The Quickhull algorithm for convex
+// hulls", ACM Transactions on Mathematical Software, 1996.
+
+#include <vector>
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// A closed mesh; its vertices are some of the points, bit by bit. Empty where
+// all points lie in one plane, up to rounding.
+Mesh convex_hull(std::vector<Vec3> points);
+
+// Some of the points that have the same hull, whatever their dimension: few,
+// as a rule.
+std::vector<Vec3> extreme_points(std::vector<Vec3> points);
+
+}  // namespace lamina::csg

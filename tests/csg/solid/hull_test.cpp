@@ -1,0 +1,147 @@
+// hull(), against volumes known otherwise.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "csg/solid/detail/convex_hull.h"
+#include "tests/csg/solid/lower_fixture.h"
+#include "tests/csg/solid/mesh_checks.h"
+
+namespace lamina::csg {
+namespace {
+
+using Hulls = LowerFixture;
+
+constexpr double kRounding = 1e-9;
+
+TEST(ConvexHull, OfPointsThatSpanNoVolumeIsNothing) {
+  EXPECT_TRUE(convex_hull({}).triangles.empty());
+  EXPECT_TRUE(convex_hull({{1, 2, 3}, {1, 2, 3}}).triangles.empty());
+  EXPECT_TRUE(
+      convex_hull({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {5, 5, 5}})
+          .triangles.empty());
+  EXPECT_TRUE(
+      convex_hull({{0, 0, 7}, {1, 0, 7}, {1, 1, 7}, {0, 1, 7}, {2, 5, 7}})
+          .triangles.empty());
+}
+
+TEST(ConvexHull, OfAGridIsItsBox) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 7; ++j) {
+      for (int k = 0; k < 8; ++k) points.emplace_back(i, j, k);
+    }
+  }
+  const Mesh mesh = convex_hull(points);
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_DOUBLE_EQ(signed_volume(mesh), 5 * 6 * 7);
+}
+
+TEST(ConvexHull, KeepsItsShapeFarFromTheOrigin) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i) {
+    points.push_back(Vec3(1e6) + Vec3(i & 1, i >> 1 & 1, i >> 2) * 0.001);
+  }
+  const Mesh mesh = convex_hull(points);
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+}
+
+TEST(ExtremePoints, OfALineAndAPlaneAreTheirCorners) {
+  EXPECT_EQ(
+      extreme_points({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9}, {4, 8, 12}})
+          .size(),
+      2u);
+  std::vector<Vec3> tilted;
+  for (int i = 0; i <= 5; ++i) {
+    for (int j = 0; j <= 5; ++j) tilted.emplace_back(i, j, i + 2 * j);
+  }
+  EXPECT_EQ(extreme_points(tilted).size(), 4u);
+}
+
+TEST_F(Hulls, OfOneConvexLeafIsThatLeaf) {
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {b.cube({2, 3, 4})})}), 24, kRounding);
+  const double sphere = run_volume({b.sphere(5, 40)});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {b.sphere(5, 40)})}), sphere,
+              kRounding);
+}
+
+// A prism over the hull of two squares: 1 + 1 + the band between them.
+TEST_F(Hulls, OfTwoCubesIsThePrismBetweenThem) {
+  const double volume = run_volume(
+      {b.node(Hull{}, {b.cube({1, 1, 1}),
+                       b.translate({3, 3, 0}, {b.cube({1, 1, 1})})})});
+  EXPECT_NEAR(volume, 1 + 6, kRounding);
+}
+
+// V(A ⊕ segment) = V(A) + length · shadow of A.
+TEST_F(Hulls, OfASphereAndItsTranslateIsTheSweptSphere) {
+  const int n = 48;
+  const double pi = std::numbers::pi;
+  const double shadow = 0.5 * n * std::sin(2 * pi / n);
+  const double widest = std::sin(pi * (n / 4 + 0.5) / (n / 2));
+  const double sphere = run_volume({b.sphere(1, n)});
+  const double volume = run_volume({b.node(
+      Hull{}, {b.sphere(1, n), b.translate({0, 0, 7}, {b.sphere(1, n)})})});
+  EXPECT_NEAR(volume, sphere + 7 * shadow * widest * widest, kRounding);
+}
+
+TEST_F(Hulls, NestGroupAndMoveAsOne) {
+  const auto pair = [&] {
+    return TreeBuilder::Children{b.cube({1, 2, 3}),
+                                 b.translate({4, 5, 6}, {b.sphere(2, 12)})};
+  };
+  const double plain = run_volume({b.node(Hull{}, pair())});
+  const double nested = run_volume(
+      {b.node(Hull{}, {b.node(Hull{}, pair()), b.node(Union{}, pair())})});
+  EXPECT_NEAR(nested, plain, kRounding);
+  const double scaled =
+      run_volume({b.scale({2, -3, 0.5}, {b.node(Hull{}, pair())})});
+  EXPECT_NEAR(scaled, -3 * plain, kRounding);  // mirrored
+}
+
+TEST_F(Hulls, OfThousandsOfEqualLeavesIsThatOfTheOutermost) {
+  std::vector<const Node*> leaves;
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 20; ++j) {
+      for (int k = 0; k < 20; ++k) {
+        leaves.push_back(b.translate({i, j, k}, {b.cube({1, 1, 1})}));
+      }
+    }
+  }
+  EXPECT_NEAR(run_volume({b.node(Hull{}, leaves)}), 8000, kRounding);
+}
+
+TEST_F(Hulls, OfNothingAreNothing) {
+  EXPECT_TRUE(run({b.node(Hull{})}).is_empty());
+  EXPECT_TRUE(run({b.node(Hull{}, {b.cube({0, 1, 1})})}).is_empty());
+  Node* background = b.cube({1, 1, 1});
+  background->is_background = true;
+  EXPECT_TRUE(run({b.node(Hull{}, {background})}).is_empty());
+}
+
+TEST_F(Hulls, InThePlaneTakeAllOutlines) {
+  const planar::Region region = run_flat(
+      {b.node(Hull{}, {b.node(Square{{1, 1}}),
+                       b.translate({3, 3, 0}, {b.node(Square{{1, 1}})})})});
+  ASSERT_EQ(region.contours.size(), 1u);
+  EXPECT_EQ(region.contours[0].size(), 6u);
+  EXPECT_DOUBLE_EQ(planar::area(region), 7);
+}
+
+TEST_F(Hulls, LeaveOutChildrenOfTheOtherDimension) {
+  EXPECT_NEAR(
+      run_volume({b.node(Hull{}, {b.cube({1, 1, 1}), b.node(Square{{5, 5}})})}),
+      1, kRounding);
+  EXPECT_EQ(messages(), (std::vector<std::string>{
+                            "Mixing 2D and 3D objects is not supported",
+                            "Ignoring 2D child object for 3D operation"}));
+}
+
+}  // namespace
+}  // namespace lamina::csg
