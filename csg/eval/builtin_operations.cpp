@@ -443,7 +443,7 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
     const Value height = run(code.late_argument, frame);
     params.height = to_finite(height).value_or(params.height);
   }
-  params.height = std::max(params.height, 0.0);
+  if (params.height <= 0) params.height = 0;  // -0 is printed otherwise
   params.convexity = std::max(
       to_finite(arguments[kConvexity]) ? to_int(arguments[kConvexity]) : 1, 1);
   const Vec2 origin = read_origin(arguments[kOrigin], code, frame);
