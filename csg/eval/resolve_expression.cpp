@@ -193,8 +193,8 @@ const Expression* ExpressionResolver::variable(std::string_view name,
   if (!is_certain) {
     if (name == "PI") {
       otherwise = constant(Value(std::numbers::pi), range);
-    } else if (is_hex_literal(name)) {
-      otherwise = hex_literal(name, range);
+    } else if (is_prefixed_literal(name)) {
+      otherwise = prefixed_literal(name, range);
     } else if (unknown == Unknown::kSilent) {
       otherwise = constant(Value(), range);
     } else {
@@ -215,9 +215,9 @@ const Expression* ExpressionResolver::variable(std::string_view name,
   return otherwise;
 }
 
-const Expression* ExpressionResolver::hex_literal(std::string_view name,
-                                                  SourceRange range) {
-  const HexLiteral literal = read_hex_literal(name);
+const Expression* ExpressionResolver::prefixed_literal(std::string_view name,
+                                                       SourceRange range) {
+  const PrefixedLiteral literal = read_prefixed_literal(name);
   if (literal.warning.empty()) return constant(Value(literal.value), range);
   auto* code = resolver_.make<InexactLiteral>();
   code->run = run_inexact_literal;

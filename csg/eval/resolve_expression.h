@@ -51,7 +51,7 @@ class ExpressionResolver {
   const Element* for_c_element(const ast::ForCElements& loop,
                                SourceRange range);
   const Expression* constant(Value value, SourceRange range);
-  const Expression* hex_literal(std::string_view name, SourceRange range);
+  const Expression* prefixed_literal(std::string_view name, SourceRange range);
   const Expression* binary(const ast::Binary& binary, SourceRange range);
   const Expression* call(const ast::Call& call, SourceRange range,
                          Position position);
