@@ -121,9 +121,10 @@ Region intersect(std::span<const Region> regions) {
   return to_region(common);
 }
 
-Region from_contours(std::span<const Contour> contours) {
+Region from_contours(std::span<const Contour> contours, FillRule rule) {
   return to_region(clip(ClipperLib::ctUnion, to_paths(contours), {},
-                        ClipperLib::pftEvenOdd));
+                        rule == FillRule::kEvenOdd ? ClipperLib::pftEvenOdd
+                                                   : ClipperLib::pftNonZero));
 }
 
 Region offset(const Region& region, double amount, Join join,

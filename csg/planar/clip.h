@@ -23,9 +23,13 @@ Region subtract(std::span<const Region> regions);
 
 Region intersect(std::span<const Region> regions);
 
-// The region that contours in any order and direction enclose, inside being
-// where a point is enclosed an odd number of times.
-Region from_contours(std::span<const Contour> contours);
+// Inside is where contours enclose a point an odd number of times, or where
+// they wind other than 0 times around it.
+enum class FillRule { kEvenOdd, kNonZero };
+
+// The region that contours in any order and direction enclose.
+Region from_contours(std::span<const Contour> contours,
+                     FillRule rule = FillRule::kEvenOdd);
 
 enum class Join { kRound, kMiter, kBevel };
 

@@ -70,6 +70,10 @@ int fragment_count(double r, const csg::Facets& facets) {
   return ceil_to_count(std::max(std::min(by_angle, by_length), 5.0));
 }
 
+int curve_segment_count(double size, const csg::Facets& facets) {
+  return std::max(fragment_count(size, facets) / 8 + 1, 2);
+}
+
 std::vector<Vec2> unit_circle(int n) {
   std::vector<Vec2> points(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {

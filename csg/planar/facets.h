@@ -15,6 +15,10 @@ namespace lamina::planar {
 // Number of sides of a circle of radius r [mm]; at least 3.
 int fragment_count(double r, const csg::Facets& facets);
 
+// Number of chords of a curve in a text of this size: fewer than of a circle,
+// as the curves of letters are short.
+int curve_segment_count(double size, const csg::Facets& facets);
+
 // (cos, sin) of 360° · i / n, counter-clockwise from +x.
 std::vector<Vec2> unit_circle(int n);
 

@@ -37,6 +37,18 @@ TEST(Clip, WhatIsEnclosedTwiceIsOutside) {
   EXPECT_EQ(area(from_contours(contours)), 12);
 }
 
+TEST(Clip, WhatWindsTwiceIsInsideByTheOtherRule) {
+  const Contour outer = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const Contour inner = {{1, 1}, {3, 1}, {3, 3}, {1, 3}};
+  const Contour turned(inner.rbegin(), inner.rend());
+  const auto area_of = [](const Contour& a, const Contour& b) {
+    const Contour contours[] = {a, b};
+    return area(from_contours(contours, FillRule::kNonZero));
+  };
+  EXPECT_EQ(area_of(outer, inner), 16);
+  EXPECT_EQ(area_of(outer, turned), 12);
+}
+
 TEST(Clip, ABowTieFallsIntoTwoTriangles) {
   const Contour bow[] = {{{0, 0}, {2, 2}, {2, 0}, {0, 2}}};
   const Region region = from_contours(bow);

@@ -35,6 +35,14 @@ TEST(SinDeg, IsNotANumberWhereAnglesAreMeaningless) {
       std::isnan(csg::cos_deg(std::numeric_limits<double>::infinity())));
 }
 
+// OpenSCAD 2021.01: max(floor(fragments / 8) + 1, 2).
+TEST(CurveSegmentCount, IsAnEighthOfACircles) {
+  EXPECT_EQ(curve_segment_count(10, {.fn = 0, .fa = 12, .fs = 2}), 4);
+  EXPECT_EQ(curve_segment_count(10, {.fn = 16, .fa = 12, .fs = 2}), 3);
+  EXPECT_EQ(curve_segment_count(10, {.fn = 7, .fa = 12, .fs = 2}), 2);
+  EXPECT_EQ(curve_segment_count(-10, {.fn = 100, .fa = 12, .fs = 2}), 2);
+}
+
 TEST(FragmentCount, FollowsFnFaFs) {
   EXPECT_EQ(fragment_count(10, {.fn = 0, .fa = 12, .fs = 2}), 30);
   EXPECT_EQ(fragment_count(1, {.fn = 0, .fa = 12, .fs = 2}), 5);
