@@ -143,7 +143,14 @@ ast::Program Loader::load_text(const std::string& path, std::string text) {
   return program;
 }
 
+void Loader::note_fonts(const ast::Program& program) {
+  for (const ast::Use& font : program.fonts) {
+    if (is_plain_file(font.file)) fonts_.emplace_back(font.file);
+  }
+}
+
 void Loader::load_uses(const ast::Program& program) {
+  note_fonts(program);
   for (const ast::Use& use : program.uses) {
     const std::string path(use.file);
     if (!use.is_found || used_.contains(path)) continue;

@@ -50,6 +50,10 @@ class Loader {
   // entries that name one file have one program.
   const ast::Program* used_program(const ast::Use& use) const;
 
+  // Fonts that the design and the files that it uses bring along
+  // (`use <….ttf>`), in the order in which they were read; files that exist.
+  const std::vector<std::string>& fonts() const { return fonts_; }
+
   // All files read so far, absolute, in the order in which they were opened,
   // each once (for make dependencies).
   const std::vector<std::string>& files_read() const { return files_read_; }
@@ -67,6 +71,7 @@ class Loader {
  private:
   ast::Program load_source(const Source& source);
   void load_uses(const ast::Program& program);
+  void note_fonts(const ast::Program& program);
   std::optional<ast::Program> load_used(const std::string& path,
                                         const Source& user);
   std::optional<std::string> read(const std::string& path);
@@ -76,6 +81,7 @@ class Loader {
   std::vector<std::string> folders_;
   std::string definitions_;
   std::vector<std::string> files_read_;
+  std::vector<std::string> fonts_;
   std::map<std::string, const Source*, std::less<>> included_;
   // Empty where parsing failed.
   std::map<std::string, std::optional<ast::Program>, std::less<>> used_;

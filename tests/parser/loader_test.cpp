@@ -144,6 +144,16 @@ TEST_F(LoaderTest, FontsStandApart) {
             "ERROR: Can't read font with path 'no.otf'\n");
 }
 
+TEST_F(LoaderTest, FontsOfUsedFilesAreTheDesignsToo) {
+  write("main.scad", "use <sub/u.scad>\nuse <x.TTF>\nuse <no.otf>");
+  write("x.TTF", "");
+  write("sub/u.scad", "use <y.otf>\nuse <x.otf>");
+  write("sub/y.otf", "");
+  load("main.scad");
+  EXPECT_EQ(loader_.fonts(),
+            (std::vector<std::string>{path("x.TTF"), path("sub/y.otf")}));
+}
+
 TEST_F(LoaderTest, AnErrorInAUsedFileDoesNotEndTheRun) {
   write("main.scad", "use <bad.scad>\ncube();");
   write("bad.scad", "module a() { cube( }\n");
