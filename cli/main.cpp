@@ -27,6 +27,7 @@
 #include "csg/eval/csg_printer.h"
 #include "csg/eval/evaluator.h"
 #include "csg/solid/lower.h"
+#include "csg/text/typesetter.h"
 #include "parser/ast_printer.h"
 #include "parser/loader.h"
 #include "slicer/formats/layer_writer.h"
@@ -69,6 +70,7 @@ struct Run {
   SourceStore sources;
   Diagnostics diagnostics;
   Loader loader;
+  text::Typesetter typesetter{text::module_folders()};
   RunReport report;
   const std::chrono::steady_clock::time_point begin =
       std::chrono::steady_clock::now();
@@ -177,9 +179,11 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   // Lowering comes before slicing because transforms, 2D parts and hulls need
   // the whole tree, layers only the leaves.
   const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
-    return csg::lower(
-        tree, {run.options.world_from_design, run.options.chordal_error},
-        run.diagnostics);
+    run.typesetter.add_fonts(run.loader.fonts());
+    return csg::lower(tree,
+                      {run.options.world_from_design, run.options.chordal_error,
+                       &run.typesetter},
+                      run.diagnostics);
   });
   if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
   if (const planar::Region* outline = lowered.outline()) {

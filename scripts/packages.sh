@@ -6,13 +6,14 @@ LAMINA_BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config bison flex
   libglm-dev libfmt-dev libdouble-conversion-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
-  libqhull-dev
+  libqhull-dev libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
 )
 
 # To build and run the tests: the oracles above all.
 LAMINA_TEST_PACKAGES=(
   libgtest-dev libbenchmark-dev libcgal-dev
   openscad openscad-testing-data openscad-mcad
+  fonts-dejavu-core fonts-hosny-amiri
 )
 
 # install_missing <package>…: installs those that are not there; asks for

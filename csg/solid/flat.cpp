@@ -68,6 +68,16 @@ Region make_polygon(const Polygon& polygon, SourceRange range,
                           [&] { return planar::from_contours(contours); });
 }
 
+Region make_text(const TextParams& params, text::Typesetter& typesetter,
+                 SourceRange range, Diagnostics& diagnostics) {
+  const int segments = planar::curve_segment_count(params.size, params.facets);
+  const auto contours =
+      typesetter.outline(params, segments, range, diagnostics);
+  return with_range_check(range, diagnostics, [&] {
+    return planar::from_contours(contours, planar::FillRule::kNonZero);
+  });
+}
+
 Region combine_regions(BooleanOp op, std::span<const Region> regions,
                        SourceRange range, Diagnostics& diagnostics) {
   return with_range_check(range, diagnostics, [&] {

@@ -43,9 +43,9 @@ void fail_unsupported(const Node& node, std::string_view module) {
                        call_chain(node)});
 }
 
-Lowerer::Lowerer(std::size_t instances, double chordal_error,
+Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
                  Diagnostics& diagnostics)
-    : chordal_error_(chordal_error), diagnostics_(diagnostics) {
+    : options_(options), diagnostics_(diagnostics) {
   builder_.reserve(instances);
 }
 
@@ -66,7 +66,7 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   Survey found;
   survey(*tree.root, found);
   const Node* root = found.root_modifier ? found.root_modifier : tree.root;
-  Lowerer lowerer(found.childless, options.chordal_error, diagnostics);
+  Lowerer lowerer(found.childless, options, diagnostics);
   Shape shape = lowerer.lower(*root, options.world_from_design);
   if (!shape.region.is_empty()) return {std::move(shape.region)};
   if (lowerer.has_parts()) return {lowerer.take_scene()};

@@ -14,6 +14,10 @@
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
 
+namespace lamina::text {
+class Typesetter;
+}
+
 namespace lamina::csg {
 
 struct LowerOptions {
@@ -22,6 +26,8 @@ struct LowerOptions {
   // Greatest distance in the world of facets from the round surface that they
   // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
   double chordal_error = 0;
+  // For text(), which is an error without.
+  text::Typesetter* typesetter = nullptr;
 };
 
 // What a design is: nothing, an outline in the plane (in the design's

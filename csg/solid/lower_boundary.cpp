@@ -35,8 +35,9 @@ planar::Region hull_of(const std::vector<planar::Region>& regions) {
 }  // namespace
 
 Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world) {
-  const double chordal_error = fineness({}, world).chordal_error;
-  Lowerer inner(node.children.size(), chordal_error, diagnostics_);
+  LowerOptions options = options_;
+  options.chordal_error = fineness({}, world).chordal_error;
+  Lowerer inner(node.children.size(), options, diagnostics_);
   Operands operands =
       inner.lower_operands(node, Affine(1.0), true, Dimension::kNone);
   report_strays(operands);

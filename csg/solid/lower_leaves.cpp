@@ -102,16 +102,16 @@ Shape Lowerer::lower_op(const Surface&, const Node& node, const Affine&) {
 }
 
 Fineness Lowerer::fineness(const Facets& facets, const Affine& world) const {
-  if (chordal_error_ == 0) return {facets};
-  return {facets, chordal_error_ / greatest_stretch(world)};
+  if (options_.chordal_error == 0) return {facets};
+  return {facets, options_.chordal_error / greatest_stretch(world)};
 }
 
 Shape Lowerer::flatten_finely(const Node& node, const Affine& world,
                               double share) {
-  const double whole = chordal_error_;
-  chordal_error_ *= share;
+  const double whole = options_.chordal_error;
+  options_.chordal_error *= share;
   Shape shape = flatten_children(node, world);
-  chordal_error_ = whole;
+  options_.chordal_error = whole;
   return shape;
 }
 

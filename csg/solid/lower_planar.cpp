@@ -27,8 +27,10 @@ Shape Lowerer::lower_op(const Offset& op, const Node& node,
                         node.range, diagnostics_)};
 }
 
-Shape Lowerer::lower_op(const Text&, const Node& node, const Affine&) {
-  fail_unsupported(node, "text");
+Shape Lowerer::lower_op(const Text& text, const Node& node, const Affine&) {
+  if (!options_.typesetter) fail_unsupported(node, "text");
+  return {Dimension::kFlat, make_text(*text.params, *options_.typesetter,
+                                      node.range, diagnostics_)};
 }
 
 Shape Lowerer::lower_op(const Import&, const Node& node, const Affine&) {

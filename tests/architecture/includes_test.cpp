@@ -123,6 +123,9 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"oneapi/tbb", {"slicer/"}},
       {"png", {"slicer/", "csg/import/"}},
       {"CLI/", {"cli/"}},
+      {"fontconfig/", {"csg/text/"}},
+      {"ft2build.h", {"csg/text/"}},
+      {"hb", {"csg/text/"}},
   };
   for (const Include& include : includes_below(kProduct)) {
     for (const Home& home : homes) {

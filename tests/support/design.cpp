@@ -6,6 +6,7 @@
 
 #include "csg/eval/evaluator.h"
 #include "csg/solid/lower.h"
+#include "csg/text/typesetter.h"
 #include "parser/loader.h"
 #include "slicer/slice.h"
 
@@ -29,11 +30,14 @@ struct Design::State {
 
   // Reads by `load` and goes on to the scene.
   template <typename Load>
-  void build(const Load& load, const csg::LowerOptions& options = {}) {
+  void build(const Load& load, csg::LowerOptions options = {}) {
     loader.emplace(sources, diagnostics, std::vector<std::string>());
     try {
       program = load(*loader);
       tree = csg::evaluate(program, *loader, {}, diagnostics);
+      text::Typesetter typesetter({LAMINA_MODULES});
+      typesetter.add_fonts(loader->fonts());
+      options.typesetter = &typesetter;
       lowered = csg::lower(tree, options, diagnostics);
     } catch (const Error& error) {
       throw std::runtime_error(messages() + error.what());

@@ -9,6 +9,7 @@
 #include "csg/planar/region.h"
 #include "csg/scene.h"
 #include "csg/solid/detail/fineness.h"
+#include "csg/text/typesetter.h"
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
 
@@ -16,6 +17,9 @@ namespace lamina::csg {
 
 planar::Region make_polygon(const Polygon& polygon, SourceRange range,
                             Diagnostics& diagnostics);
+
+planar::Region make_text(const TextParams& params, text::Typesetter& typesetter,
+                         SourceRange range, Diagnostics& diagnostics);
 
 // regions  at least one
 planar::Region combine_regions(BooleanOp op,

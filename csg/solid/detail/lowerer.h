@@ -18,6 +18,7 @@
 #include "csg/solid/detail/fineness.h"
 #include "csg/solid/detail/leaf_store.h"
 #include "csg/solid/detail/program_builder.h"
+#include "csg/solid/lower.h"
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
 
@@ -34,8 +35,7 @@ struct Shape {
 class Lowerer {
  public:
   // instances  about as many as there will be
-  // chordal_error  see LowerOptions
-  Lowerer(std::size_t instances, double chordal_error,
+  Lowerer(std::size_t instances, const LowerOptions& options,
           Diagnostics& diagnostics);
 
   // The solid parts of the subtree are left on top of the builder's stack, in
@@ -127,7 +127,7 @@ class Lowerer {
     Box3 box;
   };
 
-  double chordal_error_;
+  LowerOptions options_;
   Diagnostics& diagnostics_;
   LeafStore leaves_;
   ProgramBuilder builder_;

@@ -1,0 +1,63 @@
+#pragma once
+// Fonts by name: Fontconfig finds the file, FreeType and HarfBuzz read it.
+//
+// Which file a name means follows OpenSCAD 2021.01, and with the same
+// Fontconfig it is the same file: the system's fonts, ~/.fonts, the folders of
+// OPENSCAD_FONT_PATH, the fonts that come with OpenSCAD, those that the
+// design uses.
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include <fontconfig/fontconfig.h>
+#include <ft2build.h>
+#include <hb.h>
+#include FT_FREETYPE_H
+
+namespace lamina::text {
+
+// Frees what the C libraries made.
+struct Release {
+  void operator()(FcConfig* config) const { FcConfigDestroy(config); }
+  void operator()(FcPattern* pattern) const { FcPatternDestroy(pattern); }
+  void operator()(FT_Library library) const { FT_Done_FreeType(library); }
+  void operator()(FT_Face face) const { FT_Done_Face(face); }
+  void operator()(hb_font_t* font) const { hb_font_destroy(font); }
+  void operator()(hb_buffer_t* buffer) const { hb_buffer_destroy(buffer); }
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Release>;
+
+struct Font {
+  Owned<FT_FaceRec> face;  // null: there is no such font, or it is broken
+  Owned<hb_font_t> shaper;
+  // Webdings and its like: characters stand at U+F000 and above.
+  bool is_symbol = false;
+  std::string complaint;  // what to tell about it, if anything
+
+  // Outlines are read at this size [1/64 pixel], so fine that the
+  // hinting of fonts does not show. One em is 100/72 of it.
+  static constexpr int kSize = 100000;
+};
+
+class FontCache {
+ public:
+  FontCache();
+
+  // False if Fontconfig finds no font in the file.
+  bool add_font(const char* path);
+
+  // The best match for a Fontconfig name ("Liberation Sans:style=Bold").
+  const Font& find(const std::string& name);
+
+ private:
+  void add_folder(const std::string& path);
+  Font load(const std::string& name) const;
+
+  Owned<FcConfig> config_;
+  Owned<FT_LibraryRec_> library_;
+  std::map<std::string, Font> fonts_;  // must go before the library
+};
+
+}  // namespace lamina::text

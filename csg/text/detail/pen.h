@@ -1,0 +1,48 @@
+#pragma once
+// Draws the outlines of glyphs as polygons.
+//
+// A curve becomes a fixed number of chords, evenly spaced in its parameter, as
+// in OpenSCAD 2021.01.
+
+#include <cstdint>
+#include <vector>
+
+#include <ft2build.h>
+
+#include "csg/vec.h"
+#include FT_OUTLINE_H
+
+namespace lamina::text {
+
+class Pen {
+ public:
+  // size      scales everything [mm]
+  // segments  of a curve
+  Pen(double size, int segments) : size_(size), segments_(segments) {}
+
+  // `origin` is the outline's own; where it lies before scaling.
+  void draw(FT_Outline& outline, Vec2 origin);
+
+  // Of all polygons, one after another, and the end of each.
+  const std::vector<Vec2>& points() const { return points_; }
+  const std::vector<std::uint32_t>& ends() const { return ends_; }
+
+ private:
+  struct Strokes;  // FreeType's calls
+
+  void move_to(Vec2 to);
+  void line_to(Vec2 to);
+  void curve_to(Vec2 control, Vec2 to);
+  void curve_to(Vec2 control1, Vec2 control2, Vec2 to);
+  void add(Vec2 point);
+  void close();
+
+  double size_;
+  int segments_;
+  Vec2 origin_ = Vec2(0);
+  Vec2 at_ = Vec2(0);
+  std::vector<Vec2> points_;
+  std::vector<std::uint32_t> ends_;
+};
+
+}  // namespace lamina::text

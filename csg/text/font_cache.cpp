@@ -1,0 +1,204 @@
+#include "csg/text/detail/font_cache.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <hb-ft.h>
+#include FT_TRUETYPE_IDS_H
+
+namespace lamina::text {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDefaultFont = "Liberation Sans:style=Regular";
+constexpr const char* kBundledFonts = "/usr/share/openscad/fonts";
+constexpr unsigned kDotsPerInch = 100;
+constexpr FT_ULong kSymbolPage = 0xF000;
+
+const FcChar8* to_fc(const char* text) {
+  return reinterpret_cast<const FcChar8*>(text);
+}
+const char* from_fc(const FcChar8* text) {
+  return reinterpret_cast<const char*>(text);
+}
+
+std::string trimmed(const std::string& text) {
+  constexpr const char* kBlanks = " \t\n\v\f\r";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+// --- Fontconfig -------------------------------------------------------------
+
+bool has_family(const FcPattern& pattern, const FcChar8* family) {
+  FcChar8* other = nullptr;
+  for (int i = 0;
+       FcPatternGetString(&pattern, FC_FAMILY, i, &other) == FcResultMatch;
+       ++i) {
+    if (FcStrCmpIgnoreCase(family, other) == 0) return true;
+  }
+  return false;
+}
+
+// Whether the configuration says that a font of `match` is as good as the one
+// asked for (Liberation Sans for Arial), or one was asked for by its kind only.
+bool is_equivalent(const FcPattern& substituted, const FcPattern& match) {
+  FcValue value;
+  FcValueBinding binding = FcValueBindingWeak;
+  for (int i = 0; FcPatternGetWithBinding(&substituted, FC_FAMILY, i, &value,
+                                          &binding) == FcResultMatch;
+       ++i) {
+    if (binding == FcValueBindingWeak) continue;
+    if (value.type == FcTypeString && has_family(match, value.u.s)) return true;
+  }
+  return false;
+}
+
+bool is_generic(std::string_view family) {
+  constexpr std::string_view kGeneric[] = {"sans",    "sans-serif", "serif",
+                                           "mono",    "monospace",  "cursive",
+                                           "fantasy", "system-ui"};
+  return std::find(std::begin(kGeneric), std::end(kGeneric), family) !=
+         std::end(kGeneric);
+}
+
+// What to tell where Fontconfig had to take another font than the one asked
+// for. OpenSCAD takes it silently.
+std::string describe_substitution(const FcPattern& asked,
+                                  const FcPattern& substituted,
+                                  const FcPattern& match) {
+  FcChar8* family = nullptr;
+  FcChar8* taken = nullptr;
+  if (FcPatternGetString(&asked, FC_FAMILY, 0, &family) != FcResultMatch ||
+      FcPatternGetString(&match, FC_FAMILY, 0, &taken) != FcResultMatch ||
+      is_generic(from_fc(family)) || is_equivalent(substituted, match)) {
+    return "";
+  }
+  return fmt::format("Font '{}' not found, '{}' is used instead",
+                     from_fc(family), from_fc(taken));
+}
+
+// --- FreeType ---------------------------------------------------------------
+
+bool select_charmap(FT_FaceRec& face, int platform, int encoding) {
+  for (int i = 0; i < face.num_charmaps; ++i) {
+    const FT_CharMap map = face.charmaps[i];
+    if (map->platform_id == platform &&
+        (encoding < 0 || map->encoding_id == encoding) &&
+        FT_Set_Charmap(&face, map) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool select_best_charmap(FT_FaceRec& face) {
+  return FT_Select_Charmap(&face, FT_ENCODING_UNICODE) == 0 ||
+         select_charmap(face, TT_PLATFORM_MICROSOFT, TT_MS_ID_UNICODE_CS) ||
+         select_charmap(face, TT_PLATFORM_ISO, TT_ISO_ID_10646) ||
+         select_charmap(face, TT_PLATFORM_APPLE_UNICODE, -1) ||
+         select_charmap(face, TT_PLATFORM_MICROSOFT, TT_MS_ID_SYMBOL_CS) ||
+         select_charmap(face, TT_PLATFORM_MACINTOSH, TT_MAC_ID_ROMAN) ||
+         select_charmap(face, TT_PLATFORM_ISO, TT_ISO_ID_8859_1) ||
+         select_charmap(face, TT_PLATFORM_ISO, TT_ISO_ID_7BIT_ASCII);
+}
+
+bool has_symbols(FT_FaceRec& face) {
+  if (!face.charmap || face.charmap->platform_id != TT_PLATFORM_MICROSOFT ||
+      face.charmap->encoding_id != TT_MS_ID_SYMBOL_CS) {
+    return false;
+  }
+  FT_UInt glyph = 0;
+  const FT_ULong first = FT_Get_First_Char(&face, &glyph);
+  return glyph != 0 && first >= kSymbolPage;
+}
+
+}  // namespace
+
+FontCache::FontCache() : config_(FcInitLoadConfig()) {
+  FT_Library library = nullptr;
+  if (!config_ || FT_Init_FreeType(&library) != 0) throw std::bad_alloc();
+  library_.reset(library);
+  add_folder(kBundledFonts);
+  if (const char* home = std::getenv("HOME")) {
+    add_folder(std::string(home) + "/.fonts");
+  }
+  if (const char* folders = std::getenv("OPENSCAD_FONT_PATH")) {
+    std::string_view rest = folders;
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find(':'), rest.size());
+      add_folder(std::string(rest.substr(0, end)));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+  if (!FcConfigBuildFonts(config_.get())) throw std::bad_alloc();
+}
+
+void FontCache::add_folder(const std::string& path) {
+  std::error_code error;
+  const fs::path folder = fs::absolute(path, error);
+  if (!fs::is_directory(folder, error)) return;
+  FcConfigAppFontAddDir(config_.get(), to_fc(folder.c_str()));
+}
+
+bool FontCache::add_font(const char* path) {
+  return FcConfigAppFontAddFile(config_.get(), to_fc(path)) == FcTrue;
+}
+
+const Font& FontCache::find(const std::string& name) {
+  const auto known = fonts_.find(name);
+  if (known != fonts_.end()) return known->second;
+  return fonts_.emplace(name, load(name)).first->second;
+}
+
+Font FontCache::load(const std::string& name) const {
+  Font font;
+  font.complaint = fmt::format("Can't get font {}", name);
+  const std::string wanted = trimmed(name);
+  const Owned<FcPattern> pattern(
+      FcNameParse(to_fc(wanted.empty() ? kDefaultFont : wanted.c_str())));
+  if (!pattern) return font;
+  const Owned<FcPattern> asked(FcPatternDuplicate(pattern.get()));
+  FcPatternAddBool(pattern.get(), FC_OUTLINE, FcTrue);
+  FcPatternAddBool(pattern.get(), FC_SCALABLE, FcTrue);
+  FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern);
+  FcDefaultSubstitute(pattern.get());
+  FcResult result = FcResultNoMatch;
+  const Owned<FcPattern> match(
+      FcFontMatch(config_.get(), pattern.get(), &result));
+  FcChar8* file = nullptr;
+  int index = 0;
+  if (!match ||
+      FcPatternGetString(match.get(), FC_FILE, 0, &file) != FcResultMatch ||
+      FcPatternGetInteger(match.get(), FC_INDEX, 0, &index) != FcResultMatch) {
+    return font;
+  }
+
+  FT_Face face = nullptr;
+  if (FT_New_Face(library_.get(), from_fc(file), index, &face) != 0) {
+    return font;
+  }
+  Owned<FT_FaceRec> owned(face);
+  font.complaint = describe_substitution(*asked, *pattern, *match);
+  if (!select_best_charmap(*face)) {
+    font.complaint = fmt::format("Could not select a char map for font {}/{}'",
+                                 face->family_name, face->style_name);
+  }
+  if (FT_Set_Char_Size(face, 0, Font::kSize, kDotsPerInch, kDotsPerInch) != 0) {
+    font.complaint = fmt::format("Can't set font size for font {}", name);
+    return font;
+  }
+  font.is_symbol = has_symbols(*face);
+  font.shaper.reset(hb_ft_font_create(face, nullptr));
+  font.face = std::move(owned);
+  return font;
+}
+
+}  // namespace lamina::text

@@ -1,0 +1,98 @@
+#include "csg/text/detail/pen.h"
+
+#include <new>
+
+#include "csg/text/detail/font_cache.h"
+
+namespace lamina::text {
+namespace {
+
+// A point of an outline in the units of text(size = 1).
+Vec2 to_vec(const FT_Vector* point) {
+  return {static_cast<double>(point->x) / Font::kSize,
+          static_cast<double>(point->y) / Font::kSize};
+}
+
+}  // namespace
+
+// FreeType is C: nothing may be thrown through it.
+struct Pen::Strokes {
+  template <typename Stroke>
+  static int draw(void* pen, Stroke stroke) noexcept {
+    try {
+      stroke(*static_cast<Pen*>(pen));
+      return 0;
+    } catch (const std::bad_alloc&) {
+      return 1;
+    }
+  }
+  static int move_to(const FT_Vector* to, void* pen) noexcept {
+    return draw(pen, [&](Pen& p) { p.move_to(to_vec(to)); });
+  }
+  static int line_to(const FT_Vector* to, void* pen) noexcept {
+    return draw(pen, [&](Pen& p) { p.line_to(to_vec(to)); });
+  }
+  static int conic_to(const FT_Vector* control, const FT_Vector* to,
+                      void* pen) noexcept {
+    return draw(pen, [&](Pen& p) { p.curve_to(to_vec(control), to_vec(to)); });
+  }
+  static int cubic_to(const FT_Vector* control1, const FT_Vector* control2,
+                      const FT_Vector* to, void* pen) noexcept {
+    return draw(pen, [&](Pen& p) {
+      p.curve_to(to_vec(control1), to_vec(control2), to_vec(to));
+    });
+  }
+};
+
+void Pen::draw(FT_Outline& outline, Vec2 origin) {
+  origin_ = origin;
+  FT_Outline_Funcs strokes = {};
+  strokes.move_to = Strokes::move_to;
+  strokes.line_to = Strokes::line_to;
+  strokes.conic_to = Strokes::conic_to;
+  strokes.cubic_to = Strokes::cubic_to;
+  // An outline that is no outline draws what it can, as in OpenSCAD.
+  const FT_Error error = FT_Outline_Decompose(&outline, &strokes, this);
+  if (error == 1) throw std::bad_alloc();
+  close();
+}
+
+void Pen::move_to(Vec2 to) {
+  close();
+  line_to(to);
+}
+
+void Pen::line_to(Vec2 to) {
+  add(to);
+  at_ = to;
+}
+
+void Pen::curve_to(Vec2 control, Vec2 to) {
+  for (int i = 1; i <= segments_; ++i) {
+    const double a = static_cast<double>(i) / segments_;
+    const double b = 1 - a;
+    add(b * b * at_ + 2 * a * b * control + a * a * to);
+  }
+  at_ = to;
+}
+
+void Pen::curve_to(Vec2 control1, Vec2 control2, Vec2 to) {
+  for (int i = 1; i <= segments_; ++i) {
+    const double a = static_cast<double>(i) / segments_;
+    const double b = 1 - a;
+    add(b * b * b * at_ + 3 * a * b * b * control1 + 3 * a * a * b * control2 +
+        a * a * a * to);
+  }
+  at_ = to;
+}
+
+void Pen::add(Vec2 point) { points_.push_back(size_ * (point + origin_)); }
+
+void Pen::close() {
+  const std::size_t begin = ends_.empty() ? 0 : ends_.back();
+  if (points_.size() > begin) {
+    ends_.push_back(static_cast<std::uint32_t>(points_.size()));
+  }
+}
+
+}  // namespace lamina::text

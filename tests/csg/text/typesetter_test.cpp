@@ -1,0 +1,342 @@
+// Laws of text. That outlines are OpenSCAD's is the oracles' matter.
+
+#include "csg/text/typesetter.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "csg/planar/clip.h"
+#include "csg/planar/region.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::text {
+namespace {
+
+using Contours = std::vector<std::vector<Vec2>>;
+
+const std::string kLiberation =
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf";
+
+struct Box {
+  Vec2 low = Vec2(1e9);
+  Vec2 high = Vec2(-1e9);
+};
+
+Box box_of(const Contours& contours) {
+  Box box;
+  for (const auto& contour : contours) {
+    for (const Vec2 p : contour) {
+      box.low = {std::fmin(box.low.x, p.x), std::fmin(box.low.y, p.y)};
+      box.high = {std::fmax(box.high.x, p.x), std::fmax(box.high.y, p.y)};
+    }
+  }
+  return box;
+}
+
+csg::TextParams params_of(std::string_view text) {
+  csg::TextParams params;
+  params.text = text;
+  params.font = "Liberation Sans";
+  params.direction = "ltr";
+  params.language = "en";
+  params.script = "Latn";
+  params.halign = "left";
+  params.valign = "baseline";
+  return params;
+}
+
+// The difference of two texts that are the same but for a shift; NaN if they
+// are not.
+Vec2 shift_between(const Contours& from, const Contours& to) {
+  if (from.empty() || from.size() != to.size()) return Vec2(std::nan(""));
+  const Vec2 shift = to[0][0] - from[0][0];
+  for (std::size_t c = 0; c < from.size(); ++c) {
+    if (from[c].size() != to[c].size()) return Vec2(std::nan(""));
+    for (std::size_t i = 0; i < from[c].size(); ++i) {
+      const Vec2 off = to[c][i] - from[c][i] - shift;
+      if (std::hypot(off.x, off.y) > 1e-12) return Vec2(std::nan(""));
+    }
+  }
+  return shift;
+}
+
+class TypesetterTest : public ::testing::Test {
+ protected:
+  Contours set(const csg::TextParams& params, int segments = 4) {
+    return typesetter_.outline(params, segments, {}, diagnostics_);
+  }
+  Contours set(std::string_view text) { return set(params_of(text)); }
+
+  std::vector<std::string> messages() const {
+    std::vector<std::string> words;
+    for (const Diagnostic& d : diagnostics_.all()) words.push_back(d.message);
+    return words;
+  }
+
+  Typesetter typesetter_{{LAMINA_MODULES}};
+  Diagnostics diagnostics_;
+};
+
+TEST_F(TypesetterTest, AnOHasAHole) {
+  const auto region =
+      planar::from_contours(set("O"), planar::FillRule::kNonZero);
+  ASSERT_EQ(region.contours.size(), 2U);
+  EXPECT_LT(planar::signed_area(region.contours[0]) *
+                planar::signed_area(region.contours[1]),
+            0);
+}
+
+TEST_F(TypesetterTest, AnEmptyTextIsEmpty) {
+  EXPECT_TRUE(set("").empty());
+  EXPECT_TRUE(set("  ").empty());
+  EXPECT_TRUE(messages().empty());
+}
+
+TEST_F(TypesetterTest, SizeScales) {
+  csg::TextParams params = params_of("Ring 57");
+  params.size = 1;
+  const Contours small = set(params);
+  params.size = -8;
+  const Contours large = set(params);
+  ASSERT_EQ(small.size(), large.size());
+  for (std::size_t c = 0; c < small.size(); ++c) {
+    ASSERT_EQ(small[c].size(), large[c].size());
+    for (std::size_t i = 0; i < small[c].size(); ++i) {
+      EXPECT_EQ(large[c][i], -8.0 * small[c][i]);
+    }
+  }
+}
+
+TEST_F(TypesetterTest, EverySegmentOfACurveIsAVertex) {
+  const auto count = [&](int segments) {
+    std::size_t points = 0;
+    for (const auto& contour : set(params_of("S"), segments)) {
+      points += contour.size();
+    }
+    return points;
+  };
+  const std::size_t curves = count(2) - count(1);
+  EXPECT_GT(curves, 10U);
+  EXPECT_EQ(count(17), count(1) + 16 * curves);
+}
+
+TEST_F(TypesetterTest, CurvesGrowTowardsTheirLimit) {
+  const auto area = [&](int segments) {
+    return planar::area(planar::from_contours(set(params_of("o"), segments),
+                                              planar::FillRule::kNonZero));
+  };
+  // The error of a chord falls with the square of their number.
+  const double error8 = area(64) - area(8);
+  const double error16 = area(64) - area(16);
+  EXPECT_NEAR(error8 / error16, 4, 0.3);
+}
+
+TEST_F(TypesetterTest, AlignmentOnlyShifts) {
+  csg::TextParams params = params_of("Apogee");
+  const Contours left = set(params);
+  params.halign = "center";
+  const Vec2 to_center = shift_between(left, set(params));
+  params.halign = "right";
+  const Vec2 to_right = shift_between(left, set(params));
+  EXPECT_LT(to_center.x, 0);
+  EXPECT_NEAR(to_right.x, 2 * to_center.x, 1e-12);
+  EXPECT_EQ(to_right.y, 0);
+
+  params.halign = "left";
+  const Box box = box_of(left);
+  params.valign = "top";
+  const Vec2 to_top = shift_between(left, set(params));
+  params.valign = "bottom";
+  const Vec2 to_bottom = shift_between(left, set(params));
+  params.valign = "center";
+  const Vec2 to_middle = shift_between(left, set(params));
+  EXPECT_EQ(to_top.x, 0);
+  // 2.4% less than the outline is high: OpenSCAD's scales differ.
+  EXPECT_NEAR(to_top.y, -box.high.y / 1.024, 0.01);
+  EXPECT_NEAR(to_bottom.y, -box.low.y / 1.024, 0.01);
+  EXPECT_NEAR(to_middle.y, (to_top.y + to_bottom.y) / 2, 1e-12);
+}
+
+TEST_F(TypesetterTest, TheWidthOfARowIsTheSumOfItsGlyphs) {
+  const auto width = [&](std::string_view text, double spacing) {
+    csg::TextParams params = params_of(text);
+    params.spacing = spacing;
+    const Contours left = set(params);
+    params.halign = "right";
+    return -shift_between(left, set(params)).x;
+  };
+  EXPECT_NEAR(width("nmn", 1), 2 * width("n", 1) + width("m", 1), 1e-9);
+  EXPECT_NEAR(width("nmn", 2.5), 2.5 * width("nmn", 1), 1e-9);
+  // Kerning draws these together.
+  EXPECT_LT(width("AV", 1), width("A", 1) + width("V", 1) - 0.1);
+}
+
+TEST_F(TypesetterTest, ARightToLeftTextIsMirroredInOrder) {
+  csg::TextParams params = params_of("no");
+  params.direction = "rtl";
+  EXPECT_EQ(set(params), set("on"));
+}
+
+TEST_F(TypesetterTest, AColumnRunsDown) {
+  csg::TextParams params = params_of("III");
+  params.direction = "ttb";
+  const Box column = box_of(set(params));
+  const Box one = box_of(set("I"));
+  EXPECT_NEAR(column.high.x - column.low.x, one.high.x - one.low.x, 1e-9);
+  EXPECT_LT(column.low.y, 2 * (one.low.y - one.high.y));
+}
+
+TEST_F(TypesetterTest, CombiningMarksJoinTheirLetter) {
+  const auto area = [&](std::string_view text) {
+    return planar::area(
+        planar::from_contours(set(text), planar::FillRule::kNonZero));
+  };
+  EXPECT_GT(area("A\u030a"), area("A"));
+  EXPECT_NEAR(area("n\u00f1"), area("nn\u0303"), 0.5);
+}
+
+TEST_F(TypesetterTest, UnknownAlignmentsAreReportedInOpenScadsWords) {
+  csg::TextParams params = params_of("A");
+  params.halign = "middle";
+  params.valign = "";
+  EXPECT_EQ(set(params), set("A"));
+  EXPECT_EQ(messages(),
+            (std::vector<std::string>{
+                "Unknown value for the halign parameter (use \"left\", "
+                "\"right\" or \"center\"): 'middle'",
+                "Unknown value for the valign parameter (use \"baseline\", "
+                "\"bottom\", \"top\" or \"center\"): ''"}));
+}
+
+TEST_F(TypesetterTest, BytesThatAreNoUtf8DoNoHarm) {
+  EXPECT_FALSE(set("A\xff\xc3").empty());
+}
+
+// --- Fonts ------------------------------------------------------------------
+
+TEST_F(TypesetterTest, StylesAreFound) {
+  csg::TextParams params = params_of("l");
+  const Box regular = box_of(set(params));
+  params.font = " Liberation Sans:style=Bold ";
+  const Box bold = box_of(set(params));
+  EXPECT_GT(bold.high.x - bold.low.x, 1.3 * (regular.high.x - regular.low.x));
+  params.font = "Liberation Sans:bold";
+  EXPECT_EQ(box_of(set(params)).high, bold.high);
+  EXPECT_TRUE(messages().empty());
+}
+
+TEST_F(TypesetterTest, TheDefaultFontIsLiberationSans) {
+  csg::TextParams params = params_of("Ag");
+  params.font = "";
+  EXPECT_EQ(set(params), set("Ag"));
+}
+
+TEST_F(TypesetterTest, AMissingFontIsReplacedWithAWarning) {
+  csg::TextParams params = params_of("A");
+  params.font = "No Such Font:style=Bold";
+  EXPECT_FALSE(set(params).empty());
+  ASSERT_EQ(messages().size(), 1U);
+  EXPECT_EQ(messages()[0].rfind("Font 'No Such Font' not found, '", 0), 0U);
+}
+
+TEST_F(TypesetterTest, MetricTwinsAndKindsOfFontsAreNotMissing) {
+  csg::TextParams params = params_of("A");
+  for (const char* font : {"Arial", "Times New Roman:bold", "monospace",
+                           "serif", ":style=Bold", "LIBERATION sans"}) {
+    params.font = font;
+    EXPECT_FALSE(set(params).empty());
+    EXPECT_TRUE(messages().empty()) << font << ": " << messages()[0];
+  }
+}
+
+// A font of another name than any that is installed: Liberation Sans, misspelt.
+std::string renamed_font() {
+  std::string bytes = support::read_file(kLiberation);
+  const auto replace = [&](const std::string& from, char by, std::size_t at) {
+    for (std::size_t i = bytes.find(from); i != std::string::npos;
+         i = bytes.find(from, i + 1)) {
+      bytes[i + at] = by;
+    }
+  };
+  replace("Liberation", 'Z', 0);
+  replace({"\0L\0i\0b\0e\0r\0a\0t\0i\0o\0n", 20}, 'Z', 1);
+  return bytes;
+}
+
+TEST_F(TypesetterTest, AFontThatTheDesignBringsIsUsed) {
+  const support::TemporaryFolder folder;
+  typesetter_.add_fonts({folder.write("own.ttf", renamed_font())});
+  csg::TextParams params = params_of("Ag");
+  params.font = "Ziberation Sans";
+  EXPECT_EQ(set(params), set("Ag"));
+  EXPECT_TRUE(messages().empty());
+}
+
+TEST_F(TypesetterTest, FoldersOfTheEnvironmentAreSearched) {
+  const support::TemporaryFolder folder;
+  folder.write("own.ttf", renamed_font());
+  setenv("OPENSCAD_FONT_PATH", ("/nowhere:" + folder.path()).c_str(), 1);
+  csg::TextParams params = params_of("Ag");
+  params.font = "Ziberation Sans";
+  EXPECT_EQ(set(params), set("Ag"));
+  EXPECT_TRUE(messages().empty());
+  unsetenv("OPENSCAD_FONT_PATH");
+}
+
+TEST_F(TypesetterTest, ABrokenFontFileIsReportedAndLeftOut) {
+  const support::TemporaryFolder folder;
+  const std::string whole = support::read_file(kLiberation);
+  const std::string cut = folder.write("cut.ttf", whole.substr(0, 5000));
+  const std::string empty = folder.write("empty.ttf", "");
+  const std::string noise = folder.write("noise.otf", std::string(999, 'x'));
+  typesetter_.add_fonts({cut, empty, noise});
+  EXPECT_FALSE(set("A").empty());
+  EXPECT_EQ(messages(),
+            (std::vector<std::string>{"Can't register font '" + cut + "'",
+                                      "Can't register font '" + empty + "'",
+                                      "Can't register font '" + noise + "'"}));
+}
+
+// Glyphs behind the cut cannot be loaded; those before it can.
+TEST_F(TypesetterTest, AFontCutInItsGlyphsDoesNoHarm) {
+  const support::TemporaryFolder folder;
+  const std::string whole = renamed_font();
+  for (std::size_t size = 20000; size < whole.size(); size += 30000) {
+    Typesetter typesetter({LAMINA_MODULES});
+    typesetter.add_fonts({folder.write("cut.ttf", whole.substr(0, size))});
+    csg::TextParams params = params_of("The quick brown fox");
+    params.font = "Ziberation Sans";
+    typesetter.outline(params, 4, {}, diagnostics_);
+  }
+}
+
+TEST(Typesetter, SaysWhereAMissingModuleWasLookedFor) {
+  Typesetter typesetter({"/nowhere", "/neither"});
+  Diagnostics diagnostics;
+  try {
+    typesetter.outline(params_of("A"), 4, {}, diagnostics);
+    FAIL() << "no error";
+  } catch (const GeometryError& error) {
+    EXPECT_STREQ(error.what(),
+                 "Can't find the module for text(), lamina_text.so, in "
+                 "/nowhere or /neither");
+  }
+}
+
+TEST(Typesetter, SaysThatAModuleCannotBeOpened) {
+  const support::TemporaryFolder folder;
+  folder.write("lamina_text.so", "no library");
+  Typesetter typesetter({folder.path()});
+  Diagnostics diagnostics;
+  EXPECT_THROW(typesetter.outline(params_of("A"), 4, {}, diagnostics),
+               GeometryError);
+}
+
+}  // namespace
+}  // namespace lamina::text
