@@ -382,7 +382,7 @@ void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
   const Target& target = code.binding.target;
   prepare(target, frame);
   if (code.body->emit == emit_value) {
-    out.reserve(out.size() + count_values(values));
+    out.make_room(count_values(values));
   }
   const bool is_plain_slot =
       target.kind == Target::Kind::kSlot && !target.variable->is_boxed;

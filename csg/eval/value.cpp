@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <new>
 
+#include "csg/eval/memory.h"
 #include "csg/eval/object.h"
 #include "csg/eval/utf8.h"
 
@@ -15,22 +15,42 @@ namespace {
 
 constexpr std::size_t kMaxLength = std::numeric_limits<std::uint32_t>::max();
 
-// Memory for a T with `count` elements behind it. malloc, so that a growing
-// vector of a million values is moved by remapping pages.
+// Bytes of a T with `count` elements behind it.
 template <typename T, typename Element>
-T* allocate_buffer(T* old, std::size_t count) {
-  if (count > kMaxLength) throw std::bad_alloc();
-  void* memory = std::realloc(old, sizeof(T) + count * sizeof(Element));
-  if (memory == nullptr) throw std::bad_alloc();
-  T* buffer = old == nullptr ? new (memory) T : static_cast<T*>(memory);
-  buffer->capacity = static_cast<std::uint32_t>(count);
+std::size_t buffer_bytes(std::size_t count) {
+  return sizeof(T) + count * sizeof(Element);
+}
+std::size_t bytes_of(const StringBuffer& buffer) {
+  return buffer_bytes<StringBuffer, char>(buffer.capacity);
+}
+std::size_t bytes_of(const VectorBuffer& buffer) {
+  return buffer_bytes<VectorBuffer, Value>(buffer.capacity);
+}
+
+StringBuffer* allocate_string(std::size_t capacity) {
+  if (capacity > kMaxLength) throw std::bad_alloc();
+  auto* buffer =
+      new (allocate_block(buffer_bytes<StringBuffer, char>(capacity)))
+          StringBuffer;
+  buffer->capacity = static_cast<std::uint32_t>(capacity);
   return buffer;
 }
-StringBuffer* allocate_string(std::size_t capacity) {
-  return allocate_buffer<StringBuffer, char>(nullptr, capacity);
+
+VectorBuffer* allocate_vector(std::size_t capacity) {
+  if (capacity > kMaxLength) throw std::bad_alloc();
+  auto* buffer =
+      new (allocate_block(buffer_bytes<VectorBuffer, Value>(capacity)))
+          VectorBuffer;
+  buffer->capacity = static_cast<std::uint32_t>(capacity);
+  return buffer;
 }
-VectorBuffer* allocate_vector(VectorBuffer* old, std::size_t capacity) {
-  return allocate_buffer<VectorBuffer, Value>(old, capacity);
+
+VectorBuffer* resize_vector(VectorBuffer* buffer, std::size_t capacity) {
+  if (capacity > kMaxLength) throw std::bad_alloc();
+  buffer = static_cast<VectorBuffer*>(resize_block(
+      buffer, bytes_of(*buffer), buffer_bytes<VectorBuffer, Value>(capacity)));
+  buffer->capacity = static_cast<std::uint32_t>(capacity);
+  return buffer;
 }
 
 void copy_values(std::span<const Value> from, Value* to) {
@@ -41,27 +61,26 @@ void copy_values(std::span<const Value> from, Value* to) {
 // likely to be appended to again.
 std::size_t grown(std::size_t needed) { return needed + needed / 2 + 8; }
 
-// The 128 strings of one ASCII character, made once per thread: indexing a
-// string mostly gives these.
+// The 128 strings of one ASCII character: indexing a string mostly gives these.
+// One reference too many keeps them alive.
 struct AsciiStrings {
-  StringBuffer* strings[128];
+  struct Entry {
+    StringBuffer buffer;
+    char character;
+  };
+  Entry entries[128];
   AsciiStrings() {
     for (int i = 0; i < 128; ++i) {
-      strings[i] = allocate_string(1);
-      strings[i]->data()[0] = static_cast<char>(i);
-      strings[i]->used = 1;
+      Entry& entry = entries[i];
+      *entry.buffer.data() = static_cast<char>(i);
+      entry.buffer.used = entry.buffer.capacity = entry.buffer.ascii = 1;
     }
   }
-  ~AsciiStrings() {
-    for (StringBuffer* string : strings) std::free(string);
-  }
-  AsciiStrings(const AsciiStrings&) = delete;
-  AsciiStrings& operator=(const AsciiStrings&) = delete;
 };
 
 StringBuffer* ascii_string(unsigned char c) {
-  thread_local const AsciiStrings table;
-  return table.strings[c];
+  thread_local AsciiStrings table;
+  return &table.entries[c].buffer;
 }
 
 }  // namespace
@@ -111,7 +130,7 @@ Value Value::string(std::string_view text) {
 }
 
 Value Value::vector(std::span<const Value> elements) {
-  VectorBuffer* buffer = allocate_vector(nullptr, elements.size());
+  VectorBuffer* buffer = allocate_vector(elements.size());
   copy_values(elements, buffer->data());
   buffer->used = buffer->capacity;
   return adopt(Type::kVector, buffer, buffer->used);
@@ -243,7 +262,7 @@ Value Value::with_appended(std::span<const Value> elements) const {
   const std::size_t needed = length_ + elements.size();
   if (elements.empty()) return *this;
   if (length_ != old.used || needed > old.capacity) {
-    VectorBuffer* buffer = allocate_vector(nullptr, grown(needed));
+    VectorBuffer* buffer = allocate_vector(grown(needed));
     copy_values(as_vector(), buffer->data());
     copy_values(elements, buffer->data() + length_);
     buffer->used = static_cast<std::uint32_t>(needed);
@@ -278,7 +297,7 @@ void Value::destroy() {
     case Type::kString: {
       StringBuffer& buffer = string_buffer();
       delete buffer.characters;
-      std::free(&buffer);
+      free_block(&buffer, bytes_of(buffer));
       return;
     }
     case Type::kRange:
@@ -309,7 +328,7 @@ void Value::destroy() {
         value.destroy();
       }
     }
-    std::free(buffer);
+    free_block(buffer, bytes_of(*buffer));
   }
 }
 
@@ -327,23 +346,29 @@ VectorBuilder::~VectorBuilder() {
 
 void VectorBuilder::reserve(std::size_t capacity) {
   if (capacity <= capacity_) return;
-  buffer_ = allocate_vector(buffer_, capacity);
+  buffer_ = buffer_ == nullptr ? allocate_vector(capacity)
+                               : resize_vector(buffer_, capacity);
   capacity_ = buffer_->capacity;
 }
 
-void VectorBuilder::grow() { reserve(capacity_ < 4 ? 4 : capacity_ * 2ULL); }
+void VectorBuilder::make_room(std::size_t count) {
+  const std::size_t needed = size_ + count;
+  if (needed <= capacity_) return;
+  reserve(std::max({needed, capacity_ * std::size_t{2}, std::size_t{4}}));
+}
 
 void VectorBuilder::push_all(std::span<const Value> values) {
   if (values.empty()) return;
-  const std::size_t needed = size_ + values.size();
-  if (needed > capacity_) reserve(std::max<std::size_t>(needed, capacity_ * 2));
+  make_room(values.size());
   copy_values(values, buffer_->data() + size_);
-  size_ = static_cast<std::uint32_t>(needed);
+  size_ += static_cast<std::uint32_t>(values.size());
 }
 
 Value VectorBuilder::finish() {
-  if (capacity_ != size_ || buffer_ == nullptr) {
-    buffer_ = allocate_vector(buffer_, size_);
+  if (buffer_ == nullptr) {
+    buffer_ = allocate_vector(0);
+  } else if (capacity_ != size_) {
+    buffer_ = resize_vector(buffer_, size_);
   }
   buffer_->used = size_;
   Value result = Value::adopt(Type::kVector, buffer_, size_);

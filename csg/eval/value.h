@@ -280,9 +280,10 @@ class VectorBuilder {
   VectorBuilder& operator=(const VectorBuilder&) = delete;
   ~VectorBuilder();
 
-  void reserve(std::size_t capacity);
+  // Room for `count` more; several calls cost no more than one.
+  void make_room(std::size_t count);
   void push(Value value) {
-    if (size_ == capacity_) grow();
+    if (size_ == capacity_) make_room(1);
     new (buffer_->data() + size_) Value(std::move(value));
     ++size_;
   }
@@ -297,7 +298,7 @@ class VectorBuilder {
   Value finish();
 
  private:
-  void grow();
+  void reserve(std::size_t capacity);
 
   VectorBuffer* buffer_ = nullptr;
   std::uint32_t size_ = 0;
