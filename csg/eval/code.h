@@ -85,6 +85,7 @@ struct Expression {
     kConstant,
     kLocal,  // slots[slot]
     kOuter,  // link->slots[slot]
+    kIndex,  // object[index]
     // Nodes that pass a tail position on.
     kConditional,
     kLet,
@@ -291,13 +292,15 @@ struct CallCode : Expression {
   // How the arguments meet the function literal called last.
   mutable const Callable* planned_for = nullptr;
   mutable const ArgumentPlan* callee_plan = nullptr;
-  // Of a call in tail position: the values of fallbacks, which OpenSCAD
+  // Of a call in tail position: the arguments without those that pass a
+  // parameter on to itself; the values of fallbacks, which OpenSCAD
   // evaluates once per call site, in the scope of the call.
   struct TailDefault {
     Target target;
     const Expression* value = nullptr;
     mutable Value cached = Value::unset();
   };
+  std::span<const BoundArgument> tail_arguments;
   std::vector<TailDefault>* tail_defaults = nullptr;
 };
 

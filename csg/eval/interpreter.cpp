@@ -145,20 +145,12 @@ void Interpreter::unwind_trail(std::size_t mark) {
   }
 }
 
-void Interpreter::assign(const Target& target, Value value, Frame& frame) {
-  switch (target.kind) {
-    case Target::Kind::kSlot:
-      if (target.variable != nullptr && target.variable->is_boxed) {
-        frame.slots[target.index].as_box().value = std::move(value);
-      } else {
-        frame.slots[target.index] = std::move(value);
-      }
-      return;
-    case Target::Kind::kDynamic:
-      bind_dynamic(target.index, std::move(value));
-      return;
-    case Target::Kind::kNowhere:
-      return;
+void Interpreter::assign_unusual(const Target& target, Value value,
+                                 Frame& frame) {
+  if (target.kind == Target::Kind::kSlot) {
+    frame.slots[target.index].as_box().value = std::move(value);
+  } else if (target.kind == Target::Kind::kDynamic) {
+    bind_dynamic(target.index, std::move(value));
   }
 }
 

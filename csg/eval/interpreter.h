@@ -84,7 +84,14 @@ class Interpreter {
   void unwind(std::size_t mark) {
     if (trail_.size() != mark) unwind_trail(mark);
   }
-  void assign(const Target& target, Value value, Frame& frame);
+  void assign(const Target& target, Value&& value, Frame& frame) {
+    if (target.kind == Target::Kind::kSlot &&
+        (target.variable == nullptr || !target.variable->is_boxed)) [[likely]] {
+      frame.slots[target.index] = std::move(value);
+    } else {
+      assign_unusual(target, std::move(value), frame);
+    }
+  }
   // Gives a boxed variable a fresh box, so that closures made from now on do
   // not share it with those made before.
   Value make_box();
@@ -156,6 +163,7 @@ class Interpreter {
   // Far more than any design needs, few enough to fail within a second.
   static constexpr std::uint32_t kMostNestedCalls = 200000;
 
+  void assign_unusual(const Target& target, Value value, Frame& frame);
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
   void unwind_trail(std::size_t mark);
@@ -258,24 +266,24 @@ inline bool is_plain(const Value& value) {
   return !value.is_unset() && value.type() != Type::kBox;
 }
 // The value of an expression without a copy, where it stands in memory;
-// otherwise runs it into `spill`.
-inline const Value& look(const Expression* code, Frame& frame, Value& spill) {
-  switch (code->kind) {
-    case Expression::Kind::kLocal:
-      if (is_plain(frame.slots[code->slot])) return frame.slots[code->slot];
-      break;
-    case Expression::Kind::kOuter:
-      if (is_plain(frame.link->slots[code->slot])) {
-        return frame.link->slots[code->slot];
-      }
-      break;
-    case Expression::Kind::kConstant:
-      return *static_cast<const Constant*>(code)->value;
-    default:
-      break;
+// otherwise runs it into `spill`. Nothing that runs in the meantime moves it:
+// variables of inner scopes have slots of their own, and vectors do not change.
+const Value& look_further(const Expression* code, Frame& frame, Value& spill);
+[[gnu::always_inline]] inline const Value& look(const Expression* code,
+                                                Frame& frame, Value& spill) {
+  if (code->kind == Expression::Kind::kLocal &&
+      is_plain(frame.slots[code->slot])) {
+    return frame.slots[code->slot];
   }
-  spill = code->run(*code, frame);
-  return spill;
+  if (code->kind == Expression::Kind::kConstant) {
+    return *static_cast<const Constant*>(code)->value;
+  }
+  return look_further(code, frame, spill);
+}
+// Whether `if` takes the value of an expression for true.
+inline bool is_true(const Expression* code, Frame& frame) {
+  Value spill;
+  return look(code, frame, spill).is_true();
 }
 
 // Runs `body` in the frame of a call, turning tail calls of the same function

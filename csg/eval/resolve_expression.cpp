@@ -311,6 +311,7 @@ struct ExpressionVisitor {
   }
   const Expression* operator()(const ast::Index& index) const {
     auto* code = make<BinaryCode>(run_index);
+    code->kind = Kind::kIndex;
     code->left = self.resolve(*index.object);
     code->right = self.resolve(*index.index);
     return code;
@@ -371,10 +372,10 @@ const Expression* ExpressionResolver::binary(const ast::Binary& written,
     const Step& step = chain.back();
     auto* code = resolver_.make<BinaryCode>();
     code->op = step.binary->op;
-    code->run = binary_runner(code->op);
     code->range = step.range;
     code->left = left;
     code->right = resolve(*step.binary->right);
+    code->run = binary_runner(code->op, *code->left, *code->right);
     left = code;
     const Value* a = constant_value(code->left);
     const Value* b = constant_value(code->right);
@@ -561,6 +562,15 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
   if (here.callable == nullptr || !code.is_name) return;
   if (here.kind == Activation::Kind::kFunction) {
     if (code.function != here.callable || code.callee != nullptr) return;
+    std::vector<BoundArgument> moved;
+    for (const BoundArgument& bound : code.plan->bound) {
+      const Expression& argument = *code.arguments[bound.written].value;
+      const bool is_same = bound.target.kind == Target::Kind::kSlot &&
+                           argument.kind == Kind::kLocal &&
+                           argument.slot == bound.target.index;
+      if (!is_same) moved.push_back(bound);
+    }
+    code.tail_arguments = resolver_.keep(moved);
     code.tail_defaults = &resolver_.new_tail_defaults();
     for (const std::uint32_t i : code.plan->defaults) {
       const Parameter& parameter = code.function->parameters[i];

@@ -98,9 +98,7 @@ Value run_unknown_variable(const Expression& expression, Frame& frame) {
 namespace {
 
 Value run_not(const Expression& expression, Frame& frame) {
-  Value spill;
-  return Value(
-      !look(as<UnaryCode>(expression).operand, frame, spill).is_true());
+  return Value(!is_true(as<UnaryCode>(expression).operand, frame));
 }
 
 Value run_negate(const Expression& expression, Frame& frame) {
@@ -164,19 +162,81 @@ Value on_numbers(double a, double b) {
   if constexpr (op == BinaryOp::kPower) return Value(std::pow(a, b));
 }
 
+// An operand, by the way its value is reached. Most are plain variables,
+// constants and results; knowing which while resolving saves the question.
+enum class Reach : std::uint8_t { kLooked, kLocal, kConstant, kComputed };
+
+Reach reach_of(const Expression& code) {
+  switch (code.kind) {
+    case Expression::Kind::kLocal:
+      return Reach::kLocal;
+    case Expression::Kind::kConstant:
+      return Reach::kConstant;
+    case Expression::Kind::kOuter:
+    case Expression::Kind::kIndex:
+      return Reach::kLooked;
+    default:
+      return Reach::kComputed;
+  }
+}
+
+template <Reach reach>
+class Operand {
+ public:
+  Operand(const Expression* code, Frame& frame)
+      : value_(look(code, frame, spill_)) {}
+  const Value& value() const { return value_; }
+
+ private:
+  Value spill_;
+  const Value& value_;
+};
+template <>
+class Operand<Reach::kLocal> {
+ public:
+  Operand(const Expression* code, Frame& frame)
+      : value_(is_plain(frame.slots[code->slot])
+                   ? frame.slots[code->slot]
+                   : look_further(code, frame, spill_)) {}
+  const Value& value() const { return value_; }
+
+ private:
+  Value spill_;
+  const Value& value_;
+};
+template <>
+class Operand<Reach::kConstant> {
+ public:
+  Operand(const Expression* code, Frame&)
+      : value_(*static_cast<const Constant*>(code)->value) {}
+  const Value& value() const { return value_; }
+
+ private:
+  const Value& value_;
+};
+template <>
+class Operand<Reach::kComputed> {
+ public:
+  Operand(const Expression* code, Frame& frame) : value_(run(code, frame)) {}
+  const Value& value() const { return value_; }
+
+ private:
+  Value value_;
+};
+
 // The right operand goes first, as in the released openscad: messages of both
 // come in that order.
-template <BinaryOp op>
+template <BinaryOp op, Reach left_reach, Reach right_reach>
 Value run_binary(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
-  Value spill_left;
-  Value spill_right;
-  const Value& right = look(code.right, frame, spill_right);
-  const Value& left = look(code.left, frame, spill_left);
-  if (left.is_number() && right.is_number()) [[likely]] {
-    return on_numbers<op>(left.as_number(), right.as_number());
+  const Operand<right_reach> right(code.right, frame);
+  const Operand<left_reach> left(code.left, frame);
+  const Value& a = left.value();
+  const Value& b = right.value();
+  if (a.is_number() && b.is_number()) [[likely]] {
+    return on_numbers<op>(a.as_number(), b.as_number());
   }
-  return run_binary_any(code, left, right, frame);
+  return run_binary_any(code, a, b, frame);
 }
 
 Value run_bitwise(const Expression& expression, Frame& frame) {
@@ -190,74 +250,128 @@ Value run_bitwise(const Expression& expression, Frame& frame) {
 
 Value run_and(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
-  Value spill;
-  if (!look(code.left, frame, spill).is_true()) return Value(false);
-  return Value(look(code.right, frame, spill).is_true());
+  return Value(is_true(code.left, frame) && is_true(code.right, frame));
 }
 Value run_or(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
-  Value spill;
-  if (look(code.left, frame, spill).is_true()) return Value(true);
-  return Value(look(code.right, frame, spill).is_true());
+  return Value(is_true(code.left, frame) || is_true(code.right, frame));
 }
 
 }  // namespace
 
-Expression::Run binary_runner(BinaryOp op) {
+namespace {
+
+template <BinaryOp op, Reach left>
+Expression::Run runner_for(const Expression& right) {
+  switch (reach_of(right)) {
+    case Reach::kLocal:
+      return run_binary<op, left, Reach::kLocal>;
+    case Reach::kConstant:
+      return run_binary<op, left, Reach::kConstant>;
+    case Reach::kComputed:
+      return run_binary<op, left, Reach::kComputed>;
+    default:
+      return run_binary<op, left, Reach::kLooked>;
+  }
+}
+template <BinaryOp op>
+Expression::Run runner_for(const Expression& left, const Expression& right) {
+  switch (reach_of(left)) {
+    case Reach::kLocal:
+      return runner_for<op, Reach::kLocal>(right);
+    case Reach::kComputed:
+      return runner_for<op, Reach::kComputed>(right);
+    default:
+      return runner_for<op, Reach::kLooked>(right);
+  }
+}
+
+}  // namespace
+
+Expression::Run binary_runner(BinaryOp op, const Expression& left,
+                              const Expression& right) {
   switch (op) {
     case BinaryOp::kOr:
       return run_or;
     case BinaryOp::kAnd:
       return run_and;
     case BinaryOp::kEqual:
-      return run_binary<BinaryOp::kEqual>;
+      return runner_for<BinaryOp::kEqual>(left, right);
     case BinaryOp::kNotEqual:
-      return run_binary<BinaryOp::kNotEqual>;
+      return runner_for<BinaryOp::kNotEqual>(left, right);
     case BinaryOp::kLess:
-      return run_binary<BinaryOp::kLess>;
+      return runner_for<BinaryOp::kLess>(left, right);
     case BinaryOp::kLessEqual:
-      return run_binary<BinaryOp::kLessEqual>;
+      return runner_for<BinaryOp::kLessEqual>(left, right);
     case BinaryOp::kGreater:
-      return run_binary<BinaryOp::kGreater>;
+      return runner_for<BinaryOp::kGreater>(left, right);
     case BinaryOp::kGreaterEqual:
-      return run_binary<BinaryOp::kGreaterEqual>;
+      return runner_for<BinaryOp::kGreaterEqual>(left, right);
     case BinaryOp::kBitOr:
     case BinaryOp::kBitAnd:
     case BinaryOp::kShiftLeft:
     case BinaryOp::kShiftRight:
       return run_bitwise;
     case BinaryOp::kAdd:
-      return run_binary<BinaryOp::kAdd>;
+      return runner_for<BinaryOp::kAdd>(left, right);
     case BinaryOp::kSubtract:
-      return run_binary<BinaryOp::kSubtract>;
+      return runner_for<BinaryOp::kSubtract>(left, right);
     case BinaryOp::kMultiply:
-      return run_binary<BinaryOp::kMultiply>;
+      return runner_for<BinaryOp::kMultiply>(left, right);
     case BinaryOp::kDivide:
-      return run_binary<BinaryOp::kDivide>;
+      return runner_for<BinaryOp::kDivide>(left, right);
     case BinaryOp::kModulo:
-      return run_binary<BinaryOp::kModulo>;
+      return runner_for<BinaryOp::kModulo>(left, right);
     default:
-      return run_binary<BinaryOp::kPower>;
+      return runner_for<BinaryOp::kPower>(left, right);
   }
 }
 
 Value run_conditional(const Expression& expression, Frame& frame) {
   const auto& code = as<ConditionalCode>(expression);
-  const Expression* branch = nullptr;
-  {
-    Value spill;
-    branch = look(code.condition, frame, spill).is_true() ? code.if_true
-                                                          : code.if_false;
-  }
-  return run(branch, frame);
+  return run(is_true(code.condition, frame) ? code.if_true : code.if_false,
+             frame);
 }
 
-Value run_index(const Expression& expression, Frame& frame) {
-  const auto& code = as<BinaryCode>(expression);
+namespace {
+// An element of a vector that stands in memory; otherwise as `look`.
+const Value& look_at_element(const BinaryCode& code, Frame& frame,
+                             Value& spill) {
   Value spill_object;
   Value spill_index;
-  const Value& position = look(code.right, frame, spill_index);
-  return index(look(code.left, frame, spill_object), position);
+  const Value& i = look(code.right, frame, spill_index);
+  const Value& object = look(code.left, frame, spill_object);
+  if (object.is_vector() && &object != &spill_object && i.is_number()) {
+    const std::span<const Value> elements = object.as_vector();
+    const double number = i.as_number();
+    // Cut towards zero, as index() does.
+    if (number >= 0 && number < static_cast<double>(elements.size())) {
+      return elements[static_cast<std::uint32_t>(number)];
+    }
+  }
+  spill = index(object, i);
+  return spill;
+}
+}  // namespace
+
+Value run_index(const Expression& expression, Frame& frame) {
+  Value spill;
+  const Value& element =
+      look_at_element(as<BinaryCode>(expression), frame, spill);
+  if (&element == &spill) return spill;
+  return element;
+}
+
+const Value& look_further(const Expression* code, Frame& frame, Value& spill) {
+  if (code->kind == Expression::Kind::kOuter &&
+      is_plain(frame.link->slots[code->slot])) {
+    return frame.link->slots[code->slot];
+  }
+  if (code->kind == Expression::Kind::kIndex) {
+    return look_at_element(as<BinaryCode>(*code), frame, spill);
+  }
+  spill = run(code, frame);
+  return spill;
 }
 
 Value run_member(const Expression& expression, Frame& frame) {
@@ -310,10 +424,18 @@ Value run_vector(const Expression& expression, Frame& frame) {
 }
 
 void emit_value(const Element& element, Frame& frame, VectorBuilder& out) {
-  out.push(run(element.value, frame));
+  out.push_made([&] { return run(element.value, frame); });
 }
 
 namespace {
+
+void emit(const Element& element, Frame& frame, VectorBuilder& out) {
+  if (element.emit == emit_value) {
+    emit_value(element, frame, out);
+  } else {
+    element.emit(element, frame, out);
+  }
+}
 
 constexpr std::uint32_t kMostElements = 1000000;
 
@@ -384,17 +506,11 @@ void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
   if (code.body->emit == emit_value) {
     out.make_room(count_values(values));
   }
-  const bool is_plain_slot =
-      target.kind == Target::Kind::kSlot && !target.variable->is_boxed;
   const DynamicScope scope(frame.in);
   for_each_value(values, element.range, frame, [&](Value value) {
-    if (is_plain_slot) {
-      frame.slots[target.index] = std::move(value);
-    } else {
-      frame.in.unwind(scope.mark());
-      frame.in.assign(target, std::move(value), frame);
-    }
-    code.body->emit(*code.body, frame, out);
+    frame.in.unwind(scope.mark());
+    frame.in.assign(target, std::move(value), frame);
+    emit(*code.body, frame, out);
   });
 }
 
@@ -407,8 +523,8 @@ void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out) {
   }
   run_bindings(code.init, frame);
   std::uint32_t rounds = 0;
-  while (run(code.condition, frame).is_true()) {
-    code.body->emit(*code.body, frame, out);
+  while (is_true(code.condition, frame)) {
+    emit(*code.body, frame, out);
     if (rounds++ == kMostElements) {
       frame.in.fail(element.range, "For loop counter exceeded limit",
                     frame.document);
@@ -425,11 +541,9 @@ void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out) {
 
 void emit_if(const Element& element, Frame& frame, VectorBuilder& out) {
   const auto& code = static_cast<const IfElement&>(element);
-  Value spill;
-  const Element* branch = look(code.condition, frame, spill).is_true()
-                              ? code.if_true
-                              : code.if_false;
-  if (branch != nullptr) branch->emit(*branch, frame, out);
+  const Element* branch =
+      is_true(code.condition, frame) ? code.if_true : code.if_false;
+  if (branch != nullptr) emit(*branch, frame, out);
 }
 
 void emit_each(const Element& element, Frame& frame, VectorBuilder& out) {
@@ -450,7 +564,7 @@ void emit_each(const Element& element, Frame& frame, VectorBuilder& out) {
     return;
   }
   VectorBuilder inner;
-  code.body->emit(*code.body, frame, inner);
+  emit(*code.body, frame, inner);
   for (const Value& value : inner.values()) spread(value);
 }
 
@@ -458,7 +572,7 @@ void emit_let(const Element& element, Frame& frame, VectorBuilder& out) {
   const auto& code = static_cast<const LetElement&>(element);
   const DynamicScope scope(frame.in);
   run_bindings(code.bindings, frame);
-  code.body->emit(*code.body, frame, out);
+  emit(*code.body, frame, out);
 }
 
 // --- let, echo, assert ------------------------------------------------------
@@ -467,15 +581,15 @@ void run_bindings(Bindings bindings, Frame& frame) {
   for (const Binding& binding : bindings) prepare(binding.target, frame);
   for (const Binding& binding : bindings) {
     Value value = run(binding.value, frame);
-    if (binding.name.empty()) {
+    if (binding.target.kind != Target::Kind::kNowhere) [[likely]] {
+      frame.in.assign(binding.target, std::move(value), frame);
+    } else if (binding.name.empty()) {
       warn(frame, binding.range,
            "Assignment without variable name " + to_echo(value));
-    } else if (binding.is_duplicate) {
+    } else {
       warn(frame, binding.range,
            fmt::format("Ignoring duplicate variable assignment {} = {}",
                        binding.name, to_echo(value)));
-    } else {
-      frame.in.assign(binding.target, std::move(value), frame);
     }
   }
 }
@@ -569,13 +683,8 @@ void pass_arguments(const ArgumentPlan& plan,
   }
   for (const std::string& warning : plan.warnings) warn(caller, range, warning);
   for (const BoundArgument& bound : plan.bound) {
-    const Expression* argument = arguments[bound.written].value;
-    if (bound.target.kind == Target::Kind::kSlot) {
-      callee.slots[bound.target.index] = run(argument, caller);
-    } else {
-      Value value = run(argument, caller);
-      callee.in.assign(bound.target, std::move(value), callee);
-    }
+    Value value = run(arguments[bound.written].value, caller);
+    callee.in.assign(bound.target, std::move(value), callee);
   }
 }
 
@@ -583,14 +692,14 @@ namespace {
 
 // `$` variables that a tail call's arguments and enclosing lets bind stay
 // bound; everything else of the frame is overwritten.
-void jump(const CallCode& call, const ArgumentPlan& plan,
+void jump(const CallCode& call, std::span<const BoundArgument> bound,
           std::size_t trail_mark, Frame& frame) {
-  const auto count = static_cast<std::uint32_t>(plan.bound.size());
+  const auto count = static_cast<std::uint32_t>(bound.size());
   Frame scratch{frame.in};
   Value* memory = LAMINA_FRAME_MEMORY(count);
   const FrameSlots values(scratch, memory, count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    memory[i] = run(call.arguments[plan.bound[i].written].value, frame);
+    memory[i] = run(call.arguments[bound[i].written].value, frame);
   }
   const auto store = [&](const Target& target, Value value) {
     if (target.kind == Target::Kind::kDynamic) {
@@ -608,7 +717,7 @@ void jump(const CallCode& call, const ArgumentPlan& plan,
     }
   }
   for (std::uint32_t i = 0; i < count; ++i) {
-    store(plan.bound[i].target, std::move(memory[i]));
+    store(bound[i].target, std::move(memory[i]));
   }
 }
 
@@ -626,7 +735,7 @@ bool jump_to_literal(const CallCode& call, const Callable& callable,
   }
   const ArgumentPlan& plan = frame.in.plan_for(call, callable);
   if (!plan.defaults.empty()) return false;
-  jump(call, plan, trail_mark, frame);
+  jump(call, plan.bound, trail_mark, frame);
   return true;
 }
 
@@ -638,9 +747,8 @@ bool run_round(const Callable& callable, std::string_view name,
     switch (code->kind) {
       case Expression::Kind::kConditional: {
         const auto& conditional = as<ConditionalCode>(*code);
-        code = run(conditional.condition, frame).is_true()
-                   ? conditional.if_true
-                   : conditional.if_false;
+        code = is_true(conditional.condition, frame) ? conditional.if_true
+                                                     : conditional.if_false;
         break;
       }
       case Expression::Kind::kLet:
@@ -658,7 +766,7 @@ bool run_round(const Callable& callable, std::string_view name,
       case Expression::Kind::kTailCall: {
         const auto& call = as<CallCode>(*code);
         if (call.tail_defaults != nullptr) {
-          jump(call, *call.plan, trail_mark, frame);
+          jump(call, call.tail_arguments, trail_mark, frame);
           return true;
         }
         if (jump_to_literal(call, callable, name, trail_mark, frame)) {
@@ -727,7 +835,7 @@ Value call_function(const CallCode& code, Frame& frame) {
 [[gnu::noinline]] void pass_this(const Closure& closure, Frame& callee) {
   for (const Parameter& parameter : closure.code->parameters) {
     if (parameter.name != "this") continue;
-    callee.in.assign(parameter.target, closure.method->object, callee);
+    callee.in.assign(parameter.target, Value(closure.method->object), callee);
   }
 }
 

@@ -57,9 +57,13 @@ void copy_values(std::span<const Value> from, Value* to) {
   for (const Value& value : from) new (to++) Value(value);
 }
 
-// Room for what will be appended next: a buffer that was appended to once is
-// likely to be appended to again.
-std::size_t grown(std::size_t needed) { return needed + needed / 2 + 8; }
+// Room for what will be appended next: a long buffer that was appended to once
+// is likely to be appended to again.
+std::size_t grown(std::size_t needed, std::size_t long_size) {
+  return needed < long_size ? needed : needed + needed / 2;
+}
+constexpr std::size_t kLongString = 64;
+constexpr std::size_t kLongVector = 8;
 
 // The 128 strings of one ASCII character: indexing a string mostly gives these.
 // One reference too many keeps them alive.
@@ -150,24 +154,6 @@ Value Value::range(double begin, double step, double end) {
   return adopt(Type::kRange, range, 0);
 }
 
-bool Value::is_true() const {
-  switch (type_) {
-    case Type::kBool:
-      return payload_.boolean;
-    case Type::kNumber:
-      return payload_.number != 0;
-    case Type::kString:
-    case Type::kVector:
-    case Type::kObject:
-      return length_ != 0;
-    case Type::kRange:
-    case Type::kFunction:
-      return true;
-    default:
-      return false;
-  }
-}
-
 const Members& Value::as_object() const {
   return *static_cast<const Members*>(payload_.object);
 }
@@ -245,7 +231,7 @@ Value Value::with_appended(std::string_view text) const {
   const std::size_t needed = length_ + text.size();
   if (text.empty()) return *this;
   if (length_ != old.used || needed > old.capacity) {
-    StringBuffer* buffer = allocate_string(grown(needed));
+    StringBuffer* buffer = allocate_string(grown(needed, kLongString));
     std::memcpy(buffer->data(), old.data(), length_);
     std::memcpy(buffer->data() + length_, text.data(), text.size());
     buffer->used = static_cast<std::uint32_t>(needed);
@@ -262,7 +248,7 @@ Value Value::with_appended(std::span<const Value> elements) const {
   const std::size_t needed = length_ + elements.size();
   if (elements.empty()) return *this;
   if (length_ != old.used || needed > old.capacity) {
-    VectorBuffer* buffer = allocate_vector(grown(needed));
+    VectorBuffer* buffer = allocate_vector(grown(needed, kLongVector));
     copy_values(as_vector(), buffer->data());
     copy_values(elements, buffer->data() + length_);
     buffer->used = static_cast<std::uint32_t>(needed);

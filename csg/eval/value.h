@@ -125,7 +125,11 @@ class Value {
     return *this;
   }
   Value& operator=(Value&& other) noexcept {
-    swap(other);
+    const Value old(std::move(*this));
+    type_ = other.type_;
+    length_ = other.length_;
+    payload_ = other.payload_;
+    other.type_ = Type::kUndef;
     return *this;
   }
   ~Value() {
@@ -190,7 +194,20 @@ class Value {
   double number_or_zero() const { return is_number() ? payload_.number : 0.0; }
 
   // What `if` takes it for.
-  bool is_true() const;
+  bool is_true() const {
+    switch (type_) {
+      case Type::kBool:
+        return payload_.boolean;
+      case Type::kNumber:
+        return payload_.number != 0;
+      case Type::kString:
+      case Type::kVector:
+      case Type::kObject:
+        return length_ != 0;
+      default:
+        return type_ == Type::kRange || type_ == Type::kFunction;
+    }
+  }
 
   // Number of characters of a string, and one of them as a string of its own
   // (index < character_count). O(1) but for the first use of a buffer.
@@ -285,6 +302,13 @@ class VectorBuilder {
   void push(Value value) {
     if (size_ == capacity_) make_room(1);
     new (buffer_->data() + size_) Value(std::move(value));
+    ++size_;
+  }
+  // Makes a value where it will stand; `make` must not touch the builder.
+  template <typename Make>
+  void push_made(const Make& make) {
+    if (size_ == capacity_) make_room(1);
+    new (buffer_->data() + size_) Value(make());
     ++size_;
   }
   void push_all(std::span<const Value> values);

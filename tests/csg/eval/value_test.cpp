@@ -23,10 +23,11 @@ TEST(Value, AppendingLeavesTheOldValueAsItWas) {
 }
 
 TEST(Value, AppendingAtTheEndOfABufferSharesIt) {
-  const Value ab = Value::string("a").with_appended("b");
+  const std::string a(100, 'a');
+  const Value ab = Value::string(a).with_appended("b");
   const Value abc = ab.with_appended("c");
   EXPECT_EQ(ab.as_string().data(), abc.as_string().data());
-  // The place behind "ab" is taken now.
+  // The place behind "…ab" is taken now.
   EXPECT_NE(ab.with_appended("d").as_string().data(), abc.as_string().data());
 }
 
