@@ -5,7 +5,6 @@
 #include <deque>
 #include <memory>
 #include <memory_resource>
-#include <random>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,6 +12,7 @@
 
 #include "csg/eval/code.h"
 #include "csg/eval/evaluator.h"
+#include "csg/eval/random.h"
 #include "csg/eval/value.h"
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
@@ -146,7 +146,7 @@ class Interpreter {
   const CallFrame* current_call = nullptr;
 
   // For rands() and everything else that is not a function of its arguments.
-  std::mt19937 random;
+  MersenneTwister random;
   std::uint64_t& effects() { return effects_; }
   const EvaluateOptions& options() const { return options_; }
   const std::string& design_folder() const { return design_folder_; }
