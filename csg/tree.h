@@ -146,8 +146,19 @@ struct TextParams {
 struct Text {
   const TextParams* params;
 };
+enum class ImportFormat : std::uint8_t {
+  kUnknown,
+  kStl,
+  kOff,
+  kObj,
+  kAmf,
+  k3mf,
+  kDxf,
+  kSvg
+};
 struct ImportParams {
-  std::string_view path;  // to open; of what format, its extension says
+  std::string_view path;  // to open
+  ImportFormat format = ImportFormat::kUnknown;
   std::string_view layer;
   Vec2 origin = Vec2(0);
   bool center = false;

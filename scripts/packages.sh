@@ -7,6 +7,7 @@ LAMINA_BUILD_PACKAGES=(
   libglm-dev libfmt-dev libdouble-conversion-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
   libqhull-dev libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
+  libminizip-dev libpugixml-dev zlib1g-dev
 )
 
 # To build and run the tests: the oracles above all.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <string>
 
 #include <fmt/format.h>
@@ -128,11 +130,26 @@ void surface(const BuiltinModuleCode& code, Frame& frame) {
 
 // --- import -----------------------------------------------------------------
 
-bool ends_like(std::string path, std::string_view ending) {
-  std::transform(path.begin(), path.end(), path.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return path.ends_with(ending);
+// As the file's extension says, whatever its case; import_stl() and its like
+// name the format themselves.
+ImportFormat import_format(std::string_view module, const std::string& path) {
+  constexpr std::string_view kPrefix = "import_";
+  std::string extension =
+      module.starts_with(kPrefix)
+          ? std::string(module.substr(kPrefix.size()))
+          : std::filesystem::path(path).extension().string();
+  if (extension.starts_with('.')) extension.erase(0, 1);
+  std::transform(
+      extension.begin(), extension.end(), extension.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      });
+  static const std::map<std::string_view, ImportFormat> kFormats = {
+      {"stl", ImportFormat::kStl}, {"off", ImportFormat::kOff},
+      {"obj", ImportFormat::kObj}, {"amf", ImportFormat::kAmf},
+      {"3mf", ImportFormat::k3mf}, {"dxf", ImportFormat::kDxf},
+      {"svg", ImportFormat::kSvg}};
+  const auto found = kFormats.find(extension);
+  return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
 }
 
 // A parameter, or its deprecated name.
@@ -178,6 +195,7 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   Interpreter& in = frame.in;
   ImportParams params;
   params.path = in.keep_text(path);
+  params.format = import_format(code.name, path);
   params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
   params.origin = given.value_or(Vec2(0.0));
   params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
@@ -196,7 +214,7 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   csg += ", ";
   append_stream_number(params.origin.y, csg);
   csg += "], ";
-  if (ends_like(path, ".svg") && code.name == "import") {
+  if (params.format == ImportFormat::kSvg) {
     csg += fmt::format("center = {}, ", params.center);
     append_number_field("dpi", params.dpi, csg);
   }

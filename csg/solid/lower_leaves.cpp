@@ -97,10 +97,6 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Surface&, const Node& node, const Affine&) {
-  fail_unsupported(node, "surface");
-}
-
 Fineness Lowerer::fineness(const Facets& facets, const Affine& world) const {
   if (options_.chordal_error == 0) return {facets};
   return {facets, options_.chordal_error / greatest_stretch(world)};
@@ -116,12 +112,16 @@ Shape Lowerer::flatten_finely(const Node& node, const Affine& world,
 }
 
 void Lowerer::place_leaf(Leaf leaf, const Node& node, const Affine& world) {
-  const bool is_empty =
-      leaf.sweeps.empty() &&
-      (leaf.meshes.empty() || leaf.meshes.front().triangles.empty());
-  if (!is_empty) {
-    place(leaves_.add(std::move(leaf)), Vec3(1), node, world);
+  if (const auto index = add_leaf(std::move(leaf))) {
+    place(*index, Vec3(1), node, world);
   }
+}
+
+std::optional<std::uint32_t> Lowerer::add_leaf(Leaf leaf) {
+  std::erase_if(leaf.meshes,
+                [](const Mesh& mesh) { return mesh.triangles.empty(); });
+  if (leaf.sweeps.empty() && leaf.meshes.empty()) return std::nullopt;
+  return leaves_.add(std::move(leaf));
 }
 
 void Lowerer::place(std::uint32_t leaf, Vec3 size, const Node& node,

@@ -33,10 +33,6 @@ Shape Lowerer::lower_op(const Text& text, const Node& node, const Affine&) {
                                       node.range, diagnostics_)};
 }
 
-Shape Lowerer::lower_op(const Import&, const Node& node, const Affine&) {
-  fail_unsupported(node, "import");
-}
-
 Shape Lowerer::flatten_children(const Node& node, const Affine& world) {
   Operands operands = lower_operands(node, world, true, Dimension::kFlat);
   operands.first_mixed = nullptr;

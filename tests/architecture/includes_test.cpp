@@ -122,6 +122,8 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"tbb/", {"slicer/"}},
       {"oneapi/tbb", {"slicer/"}},
       {"png", {"slicer/", "csg/import/"}},
+      {"pugixml", {"csg/import/"}},
+      {"minizip/", {"csg/import/"}},
       {"CLI/", {"cli/"}},
       {"fontconfig/", {"csg/text/"}},
       {"ft2build.h", {"csg/text/"}},

@@ -3,13 +3,16 @@
 //
 // Cut by what a node is: lower_operators.cpp has the operators and how
 // operands of two and three dimensions meet, lower_leaves.cpp the solids that
-// stand at the bottom, lower_planar.cpp what lies in the plane, and
-// lower_boundary.cpp the operators that need the explicit boundary of their
-// subtree (hull, minkowski, resize, projection).
+// stand at the bottom, lower_planar.cpp what lies in the plane, lower_files.cpp
+// what is read from files, and lower_boundary.cpp the operators that need the
+// explicit boundary of their subtree (hull, minkowski, resize, projection).
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -83,7 +86,6 @@ class Lowerer {
                  const Affine& world);
   Shape lower_op(const RotateExtrude& op, const Node& node,
                  const Affine& world);
-  Shape lower_op(const Surface& op, const Node& node, const Affine& world);
 
   // For a node with these $fn, $fa, $fs.
   Fineness fineness(const Facets& facets, const Affine& world) const;
@@ -91,6 +93,8 @@ class Lowerer {
   Shape flatten_finely(const Node& node, const Affine& world, double share);
 
   void place_leaf(Leaf leaf, const Node& node, const Affine& world);
+  // Nothing for a leaf without a surface.
+  std::optional<std::uint32_t> add_leaf(Leaf leaf);
   void place(std::uint32_t leaf, Vec3 size, const Node& node,
              const Affine& world);
   Box3 bound(std::uint32_t leaf, const Affine& m);
@@ -101,12 +105,24 @@ class Lowerer {
   Shape lower_op(const Polygon& op, const Node& node, const Affine& world);
   Shape lower_op(const Offset& op, const Node& node, const Affine& world);
   Shape lower_op(const Text& op, const Node& node, const Affine& world);
-  // A solid or a region: its file says.
-  Shape lower_op(const Import& op, const Node& node, const Affine& world);
 
   // The children's union in the plane, whatever else there is.
   Shape flatten_children(const Node& node, const Affine& world);
 
+  // --- lower_files.cpp ------------------------------------------------------
+  // A solid or a region: its file says.
+  Shape lower_op(const Import& op, const Node& node, const Affine& world);
+  Shape lower_op(const Surface& op, const Node& node, const Affine& world);
+
+  // What a file holds: read once, however often the design names it.
+  struct FileShape {
+    Dimension dimension = Dimension::kNone;
+    planar::Region region = {};
+    std::optional<std::uint32_t> leaf = std::nullopt;
+  };
+  FileShape read_import(const ImportParams& params, const Node& node);
+  Shape place_file(const FileShape& shape, const Node& node,
+                   const Affine& world);
   // --- lower_boundary.cpp ---------------------------------------------------
   Shape lower_op(const Hull& op, const Node& node, const Affine& world);
   Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
@@ -132,6 +148,7 @@ class Lowerer {
   LeafStore leaves_;
   ProgramBuilder builder_;
   std::array<KeptBox, 64> kept_boxes_;
+  std::map<std::string, FileShape> file_shapes_;  // by path and csg_text
 };
 
 // Throws GeometryError, with the node's chain of calls.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "csg/scene.h"
+#include "parser/diagnostic.h"
 
 namespace lamina::csg {
 
@@ -30,5 +31,9 @@ struct Mending {
 // component keeps the direction of most of its triangles, and a mesh whose
 // volume comes out negative is turned as a whole.
 Mending mend(Mesh& mesh);
+
+// Mends, and warns of what was wrong: one warning for each kind of defect, with
+// what was done as notes.
+void mend_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics);
 
 }  // namespace lamina::csg

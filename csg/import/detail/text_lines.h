@@ -1,0 +1,71 @@
+#pragma once
+// Text formats, line by line and word by word, without copies.
+
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace lamina::csg {
+
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' ||
+         c == '\f';
+}
+
+inline std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Takes the first word off `text`; empty at the end.
+inline std::string_view take_word(std::string_view& text) {
+  std::size_t begin = 0;
+  while (begin < text.size() && is_blank(text[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < text.size() && !is_blank(text[end])) ++end;
+  const std::string_view word = text.substr(begin, end - begin);
+  text.remove_prefix(end);
+  return word;
+}
+
+// The whole word as a number; "nan" and "inf" are numbers here.
+template <typename Number>
+std::optional<Number> to_number(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
+    word.remove_prefix(1);
+  }
+  Number number{};
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : rest_(text) {}
+
+  // The next line, trimmed; nothing at the end.
+  std::optional<std::string_view> next() {
+    if (rest_.data() == nullptr || is_done_) return std::nullopt;
+    ++number_;
+    const std::size_t end = rest_.find('\n');
+    const std::string_view line = rest_.substr(0, end);
+    is_done_ = end == std::string_view::npos;
+    if (!is_done_) rest_.remove_prefix(end + 1);
+    return trim(line);
+  }
+
+  // Of the line that next() gave, from 1.
+  std::size_t number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+  bool is_done_ = false;
+};
+
+}  // namespace lamina::csg

@@ -1,0 +1,128 @@
+#include "csg/import/mesh_file.h"
+
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "csg/import/amf.h"
+#include "csg/import/file_bytes.h"
+#include "csg/import/format_error.h"
+#include "csg/import/obj.h"
+#include "csg/import/off.h"
+#include "csg/import/stl.h"
+#include "csg/import/threemf.h"
+
+namespace lamina::csg {
+namespace {
+
+std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
+                           ImportFormat format) {
+  std::vector<RawMesh> bodies;
+  switch (format) {
+    case ImportFormat::kStl:
+      bodies.push_back(parse_stl(bytes));
+      break;
+    case ImportFormat::kOff:
+      bodies.push_back(parse_off(bytes));
+      break;
+    case ImportFormat::kObj:
+      bodies.push_back(parse_obj(bytes));
+      break;
+    case ImportFormat::kAmf:
+      return parse_amf(bytes, std::filesystem::path(path).filename());
+    case ImportFormat::k3mf:
+      return parse_3mf(bytes);
+    case ImportFormat::kUnknown:
+    case ImportFormat::kDxf:
+    case ImportFormat::kSvg:
+      break;
+  }
+  return bodies;
+}
+
+std::uint32_t line_of(SourceRange range) {
+  return range.is_known() ? range.source->openscad_line(range.begin) : 0;
+}
+
+// The words of OpenSCAD, which differ from format to format.
+void report_unreadable(const std::string& path, ImportFormat format,
+                       SourceRange range, Diagnostics& diagnostics) {
+  const std::string_view words = format == ImportFormat::k3mf
+                                     ? "Could not read file"
+                                     : "Can't open import file";
+  diagnostics.warning(range, fmt::format("{} '{}', import() at line {}", words,
+                                         path, line_of(range)));
+}
+
+void report_broken(const std::string& path, ImportFormat format,
+                   const FormatError& fault, SourceRange range,
+                   Diagnostics& diagnostics) {
+  const bool is_archive =
+      format == ImportFormat::kAmf || format == ImportFormat::k3mf;
+  if (!is_archive) {
+    diagnostics.error(
+        range, fmt::format("{} importing file '{}'", fault.what(), path));
+    return;
+  }
+  const std::string_view words = format == ImportFormat::k3mf
+                                     ? "Could not read file"
+                                     : "Failed to parse file";
+  Diagnostic diagnostic{
+      Severity::kWarning, range,
+      fmt::format("{} '{}', import() at line {}", words, path, line_of(range))};
+  diagnostic.hints.push_back({range, fault.what()});
+  diagnostics.report(std::move(diagnostic));
+}
+
+bool is_finite(Vec3 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+// Takes the faces out that have a corner nowhere.
+std::size_t drop_infinite(RawMesh& raw) {
+  auto& vertices = raw.mesh.vertices;
+  const auto is_bad = [&vertices](const auto& face) {
+    for (const std::uint32_t corner : face) {
+      if (!is_finite(vertices[corner])) return true;
+    }
+    return false;
+  };
+  const std::size_t dropped = std::erase_if(raw.mesh.triangles, is_bad) +
+                              std::erase_if(raw.polygons, is_bad);
+  for (Vec3& vertex : vertices) {
+    if (!is_finite(vertex)) vertex = Vec3(0);  // no face's any more
+  }
+  return dropped;
+}
+
+}  // namespace
+
+std::vector<RawMesh> read_mesh_file(const std::string& path,
+                                    ImportFormat format, SourceRange range,
+                                    Diagnostics& diagnostics) {
+  const auto bytes = FileBytes::open(path);
+  if (!bytes) {
+    report_unreadable(path, format, range, diagnostics);
+    return {};
+  }
+  std::vector<RawMesh> bodies;
+  try {
+    bodies = parse(bytes->view(), path, format);
+  } catch (const FormatError& fault) {
+    report_broken(path, format, fault, range, diagnostics);
+    return {};
+  }
+  std::size_t dropped = 0;
+  for (RawMesh& raw : bodies) dropped += drop_infinite(raw);
+  if (dropped > 0) {
+    diagnostics.warning(range,
+                        fmt::format("Dropped {} facets whose coordinates are "
+                                    "no numbers, of file '{}'",
+                                    dropped, path));
+  }
+  return bodies;
+}
+
+}  // namespace lamina::csg

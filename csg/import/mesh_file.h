@@ -1,0 +1,22 @@
+#pragma once
+// import() of meshes: STL, OFF, AMF, 3MF, OBJ.
+
+#include <string>
+#include <vector>
+
+#include "csg/import/raw_mesh.h"
+#include "csg/tree.h"
+#include "parser/diagnostic.h"
+
+namespace lamina::csg {
+
+// The bodies of the file; none where it cannot be read, which is reported with
+// OpenSCAD's words at `range`. Facets with coordinates that are no numbers are
+// dropped with a warning, so all vertices are finite.
+//
+// format  of a mesh
+std::vector<RawMesh> read_mesh_file(const std::string& path,
+                                    ImportFormat format, SourceRange range,
+                                    Diagnostics& diagnostics);
+
+}  // namespace lamina::csg

@@ -1,0 +1,110 @@
+#include "csg/import/off.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "csg/import/detail/faces.h"
+#include "csg/import/detail/text_lines.h"
+#include "csg/import/format_error.h"
+
+namespace lamina::csg {
+namespace {
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes)
+      : lines_(bytes), most_lines_(bytes.size() / 2 + 1) {}
+
+  RawMesh read() {
+    read_header();
+    const std::size_t vertices = read_count("number of vertices");
+    const std::size_t faces = read_count("number of faces");
+    RawMesh raw;
+    // What a file promises is no reason to reserve more than it can hold.
+    raw.mesh.vertices.reserve(std::min(vertices, most_lines_));
+    raw.mesh.triangles.reserve(std::min(faces, most_lines_));
+    for (std::size_t i = 0; i < vertices; ++i) {
+      raw.mesh.vertices.push_back(read_vertex());
+    }
+    for (std::size_t i = 0; i < faces; ++i) read_face(raw);
+    return raw;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view expected) const {
+    throw FormatError(
+        fmt::format("OFF line {}, expected {}", lines_.number(), expected));
+  }
+
+  // Goes on to the next line that holds something.
+  void next_line(std::string_view expected) {
+    do {
+      const auto line = lines_.next();
+      if (!line) fail(expected);
+      rest_ = line->substr(0, line->find('#'));
+    } while (trim(rest_).empty());
+  }
+
+  void read_header() {
+    next_line("OFF");
+    std::string_view kind = take_word(rest_);
+    for (const std::string_view prefix : {"ST", "C", "N"}) {
+      if (kind.starts_with(prefix)) kind.remove_prefix(prefix.size());
+    }
+    is_homogeneous_ = kind.starts_with('4');
+    if (is_homogeneous_) kind.remove_prefix(1);
+    if (kind != "OFF") fail("OFF, [ST][C][N][4]OFF");
+    std::string_view rest = rest_;
+    if (take_word(rest) == "BINARY") fail("text, not BINARY");
+  }
+
+  // The counts may stand behind the header's word, or on lines below.
+  std::size_t read_count(std::string_view expected) {
+    if (trim(rest_).empty()) next_line(expected);
+    const auto number = to_number<std::uint32_t>(take_word(rest_));
+    if (!number) fail(expected);
+    return *number;
+  }
+
+  double read_coordinate() {
+    const auto number = to_number<double>(take_word(rest_));
+    if (!number) fail("coordinates of a vertex");
+    return *number;
+  }
+
+  Vec3 read_vertex() {
+    next_line("coordinates of a vertex");
+    const double x = read_coordinate();
+    const double y = read_coordinate();
+    const double z = read_coordinate();
+    return Vec3(x, y, z) / (is_homogeneous_ ? read_coordinate() : 1.0);
+  }
+
+  void read_face(RawMesh& raw) {
+    next_line("a face");
+    const auto count = to_number<std::uint32_t>(take_word(rest_));
+    if (!count) fail("the number of corners of a face");
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t i = 0; i < *count; ++i) {
+      const auto corner = to_number<std::uint32_t>(take_word(rest_));
+      if (!corner || *corner >= raw.mesh.vertices.size()) {
+        fail("indices of vertices");
+      }
+      corners.push_back(*corner);
+    }
+    add_face(corners, raw);
+  }
+
+  TextLines lines_;
+  std::size_t most_lines_;
+  std::string_view rest_;  // of the line
+  bool is_homogeneous_ = false;
+};
+
+}  // namespace
+
+RawMesh parse_off(std::string_view bytes) { return Reader(bytes).read(); }
+
+}  // namespace lamina::csg

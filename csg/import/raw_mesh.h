@@ -1,0 +1,18 @@
+#pragma once
+// Meshes as files have them.
+
+#include <cstdint>
+#include <vector>
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// One body: nothing is joined, turned or closed yet, but every index names a
+// vertex. Faces are counter-clockwise from outside, if the file keeps to that.
+struct RawMesh {
+  Mesh mesh;
+  std::vector<std::vector<std::uint32_t>> polygons;  // faces of 4 corners up
+};
+
+}  // namespace lamina::csg

@@ -1,0 +1,120 @@
+#include "csg/import/stl.h"
+
+#include <array>
+#include <cstring>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "csg/import/detail/text_lines.h"
+#include "csg/import/format_error.h"
+
+namespace lamina::csg {
+namespace {
+
+constexpr std::size_t kHeader = 84;  // 80 bytes and the number of facets
+constexpr std::size_t kRecord = 50;  // normal, three corners, two bytes
+constexpr std::size_t kNormal = 12;
+
+// Little-endian, as every machine that this is built for.
+std::uint32_t facet_count(std::string_view bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + kHeader - sizeof count, sizeof count);
+  return count;
+}
+
+bool is_binary(std::string_view bytes) {
+  return bytes.size() >= kHeader &&
+         bytes.size() == kHeader + kRecord * facet_count(bytes);
+}
+
+RawMesh parse_binary(std::string_view bytes) {
+  const std::size_t count = facet_count(bytes);
+  RawMesh raw;
+  raw.mesh.vertices.resize(3 * count);
+  raw.mesh.triangles.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<float, 9> numbers{};
+    std::memcpy(numbers.data(), bytes.data() + kHeader + kRecord * i + kNormal,
+                sizeof numbers);
+    Vec3* corners = &raw.mesh.vertices[3 * i];
+    corners[0] = {numbers[0], numbers[1], numbers[2]};
+    corners[1] = {numbers[3], numbers[4], numbers[5]};
+    corners[2] = {numbers[6], numbers[7], numbers[8]};
+    const auto first = static_cast<std::uint32_t>(3 * i);
+    raw.mesh.triangles[i] = {first, first + 1, first + 2};
+  }
+  return raw;
+}
+
+bool holds(std::string_view line, std::string_view words) {
+  return line.find(words) != std::string_view::npos;
+}
+
+enum class LineKind { kIgnored, kLoop, kOther };
+
+LineKind kind_of(std::string_view line) {
+  if (line.starts_with("vertex ")) return LineKind::kOther;  // most lines
+  if (line.empty() || holds(line, "solid") || holds(line, "facet") ||
+      holds(line, "endloop")) {
+    return LineKind::kIgnored;
+  }
+  return holds(line, "outer loop") ? LineKind::kLoop : LineKind::kOther;
+}
+
+[[noreturn]] void fail(const TextLines& lines, std::string_view fault,
+                       std::string_view line) {
+  constexpr std::size_t kMostShown = 80;
+  throw FormatError(fmt::format("STL line {}, {} vertex line '{}'",
+                                lines.number(), fault,
+                                line.substr(0, kMostShown)));
+}
+
+// The numbers behind "vertex"; nothing where there are not even three words.
+std::optional<Vec3> read_vertex(std::string_view line, const TextLines& lines) {
+  std::string_view rest = line.substr(line.find("vertex") + 6);
+  Vec3 vertex(0);
+  for (int i = 0; i < 3; ++i) {
+    const bool is_apart = !rest.empty() && is_blank(rest.front());
+    const std::string_view word = take_word(rest);
+    if (word.empty() || !is_apart) return std::nullopt;
+    const std::optional<double> number = to_number<double>(word);
+    if (!number) fail(lines, "can't parse", line);
+    vertex[i] = *number;
+  }
+  return vertex;
+}
+
+RawMesh parse_text(std::string_view bytes) {
+  RawMesh raw;
+  TextLines lines(bytes);
+  lines.next();  // the name
+  std::array<Vec3, 3> corners{};
+  std::size_t count = 0;
+  while (const auto line = lines.next()) {
+    const LineKind kind = kind_of(*line);
+    if (kind == LineKind::kLoop) count = 0;
+    if (kind != LineKind::kOther) continue;
+    if (count >= 3) fail(lines, "extra", *line);
+    if (!holds(*line, "vertex")) continue;
+    const std::optional<Vec3> vertex = read_vertex(*line, lines);
+    if (!vertex) continue;
+    corners[count] = *vertex;
+    if (++count < 3) continue;
+    const auto first = static_cast<std::uint32_t>(raw.mesh.vertices.size());
+    raw.mesh.vertices.insert(raw.mesh.vertices.end(), corners.begin(),
+                             corners.end());
+    raw.mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return raw;
+}
+
+}  // namespace
+
+RawMesh parse_stl(std::string_view bytes) {
+  if (is_binary(bytes)) return parse_binary(bytes);
+  if (bytes.starts_with("solid")) return parse_text(bytes);
+  return {};
+}
+
+}  // namespace lamina::csg

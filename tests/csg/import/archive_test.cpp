@@ -1,0 +1,145 @@
+// AMF and 3MF: XML, mostly zipped.
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "csg/import/amf.h"
+#include "csg/import/threemf.h"
+#include "csg/import/zip.h"
+#include "tests/csg/import/byte_changes.h"
+#include "tests/csg/import/zip_writer.h"
+
+namespace lamina::csg {
+namespace {
+
+const std::vector<Vec3> kCorners = {{0, 0, 0}, {1.5, 0, 0}, {0, 2, -0.25}};
+
+const std::string kAmf = R"(<?xml version="1.0"?>
+<amf unit="inch"><metadata type="x">y</metadata><object id="0"><mesh>
+<vertices>
+<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>
+<vertex><coordinates><x> 1.5 </x><y>0</y><z>0</z></coordinates></vertex>
+<vertex><coordinates><x>0</x><y>2</y><z>-0.25</z></coordinates></vertex>
+</vertices>
+<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>
+</mesh></object><object id="1"/></amf>)";
+
+const std::string k3mfModel = R"(<?xml version="1.0"?>
+<model unit="millimeter" xmlns="urn:x"><resources>
+<object id="1" type="model"><mesh>
+<vertices><vertex x="0" y="0" z="0"/><vertex x="1.5" y="0" z="0"/>
+<vertex x="0" y="2" z="-0.25"/></vertices>
+<triangles><triangle v1="0" v2="1" v3="2"/></triangles>
+</mesh></object></resources><build><item objectid="1"/></build></model>)";
+
+const std::string kRelationships = R"(<?xml version="1.0"?>
+<Relationships><Relationship Id="a" Target="/Metadata/thumbnail.png"
+Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/>
+<Relationship Id="b" Target="/other/part.model"
+Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>)";
+
+void expect_the_corners(const RawMesh& raw) {
+  EXPECT_EQ(raw.mesh.vertices, kCorners);
+  EXPECT_EQ(raw.mesh.triangles,
+            (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}));
+}
+
+TEST(ParseAmf, HasABodyForEachObject) {
+  const auto bodies = parse_amf(kAmf, "a.amf");
+  ASSERT_EQ(bodies.size(), 2U);
+  expect_the_corners(bodies[0]);
+  EXPECT_TRUE(bodies[1].mesh.triangles.empty());
+}
+
+TEST(ParseAmf, ReadsTheEntryOfItsOwnNameOrTheOnlyOne) {
+  const auto named =
+      parse_amf(make_zip({{"other", "x"}, {"a.amf", kAmf}}), "a.amf");
+  expect_the_corners(named.at(0));
+  expect_the_corners(parse_amf(make_zip({{"b.amf", kAmf}}), "a.amf").at(0));
+  EXPECT_EQ(fault_of([] {
+              parse_amf(make_zip({{"b", kAmf}, {"c", kAmf}}), "a.amf");
+            }),
+            "AMF archive holds no 'a.amf'");
+}
+
+TEST(ParseAmf, NamesWhatIsNoNumber) {
+  std::string text = kAmf;
+  text.replace(text.find("1.5"), 3, "one");
+  EXPECT_EQ(fault_of([&] { parse_amf(text, "a.amf"); }),
+            "AMF, expected a coordinate, not 'one'");
+  text = kAmf;
+  text.replace(text.find("<v3>2"), 5, "<v3>3");
+  EXPECT_EQ(fault_of([&] { parse_amf(text, "a.amf"); }),
+            "AMF, expected the index of a vertex, not '3'");
+}
+
+TEST(ParseAmf, EntitiesDoNotGrow) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE amf [<!ENTITY a \"0123456789\">";
+  for (char c = 'b'; c <= 'z'; ++c) {
+    text += std::string("<!ENTITY ") + c + " \"";
+    for (int i = 0; i < 10; ++i) {
+      text += '&';
+      text += static_cast<char>(c - 1);
+      text += ';';
+    }
+    text += "\">";
+  }
+  text += "]>\n<amf><object>&z;</object></amf>";
+  EXPECT_EQ(parse_amf(text, "a.amf").size(), 1U);
+}
+
+TEST(Parse3mf, ReadsThePartThatThePackageNames) {
+  const auto bodies = parse_3mf(make_zip({{"3D/3dmodel.model", "not this one"},
+                                          {"_rels/.rels", kRelationships},
+                                          {"other/part.model", k3mfModel}}));
+  ASSERT_EQ(bodies.size(), 1U);
+  expect_the_corners(bodies[0]);
+}
+
+TEST(Parse3mf, ReadsTheUsualPartWithoutRelationships) {
+  const auto bodies = parse_3mf(make_zip({{"3D/3dmodel.model", k3mfModel}}));
+  ASSERT_EQ(bodies.size(), 1U);
+  expect_the_corners(bodies[0]);
+}
+
+TEST(Parse3mf, SaysWhatIsWrong) {
+  EXPECT_EQ(fault_of([] { parse_3mf("garbage"); }),
+            "ZIP archive has no directory");
+  EXPECT_EQ(fault_of([] {
+              parse_3mf(make_zip({{"a", "b"}}));
+            }),
+            "3MF holds no '3D/3dmodel.model'");
+  std::string model = k3mfModel;
+  model.replace(model.find("v3=\"2\""), 6, "v3=\"3\"");
+  EXPECT_EQ(fault_of([&] {
+              parse_3mf(make_zip({{"3D/3dmodel.model", model}}));
+            }),
+            "3MF, there is no vertex 3");
+}
+
+TEST(ZipArchive, RefusesToSwellWithoutEnd) {
+  const std::string bytes =
+      make_zip({{"bomb", std::string(std::size_t{400} << 20, 'x')}});
+  ASSERT_LT(bytes.size(), std::size_t{1} << 20);
+  EXPECT_EQ(fault_of([&] { ZipArchive(bytes).read("bomb"); }),
+            "ZIP entry 'bomb' is too large");
+}
+
+TEST(Archives, SurviveWhateverBefallsAFile) {
+  const auto amf = [](std::string_view bytes) {
+    for (const RawMesh& raw : parse_amf(bytes, "a.amf")) expect_whole(raw);
+  };
+  const auto threemf = [](std::string_view bytes) {
+    for (const RawMesh& raw : parse_3mf(bytes)) expect_whole(raw);
+  };
+  expect_no_harm(kAmf, amf);
+  expect_no_harm(make_zip({{"a.amf", kAmf}}), amf);
+  expect_no_harm(make_zip({{"3D/3dmodel.model", k3mfModel}}), threemf);
+}
+
+}  // namespace
+}  // namespace lamina::csg

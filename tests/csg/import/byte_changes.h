@@ -1,0 +1,63 @@
+#pragma once
+// What may befall a file on its way: it is cut off, or a byte is another one.
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "csg/import/format_error.h"
+#include "csg/import/raw_mesh.h"
+
+namespace lamina::csg {
+
+// Calls `parse` with the bytes cut off at every length, and with every byte
+// replaced by some others. Only FormatError may come out.
+inline void expect_no_harm(const std::string& bytes,
+                           const std::function<void(std::string_view)>& parse) {
+  const auto survive = [&parse](const std::string& changed) {
+    try {
+      parse(changed);
+    } catch (const FormatError& fault) {
+      EXPECT_NE(std::string_view(fault.what()), "");
+    }
+  };
+  for (std::size_t size = 0; size <= bytes.size(); ++size) {
+    // A copy of its own, so that reading past its end is seen.
+    survive(std::string(bytes.data(), size));
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    for (const char other : {'\0', '9', '-', ' ', '\n', '<', '\xff'}) {
+      std::string changed = bytes;
+      changed[i] = other;
+      survive(changed);
+    }
+  }
+}
+
+// Every index names a vertex.
+inline void expect_whole(const RawMesh& raw) {
+  for (const auto& triangle : raw.mesh.triangles) {
+    for (const std::uint32_t i : triangle) {
+      ASSERT_LT(i, raw.mesh.vertices.size());
+    }
+  }
+  for (const auto& polygon : raw.polygons) {
+    for (const std::uint32_t i : polygon) {
+      ASSERT_LT(i, raw.mesh.vertices.size());
+    }
+  }
+}
+
+// What parsing fails with; "" where it does not.
+inline std::string fault_of(const std::function<void()>& parse) {
+  try {
+    parse();
+  } catch (const FormatError& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+}  // namespace lamina::csg
