@@ -276,7 +276,8 @@ using BuiltinFunction = Value (*)(const struct CallCode&, Frame&);
 using MathFunction = double (*)(double);
 
 struct CallCode : Expression {
-  std::string_view name;
+  std::string_view name;  // empty where the callee is not a plain name:
+  const ast::Expr* callee_text = nullptr;
   std::span<const WrittenArgument> arguments;
   // The function that the name means, if any: one of these two.
   Function* function = nullptr;

@@ -21,6 +21,12 @@ namespace lamina::csg {
 
 class Resolver;
 
+// What messages call a call.
+inline std::string shown_name(const InstantiationCode& code) {
+  return std::string(code.name);
+}
+std::string shown_name(const CallCode& code);
+
 // Thrown to end the evaluation; the interpreter keeps the message.
 struct EvaluationFailure {};
 
@@ -53,21 +59,22 @@ class Interpreter {
   Diagnostic take_failure() { return std::move(*failure_); }
 
   // --- Calls being run
-  // Throws OpenSCAD's error where calls are nested too deep, or the C++ stack
-  // is nearly used up.
+  // Whether calls are nested too deep, or the C++ stack is nearly used up.
+  bool is_too_deep() const {
+    return depth_ > kMostNestedCalls ||
+           reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
+               stack_limit_;
+  }
+  // Throws OpenSCAD's error where that is so.
   void check_depth(SourceRange range, std::string_view kind,
                    std::string_view name, const Source* document) {
-    if (depth_ > kMostNestedCalls ||
-        reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
-            stack_limit_) {
-      fail_recursion(range, kind, name, document);
-    }
+    if (is_too_deep()) fail_recursion(range, kind, name, document);
   }
   void enter_call() { ++depth_; }
-  void leave_call(std::string_view name, SourceRange range,
-                  const Source* document) {
+  template <typename Code>
+  void leave_call(const Code& code, const Source* document) {
     --depth_;
-    if (failure_ != nullptr) note_call(name, range, document);
+    if (failure_ != nullptr) note_call(shown_name(code), code.range, document);
   }
 
   // --- Variables
@@ -161,7 +168,7 @@ class Interpreter {
   };
 
   // Far more than any design needs, few enough to fail within a second.
-  static constexpr std::uint32_t kMostNestedCalls = 200000;
+  static constexpr std::uint32_t kMostNestedCalls = 300000;
 
   void assign_unusual(const Target& target, Value value, Frame& frame);
   void note_call(std::string_view name, SourceRange range,
@@ -203,9 +210,7 @@ class ActiveCall {
   ActiveCall(const Code& code, Frame& frame) : code_(code), frame_(frame) {
     frame.in.enter_call();
   }
-  ~ActiveCall() {
-    frame_.in.leave_call(code_.name, code_.range, frame_.document);
-  }
+  ~ActiveCall() { frame_.in.leave_call(code_, frame_.document); }
   ActiveCall(const ActiveCall&) = delete;
   ActiveCall& operator=(const ActiveCall&) = delete;
 

@@ -1,6 +1,7 @@
 #include "csg/eval/resolve_expression.h"
 
 #include <numbers>
+#include <unordered_set>
 #include <variant>
 
 #include <fmt/format.h>
@@ -413,15 +414,13 @@ Bindings ExpressionResolver::sequential_bindings(ast::Arguments written,
                                                  bool is_statement_level) {
   std::vector<Binding> bindings;
   std::vector<Variable*> variables;
+  std::unordered_set<std::string_view> names;
   for (const ast::Argument& argument : written) {
     Binding binding;
     binding.name = argument.name;
     binding.range = range;
-    for (const Binding& earlier : bindings) {
-      if (!argument.name.empty() && earlier.name == argument.name) {
-        binding.is_duplicate = true;
-      }
-    }
+    binding.is_duplicate =
+        !argument.name.empty() && !names.insert(argument.name).second;
     Variable* variable = nullptr;
     if (!argument.name.empty() && !binding.is_duplicate) {
       if (!is_dynamic_name(argument.name)) {
@@ -496,8 +495,7 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
   const auto* name = std::get_if<ast::Variable>(&call.callee->node);
   code->is_name = name != nullptr;
   if (name == nullptr) {
-    code->name =
-        resolver_.keep_text(fmt::format("({})", expression_text(*call.callee)));
+    code->callee_text = call.callee;
     code->callee = resolve(*call.callee);
     code->arguments = arguments(call.arguments);
     code->run = run_call_value;

@@ -805,6 +805,13 @@ Value run_body(const Callable& callable, std::string_view name,
 
 // --- Calls ------------------------------------------------------------------
 
+// Made when it is asked for: in f(1)(2)(3)… every callee holds all before it.
+std::string shown_name(const CallCode& code) {
+  return code.callee_text == nullptr
+             ? std::string(code.name)
+             : fmt::format("({})", expression_text(*code.callee_text));
+}
+
 namespace {
 
 Value call_function(const CallCode& code, Frame& frame) {
@@ -898,7 +905,10 @@ Value run_call_unknown(const Expression& expression, Frame& frame) {
 
 Value run_call_value(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
-  frame.in.check_depth(code.range, "function", code.name, frame.document);
+  if (frame.in.is_too_deep()) {
+    frame.in.fail_recursion(code.range, "function", shown_name(code),
+                            frame.document);
+  }
   const ActiveCall active(code, frame);
   const Value callee = run(code.callee, frame);
   if (callee.is_function()) {
