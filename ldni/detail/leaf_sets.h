@@ -16,8 +16,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "csg/program_state.h"
 #include "csg/scene.h"
-#include "ldni/program_state.h"
 
 namespace lamina::ldni::detail {
 
@@ -99,7 +99,7 @@ class LeafSets {
   void grow_index();
 
   const Rule rule_;
-  ProgramState program_;
+  csg::ProgramState program_;
   std::vector<bool> is_counted_;  // an instance
   std::vector<Set> sets_;
   std::vector<Member> members_;  // of all sets, each by instance

@@ -16,13 +16,13 @@
 
 #include "csg/scene.h"
 
-namespace lamina::ldni {
+namespace lamina::csg {
 
 // The value of the program for one set of leaf instances. Starts with the
 // empty set, which no program holds for.
 class ProgramState {
  public:
-  explicit ProgramState(const csg::Scene& scene);
+  explicit ProgramState(const Scene& scene);
 
   // Puts `instance` into the set or takes it out; it must not be there (or be
   // gone) already. O(1) plus the operators whose value changes.
@@ -43,7 +43,14 @@ class ProgramState {
   }
 
   // Whether the program holds for the present set.
-  bool value() const { return nodes_[0].count >= nodes_[0].threshold; }
+  bool value() const { return value(0); }
+
+  // The same for a subtree of the program.
+  bool value(std::uint32_t node) const {
+    return nodes_[node].count >= nodes_[node].threshold;
+  }
+  // Children of the node that hold, subtrahends counted as -1.
+  std::int32_t count(std::uint32_t node) const { return nodes_[node].count; }
 
   bool is_inside(std::uint32_t instance) const {
     return instances_[instance].position != kOutside;
@@ -99,4 +106,4 @@ class ProgramState {
   std::vector<std::uint32_t> inside_;
 };
 
-}  // namespace lamina::ldni
+}  // namespace lamina::csg

@@ -1,18 +1,17 @@
-#include "ldni/program_state.h"
+#include "csg/program_state.h"
 
 #include <algorithm>
 
-namespace lamina::ldni {
+namespace lamina::csg {
 
-ProgramState::ProgramState(const csg::Scene& scene) {
+ProgramState::ProgramState(const Scene& scene) {
   const auto is_subtrahend = [&](std::uint32_t parent, bool is_minuend) {
-    return scene.program[parent].op == csg::BooleanOp::kDifference &&
-           !is_minuend;
+    return scene.program[parent].op == BooleanOp::kDifference && !is_minuend;
   };
   nodes_.reserve(scene.program.size());
-  for (const csg::BooleanNode& node : scene.program) {
+  for (const BooleanNode& node : scene.program) {
     Node state;
-    if (node.op == csg::BooleanOp::kIntersection) {
+    if (node.op == BooleanOp::kIntersection) {
       // An intersection of nothing is empty, as in OpenSCAD.
       state.threshold =
           std::max(1, static_cast<std::int32_t>(node.child_count));
@@ -22,7 +21,7 @@ ProgramState::ProgramState(const csg::Scene& scene) {
     nodes_.push_back(state);
   }
   instances_.reserve(scene.instances.size());
-  for (const csg::Instance& instance : scene.instances) {
+  for (const Instance& instance : scene.instances) {
     InstanceState state;
     state.child = Child(instance.parent,
                         is_subtrahend(instance.parent, instance.is_minuend));
@@ -34,4 +33,4 @@ void ProgramState::reset() {
   while (!inside_.empty()) flip(inside_.back(), false);
 }
 
-}  // namespace lamina::ldni
+}  // namespace lamina::csg

@@ -1,4 +1,4 @@
-#include "ldni/program_state.h"
+#include "csg/program_state.h"
 
 #include <cstdint>
 #include <random>
@@ -6,12 +6,8 @@
 
 #include <gtest/gtest.h>
 
-namespace lamina::ldni {
+namespace lamina::csg {
 namespace {
-
-using csg::BooleanNode;
-using csg::BooleanOp;
-using csg::Scene;
 
 // A random program of `depth` levels; leaves are instances without geometry.
 void add_random_children(Scene& scene, std::uint32_t parent, int depth,
@@ -20,7 +16,7 @@ void add_random_children(Scene& scene, std::uint32_t parent, int depth,
   scene.program[parent].child_count = static_cast<std::uint32_t>(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (depth == 0 || random() % 2 == 0) {
-      csg::Instance instance;
+      Instance instance;
       instance.parent = parent;
       instance.is_minuend = i == 0;
       scene.instances.push_back(instance);
@@ -130,4 +126,4 @@ TEST(ProgramState, AnEmptyProgramHoldsNowhere) {
 }
 
 }  // namespace
-}  // namespace lamina::ldni
+}  // namespace lamina::csg
