@@ -50,10 +50,6 @@ Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
     return {Dimension::kFlat, hull_of(apart.regions)};
   }
   if (apart.scene.instances.empty()) return {};
-  const auto& program = apart.scene.program;
-  if (program.size() > 1 || program[0].op != BooleanOp::kUnion) {
-    fail_unsupported(node, "hull");
-  }
   Leaf leaf;
   leaf.meshes.push_back(convex_hull(std::move(apart.scene)));
   place_leaf(std::move(leaf), node, world);

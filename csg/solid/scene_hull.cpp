@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "csg/solid/boundary_faces.h"
 #include "csg/solid/detail/convex_hull.h"
 #include "csg/solid/leaf_mesh.h"
 
@@ -50,6 +51,11 @@ Mesh convex_hull(Scene scene) {
     for (const Vec3 shift : extreme_points(shifts)) {
       const Affine m = affine_of(linear, shift);
       for (const Vec3 vertex : vertices) points.push_back(m * Vec4(vertex, 1));
+    }
+  }
+  for (const BoundaryFace& face : boundary_faces(scene)) {
+    for (const auto& contour : face.contours) {
+      points.insert(points.end(), contour.begin(), contour.end());
     }
   }
   return convex_hull(std::move(points));

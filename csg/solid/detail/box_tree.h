@@ -2,7 +2,6 @@
 // Boxes in a binary tree, to find those that meet something.
 
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -18,12 +17,13 @@ inline bool do_meet(const Box3& a, const Box3& b) {
 
 class BoxTree {
  public:
-  // Depth first: the left child stands next to its parent.
+  // Depth first: the left child stands next to its parent, the right one after
+  // the left one's subtree.
   struct Node {
     Box3 box;
     std::uint32_t first = 0;  // its items: items()[first, first + count)
     std::uint32_t count = 0;
-    std::uint32_t right = 0;  // index of the right child; 0: no children
+    std::uint32_t size = 1;  // nodes of the subtree, this one included
   };
 
   // O(n log n); any number of boxes.
@@ -46,7 +46,7 @@ class BoxTree {
         i += node.size;
         continue;
       }
-      if (node.right == 0) {
+      if (node.size == 1) {
         for (const std::uint32_t item : items(node)) {
           if (test(boxes_[item])) visit(item);
         }
@@ -56,6 +56,8 @@ class BoxTree {
   }
 
  private:
+  void build(std::uint32_t first, std::uint32_t count);
+
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> items_;
   std::vector<Box3> boxes_;

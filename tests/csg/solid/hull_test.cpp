@@ -125,6 +125,31 @@ TEST_F(Hulls, OfNothingAreNothing) {
   EXPECT_TRUE(run({b.node(Hull{}, {background})}).is_empty());
 }
 
+// What is cut off a cube's corner is flat: the hull is the rest itself.
+TEST_F(Hulls, OfADifferenceTakeTheCornersOfTheResult) {
+  const Node* corner = b.translate({2, 2, 2}, {b.node(Sphere{2, {4}})});
+  const Node* rest = b.node(Difference{}, {b.cube({2, 2, 2}), corner});
+  const double volume = run_volume({b.node(Hull{}, {rest})});
+  EXPECT_LT(volume, 8);
+  // A notch does not show.
+  const Node* notch = b.translate({0.5, 0.5, 0.5}, {b.cube({1, 1, 5})});
+  const Node* notched = b.node(Difference{}, {b.cube({2, 2, 2}), notch});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {notched})}), 8, kRounding);
+  // Half of a cube, and a leaf beside it.
+  const Node* half =
+      b.node(Intersection{},
+             {b.cube({2, 2, 2}), b.translate({0, 0, 1}, {b.cube({3, 3, 3})})});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {half})}), 4, kRounding);
+  const Node* beside = b.translate({4, 0, 1}, {b.cube({1, 2, 1})});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {half, beside})}), 10, kRounding);
+}
+
+TEST_F(Hulls, OfABooleanOfNothingAreNothing) {
+  const Node* nothing =
+      b.node(Difference{}, {b.cube({1, 1, 1}), b.cube({1, 1, 1})});
+  EXPECT_TRUE(run({b.node(Hull{}, {nothing})}).is_empty());
+}
+
 TEST_F(Hulls, InThePlaneTakeAllOutlines) {
   const planar::Region region = run_flat(
       {b.node(Hull{}, {b.node(Square{{1, 1}}),

@@ -1,0 +1,283 @@
+#include "csg/solid/boundary_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "csg/planar/clip.h"
+#include "csg/program_state.h"
+#include "csg/solid/detail/box_tree.h"
+#include "csg/solid/detail/plane_section.h"
+#include "csg/solid/detail/program_region.h"
+
+namespace lamina::csg {
+namespace {
+
+using planar::Contour;
+using planar::Region;
+using Side = WindowSection::Side;
+
+Box3 expand(const Box3& box) {
+  // More than the box of a window is, so that what is judged by boxes here has
+  // no face in the window there.
+  constexpr double kMargin = 4 * kCoplanarDistance;
+  return {box.low - kMargin, box.high + kMargin};
+}
+
+// Contours whose mean width is less than a tie are none.
+bool is_hairline(const Contour& contour) {
+  double perimeter = 0;
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    perimeter += glm::distance(contour[i], contour[(i + 1) % contour.size()]);
+  }
+  return std::abs(planar::signed_area(contour)) <
+         0.5 * kCoplanarDistance * perimeter;
+}
+
+class Finder {
+ public:
+  explicit Finder(const Scene& scene) : scene_(scene), state_(scene) {
+    std::vector<Box3> boxes;
+    for (const Instance& instance : scene.instances) {
+      leaves_.emplace_back(scene.leaves[instance.leaf],
+                           instance.world_from_leaf);
+      boxes.push_back(expand(instance.box));
+    }
+    const BoxTree tree(boxes);
+    for (self_ = 0; self_ < leaves_.size(); ++self_) {
+      std::vector<std::uint32_t> near;
+      tree.visit([&](const Box3& box) { return do_meet(box, boxes[self_]); },
+                 [&](std::uint32_t other) {
+                   if (other != self_) near.push_back(other);
+                 });
+      if (!leaf().tree.nodes().empty()) descend(0, near);
+    }
+  }
+
+  std::vector<BoundaryFace> take() { return std::move(result_); }
+
+ private:
+  const PlacedLeaf& leaf() const { return leaves_[self_]; }
+
+  // Of the surface of one leaf, what meets no other surface lies wholly inside
+  // or wholly outside of each.
+  //
+  // unknown  instances of which it is not yet known
+  void descend(std::uint32_t index, std::span<const std::uint32_t> unknown) {
+    const BoxTree::Node& node = leaf().tree.nodes()[index];
+    const Settled settled = settle(node.box, unknown);
+    if (settled.unknown.empty() && is_embedded()) {
+      take_all(node);
+    } else if (node.size > 1) {
+      descend(index + 1, settled.unknown);
+      descend(index + 1 + leaf().tree.nodes()[index + 1].size, settled.unknown);
+    } else {
+      for (const std::uint32_t face : leaf().tree.items(node)) {
+        judge(face, settled.unknown);
+      }
+    }
+    forget(settled);
+  }
+
+  struct Settled {
+    std::vector<std::uint32_t> unknown;
+    std::vector<std::uint32_t> around;  // entered into the state
+  };
+
+  Settled settle(const Box3& box, std::span<const std::uint32_t> unknown) {
+    Settled settled;
+    const Box3 reach = expand(box);
+    for (const std::uint32_t other : unknown) {
+      if (has_face_in(other, reach)) {
+        settled.unknown.push_back(other);
+      } else if (contains(leaves_[other], box.low)) {
+        settled.around.push_back(other);
+        state_.flip(other, true);
+      }
+    }
+    return settled;
+  }
+
+  void forget(const Settled& settled) {
+    for (const std::uint32_t other : settled.around) state_.flip(other, false);
+  }
+
+  bool has_face_in(std::uint32_t other, const Box3& box) const {
+    bool is_found = false;
+    leaves_[other].tree.visit(
+        [&](const Box3& face) { return !is_found && do_meet(face, box); },
+        [&](std::uint32_t) { is_found = true; });
+    return is_found;
+  }
+
+  // Whether each face separates inside from outside of its own leaf.
+  bool is_embedded() const {
+    return !scene_.leaves[scene_.instances[self_].leaf].may_overlap_itself;
+  }
+
+  // The value of the program just inside and just outside of the surface.
+  struct Values {
+    bool inside = false;
+    bool outside = false;
+  };
+  Values values_at_surface() {
+    Values values;
+    values.outside = state_.value();
+    state_.flip(self_, true);
+    values.inside = state_.value();
+    state_.flip(self_, false);
+    return values;
+  }
+
+  void take_all(const BoxTree::Node& node) {
+    const Values values = values_at_surface();
+    if (values.inside == values.outside) return;
+    for (const std::uint32_t face : leaf().tree.items(node)) {
+      take_whole(face, values.outside);
+    }
+  }
+
+  void take_whole(std::uint32_t face, bool is_reversed) {
+    const Vec3 normal = leaf().faces.normal_of(face);
+    if (normal == Vec3(0)) return;
+    BoundaryFace result{is_reversed ? -normal : normal,
+                        leaf().faces.contours_of(face)};
+    if (is_reversed) {
+      for (auto& contour : result.contours) {
+        std::reverse(contour.begin(), contour.end());
+      }
+    }
+    result_.push_back(std::move(result));
+  }
+
+  // One face, with the instances near it that its parent in the tree left.
+  void judge(std::uint32_t face, std::span<const std::uint32_t> unknown) {
+    const Vec3 normal = leaf().faces.normal_of(face);
+    if (normal == Vec3(0)) return;
+    const Settled settled = settle(leaf().faces.box_of(face), unknown);
+    if (settled.unknown.empty() && is_embedded()) {
+      const Values values = values_at_surface();
+      if (values.inside != values.outside) take_whole(face, values.outside);
+    } else {
+      cut(face, normal, settled.unknown);
+    }
+    forget(settled);
+  }
+
+  // The plane problem.
+  void cut(std::uint32_t face, Vec3 normal,
+           std::span<const std::uint32_t> others) {
+    const auto corners = leaf().faces.contours_of(face);
+    const Plane plane(corners[0][0], normal);
+    Region outline;
+    Window window{Vec2(1e300), Vec2(-1e300)};
+    for (const auto& contour : corners) {
+      Contour& flat = outline.contours.emplace_back();
+      for (const Vec3 corner : contour) {
+        flat.push_back(plane.flatten(corner));
+        window.low = glm::min(window.low, flat.back());
+        window.high = glm::max(window.high, flat.back());
+      }
+    }
+
+    std::vector<LiveInstance> below;
+    std::vector<LiveInstance> above;
+    std::vector<Region> earlier;  // faces in this plane whose turn was before
+    bool is_touched = false;
+    const auto add = [&](std::uint32_t other) {
+      const WindowSection section(leaves_[other], plane, window);
+      below.push_back({other, section.contours(Side::kBelow)});
+      above.push_back({other, section.is_touched()
+                                  ? section.contours(Side::kAbove)
+                                  : below.back().section});
+      if (!section.is_touched()) return;
+      is_touched = true;
+      add_earlier(other, section.faces(), face, plane, earlier);
+    };
+    for (const std::uint32_t other : others) add(other);
+    if (!is_embedded()) add(self_);
+
+    if (!earlier.empty()) {
+      earlier.insert(earlier.begin(), outline);
+      outline = planar::subtract(earlier);
+    }
+    if (outline.is_empty()) return;
+    const auto outside = evaluate_in_window(scene_, state_, above, outline);
+    if (is_embedded()) state_.flip(self_, true);
+    const auto inside = evaluate_in_window(scene_, state_, below, outline);
+    if (is_embedded()) state_.flip(self_, false);
+    emit(plane, normal, outline, inside, outside, false);
+    emit(plane, -normal, outline, outside, inside, true);
+  }
+
+  // Of faces that lie in one plane the first one speaks for what they share.
+  void add_earlier(std::uint32_t other, std::span<const std::uint32_t> faces,
+                   std::uint32_t face, const Plane& plane,
+                   std::vector<Region>& earlier) const {
+    const LeafFaces& all = leaves_[other].faces;
+    for (const std::uint32_t candidate : faces) {
+      if (std::pair(other, candidate) >= std::pair(self_, face)) continue;
+      Region region;
+      bool is_coplanar = true;
+      for (const auto& contour : all.contours_of(candidate)) {
+        Contour& flat = region.contours.emplace_back();
+        for (const Vec3 corner : contour) {
+          const double height = plane.height(corner);
+          is_coplanar = is_coplanar && std::abs(height) <= kCoplanarDistance;
+          flat.push_back(plane.flatten(corner));
+        }
+      }
+      if (!is_coplanar) continue;
+      // All counter-clockwise, or opposite faces would cancel.
+      if (planar::area(region) < 0) {
+        for (Contour& flat : region.contours) {
+          std::reverse(flat.begin(), flat.end());
+        }
+      }
+      earlier.push_back(std::move(region));
+    }
+  }
+
+  // What is solid on one side of the plane and not on the other.
+  void emit(const Plane& plane, Vec3 normal, const Region& outline,
+            const std::optional<Region>& solid,
+            const std::optional<Region>& empty, bool is_reversed) {
+    if (!empty) return;
+    Region region = solid.value_or(outline);
+    if (!empty->is_empty()) {
+      const std::array<Region, 2> operands{std::move(region), *empty};
+      region = planar::subtract(operands);
+    }
+    std::erase_if(region.contours, is_hairline);
+    if (region.is_empty()) return;
+    BoundaryFace face{normal, {}};
+    for (const Contour& contour : region.contours) {
+      auto& lifted = face.contours.emplace_back();
+      for (const Vec2 point : contour) lifted.push_back(plane.lift(point));
+      if (is_reversed) std::reverse(lifted.begin(), lifted.end());
+    }
+    result_.push_back(std::move(face));
+  }
+
+  const Scene& scene_;
+  ProgramState state_;
+  std::vector<PlacedLeaf> leaves_;
+  std::uint32_t self_ = 0;  // the instance whose faces are judged
+  std::vector<BoundaryFace> result_;
+};
+
+}  // namespace
+
+std::vector<BoundaryFace> boundary_faces(const Scene& scene) {
+  return Finder(scene).take();
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,37 @@
+#pragma once
+// The boundary of a Boolean, face by face.
+//
+// Who needs the explicit boundary of a subtree (hull, minkowski, resize,
+// projection) asks here. No mesh of the whole is built: each face of each leaf
+// is judged alone. Most faces lie wholly inside or wholly outside of each
+// other leaf, and that is found for many at once, by boxes. What is left is a
+// plane problem: the leaves that meet the face are cut by its plane, the
+// Boolean is evaluated in that plane just inside and just outside of the face,
+// and the part of the face that separates the two is boundary.
+
+#include <vector>
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// A plane polygon in space, with holes.
+struct BoundaryFace {
+  Vec3 normal;  // unit length, out of the solid
+  // First points are not repeated. Seen from outside, outer contours run
+  // counter-clockwise and holes clockwise; there may be several outer ones.
+  std::vector<std::vector<Vec3>> contours;
+};
+
+// The faces together cover the boundary once, up to kCoplanarDistance; they
+// are not joined: neighbours may have vertices on each other's edges, and an
+// edge's two sides may differ by kClipGrid. A face that the Boolean does not
+// touch keeps the leaf's vertices, bit by bit. Coplanar neighbours are not
+// merged. Cost: about n log n of the faces, plus the plane problems.
+std::vector<BoundaryFace> boundary_faces(const Scene& scene);
+
+// Faces nearer than this to a plane lie in it [mm]: the tie distance of the
+// sweep (ldni/sample.h), so that both see the same coincidences.
+inline constexpr double kCoplanarDistance = 1e-6;
+
+}  // namespace lamina::csg
