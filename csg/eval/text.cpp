@@ -1,7 +1,8 @@
 #include "csg/eval/text.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "csg/eval/code.h"
 #include "csg/eval/object.h"
@@ -17,9 +18,9 @@ bool append_small_integer(double number, std::string& text) {
   if (!(std::fabs(number) < 1e6)) return false;
   const int integer = static_cast<int>(number);
   if (integer != number) return false;
-  char digits[16];
-  const int length = std::snprintf(digits, sizeof digits, "%d", integer);
-  text.append(digits, static_cast<std::size_t>(length));
+  std::array<char, 16> digits;
+  const auto end = std::to_chars(digits.begin(), digits.end(), integer).ptr;
+  text.append(digits.begin(), end);
   return true;
 }
 
@@ -30,9 +31,13 @@ void append_stream_number(double number, std::string& text) {
       append_small_integer(number, text)) {
     return;
   }
-  char digits[32];
-  const int length = std::snprintf(digits, sizeof digits, "%g", number);
-  text.append(digits, static_cast<std::size_t>(length));
+  // As printf's %g.
+  constexpr int kDigits = 6;
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.begin(), digits.end(), number,
+                                 std::chars_format::general, kDigits)
+                       .ptr;
+  text.append(digits.begin(), end);
 }
 
 void append_text(const Value& value, std::string& text) {
