@@ -10,6 +10,7 @@
 #include "csg/degrees.h"
 #include "csg/planar/clip.h"
 #include "csg/planar/facets.h"
+#include "csg/planar/minkowski.h"
 #include "csg/solid/detail/points.h"
 
 namespace lamina::csg {
@@ -90,6 +91,20 @@ Region combine_regions(BooleanOp op, std::span<const Region> regions,
         break;
     }
     return planar::unite(regions);
+  });
+}
+
+Region add_regions(std::span<const Region> regions, SourceRange range,
+                   Diagnostics& diagnostics) {
+  return with_range_check(range, diagnostics, [&] {
+    Region sum = regions[0];
+    bool has_sum = regions.size() == 1;
+    for (const Region& region : regions.subspan(1)) {
+      if (region.is_empty()) continue;
+      sum = planar::add(sum, region);
+      has_sum = true;
+    }
+    return has_sum ? sum : Region{};
   });
 }
 

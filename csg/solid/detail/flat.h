@@ -26,6 +26,11 @@ planar::Region combine_regions(BooleanOp op,
                                std::span<const planar::Region> regions,
                                SourceRange range, Diagnostics& diagnostics);
 
+// minkowski(): the sum of all regions that are not empty. Empty where the first
+// is, or where all others are.
+planar::Region add_regions(std::span<const planar::Region> regions,
+                           SourceRange range, Diagnostics& diagnostics);
+
 planar::Region offset_region(const Offset& offset, const Fineness& fineness,
                              const planar::Region& region, SourceRange range,
                              Diagnostics& diagnostics);
