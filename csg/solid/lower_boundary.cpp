@@ -56,15 +56,6 @@ Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Minkowski&, const Node& node,
-                        const Affine& world) {
-  // The sum of one operand is that operand.
-  if (count_operands(node) == 1) {
-    return lower_children(node, world, BooleanOp::kUnion);
-  }
-  return lower_later(node, "minkowski");
-}
-
 Shape Lowerer::lower_op(const Resize&, const Node& node, const Affine&) {
   return lower_later(node, "resize");
 }

@@ -140,6 +140,14 @@ void ProgramBuilder::emit_operands(Part part, std::uint32_t self,
   }
 }
 
+void ProgramBuilder::copy(std::size_t begin, std::size_t end,
+                          Scene& scene) const {
+  ProgramBuilder part = *this;
+  const auto parts = parts_above(begin).first(end - begin);
+  part.stack_.assign(parts.begin(), parts.end());
+  part.finish(scene);
+}
+
 void ProgramBuilder::finish(Scene& scene) {
   const auto all = parts_above(0);
   scene.box = box_of(all);

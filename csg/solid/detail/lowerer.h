@@ -4,8 +4,9 @@
 // Cut by what a node is: lower_operators.cpp has the operators and how
 // operands of two and three dimensions meet, lower_leaves.cpp the solids that
 // stand at the bottom, lower_planar.cpp what lies in the plane, lower_files.cpp
-// what is read from files, and lower_boundary.cpp the operators that need the
-// explicit boundary of their subtree (hull, minkowski, resize, projection).
+// what is read from files, lower_boundary.cpp the operators that need the
+// explicit boundary of their subtree (hull, resize, projection), and
+// lower_minkowski.cpp the sum.
 
 #include <array>
 #include <cstddef>
@@ -34,6 +35,8 @@ struct Shape {
   Dimension dimension = Dimension::kNone;
   planar::Region region = {};
 };
+
+struct Operand;
 
 class Lowerer {
  public:
@@ -125,7 +128,6 @@ class Lowerer {
                    const Affine& world);
   // --- lower_boundary.cpp ---------------------------------------------------
   Shape lower_op(const Hull& op, const Node& node, const Affine& world);
-  Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
   Shape lower_op(const Resize& op, const Node& node, const Affine& world);
   Shape lower_op(const Projection& op, const Node& node, const Affine& world);
 
@@ -136,6 +138,16 @@ class Lowerer {
     Scene scene;                          // their union
   };
   Apart lower_apart(const Node& node, const Affine& world);
+
+  // --- lower_minkowski.cpp --------------------------------------------------
+  Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
+  std::vector<Scene> take_scenes(const std::vector<std::size_t>& begins);
+  void place_sum(const Operand& sum, const Node& node, const Affine& world);
+
+  // --- place_scene.cpp ------------------------------------------------------
+  // Leaves a scene that was lowered apart on top of the stack, as its
+  // program's parts.
+  void place_scene(const Scene& scene, const Affine& world);
 
   struct KeptBox {
     std::uint32_t leaf = 0;

@@ -32,6 +32,10 @@ class ProgramBuilder {
   void apply_difference(std::span<const std::size_t> begins);
   void apply_intersection(std::span<const std::size_t> begins);
 
+  // Copies the parts from begin up to end into the scene, box included, as
+  // finish() would.
+  void copy(std::size_t begin, std::size_t end, Scene& scene) const;
+
   // Moves instances and program into the scene, box included: the union of all
   // parts on the stack.
   void finish(Scene& scene);

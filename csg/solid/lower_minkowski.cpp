@@ -1,0 +1,77 @@
+// minkowski(): the sum of its children.
+//
+// Each child is lowered apart, in the node's own coordinates, so that the sum
+// is made before the world's matrix puts noise on what is flat or parallel.
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "csg/solid/detail/flat.h"
+#include "csg/solid/detail/lowerer.h"
+#include "csg/solid/detail/minkowski.h"
+
+namespace lamina::csg {
+namespace {
+
+bool is_plain_union(const Scene& scene) {
+  return scene.program.size() == 1 && scene.program[0].op == BooleanOp::kUnion;
+}
+
+}  // namespace
+
+Shape Lowerer::lower_op(const Minkowski&, const Node& node,
+                        const Affine& world) {
+  LowerOptions options = options_;
+  options.chordal_error = fineness({}, world).chordal_error;
+  Lowerer apart(node.children.size(), options, diagnostics_);
+  const Operands operands =
+      apart.lower_operands(node, Affine(1.0), false, Dimension::kNone);
+  report_strays(operands);
+  switch (operands.dimension) {
+    case Dimension::kNone:
+      return {};
+    case Dimension::kFlat:
+      return {Dimension::kFlat,
+              add_regions(operands.regions, node.range, diagnostics_)};
+    case Dimension::kSolid:
+      break;
+  }
+  std::vector<Operand> solids;
+  for (const Scene& scene : apart.take_scenes(operands.begins)) {
+    if (scene.instances.empty()) continue;
+    if (!is_plain_union(scene)) fail_unsupported(node, "minkowski");
+    solids.push_back(make_operand(scene));
+  }
+  if (solids.empty()) return {};
+  place_sum(add_operands(std::move(solids)), node, world);
+  return {Dimension::kSolid};
+}
+
+void Lowerer::place_sum(const Operand& sum, const Node& node,
+                        const Affine& world) {
+  for (const Body& body : sum.bodies) {
+    Affine moved = world;
+    moved[3] = world * Vec4(body.shift, 1);
+    place_scene(*body.scene, moved);
+  }
+  place_leaf(make_leaf(sum.convex), node, world);
+}
+
+// The operands on the stack, each with all leaves it needs.
+std::vector<Scene> Lowerer::take_scenes(
+    const std::vector<std::size_t>& begins) {
+  std::vector<Scene> scenes;
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    scenes.emplace_back();
+    builder_.copy(begins[i],
+                  i + 1 < begins.size() ? begins[i + 1] : builder_.mark(),
+                  scenes.back());
+  }
+  const std::vector<Leaf> leaves = leaves_.take();
+  for (Scene& scene : scenes) scene.leaves = leaves;
+  return scenes;
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,201 @@
+#include "csg/solid/detail/minkowski.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "csg/planar/convex_faces.h"
+#include "csg/solid/detail/connected_faces.h"
+#include "csg/solid/detail/convex_hull.h"
+#include "csg/solid/detail/convex_leaf.h"
+#include "csg/solid/detail/convex_pairs.h"
+#include "csg/solid/leaf_mesh.h"
+
+namespace lamina::csg {
+namespace {
+
+// --- Convex parts ------------------------------------------------------------
+
+// base ⊕ (axis ⊕ other)
+Convex add_prism(const Prism& prism, const Convex& other) {
+  Convex swept = add_flat(prism.axis, other);
+  find_edges(swept);
+  return add_flat(prism.base, swept);
+}
+
+Convex add_solids(const Convex& a, const Convex& b) {
+  if (const auto prism = as_prism(a)) return add_prism(*prism, b);
+  if (const auto prism = as_prism(b)) return add_prism(*prism, a);
+  const Mesh hull = convex_hull(extreme_sums(a, b));
+  std::vector<std::vector<std::uint32_t>> loops;
+  for (planar::Face& face :
+       planar::merge_to_convex(hull.vertices, hull.triangles)) {
+    loops.push_back(std::move(face.corners));
+  }
+  return make_solid(hull.vertices, loops);
+}
+
+// Both have their edges; the sum does not.
+Convex add_convex(const Convex& a, const Convex& b) {
+  if (a.is_flat) return add_flat(a, b);
+  if (b.is_flat) return add_flat(b, a);
+  return add_solids(a, b);
+}
+
+Convex move(Convex body, const Vec3& shift) {
+  for (Vec3& vertex : body.vertices) vertex += shift;
+  return body;
+}
+
+// --- Bodies ------------------------------------------------------------------
+
+// Flat convex polygons of triangles.
+std::vector<Convex> make_faces(const Mesh& mesh) {
+  std::vector<Convex> faces;
+  for (const planar::Face& face :
+       planar::merge_to_convex(mesh.vertices, mesh.triangles)) {
+    if (face.normal == Vec3(0)) continue;
+    std::vector<Vec3> polygon;
+    for (const std::uint32_t corner : face.corners) {
+      polygon.push_back(mesh.vertices[corner]);
+    }
+    faces.push_back(make_flat(std::move(polygon), face.normal));
+  }
+  return faces;
+}
+
+Mesh transform(Mesh mesh, const Affine& matrix) {
+  for (Vec3& vertex : mesh.vertices) vertex = matrix * Vec4(vertex, 1);
+  if (glm::dot(matrix[0], glm::cross(matrix[1], matrix[2])) < 0) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+Body make_body(Scene scene, std::vector<Convex> faces) {
+  return {std::make_shared<const Scene>(std::move(scene)),
+          std::make_shared<const std::vector<Convex>>(std::move(faces))};
+}
+
+// --- Parts of a scene --------------------------------------------------------
+
+// Takes a union apart into its leaves.
+class Divider {
+ public:
+  explicit Divider(const Scene& scene) : scene_(scene) {}
+
+  Operand divide() {
+    for (const Instance& instance : scene_.instances) add_instance(instance);
+    return std::move(operand_);
+  }
+
+ private:
+  void add_instance(const Instance& instance) {
+    const Leaf& leaf = scene_.leaves[instance.leaf];
+    if (auto parts = convex_parts(leaf, instance.world_from_leaf)) {
+      std::move(parts->begin(), parts->end(),
+                std::back_inserter(operand_.convex));
+      return;
+    }
+    Scene part;
+    part.leaves.push_back(leaf);
+    part.instances.push_back(instance);
+    part.instances[0].leaf = 0;
+    part.program.push_back({BooleanOp::kUnion, 0, false, 1});
+    part.box = instance.box;
+    const Mesh mesh = transform(explicit_mesh(leaf), instance.world_from_leaf);
+    operand_.bodies.push_back(make_body(std::move(part), make_faces(mesh)));
+  }
+
+  const Scene& scene_;
+  Operand operand_;
+};
+
+// --- Sums --------------------------------------------------------------------
+
+Body move(Body body, const Vec3& shift) {
+  body.shift += shift;
+  return body;
+}
+
+// A ⊕ B with A a body and B convex.
+void add(const Body& a, const Convex& b, Operand& sum) {
+  sum.bodies.push_back(move(a, middle(b)));
+  const Convex moved = move(b, a.shift);
+  for (const Convex& face : *a.faces) {
+    sum.convex.push_back(add_flat(face, moved));
+  }
+}
+
+void add(const Body& a, const Body& b, Operand& sum) {
+  for (const Vec3& point : points_of_components(*b.faces)) {
+    sum.bodies.push_back(move(a, b.shift + point));
+  }
+  for (const Vec3& point : points_of_components(*a.faces)) {
+    sum.bodies.push_back(move(b, a.shift + point));
+  }
+  for (const Convex& face : *a.faces) {
+    const Convex moved = move(face, a.shift + b.shift);
+    for (const Convex& other : *b.faces) {
+      sum.convex.push_back(add_flat(moved, other));
+    }
+  }
+}
+
+Operand add(const Operand& a, const Operand& b) {
+  Operand sum;
+  for (const Convex& p : a.convex) {
+    for (const Convex& q : b.convex) sum.convex.push_back(add_convex(p, q));
+  }
+  for (const Body& p : a.bodies) {
+    for (const Convex& q : b.convex) add(p, q, sum);
+    for (const Body& q : b.bodies) add(p, q, sum);
+  }
+  for (const Body& q : b.bodies) {
+    for (const Convex& p : a.convex) add(q, p, sum);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Operand make_operand(const Scene& scene) { return Divider(scene).divide(); }
+
+Operand add_operands(std::vector<Operand> operands) {
+  // Few convex parts first: then faces meet their sum, not each of them.
+  std::stable_sort(operands.begin(), operands.end(),
+                   [](const Operand& a, const Operand& b) {
+                     return std::tuple(a.bodies.size(), a.convex.size()) <
+                            std::tuple(b.bodies.size(), b.convex.size());
+                   });
+  Operand sum = std::move(operands[0]);
+  for (std::size_t i = 1; i < operands.size(); ++i) {
+    if (i > 1) {
+      for (Convex& part : sum.convex) {
+        if (part.edges.empty()) find_edges(part);
+      }
+    }
+    sum = add(sum, operands[i]);
+  }
+  return sum;
+}
+
+Leaf make_leaf(std::span<const Convex> parts) {
+  Leaf leaf;
+  Mesh mesh;
+  std::size_t count = 0;
+  for (const Convex& part : parts) {
+    if (part.is_flat) continue;
+    append_triangles(part, mesh);
+    ++count;
+  }
+  leaf.may_overlap_itself = count > 1;
+  if (count > 0) leaf.meshes.push_back(std::move(mesh));
+  return leaf;
+}
+
+}  // namespace lamina::csg
