@@ -1,0 +1,196 @@
+// Sums of solids against closed formulas and laws, layer by layer.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/contour_checks.h"
+#include "tests/support/design.h"
+
+namespace lamina {
+namespace {
+
+using ldni::Contours;
+using std::numbers::pi;
+using support::Design;
+
+std::vector<Contours> sections(const std::string& text,
+                               const std::vector<double>& heights) {
+  const Design design = Design::from_text(text);
+  std::vector<Contours> result;
+  for (const auto& layer : support::slice_heights(design.scene(), heights)) {
+    EXPECT_TRUE(support::are_sound(layer.contours)) << text;
+    result.push_back(layer.contours);
+  }
+  return result;
+}
+
+double section_area(const std::string& text, double z) {
+  return support::total_area(sections(text, {z}).at(0));
+}
+
+// The same area, perimeter and loops at all heights.
+void expect_equal(const std::string& a, const std::string& b,
+                  const std::vector<double>& heights, double shift = 0) {
+  std::vector<double> moved = heights;
+  for (double& z : moved) z += shift;
+  const auto left = sections(a, heights);
+  const auto right = sections(b, moved);
+  ASSERT_EQ(left.size(), right.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_NEAR(support::total_area(left[i]), support::total_area(right[i]),
+                1e-6)
+        << a << " and " << b << " at " << heights[i];
+    EXPECT_NEAR(support::total_perimeter(left[i]),
+                support::total_perimeter(right[i]), 1e-5);
+    EXPECT_EQ(support::count_loops(left[i]), support::count_loops(right[i]));
+  }
+}
+
+double polygon_area(int facets, double radius) {
+  return facets * radius * radius * std::sin(2 * pi / facets) / 2;
+}
+
+// Of a sphere's section at height z: its vertices are rings at the middles of
+// equal angles, joined by straight sides.
+double ring_radius(int facets, double r, double z) {
+  const int rings = (facets + 1) / 2;
+  for (int i = 0; i + 1 < rings; ++i) {
+    const double a = pi * (i + 0.5) / rings;
+    const double b = pi * (i + 1.5) / rings;
+    const double high = r * std::cos(a);
+    const double low = r * std::cos(b);
+    if (z > high || z < low) continue;
+    const double t = (high - z) / (high - low);
+    return r * ((1 - t) * std::sin(a) + t * std::sin(b));
+  }
+  return 0;
+}
+
+TEST(Minkowski, BoxesAddTheirSides) {
+  const std::string sum =
+      "minkowski() { cube([3, 4, 5]); translate([7, 0, 1]) cube([1, 2, 3]); }";
+  for (const double z : {1.1, 4.0, 8.9}) {
+    EXPECT_NEAR(section_area(sum, z), 4 * 6, 1e-9);
+  }
+  EXPECT_EQ(section_area(sum, 0.9), 0);
+  EXPECT_EQ(section_area(sum, 9.1), 0);
+}
+
+// A section of box ⊕ sphere is rectangle ⊕ regular polygon: the sphere's
+// greatest one beside the box, its section above and below. Steiner's formula.
+TEST(Minkowski, ABoxGrowsByASphereAsSteinerSays) {
+  for (const int facets : {8, 20, 60}) {
+    const std::string sum = fmt::format(
+        "minkowski() {{ cube([3, 4, 5]); sphere(r = 2, $fn = {}); }}", facets);
+    for (const double z : {-1.2, -0.3, 0.4, 2.5, 4.9, 5.5, 6.4}) {
+      const double above = z < 0 ? z : std::max(z - 5, 0.0);
+      // Between the rings around the equator the side is the widest ring.
+      const double widest = ring_radius(facets, 2, 0);
+      const double r = above == 0 ? widest : ring_radius(facets, 2, above);
+      EXPECT_NEAR(section_area(sum, z),
+                  12 + (3 + 4) * 2 * r + polygon_area(facets, r), 1e-9)
+          << facets << " facets at " << z;
+    }
+  }
+}
+
+TEST(Minkowski, AnEllGrowsByABox) {
+  const std::string sum =
+      "minkowski() { union() { cube([5, 1, 1]); cube([1, 5, 2]); }"
+      " cube([1, 1, 1]); }";
+  EXPECT_NEAR(section_area(sum, 0.5), 6 * 2 + 2 * 6 - 4, 1e-9);
+  EXPECT_NEAR(section_area(sum, 2.5), 2 * 6, 1e-9);
+}
+
+TEST(Minkowski, AConcavePolyhedronGrowsByABox) {
+  // A box with a notch like a roof upside down, of triangles.
+  const std::string notched =
+      "polyhedron([[0, 0, 0], [8, 0, 0], [8, 4, 0], [0, 4, 0], [0, 0, 4],"
+      " [2, 0, 4], [4, 0, 2], [6, 0, 4], [8, 0, 4], [0, 4, 4], [2, 4, 4],"
+      " [4, 4, 2], [6, 4, 4], [8, 4, 4]], [[0, 1, 2, 3], [0, 4, 5, 6, 7, 8, 1],"
+      " [3, 2, 13, 12, 11, 10, 9], [0, 3, 9, 4], [1, 8, 13, 2], [4, 9, 10, 5],"
+      " [5, 10, 11, 6], [6, 11, 12, 7], [7, 12, 13, 8]]);";
+  const std::string sum =
+      "minkowski() { " + notched + " cube([1, 1, 1], center = true); }";
+  EXPECT_NEAR(section_area(sum, 1), 9 * 5, 1e-9);
+  // At 3.5 the notch is as wide as one that is 1 narrower and 0.5 higher.
+  EXPECT_NEAR(section_area(sum, 3.5), 9 * 5 - 5 * (2 * (3.5 - 0.5 - 2) - 1),
+              1e-9);
+}
+
+const char* const kBodies[] = {
+    "cube([3, 2, 1]);",
+    "rotate([20, 30, 40]) cube([2, 3, 1]);",
+    "sphere(r = 1, $fn = 9);",
+    "translate([4, -30, 0.5]) cylinder(r1 = 1, r2 = 0.3, h = 1, $fn = 7);",
+    "linear_extrude(2) difference() { square(4, center = true);"
+    " square(3, center = true); }",
+    "rotate([90, 0, 10]) linear_extrude(1)"
+    " polygon([[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [0, 1]]);",
+    "rotate_extrude($fn = 12) translate([2, 0]) circle(r = 0.5, $fn = 6);",
+    "linear_extrude(2, twist = 50, slices = 3) square([2, 1]);",
+    "union() { cube(1); translate([3, 3, 0]) cube(1); }",
+};
+
+TEST(MinkowskiLaws, Commutes) {
+  for (std::size_t i = 0; i < std::size(kBodies); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const std::string a = kBodies[i];
+      const std::string b = kBodies[k];
+      expect_equal("minkowski() { " + a + b + "}",
+                   "minkowski() { " + b + a + "}", {-0.33, 0.41, 1.27, 2.61});
+    }
+  }
+}
+
+TEST(MinkowskiLaws, FollowsAShiftOfAnOperand) {
+  for (const std::string a : kBodies) {
+    expect_equal("minkowski() { " + a + " cube(0.5); }",
+                 "minkowski() { " + a + " translate([50, 60, 7]) cube(0.5); }",
+                 {-0.33, 0.41, 1.27}, 7);
+  }
+}
+
+TEST(MinkowskiLaws, Associates) {
+  const std::string b = "sphere(r = 0.4, $fn = 6);";
+  const std::string c = "cylinder(r = 0.3, h = 0.5, $fn = 5);";
+  for (const std::string a : kBodies) {
+    const std::string flat = "minkowski() { " + a + b + c + "}";
+    expect_equal(flat, "minkowski() { minkowski() { " + a + b + "} " + c + "}",
+                 {0.41, 1.27});
+    expect_equal(flat, "minkowski() { " + a + " minkowski() { " + b + c + "} }",
+                 {0.41, 1.27});
+  }
+}
+
+TEST(MinkowskiLaws, TurnsWithItsOperands) {
+  const std::string a = kBodies[7];
+  const std::string b = kBodies[2];
+  for (const std::string m :
+       {"mirror([0, 0, 1])", "scale([1, -2, 1])", "rotate([0, 0, 30])"}) {
+    expect_equal(m + " minkowski() { " + a + b + "}",
+                 "minkowski() { " + m + a + m + b + "}", {-0.4, 0.3, 1.4});
+  }
+}
+
+TEST(MinkowskiLaws, ATinyBoxChangesTinily) {
+  for (const std::string a : kBodies) {
+    const auto with =
+        sections("minkowski() { " + a + " cube(2e-5, center = true); }", {0.4});
+    const auto without = sections(a, {0.4});
+    EXPECT_NEAR(support::total_area(with[0]), support::total_area(without[0]),
+                1e-3);
+    EXPECT_EQ(support::count_loops(with[0]), support::count_loops(without[0]));
+  }
+}
+
+}  // namespace
+}  // namespace lamina
