@@ -900,7 +900,9 @@ Value run_call_builtin(const Expression& expression, Frame& frame) {
 }
 
 Value run_call_unknown(const Expression& expression, Frame& frame) {
-  return report_unknown(as<CallCode>(expression), frame);
+  const auto& code = as<CallCode>(expression);
+  const ActiveCall active(code, frame);
+  return report_unknown(code, frame);
 }
 
 Value run_call_value(const Expression& expression, Frame& frame) {
