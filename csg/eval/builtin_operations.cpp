@@ -211,6 +211,20 @@ Mat4 given_matrix(const Value& m) {
   return matrix;
 }
 
+// OpenSCAD multiplies these matrices by the identity: a number that is not
+// finite spoils its column.
+Mat4 times_identity(const Mat4& matrix) {
+  Mat4 product = matrix;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      const double others =
+          matrix[column][(row + 1) % 3] + matrix[column][(row + 2) % 3];
+      if (!std::isfinite(others)) product[column][row] += 0.0 * others;
+    }
+  }
+  return product;
+}
+
 enum class TransformKind { kScale, kRotate, kMirror, kTranslate, kMatrix };
 
 template <TransformKind kind>
@@ -222,10 +236,11 @@ void transform(const BuiltinModuleCode& code, Frame& frame) {
   Mat4 matrix;
   switch (kind) {
     case TransformKind::kScale:
-      matrix = scale_matrix(arguments[0], code, frame);
+      matrix = times_identity(scale_matrix(arguments[0], code, frame));
       break;
     case TransformKind::kRotate:
-      matrix = rotation_matrix(arguments[0], arguments[1], code, frame);
+      matrix = times_identity(
+          rotation_matrix(arguments[0], arguments[1], code, frame));
       break;
     case TransformKind::kMirror:
       matrix = mirror_matrix(arguments[0], code, frame);
