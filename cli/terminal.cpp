@@ -46,6 +46,7 @@ Terminal::~Terminal() { finish(); }
 void Terminal::show(const Diagnostic& diagnostic) {
   if (is_quiet_ && diagnostic.severity != Severity::kError) return;
   std::string text = caret_text(with_folded_notes(diagnostic));
+  if (text.empty()) return;
   if (diagnostic.severity == Severity::kEcho) {
     if (echo_count_ > 0 && text == last_echo_) {
       ++echo_count_;

@@ -212,7 +212,7 @@ std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
   std::deque<std::string> last;
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics) {
-    if (diagnostic.is_further) continue;
+    if (diagnostic.audience == Audience::kTerminal) continue;
     const bool can_fold = diagnostic.severity == Severity::kWarning ||
                           diagnostic.severity == Severity::kError;
     for (std::string& line : openscad_lines(diagnostic, base_folder)) {
@@ -231,6 +231,7 @@ std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
 }
 
 std::string caret_text(const Diagnostic& diagnostic) {
+  if (diagnostic.audience == Audience::kEcho) return "";
   std::string text;
   if (diagnostic.severity == Severity::kEcho) {
     return "ECHO: " + diagnostic.message + "\n";

@@ -17,6 +17,10 @@ namespace lamina {
 // kPlain: a line that OpenSCAD prints without a prefix.
 enum class Severity { kPlain, kEcho, kDeprecated, kWarning, kError };
 
+// Where a message appears. The terminal has all errors of a text, each once;
+// OpenSCAD's parser ends at the first, which it may put in two lines.
+enum class Audience { kAll, kTerminal, kEcho };
+
 // A further place that belongs to a diagnostic: a caller in a call chain.
 struct Note {
   SourceRange range;
@@ -34,8 +38,7 @@ struct Diagnostic {
   // A file in whose folder OpenSCAD starts the path that it shows (for much of
   // what comes up in a used file, that file); null: the design.
   const Source* document = nullptr;
-  // OpenSCAD ended before: shown on the terminal only.
-  bool is_further = false;
+  Audience audience = Audience::kAll;
 };
 
 // Thrown to end the run; only main catches.
@@ -83,6 +86,7 @@ class Diagnostics {
   // Under hard warnings the first warning is reported and then thrown as
   // Error.
   void set_hard_warnings(bool hard) { hard_warnings_ = hard; }
+  bool has_hard_warnings() const { return hard_warnings_; }
 
   void report(Diagnostic diagnostic);
   void echo(std::string text);
@@ -107,13 +111,13 @@ class Diagnostics {
 std::string openscad_line(const Diagnostic& diagnostic,
                           const std::string& base_folder);
 
-// What `.echo` holds for all messages of a run. Like OpenSCAD, drops a warning,
-// error or TRACE line that equals each of the last five.
+// What `.echo` holds for all messages of a run that are for it. Like OpenSCAD,
+// drops a warning, error or TRACE line that equals each of the last five.
 std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
                           const std::string& base_folder);
 
 // "file:line:column: warning: …", the line of text, carets below it, and the
-// notes; ends with '\n'.
+// notes; ends with '\n'. Empty for a message that is not for the terminal.
 std::string caret_text(const Diagnostic& diagnostic);
 
 }  // namespace lamina

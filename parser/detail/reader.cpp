@@ -201,12 +201,11 @@ SourceRange Reader::last_text(SourceRange before) const {
 }
 
 void Reader::report_unterminated(const char* what) {
-  errors_.report(place(), fmt::format("Unterminated {}", what),
-                 {{opening_, "it begins here"}});
+  errors_.report_unterminated(place(), what, {{opening_, "it begins here"}});
 }
 
 void Reader::report_unterminated_name(const char* what) {
-  errors_.report(opening_, fmt::format("Unterminated {}", what), {});
+  errors_.report_unterminated(opening_, what, {});
 }
 
 }  // namespace lamina::detail

@@ -13,10 +13,23 @@ void SyntaxErrors::report(SourceRange range, std::string_view message,
                    fmt::format("Parser error: {}", message),
                    {},
                    std::move(hints)};
-  error.is_further = count_ > 0;
-  if (count_ == 0) first_ = error;
+  if (count_ == 0) {
+    first_ = error;
+  } else {
+    error.audience = Audience::kTerminal;
+  }
   ++count_;
   diagnostics_.report(std::move(error));
+}
+
+void SyntaxErrors::report_unterminated(SourceRange range, const char* what,
+                                       std::vector<Note> hints) {
+  const bool is_first = is_empty();
+  report(range, fmt::format("Unterminated {}", what), std::move(hints));
+  if (!is_first) return;
+  Diagnostic second{Severity::kError, range, "Parser error: syntax error"};
+  second.audience = Audience::kEcho;
+  diagnostics_.report(std::move(second));
 }
 
 void SyntaxErrors::report_depth(SourceRange range) {

@@ -21,6 +21,9 @@ class SyntaxErrors {
 
   void report(SourceRange range, std::string_view message,
               std::vector<Note> hints);
+  // A text that ends within what opened at `range`: OpenSCAD adds a line.
+  void report_unterminated(SourceRange range, const char* what,
+                           std::vector<Note> hints);
   // Nested beyond kDeepestTree: reported once.
   void report_depth(SourceRange range);
 

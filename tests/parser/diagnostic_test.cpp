@@ -19,17 +19,21 @@ TEST(SyntaxErrors, KeepTheWordsOfOpenscad) {
             "ERROR: Parser error: syntax error in file x.scad, line 2\n");
   EXPECT_EQ(Parsed("cube(\n").openscad_text(),
             "ERROR: Parser error: syntax error in file x.scad, line 3\n");
-  EXPECT_EQ(
-      Parsed("x = \"abc\n").openscad_text(),
-      "ERROR: Parser error: Unterminated string in file x.scad, line 4\n");
-  EXPECT_EQ(
-      Parsed("x = 1; /* abc\n").openscad_text(),
-      "ERROR: Parser error: Unterminated comment in file x.scad, line 4\n");
+  EXPECT_EQ(Parsed("x = \"abc\n").openscad_text(),
+            "ERROR: Parser error: Unterminated string in file x.scad, line 4\n"
+            "ERROR: Parser error: syntax error in file x.scad, line 4\n");
+  EXPECT_EQ(Parsed("x = 1; /* abc\n").openscad_text(),
+            "ERROR: Parser error: Unterminated comment in file x.scad, line 4\n"
+            "ERROR: Parser error: syntax error in file x.scad, line 4\n");
   EXPECT_EQ(Parsed("a;\n\ninclude <abc\n").messages()[1].message,
             "Parser error: Unterminated include statement");
   EXPECT_EQ(Parsed("use <abc\n").openscad_text(),
             "ERROR: Parser error: Unterminated use statement in file x.scad, "
-            "line 1\n");
+            "line 1\n"
+            "ERROR: Parser error: syntax error in file x.scad, line 1\n");
+  // It ends at the first error; the terminal goes on.
+  EXPECT_EQ(Parsed("a = ;\nb = ;\n").openscad_text(),
+            "ERROR: Parser error: syntax error in file x.scad, line 1\n");
 }
 
 TEST(SyntaxErrors, ShowWhatCouldStandThere) {
