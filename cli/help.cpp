@@ -20,7 +20,15 @@ Output:
 
 Design:
   -D NAME=VALUE       set a variable of the design; may be repeated
+  -p FILE -P SET      set its parameters from a file of the customizer
+  --check-parameters true|false
+                      warn of arguments that a module does not take [true]
+  --check-parameter-ranges true|false
+                      warn of numbers out of range [false]
   --hardwarnings      stop at the first warning
+  --seed N            seed of rands() where the design gives none [0]
+  --render            $preview is false, whatever the output
+  -d FILE             write what the output depends on, as a rule for make
 
 Slicing (lengths in millimetres):
   --layer MM          thickness of a layer [0.05]

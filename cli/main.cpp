@@ -20,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/make_rule.h"
 #include "cli/options.h"
 #include "cli/report.h"
 #include "cli/run_on_stack.h"
@@ -30,6 +31,7 @@
 #include "csg/text/typesetter.h"
 #include "parser/ast_printer.h"
 #include "parser/loader.h"
+#include "parser/parameter_set.h"
 #include "slicer/formats/layer_writer.h"
 #include "slicer/formats/output_file.h"
 #include "slicer/formats/slc_reader.h"
@@ -108,10 +110,23 @@ std::string echo_text(const Run& run) {
   return openscad_text(run.diagnostics.all(), folder);
 }
 
-ast::Program load(Run& run) {
+// The design with the values of its parameter set.
+struct Loaded {
+  ast::Program program;
+  bool has_failed = false;  // the set could not be used
+};
+
+Loaded load(Run& run) {
+  const DesignOptions& options = run.options;
   try {
-    return timed(run.report.load_seconds,
-                 [&] { return run.loader.load(run.options.design); });
+    return timed(run.report.load_seconds, [&]() -> Loaded {
+      ast::Program program = run.loader.load(options.design);
+      const bool is_good =
+          options.parameter_file.empty() ||
+          apply_parameter_set(options.parameter_file, options.parameter_set,
+                              program, run.diagnostics);
+      return {std::move(program), !is_good};
+    });
   } catch (const SyntaxError&) {
     if (run.options.format == OutputFormat::kEcho) {
       write_text(run, run.options.output,
@@ -133,8 +148,13 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   csg::EvaluateOptions options;
   options.stack_bytes = run.evaluation_stack;
   // As openscad sets it for each of its outputs.
-  options.preview = run.options.format == OutputFormat::kCsg ||
-                    run.options.format == OutputFormat::kEcho;
+  const bool has_preview = run.options.format == OutputFormat::kCsg ||
+                           run.options.format == OutputFormat::kEcho;
+  options.preview = has_preview && (run.options.render.empty() ||
+                                    !run.options.preview.empty());
+  options.seed = run.options.seed;
+  options.check_parameters = run.options.checks_parameters;
+  options.check_ranges = run.options.checks_parameter_ranges;
   const std::size_t errors = count_errors(run.diagnostics);
   return timed(run.report.evaluate_seconds, [&]() -> Evaluated {
     try {
@@ -148,6 +168,17 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
       return {{}, true};
     }
   });
+}
+
+// The rule for make, if one is asked for. `tree` is null before evaluation.
+void write_dependencies(Run& run, const csg::Tree* tree) {
+  if (run.options.dependencies.empty()) return;
+  std::vector<std::string> files = run.loader.files();
+  if (tree != nullptr) {
+    files.insert(files.end(), tree->files.begin(), tree->files.end());
+  }
+  write_text(run, run.options.dependencies,
+             make_rule(run.options.output, files));
 }
 
 std::string csg_text(Run& run, const csg::Tree& tree) {
@@ -210,16 +241,21 @@ void finish_report(Run& run, std::uint64_t output_bytes) {
 }
 
 int compile(Run& run) {
-  const ast::Program program = load(run);
+  const Loaded loaded = load(run);
   // The syntax tree is written before anything is evaluated: what a design
   // does is no matter of its syntax.
   if (run.options.format == OutputFormat::kAst) {
-    write_text(run, run.options.output, ast::print(program));
+    write_dependencies(run, nullptr);
+    write_text(run, run.options.output, ast::print(loaded.program));
     return kDone;
   }
-  const Evaluated evaluated = evaluate(run, program);
+  const Evaluated evaluated = evaluate(run, loaded.program);
+  // A run that hard warnings cut short does not know them all.
+  if (evaluated.tree.root != nullptr) write_dependencies(run, &evaluated.tree);
   // Texts end well even where the design failed, as openscad's do.
   if (run.options.format == OutputFormat::kEcho) {
+    // For what it warns of.
+    if (evaluated.tree.root) csg::select_root(evaluated.tree, run.diagnostics);
     write_text(run, run.options.output, echo_text(run));
     return kDone;
   }
@@ -227,7 +263,7 @@ int compile(Run& run) {
     write_text(run, run.options.output, csg_text(run, evaluated.tree));
     return kDone;
   }
-  if (evaluated.has_failed) return kFault;
+  if (loaded.has_failed || evaluated.has_failed) return kFault;
 
   slicer::OutputFile output(run.options.output, run.temporary_files);
   const auto writer = slicer::make_layer_writer(run.options.format, output);
@@ -253,9 +289,9 @@ std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
     while (reader.read_layer(layer)) list.take(to_layer(layer));
     return std::move(list.layers);
   }
-  const ast::Program program = load(run);
-  const Evaluated evaluated = evaluate(run, program);
-  if (evaluated.has_failed) return std::nullopt;
+  const Loaded loaded = load(run);
+  const Evaluated evaluated = evaluate(run, loaded.program);
+  if (loaded.has_failed || evaluated.has_failed) return std::nullopt;
   make_layers(run, evaluated.tree, list);
   return std::move(list.layers);
 }

@@ -150,6 +150,15 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
       ->type_name("number");
 }
 
+// An option that takes what openscad takes for true and false.
+void add_switch(CLI::App& app, const std::string& name, bool& target) {
+  const std::vector<std::string> words = {"true", "false", "on",
+                                          "off",  "1",     "0"};
+  add_text(app, name, "word", [&target](const std::string& word) {
+    target = word == "true" || word == "on" || word == "1";
+  })->transform(CLI::IsMember(words, CLI::ignore_case));
+}
+
 void add_design_options(CLI::App& app, DesignOptions& options,
                         std::vector<std::string>& definitions) {
   app.add_option("-D", definitions)
@@ -157,6 +166,15 @@ void add_design_options(CLI::App& app, DesignOptions& options,
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option* set = app.add_option("-P", options.parameter_set);
+  CLI::Option* file = app.add_option("-p", options.parameter_file);
+  set->type_name("set")->needs(file);
+  file->type_name("file")->needs(set);
+  add_switch(app, "--check-parameters", options.checks_parameters);
+  add_switch(app, "--check-parameter-ranges", options.checks_parameter_ranges);
+  app.add_flag("--render", options.render);
+  app.add_flag("--preview", options.preview);
+  app.add_option("--seed", options.seed)->type_name("number");
   app.add_flag("--hardwarnings", options.has_hard_warnings);
   app.add_flag("-q,--quiet", options.is_quiet);
 }
@@ -179,6 +197,7 @@ void add_options(CLI::App& app, Parsed& parsed) {
   app.add_option("-o", parsed.design.output)->type_name("file");
   app.add_option("--export-format", parsed.export_format)->type_name("format");
   app.add_option("--report", parsed.design.report)->type_name("file");
+  app.add_option("-d", parsed.design.dependencies)->type_name("file");
   add_design_options(app, parsed.design, parsed.definitions);
   add_slicing_options(app, parsed.design);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The command line, read and checked: what a run is asked for.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -19,10 +20,20 @@ struct DesignOptions {
   std::string output;  // "-": standard output
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
   std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
+  std::string parameter_file;     // -p; empty: none
+  std::string parameter_set;      // -P
   Affine world_from_design{1.0};  // --axis
   double chordal_error = 0;       // [mm]; 0: $fa and $fs decide
   slicer::Settings settings;
-  std::string report;  // path; empty: none
+  std::uint32_t seed = 0;
+  bool checks_parameters = true;
+  bool checks_parameter_ranges = false;
+  // openscad's modes of --render and --preview; empty: not given. Which one it
+  // is shows in nothing but $preview.
+  std::string render;
+  std::string preview;
+  std::string dependencies;  // -d, path; empty: none
+  std::string report;        // path; empty: none
   bool is_quiet = false;
   bool has_hard_warnings = false;
 };

@@ -13,8 +13,10 @@
 #include <memory_resource>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "csg/vec.h"
 #include "parser/source.h"
@@ -205,6 +207,9 @@ struct Node {
 struct Tree {
   std::shared_ptr<std::pmr::monotonic_buffer_resource> arena;
   const Node* root = nullptr;
+  // Paths that modules and functions named as files to read, whether they are
+  // there or not; in the order of evaluation, each once.
+  std::vector<std::string> files;
 };
 
 }  // namespace lamina::csg

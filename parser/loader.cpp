@@ -73,7 +73,20 @@ Loader::Loader(SourceStore& sources, Diagnostics& diagnostics,
       definitions_(std::move(definitions)) {}
 
 std::string Loader::find(const Source& from, std::string_view name,
-                         std::span<const Source* const> open) const {
+                         std::span<const Source* const> open) {
+  std::string path = look_up(from, name, open);
+  if (!path.empty()) add_file(path);
+  return path;
+}
+
+void Loader::add_file(const std::string& path) {
+  if (std::find(files_.begin(), files_.end(), path) == files_.end()) {
+    files_.push_back(path);
+  }
+}
+
+std::string Loader::look_up(const Source& from, std::string_view name,
+                            std::span<const Source* const> open) const {
   const fs::path local(name);
   std::error_code failed;
   const auto accept = [&](const fs::path& path) {
@@ -107,11 +120,6 @@ std::optional<std::string> Loader::read(const std::string& path) {
   file.seekg(0);
   file.read(text.data(), size);
   if (!file) return std::nullopt;
-  std::string absolute = detail::absolute_path(path);
-  if (std::find(files_read_.begin(), files_read_.end(), absolute) ==
-      files_read_.end()) {
-    files_read_.push_back(std::move(absolute));
-  }
   return text;
 }
 
@@ -131,6 +139,7 @@ ast::Program Loader::load(const std::string& path) {
     throw FileError(
         {Severity::kError, {}, "Can't open input file '" + path + "'!"});
   }
+  add_file(path);
   return load_text(path, std::move(*text));
 }
 

@@ -54,15 +54,16 @@ class Loader {
   // (`use <….ttf>`), in the order in which they were read; files that exist.
   const std::vector<std::string>& fonts() const { return fonts_; }
 
-  // All files read so far, absolute, in the order in which they were opened,
-  // each once (for make dependencies).
-  const std::vector<std::string>& files_read() const { return files_read_; }
+  // What the design depends on so far: the main file by the name given to
+  // load(), then all files that `include` and `use` found, absolute, in the
+  // order in which they were found, each once.
+  const std::vector<std::string>& files() const { return files_; }
 
   // For the parser. Absolute path of the file that `name` means in the file
   // `from`; empty if there is none, or if it is one of the files in `open`
-  // (a cycle).
+  // (a cycle). A file that is found is one of files() from then on.
   std::string find(const Source& from, std::string_view name,
-                   std::span<const Source* const> open) const;
+                   std::span<const Source* const> open);
 
   // For the parser. The text of a file that `find` found; null if it cannot
   // be read. A file included twice is read once.
@@ -74,13 +75,16 @@ class Loader {
   void note_fonts(const ast::Program& program);
   std::optional<ast::Program> load_used(const std::string& path,
                                         const Source& user);
+  std::string look_up(const Source& from, std::string_view name,
+                      std::span<const Source* const> open) const;
+  void add_file(const std::string& path);
   std::optional<std::string> read(const std::string& path);
 
   SourceStore& sources_;
   Diagnostics& diagnostics_;
   std::vector<std::string> folders_;
   std::string definitions_;
-  std::vector<std::string> files_read_;
+  std::vector<std::string> files_;
   std::vector<std::string> fonts_;
   std::map<std::string, const Source*, std::less<>> included_;
   // Empty where parsing failed.

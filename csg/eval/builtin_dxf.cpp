@@ -77,7 +77,10 @@ Query read_query(Kind kind, const CallCode& code, Frame& frame) {
 
 bool can_open(const Query& query, const CallCode& code, Frame& frame) {
   std::error_code ignored;
-  if (fs::exists(query.path, ignored)) return true;
+  if (fs::exists(query.path, ignored)) {
+    frame.in.add_file(query.path);
+    return true;
+  }
   warn(code, frame,
        fmt::format("Can't open DXF file '{}'!", query.written_file));
   return false;

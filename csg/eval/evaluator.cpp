@@ -75,7 +75,7 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
               const EvaluateOptions& options, Diagnostics& diagnostics) {
   Tree tree;
   tree.arena = std::make_shared<std::pmr::monotonic_buffer_resource>(1 << 16);
-  Resolver resolver(loader);
+  Resolver resolver(loader, options);
   Unit& unit = resolver.unit_of(program);
   Interpreter in(resolver, options, diagnostics, *tree.arena);
   in.set_design_folder(
@@ -83,17 +83,21 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
   resolver.resolve(unit);
   in.grow_dynamic();
   bind_well_known(options, in);
-  try {
-    run_program(unit, in);
-  } catch (const EvaluationFailure&) {
-    in.drop_nodes(0);
-    diagnostics.report(in.take_failure());
-  }
-  check_view(unit, in);
+  const auto report_failure = [&](const auto& pass) {
+    try {
+      pass(unit, in);
+    } catch (const EvaluationFailure&) {
+      in.drop_nodes(0);
+      diagnostics.report(in.take_failure());
+    }
+  };
+  report_failure(run_program);
+  report_failure(check_view);
   InstantiationCode root;
   root.name = "group";
   in.make_node(Group{}, root, 0);
   tree.root = in.nodes_since(0)[0];
+  tree.files = in.take_files();
   return tree;
 }
 

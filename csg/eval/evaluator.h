@@ -33,6 +33,9 @@ struct EvaluateOptions {
   // may be nested. Where either ends, so does the evaluation, with OpenSCAD's
   // error. Callers should run evaluate() on a thread with a large stack.
   std::size_t stack_bytes = std::size_t{6} << 20;
+  // Arguments that a user's module has no parameter for are warned of
+  // (`--check-parameters`); those of functions and built-in modules always.
+  bool check_parameters = true;
   // Numbers outside their range (`--check-parameter-ranges`) are warned of.
   bool check_ranges = false;
 };

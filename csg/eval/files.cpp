@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame) {
   const fs::path own = fs::absolute(code.unit->program->source->path());
-  return find_file(name, own.parent_path().string(), frame.in);
+  std::string path = find_file(name, own.parent_path().string(), frame.in);
+  frame.in.add_file(path);
+  return path;
 }
 
 std::string find_file(std::string_view name, const std::string& from,

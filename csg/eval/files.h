@@ -11,7 +11,8 @@ namespace lamina::csg {
 
 // Absolute path of the file `name` as a module call means it: from the folder
 // of the file that holds the call or, deprecated, from the design's folder.
-// Empty for an empty name. The file need not exist.
+// Empty for an empty name. The file need not exist; the design depends on it
+// all the same.
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame);
 // The same for a file that code of the folder `from` names.

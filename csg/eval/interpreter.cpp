@@ -55,6 +55,8 @@ void Interpreter::warn(SourceRange range, std::string message,
   diagnostic.range = range;
   diagnostic.message = std::move(message);
   diagnostic.document = document;
+  // The calls that lead to a hard warning are noted like those of an error.
+  if (diagnostics_.has_hard_warnings()) end_with(std::move(diagnostic));
   diagnostics_.report(std::move(diagnostic));
 }
 
@@ -91,11 +93,15 @@ void Interpreter::note(std::string text) {
 
 void Interpreter::fail(SourceRange range, std::string message,
                        const Source* document) {
-  failure_ = std::make_unique<Diagnostic>();
-  failure_->severity = Severity::kError;
-  failure_->range = range;
-  failure_->message = std::move(message);
-  failure_->document = document;
+  Diagnostic diagnostic;
+  diagnostic.range = range;
+  diagnostic.message = std::move(message);
+  diagnostic.document = document;
+  end_with(std::move(diagnostic));
+}
+
+void Interpreter::end_with(Diagnostic diagnostic) {
+  failure_ = std::make_unique<Diagnostic>(std::move(diagnostic));
   throw EvaluationFailure();
 }
 
@@ -168,6 +174,10 @@ Value Interpreter::make_box() {
   if (box->next != nullptr) box->next->previous = box;
   boxes_.next = box;
   return Value::adopt(Type::kBox, box, 0);
+}
+
+void Interpreter::add_file(const std::string& path) {
+  if (known_files_.insert(path).second) files_.push_back(path);
 }
 
 void Interpreter::find_plan(const CallCode& call, const Callable& callable) {

@@ -55,7 +55,8 @@ class Interpreter {
   [[noreturn]] void fail_recursion(SourceRange range, std::string_view kind,
                                    std::string_view name,
                                    const Source* document);
-  // The message of the failure that ended the evaluation.
+  // The message that ended the evaluation: an error or, under hard warnings, a
+  // warning.
   Diagnostic take_failure() { return std::move(*failure_); }
 
   // --- Calls being run
@@ -147,6 +148,11 @@ class Interpreter {
   }
   std::string_view keep_text(std::string_view text);
 
+  // --- Files
+  // Remembers a path that a module or function names.
+  void add_file(const std::string& path);
+  std::vector<std::string> take_files() { return std::move(files_); }
+
   // --- Modules being instantiated
   std::vector<std::string_view>
       module_names;  // of user modules, innermost last
@@ -171,6 +177,7 @@ class Interpreter {
   static constexpr std::uint32_t kMostNestedCalls = 300000;
 
   void assign_unusual(const Target& target, Value value, Frame& frame);
+  [[noreturn]] void end_with(Diagnostic diagnostic);
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
   void unwind_trail(std::size_t mark);
@@ -192,6 +199,8 @@ class Interpreter {
   std::uint64_t effects_ = 0;
   std::vector<const Node*> nodes_;
   std::set<std::pair<std::string, std::string>> deprecations_;
+  std::vector<std::string> files_;
+  std::set<std::string> known_files_;
   Box boxes_;  // sentinel of the list of all boxes
   // Variables of used files, alive as long as closures may refer to them.
   struct UnitFrame {

@@ -193,7 +193,7 @@ InstantiationCode* StatementResolver::user_module(
   code->module = &resolver_.with_extras(*callee.module, code->arguments);
   code->plan = &resolver_.keep_plan(
       resolver_.plan(code->module->parameters, callee.module->parameters.size(),
-                     code->arguments));
+                     code->arguments, resolver_.module_surplus()));
   code->block->statements = instantiations(written.children);
   code->block->resets = resolver_.keep(scope_->resets);
   return code;

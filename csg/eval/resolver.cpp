@@ -17,7 +17,8 @@ std::uint32_t Activation::new_slot() {
   return next_slot++;
 }
 
-Resolver::Resolver(const Loader& loader) : loader_(loader) {
+Resolver::Resolver(const Loader& loader, const EvaluateOptions& options)
+    : loader_(loader), options_(options) {
   for (const char* name : {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt",
                            "$vpr", "$vpd", "$vpf"}) {
     dynamic_index(name);
@@ -263,8 +264,10 @@ void Resolver::resolve(Module& module) {
 
 ArgumentPlan Resolver::plan(std::span<const Parameter> parameters,
                             std::size_t positional,
-                            std::span<const WrittenArgument> arguments) {
+                            std::span<const WrittenArgument> arguments,
+                            Surplus surplus) {
   ArgumentPlan plan;
+  const bool warns = surplus == Surplus::kWarn;
   const auto find = [&](std::string_view name) {
     return std::find_if(parameters.begin(), parameters.end(),
                         [&](const Parameter& p) { return p.name == name; });
@@ -278,7 +281,8 @@ ArgumentPlan Resolver::plan(std::span<const Parameter> parameters,
     const std::string_view name = arguments[i].name;
     if (!name.empty()) {
       const auto known = find(name);
-      if (name[0] != '$' && (known == parameters.end() || known->is_extra)) {
+      if (warns && name[0] != '$' &&
+          (known == parameters.end() || known->is_extra)) {
         plan.warnings.push_back("variable " + std::string(name) +
                                 " not specified as parameter");
       }
@@ -289,7 +293,7 @@ ArgumentPlan Resolver::plan(std::span<const Parameter> parameters,
       resolved[std::string(name)] = i;
     } else if (position < positional) {
       resolved[std::string(parameters[position++].name)] = i;
-    } else if (!has_too_many) {
+    } else if (warns && !has_too_many) {
       plan.warnings.emplace_back("Too many unnamed arguments supplied");
       has_too_many = true;
     }

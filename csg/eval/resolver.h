@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "csg/eval/code.h"
+#include "csg/eval/evaluator.h"
 #include "parser/ast.h"
 
 namespace lamina {
@@ -96,7 +97,8 @@ bool is_dynamic_name(std::string_view name);
 
 class Resolver {
  public:
-  explicit Resolver(const Loader& loader);
+  // options  must outlive the Resolver
+  Resolver(const Loader& loader, const EvaluateOptions& options);
 
   Unit& unit_of(const ast::Program& program);
   // The whole of a file: its assignments and, for the main file, its
@@ -113,9 +115,11 @@ class Resolver {
 
   // How the arguments of a call meet the first `positional` parameters by
   // position and all by name.
+  enum class Surplus : std::uint8_t { kWarn, kSilent };
   ArgumentPlan plan(std::span<const Parameter> parameters,
                     std::size_t positional,
-                    std::span<const WrittenArgument> arguments);
+                    std::span<const WrittenArgument> arguments,
+                    Surplus surplus = Surplus::kWarn);
   // The same for a call of a function literal, made once for each pair.
   const ArgumentPlan& plan_for(const CallCode& call, const Callable& callable);
 
@@ -166,6 +170,10 @@ class Resolver {
                         std::span<const WrittenArgument> arguments);
   Module& with_extras(Module& module,
                       std::span<const WrittenArgument> arguments);
+  // What is said of arguments that a user's module has no parameter for.
+  Surplus module_surplus() const {
+    return options_.check_parameters ? Surplus::kWarn : Surplus::kSilent;
+  }
 
   // Things that live as long as the code.
   Value& keep_constant(Value value) {
@@ -181,6 +189,7 @@ class Resolver {
 
  private:
   const Loader& loader_;
+  const EvaluateOptions& options_;
   std::pmr::monotonic_buffer_resource arena_;
   std::deque<Value> constants_;
   std::deque<Scope> scopes_;

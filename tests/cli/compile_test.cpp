@@ -388,5 +388,58 @@ TEST(Compile, AReaderThatLeavesIsAnErrorNotADeath) {
   EXPECT_EQ(result.status, 1);
 }
 
+TEST(Compile, ASetThatCannotBeUsedMakesNoLayers) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; echo(size); cube(size);");
+  folder.write("sets.json", R"({"parameterSets": {"big": {"size": "3"}}})");
+  const auto good = run(folder, {"a.scad", "-p", "sets.json", "-P", "big"});
+  EXPECT_EQ(good.status, 0) << good.errors;
+  EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 27, 1e-4);
+  std::filesystem::remove(folder.file("a.slc"));
+  for (const char* const set : {"small", ""}) {
+    const auto bad = run(folder, {"a.scad", "-p", "sets.json", "-P", set});
+    EXPECT_NE(bad.status, 0) << bad.errors;
+  }
+  const auto none = run(folder, {"a.scad", "-p", "none.json", "-P", "big"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_TRUE(has(none.errors,
+                  "error: Cannot open Parameter Set 'none.json': none.json: "
+                  "cannot open file"))
+      << none.errors;
+  EXPECT_EQ(folder.entry_count(), 2U);
+}
+
+TEST(Compile, TheSeedChangesUnseededRandomNumbers) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "echo(rands(0, 1, 3)); echo(rands(0, 1, 1, 7));");
+  const auto echo = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(),
+                     {"a.scad", "-q", "-o", "-", "--export-format", "echo"});
+    return run(folder, arguments).output;
+  };
+  const std::string first = echo({});
+  EXPECT_EQ(first, echo({"--seed", "0"}));
+  const std::string second = echo({"--seed", "1"});
+  EXPECT_EQ(second, echo({"--seed", "1"}));
+  const auto line = [](const std::string& text) { return text.find('\n'); };
+  EXPECT_NE(first.substr(0, line(first)), second.substr(0, line(second)));
+  EXPECT_EQ(first.substr(line(first)), second.substr(line(second)));
+}
+
+TEST(Compile, DependenciesOfLayersAreThoseOfTheDesign) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "include <b.scad>\nuse <missing.scad>\ncube(size);");
+  folder.write("b.scad", "size = 2;");
+  const auto result = run(folder, {"a.scad", "-q", "-d", "a.d"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  const std::string b =
+      std::filesystem::canonical(folder.file("b.scad")).string();
+  const std::string rule = read_file(folder.file("a.d"));
+  EXPECT_TRUE(rule.starts_with("a.slc: \\\n\t")) << rule;
+  EXPECT_TRUE(has(rule, " \\\n\ta.scad")) << rule;
+  EXPECT_TRUE(has(rule, " \\\n\t" + b)) << rule;
+  EXPECT_FALSE(has(rule, "missing")) << rule;
+}
+
 }  // namespace
 }  // namespace lamina::cli

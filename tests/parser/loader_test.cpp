@@ -59,8 +59,8 @@ TEST_F(LoaderTest, IncludesAreFoundFromTheFileThatNamesThem) {
   write("libraries/lib.scad", "lib();");
   EXPECT_EQ(load("main.scad"),
             "//Parameter(\"\")\nd = 1;\ntwo();\none();\nlib();\n");
-  ASSERT_EQ(loader_.files_read().size(), 4u);
-  EXPECT_EQ(loader_.files_read()[1], path("a/one.scad"));
+  ASSERT_EQ(loader_.files().size(), 4u);
+  EXPECT_EQ(loader_.files()[1], path("a/one.scad"));
 }
 
 TEST_F(LoaderTest, TheOwnFolderGoesBeforeTheLibraries) {
@@ -103,7 +103,7 @@ TEST_F(LoaderTest, FilesThatUseEachOtherAreEachReadOnce) {
   write("a.scad", "use <b.scad>\nuse <a.scad>\nmodule a() {}");
   write("b.scad", "use <a.scad>\nmodule b() {}");
   load("main.scad");
-  EXPECT_EQ(loader_.files_read().size(), 3u);
+  EXPECT_EQ(loader_.files().size(), 3u);
   const ast::Program* a = loader_.used_program(program_.uses[0]);
   ASSERT_NE(a, nullptr);
   ASSERT_EQ(a->uses.size(), 2u);

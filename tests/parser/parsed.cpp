@@ -55,11 +55,7 @@ std::string Parsed::expression(const std::string& text) {
 }
 
 std::string Parsed::openscad_text() const {
-  std::string text;
-  for (const Diagnostic& message : messages()) {
-    if (!message.is_further) text += openscad_line(message, "");
-  }
-  return text;
+  return lamina::openscad_text(messages(), "");
 }
 
 std::string Parsed::terminal_text() const {

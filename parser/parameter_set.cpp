@@ -1,0 +1,240 @@
+#include "parser/parameter_set.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "parser/detail/customizer_value.h"
+#include "parser/detail/literal.h"
+
+namespace lamina {
+namespace {
+
+struct Entry {
+  std::string name;
+  std::string text;
+};
+
+// Collects the entries of one set while the file is read. Texts of numbers are
+// wanted as they stand there, which a tree of values would not keep.
+class SetReader : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  explicit SetReader(const std::string& set)
+      : wanted_({"parameterSets", set}) {}
+
+  bool is_found() const { return is_found_; }
+  std::vector<Entry> take_entries() { return std::move(entries_); }
+  const std::string& complaint() const { return complaint_; }
+
+  bool null() override { return add("null"); }
+  bool boolean(bool value) override { return add(value ? "true" : "false"); }
+  bool number_integer(number_integer_t value) override {
+    return add(fmt::format("{}", value));
+  }
+  bool number_unsigned(number_unsigned_t value) override {
+    return add(fmt::format("{}", value));
+  }
+  bool number_float(number_float_t /*value*/, const string_t& text) override {
+    return add(text);
+  }
+  bool string(string_t& text) override { return add(text); }
+  bool binary(binary_t& /*bytes*/) override { return add(""); }
+
+  bool start_object(std::size_t /*size*/) override {
+    add("");
+    path_.emplace_back();
+    if (is_in_set()) is_found_ = true;
+    return true;
+  }
+  bool end_object() override {
+    path_.pop_back();
+    return true;
+  }
+  bool key(string_t& name) override {
+    path_.back() = name;
+    return true;
+  }
+  bool start_array(std::size_t /*size*/) override {
+    add("");
+    path_.emplace_back();
+    return true;
+  }
+  bool end_array() override {
+    path_.pop_back();
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string& /*token*/,
+                   const nlohmann::detail::exception& error) override {
+    position_ = position;
+    const std::string_view what = error.what();
+    // "[json.exception.parse_error.101] parse error at line 2, column 1: …"
+    complaint_ = what.substr(what.find(": ") + 2);
+    return false;
+  }
+  std::size_t error_position() const { return position_; }
+
+ private:
+  bool is_in_set() const {
+    return path_.size() == 3 &&
+           std::equal(wanted_.begin(), wanted_.end(), path_.begin());
+  }
+
+  bool add(std::string text) {
+    if (is_in_set()) entries_.push_back({path_.back(), std::move(text)});
+    return true;
+  }
+
+  std::vector<std::string> wanted_;
+  std::vector<std::string> path_;  // names around what is being read
+  std::vector<Entry> entries_;
+  bool is_found_ = false;
+  std::string complaint_;
+  std::size_t position_ = 0;
+};
+
+void report_error(Diagnostics& diagnostics, std::string message) {
+  diagnostics.error({}, std::move(message));
+}
+
+std::optional<std::vector<Entry>> read_set(const std::string& path,
+                                           const std::string& set,
+                                           Diagnostics& diagnostics) {
+  const auto refuse = [&](const std::string& why) {
+    report_error(diagnostics,
+                 fmt::format("Cannot open Parameter Set '{}': {}", path, why));
+    return std::nullopt;
+  };
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return refuse(path + ": cannot open file");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  SetReader reader(set);
+  if (!nlohmann::json::sax_parse(text, &reader)) {
+    const std::size_t position = std::min(reader.error_position(), text.size());
+    const auto end =
+        text.begin() + static_cast<std::string::difference_type>(position);
+    return refuse(fmt::format("{}({}): {}", path,
+                              std::count(text.begin(), end, '\n') + 1,
+                              reader.complaint()));
+  }
+  if (!reader.is_found()) {
+    report_error(
+        diagnostics,
+        fmt::format("Cannot apply Parameter Set '{}': '{}' has no such "
+                    "set",
+                    set, path));
+    return std::nullopt;
+  }
+  return reader.take_entries();
+}
+
+std::optional<bool> read_truth(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  if (text == "true" || text == "1") return true;
+  if (text == "false" || text == "0") return false;
+  return std::nullopt;
+}
+
+// The text as a value of a parameter of type `type`; null where it is none.
+const ast::Expr* read_value(std::string_view text, detail::ValueType type,
+                            ast::Arena& arena) {
+  if (type == detail::ValueType::kString) {
+    const auto copy = arena.copy(std::span<const char>(text));
+    return arena.make(ast::Expr{ast::String{{copy.data(), copy.size()}}, {}});
+  }
+  if (type == detail::ValueType::kBool) {
+    const std::optional<bool> truth = read_truth(text);
+    return truth ? arena.make(ast::Expr{ast::Bool{*truth}, {}}) : nullptr;
+  }
+  const ast::Expr* value = detail::read_customizer_value(text, arena);
+  const bool is_fit = value != nullptr && detail::type_of(*value) == type;
+  return is_fit ? value : nullptr;
+}
+
+// Sets what `statement` assigns. False where the text is no value of a
+// parameter that wants true or false.
+bool set_value(const ast::Statement*& statement, std::string_view text,
+               ast::Arena& arena) {
+  const auto& assignment = std::get<ast::Assignment>(statement->node);
+  const auto type = detail::type_of(*assignment.value);
+  if (!type) return true;
+  const ast::Expr* value = read_value(text, *type, arena);
+  if (value == nullptr) return type != detail::ValueType::kBool;
+  // What was no parameter does not become one: the customizer's comments
+  // describe values with a place in the text.
+  const bool was_literal = detail::is_literal(*assignment.value);
+  const SourceRange range =
+      was_literal ? assignment.value->range : SourceRange();
+  ast::Statement replaced = *statement;
+  replaced.node = ast::Assignment{assignment.name,
+                                  arena.make(ast::Expr{value->node, range})};
+  statement = arena.make(replaced);
+  return true;
+}
+
+// The variables of a program in the order of their first assignments, each
+// with the place of its last one, which counts.
+std::vector<std::size_t> places_of_variables(const ast::Program& program) {
+  std::vector<std::size_t> places;
+  std::unordered_map<std::string_view, std::size_t> known;
+  for (std::size_t i = 0; i < program.statements.size(); ++i) {
+    const auto* node =
+        std::get_if<ast::Assignment>(&program.statements[i]->node);
+    if (node == nullptr) continue;
+    const auto [place, is_new] = known.try_emplace(node->name, places.size());
+    if (is_new) {
+      places.push_back(i);
+    } else {
+      places[place->second] = i;
+    }
+  }
+  return places;
+}
+
+// Variable by variable, as OpenSCAD does, which tells what is set before a
+// value fails.
+bool set_values(const std::vector<Entry>& entries, ast::Program& program) {
+  ast::Arena& arena = *program.arena;
+  std::vector<const ast::Statement*> statements(program.statements.begin(),
+                                                program.statements.end());
+  bool is_good = true;
+  for (const std::size_t place : places_of_variables(program)) {
+    const ast::Statement*& statement = statements[place];
+    for (const Entry& entry : entries) {
+      if (std::get<ast::Assignment>(statement->node).name != entry.name) {
+        continue;
+      }
+      is_good = is_good && set_value(statement, entry.text, arena);
+    }
+  }
+  program.statements =
+      arena.copy(std::span<const ast::Statement* const>(statements));
+  return is_good;
+}
+
+}  // namespace
+
+bool apply_parameter_set(const std::string& path, const std::string& set,
+                         ast::Program& program, Diagnostics& diagnostics) {
+  const auto entries = read_set(path, set, diagnostics);
+  if (!entries) return false;
+  if (set_values(*entries, program)) return true;
+  report_error(diagnostics,
+               "Cannot apply Parameter Set 'conversion of data to type \"b\" "
+               "failed'");
+  return false;
+}
+
+}  // namespace lamina

@@ -1,0 +1,30 @@
+#pragma once
+// Parameter sets: values for the parameters of a design, in a file of
+// OpenSCAD's customizer.
+//
+//     {"parameterSets": {"wide": {"width": "12", "name": "Ada"}}}
+//
+// A value is a text. A parameter that is a string takes it as it is, one that
+// is true or false takes true, false, 1 or 0, any other takes it in the
+// notation of the customizer's comments if that gives a value of its own type,
+// and keeps its own else. What is no parameter of the design is passed over.
+//
+// Departures from OpenSCAD 2021.01: a set that the file lacks is an error, not
+// the design's own values; and only variables whose value is a literal, or
+// arithmetic on literals, can be set.
+
+#include <string>
+
+#include "parser/ast.h"
+#include "parser/diagnostic.h"
+
+namespace lamina {
+
+// Sets the variables of `program` to the values of `set` in the file `path`.
+//
+// returns  false where the file cannot be read, the set is not there or a value
+//          cannot be used; that is reported, and the values before it stay set
+bool apply_parameter_set(const std::string& path, const std::string& set,
+                         ast::Program& program, Diagnostics& diagnostics);
+
+}  // namespace lamina

@@ -1,0 +1,117 @@
+#include "parser/parameter_set.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "parsed.h"
+#include "parser/ast_printer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+// A design after a set of a file is applied. (What openscad 2021.01 makes of
+// the same sets is compared in tests/conformance.)
+class Applied {
+ public:
+  Applied(const std::string& design, const std::string& file,
+          const std::string& set = "s")
+      : parsed_(design), program_(parsed_.program()) {
+    folder_.write("f.json", file);
+    is_good_ =
+        apply_parameter_set(folder_.file("f.json"), set, program_, messages_);
+  }
+
+  bool is_good() const { return is_good_; }
+  std::string ast() const { return ast::print(program_); }
+  std::string message() const {
+    return messages_.all().empty() ? "" : messages_.all()[0].message;
+  }
+
+ private:
+  support::TemporaryFolder folder_;
+  Parsed parsed_;
+  ast::Program program_;
+  Diagnostics messages_;
+  bool is_good_ = false;
+};
+
+std::string set_of(const std::string& entries) {
+  return R"({"parameterSets": {"s": {)" + entries + R"(}}})";
+}
+
+// `x = <value>;` with the entry `"x": <entry>`, without its comment.
+std::string applied(const std::string& value, const std::string& entry) {
+  const std::string ast =
+      Applied("x = " + value + ";", set_of("\"x\": " + entry)).ast();
+  return ast.substr(ast.find("x = "));
+}
+
+TEST(ParameterSet, GivesAValueOfTheTypeThatTheParameterHas) {
+  EXPECT_EQ(applied("1", "\"2.5\""), "x = 2.5;\n");
+  EXPECT_EQ(applied("1", "-3"), "x = -3;\n");
+  EXPECT_EQ(applied("\"a\"", "\"b c\""), "x = \"b c\";\n");
+  EXPECT_EQ(applied("\"a\"", "1.50"), "x = \"1.50\";\n");
+  EXPECT_EQ(applied("true", "\"false\""), "x = false;\n");
+  EXPECT_EQ(applied("false", "1"), "x = true;\n");
+  EXPECT_EQ(applied("[1, 2]", "\"[3, 4, a]\""), "x = [3, 4, \"a\"];\n");
+  EXPECT_EQ(applied("[1:2]", "\"[1:2:9]\""), "x = [1 : 2 : 9];\n");
+}
+
+TEST(ParameterSet, KeepsEveryDigit) {
+  const Applied applied("x = 0;", set_of(R"("x": "0.1234567890123")"));
+  EXPECT_TRUE(applied.is_good());
+}
+
+TEST(ParameterSet, LeavesWhatDoesNotFit) {
+  EXPECT_EQ(applied("1", "\"word\""), "x = 1;\n");
+  EXPECT_EQ(applied("[1, 2]", "\"5\""), "x = [1, 2];\n");
+  EXPECT_EQ(applied("undef", "\"5\""), "x = undef;\n");
+  EXPECT_EQ(applied("y", "\"5\""), "x = y;\n");
+  EXPECT_EQ(applied("1", "[2]"), "x = 1;\n");
+}
+
+TEST(ParameterSet, SetsTheAssignmentThatCounts) {
+  EXPECT_EQ(Applied("x = 1;\nx = 2;\ncube(x);", set_of("\"x\": 3")).ast(),
+            "//Parameter(\"\")\nx = 3;\ncube(x);\n");
+}
+
+TEST(ParameterSet, MakesNoParameterOfASum) {
+  EXPECT_EQ(Applied("x = 1 + 2;", set_of("\"x\": 7")).ast(), "x = 7;\n");
+}
+
+TEST(ParameterSet, EndsAtAValueThatIsNeitherTrueNorFalse) {
+  const Applied applied("a = 1;\nb = true;\nc = 1;",
+                        set_of(R"("c": 5, "b": "maybe", "a": 5)"));
+  EXPECT_FALSE(applied.is_good());
+  EXPECT_EQ(applied.message(),
+            "Cannot apply Parameter Set 'conversion of data to type \"b\" "
+            "failed'");
+  EXPECT_NE(applied.ast().find("a = 5;"), std::string::npos);
+  EXPECT_NE(applied.ast().find("b = true;"), std::string::npos);
+  EXPECT_NE(applied.ast().find("c = 1;"), std::string::npos);
+}
+
+TEST(ParameterSet, MustBeThere) {
+  EXPECT_TRUE(Applied("x = 1;", set_of("")).is_good());
+  for (const char* file :
+       {"{}", "[]", "1", R"({"parameterSets": {}})",
+        R"({"parameterSets": [{"s": {"x": 1}}]})", R"({"s": {"x": 1}})"}) {
+    const Applied applied("x = 1;", file);
+    EXPECT_FALSE(applied.is_good()) << file;
+    EXPECT_NE(applied.message().find("has no such set"), std::string::npos)
+        << applied.message();
+  }
+}
+
+TEST(ParameterSet, NamesTheLineOfBadJson) {
+  const Applied applied("x = 1;", "{\n\"parameterSets\": }\n");
+  EXPECT_FALSE(applied.is_good());
+  EXPECT_NE(applied.message().find("f.json(2): syntax error"),
+            std::string::npos)
+      << applied.message();
+}
+
+}  // namespace
+}  // namespace lamina
