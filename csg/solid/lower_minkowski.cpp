@@ -13,13 +13,6 @@
 #include "csg/solid/detail/minkowski.h"
 
 namespace lamina::csg {
-namespace {
-
-bool is_plain_union(const Scene& scene) {
-  return scene.program.size() == 1 && scene.program[0].op == BooleanOp::kUnion;
-}
-
-}  // namespace
 
 Shape Lowerer::lower_op(const Minkowski&, const Node& node,
                         const Affine& world) {
@@ -40,9 +33,7 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
   }
   std::vector<Operand> solids;
   for (const Scene& scene : apart.take_scenes(operands.begins)) {
-    if (scene.instances.empty()) continue;
-    if (!is_plain_union(scene)) fail_unsupported(node, "minkowski");
-    solids.push_back(make_operand(scene));
+    if (!scene.instances.empty()) solids.push_back(make_operand(scene));
   }
   if (solids.empty()) return {};
   place_sum(add_operands(std::move(solids)), node, world);

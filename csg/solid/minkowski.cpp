@@ -1,14 +1,19 @@
 #include "csg/solid/detail/minkowski.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "csg/planar/convex_faces.h"
+#include "csg/planar/triangulate.h"
+#include "csg/solid/boundary_faces.h"
 #include "csg/solid/detail/connected_faces.h"
 #include "csg/solid/detail/convex_hull.h"
 #include "csg/solid/detail/convex_leaf.h"
@@ -68,6 +73,42 @@ std::vector<Convex> make_faces(const Mesh& mesh) {
   return faces;
 }
 
+struct VertexLess {
+  bool operator()(const Vec3& a, const Vec3& b) const {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  }
+};
+
+// The faces of a Boolean as triangles; equal vertices are one.
+Mesh triangulate(std::span<const BoundaryFace> faces) {
+  Mesh mesh;
+  std::map<Vec3, std::uint32_t, VertexLess> names;
+  for (const BoundaryFace& face : faces) {
+    // A plane that turns the face's normal to the viewer.
+    const Vec3 n = face.normal;
+    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    const Vec3 x_axis = glm::normalize(glm::cross(other, n));
+    const Vec3 y_axis = glm::cross(n, x_axis);
+    planar::Region region;
+    std::vector<std::uint32_t> corners;
+    for (const std::vector<Vec3>& contour : face.contours) {
+      region.contours.emplace_back();
+      for (const Vec3& p : contour) {
+        region.contours.back().emplace_back(glm::dot(p, x_axis),
+                                            glm::dot(p, y_axis));
+        const auto name = static_cast<std::uint32_t>(mesh.vertices.size());
+        const auto [place, is_new] = names.try_emplace(p, name);
+        if (is_new) mesh.vertices.push_back(p);
+        corners.push_back(place->second);
+      }
+    }
+    for (const auto& t : planar::triangulate(region)) {
+      mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+    }
+  }
+  return mesh;
+}
+
 Mesh transform(Mesh mesh, const Affine& matrix) {
   for (Vec3& vertex : mesh.vertices) vertex = matrix * Vec4(vertex, 1);
   if (glm::dot(matrix[0], glm::cross(matrix[1], matrix[2])) < 0) {
@@ -83,17 +124,32 @@ Body make_body(Scene scene, std::vector<Convex> faces) {
 
 // --- Parts of a scene --------------------------------------------------------
 
-// Takes a union apart into its leaves.
+// Takes a scene apart into the children of its root, if that is a union.
 class Divider {
  public:
   explicit Divider(const Scene& scene) : scene_(scene) {}
 
   Operand divide() {
-    for (const Instance& instance : scene_.instances) add_instance(instance);
+    if (scene_.program[0].op != BooleanOp::kUnion) {
+      add_boolean(0);
+      return std::move(operand_);
+    }
+    for (std::uint32_t n = 1; n < scene_.program.size(); ++n) {
+      if (scene_.program[n].parent == 0) add_boolean(n);
+    }
+    for (const Instance& instance : scene_.instances) {
+      if (instance.parent == 0) add_instance(instance);
+    }
     return std::move(operand_);
   }
 
  private:
+  void add_boolean(std::uint32_t node) {
+    Scene part = node == 0 ? scene_ : cut_out(node);
+    std::vector<Convex> faces = make_faces(triangulate(boundary_faces(part)));
+    operand_.bodies.push_back(make_body(std::move(part), std::move(faces)));
+  }
+
   void add_instance(const Instance& instance) {
     const Leaf& leaf = scene_.leaves[instance.leaf];
     if (auto parts = convex_parts(leaf, instance.world_from_leaf)) {
@@ -109,6 +165,36 @@ class Divider {
     part.box = instance.box;
     const Mesh mesh = transform(explicit_mesh(leaf), instance.world_from_leaf);
     operand_.bodies.push_back(make_body(std::move(part), make_faces(mesh)));
+  }
+
+  // The subtree of one operator as a scene of its own.
+  Scene cut_out(std::uint32_t root) const {
+    constexpr std::uint32_t kOutside = ~std::uint32_t{0};
+    Scene part;
+    std::vector<std::uint32_t> names(scene_.program.size(), kOutside);
+    for (std::uint32_t n = root; n < scene_.program.size(); ++n) {
+      BooleanNode node = scene_.program[n];
+      if (n != root && names[node.parent] == kOutside) continue;
+      names[n] = static_cast<std::uint32_t>(part.program.size());
+      node.parent = n == root ? 0 : names[node.parent];
+      if (n == root) node.is_minuend = false;
+      part.program.push_back(node);
+    }
+    std::vector<std::uint32_t> leaf_names(scene_.leaves.size(), kOutside);
+    for (Instance instance : scene_.instances) {
+      if (names[instance.parent] == kOutside) continue;
+      std::uint32_t& leaf = leaf_names[instance.leaf];
+      if (leaf == kOutside) {
+        leaf = static_cast<std::uint32_t>(part.leaves.size());
+        part.leaves.push_back(scene_.leaves[instance.leaf]);
+      }
+      instance.parent = names[instance.parent];
+      instance.leaf = leaf;
+      part.box.low = glm::min(part.box.low, instance.box.low);
+      part.box.high = glm::max(part.box.high, instance.box.high);
+      part.instances.push_back(instance);
+    }
+    return part;
   }
 
   const Scene& scene_;

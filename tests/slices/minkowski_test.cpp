@@ -126,6 +126,57 @@ TEST(Minkowski, AConcavePolyhedronGrowsByABox) {
               1e-9);
 }
 
+// Walls 1 thick around a cavity of 8; the small one has walls of 0.2.
+const std::string kBigHollow =
+    "difference() { cube(10, center = true); cube(8, center = true); }";
+const std::string kSmallHollow =
+    "difference() { cube(1, center = true); cube(0.6, center = true); }";
+
+TEST(Minkowski, ADifferenceGrowsByABox) {
+  const std::string sum =
+      "minkowski() { difference() { cube([10, 10, 4]); translate([3, 4, -1])"
+      " cube([4, 3, 9]); } translate([30, 0, 0]) cube([2, 1, 1]); }";
+  for (const double z : {0.3, 2.0, 4.7}) {
+    EXPECT_NEAR(section_area(sum, z), 12 * 11 - 2 * 2, 1e-6);
+  }
+  EXPECT_EQ(section_area(sum, 5.1), 0);
+}
+
+TEST(Minkowski, ASmallHollowBodyAndABigOneLeaveTheRightCavity) {
+  for (const std::string& sum :
+       {"minkowski() { " + kBigHollow + kSmallHollow + "}",
+        "minkowski() { " + kSmallHollow + kBigHollow + "}"}) {
+    EXPECT_NEAR(section_area(sum, 0.2), 121 - 49, 1e-6);
+    EXPECT_NEAR(section_area(sum, 3.4), 121 - 49, 1e-6);
+    EXPECT_NEAR(section_area(sum, 3.6), 121, 1e-6);
+    EXPECT_NEAR(section_area(sum, -5.4), 121, 1e-6);
+  }
+}
+
+TEST(Minkowski, ABodyInTheCavityOfItsLikeFillsIt) {
+  const std::string sum = "minkowski() { " + kBigHollow +
+                          " difference() { cube(9, center = true);"
+                          " cube(8.5, center = true); } }";
+  for (const double z : {0.0, 4.0, 9.0}) {
+    EXPECT_NEAR(section_area(sum, z), 19 * 19, 1e-6);
+  }
+}
+
+TEST(Minkowski, ASumIsOneOperandOfABoolean) {
+  EXPECT_NEAR(section_area("difference() { cube(20, center = true);"
+                           " minkowski() { " +
+                               kBigHollow + kSmallHollow + "} }",
+                           0.2),
+              400 - 121 + 49, 1e-6);
+}
+
+TEST(Minkowski, AnIntersectionGrowsByABox) {
+  EXPECT_NEAR(section_area("minkowski() { intersection() { cube(4);"
+                           " translate([1, 2, 0]) cube(4); } cube(1); }",
+                           2),
+              4 * 3, 1e-6);
+}
+
 const char* const kBodies[] = {
     "cube([3, 2, 1]);",
     "rotate([20, 30, 40]) cube([2, 3, 1]);",
@@ -138,6 +189,8 @@ const char* const kBodies[] = {
     "rotate_extrude($fn = 12) translate([2, 0]) circle(r = 0.5, $fn = 6);",
     "linear_extrude(2, twist = 50, slices = 3) square([2, 1]);",
     "union() { cube(1); translate([3, 3, 0]) cube(1); }",
+    "difference() { cube([3, 2, 2]); translate([1, 1, 1]) sphere(1, $fn = 8); "
+    "}",
 };
 
 TEST(MinkowskiLaws, Commutes) {
