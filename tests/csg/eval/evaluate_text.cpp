@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <regex>
 #include <sstream>
 
 #include <pthread.h>
@@ -32,19 +31,17 @@ void run_on_stack(std::size_t bytes, std::function<void()> work) {
 }
 
 Evaluated evaluate_with(std::size_t stack_bytes, const std::string& path,
-                        const std::string* text, const std::string& definitions,
-                        bool check_ranges) {
+                        const std::string* text) {
   Evaluated result;
   run_on_stack(stack_bytes, [&] {
     SourceStore sources;
     Diagnostics diagnostics;
     try {
-      Loader loader(sources, diagnostics, library_folders(), definitions);
+      Loader loader(sources, diagnostics, library_folders());
       const ast::Program program =
           text != nullptr ? loader.load_text(path, *text) : loader.load(path);
       EvaluateOptions options;
       options.stack_bytes = stack_bytes - (std::size_t{1} << 20);
-      options.check_ranges = check_ranges;
       const Tree tree = evaluate(program, loader, options, diagnostics);
       result.csg = print_csg(tree, *select_root(tree, diagnostics));
     } catch (const SyntaxError&) {
@@ -65,24 +62,11 @@ Evaluated evaluate_with(std::size_t stack_bytes, const std::string& path,
 }  // namespace
 
 Evaluated evaluate_text(const std::string& text, std::size_t stack_bytes) {
-  return evaluate_with(stack_bytes, "test.scad", &text, "", false);
+  return evaluate_with(stack_bytes, "test.scad", &text);
 }
 
-Evaluated evaluate_file(const std::string& path, const std::string& definitions,
-                        bool check_ranges) {
-  return evaluate_with(std::size_t{256} << 20, path, nullptr, definitions,
-                       check_ranges);
-}
-
-std::string normalized(std::string text) {
-  static const std::regex kTimestamp(", timestamp = [0-9]+");
-  static const std::regex kFolders("(file = \")([^\"/]*/)*([^\"]*\")");
-  text = std::regex_replace(text, kTimestamp, "");
-  text = std::regex_replace(text, kFolders, "$1$3");
-  const std::size_t first = text.find_first_not_of('\n');
-  if (first == std::string::npos) return "\n";
-  const std::size_t last = text.find_last_not_of('\n');
-  return text.substr(first, last - first + 1) + "\n";
+Evaluated evaluate_file(const std::string& path) {
+  return evaluate_with(std::size_t{256} << 20, path, nullptr);
 }
 
 std::string read_text(const std::string& path) {

@@ -12,18 +12,10 @@ struct Evaluated {
   std::string terminal;  // caret form, echoes left out
 };
 
-enum class Output { kEcho, kCsg };
-
 // Evaluates on a thread with a stack of `stack_bytes`.
 Evaluated evaluate_text(const std::string& text,
                         std::size_t stack_bytes = std::size_t{256} << 20);
-Evaluated evaluate_file(const std::string& path,
-                        const std::string& definitions = {},
-                        bool check_ranges = false);
-
-// A text as openscad's own test suite compares it: without time stamps and
-// folders of files, without blank lines at the ends.
-std::string normalized(std::string text);
+Evaluated evaluate_file(const std::string& path);
 
 // The file's content; empty if there is none.
 std::string read_text(const std::string& path);
