@@ -31,6 +31,9 @@ enum class FillRule { kEvenOdd, kNonZero };
 Region from_contours(std::span<const Contour> contours,
                      FillRule rule = FillRule::kEvenOdd);
 
+// The region where contours that may cross have a winding number other than 0.
+Region from_windings(std::span<const Contour> contours);
+
 enum class Join { kRound, kMiter, kBevel };
 
 // Moves the border outwards by `amount` [mm], inwards if that is negative.

@@ -1,6 +1,9 @@
 #include "csg/planar/region.h"
 
 #include <cmath>
+#include <cstddef>
+
+#include <glm/geometric.hpp>
 
 #include "csg/planar/facets.h"
 
@@ -22,6 +25,16 @@ double area(const Region& region) {
   double sum = 0;
   for (const Contour& contour : region.contours) sum += signed_area(contour);
   return sum;
+}
+
+void drop_hairlines(Region& region, double width) {
+  std::erase_if(region.contours, [&](const Contour& contour) {
+    double perimeter = 0;
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      perimeter += glm::distance(contour[i], contour[(i + 1) % contour.size()]);
+    }
+    return std::abs(signed_area(contour)) < 0.5 * width * perimeter;
+  });
 }
 
 Region square(Vec2 size, bool center) {

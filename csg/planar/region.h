@@ -26,6 +26,9 @@ double signed_area(std::span<const Vec2> contour);
 // Of all contours: holes count negative [mm²].
 double area(const Region& region);
 
+// Drops contours whose mean width is less than `width` [mm].
+void drop_hairlines(Region& region, double width);
+
 // 2D modules. Empty where a size is not positive or not finite.
 Region square(Vec2 size, bool center);
 Region circle(double r, int fragments);

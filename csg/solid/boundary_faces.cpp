@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "csg/planar/clip.h"
 #include "csg/program_state.h"
@@ -30,16 +29,6 @@ Box3 expand(const Box3& box) {
   // no face in the window there.
   constexpr double kMargin = 4 * kCoplanarDistance;
   return {box.low - kMargin, box.high + kMargin};
-}
-
-// Contours whose mean width is less than a tie are none.
-bool is_hairline(const Contour& contour) {
-  double perimeter = 0;
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    perimeter += glm::distance(contour[i], contour[(i + 1) % contour.size()]);
-  }
-  return std::abs(planar::signed_area(contour)) <
-         0.5 * kCoplanarDistance * perimeter;
 }
 
 class Finder {
@@ -256,7 +245,7 @@ class Finder {
       const std::array<Region, 2> operands{std::move(region), *empty};
       region = planar::subtract(operands);
     }
-    std::erase_if(region.contours, is_hairline);
+    planar::drop_hairlines(region, kCoplanarDistance);
     if (region.is_empty()) return;
     BoundaryFace face{normal, {}};
     for (const Contour& contour : region.contours) {

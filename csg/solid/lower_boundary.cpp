@@ -1,26 +1,15 @@
-#include <algorithm>
-#include <cstddef>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "csg/planar/convex_hull.h"
+#include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/lowerer.h"
+#include "csg/solid/detail/projection.h"
+#include "csg/solid/detail/resize.h"
 #include "csg/solid/detail/scene_hull.h"
 
 namespace lamina::csg {
 namespace {
-
-std::size_t count_operands(const Node& node) {
-  return static_cast<std::size_t>(
-      std::count_if(node.children.begin(), node.children.end(),
-                    [](const Node* child) { return !child->is_background; }));
-}
-
-Shape lower_later(const Node& node, std::string_view module) {
-  if (count_operands(node) > 0) fail_unsupported(node, module);
-  return {};
-}
 
 planar::Region hull_of(const std::vector<planar::Region>& regions) {
   std::vector<Vec2> points;
@@ -32,12 +21,22 @@ planar::Region hull_of(const std::vector<planar::Region>& regions) {
   return planar::convex_hull(std::move(points));
 }
 
+Mat4 scaling(Vec3 factor) {
+  Mat4 m(1.0);
+  for (int i = 0; i < 3; ++i) m[i][i] = factor[i];
+  return m;
+}
+
 }  // namespace
 
-Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world) {
+Lowerer Lowerer::make_inner(const Node& node, const Affine& world) {
   LowerOptions options = options_;
   options.chordal_error = fineness({}, world).chordal_error;
-  Lowerer inner(node.children.size(), options, diagnostics_);
+  return {node.children.size(), options, diagnostics_};
+}
+
+Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world) {
+  Lowerer inner = make_inner(node, world);
   Operands operands =
       inner.lower_operands(node, Affine(1.0), true, Dimension::kNone);
   report_strays(operands);
@@ -56,12 +55,39 @@ Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Resize&, const Node& node, const Affine&) {
-  return lower_later(node, "resize");
+Shape Lowerer::lower_op(const Resize& op, const Node& node,
+                        const Affine& world) {
+  Apart apart = lower_apart(node, world);
+  if (apart.dimension == Dimension::kFlat) {
+    if (apart.regions.empty()) return {Dimension::kFlat};
+    planar::Region region = combine_regions(BooleanOp::kUnion, apart.regions,
+                                            node.range, diagnostics_);
+    const Vec3 factor(resize_factor(op, region), 1);
+    return {Dimension::kFlat,
+            transform_region(std::move(region), scaling(factor), node.range,
+                             diagnostics_)};
+  }
+  if (apart.scene.instances.empty()) return {apart.dimension};
+  const Vec3 factor = resize_factor(op, apart.scene);
+  place_scene(apart.scene, world * scaling(factor));
+  return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Projection&, const Node& node, const Affine&) {
-  return lower_later(node, "projection");
+Shape Lowerer::lower_op(const Projection& op, const Node& node,
+                        const Affine& world) {
+  Lowerer inner = make_inner(node, world);
+  Operands operands =
+      inner.lower_operands(node, Affine(1.0), true, Dimension::kSolid);
+  operands.first_mixed = nullptr;
+  if (op.cut) report_strays(operands);
+  const Scene scene = inner.take_scene();
+  if (scene.instances.empty()) return {};
+  planar::Region region = op.cut ? cut_at_zero(scene) : project(scene);
+  if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
+  if (op.cut && !is_empty(scene)) {
+    diagnostics_.warning({}, "Projection() failed.");
+  }
+  return {};
 }
 
 }  // namespace lamina::csg

@@ -8,6 +8,7 @@
 
 #include "csg/solid/boundary_faces.h"
 #include "csg/solid/detail/convex_hull.h"
+#include "csg/solid/detail/united.h"
 #include "csg/solid/leaf_mesh.h"
 
 namespace lamina::csg {
@@ -26,17 +27,12 @@ Affine affine_of(const Linear& m, Vec3 shift) {
   return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}, shift};
 }
 
-// Takes the instances that the root unites out of the scene.
-Shifts take_united(Scene& scene) {
+Shifts shifts_of(const std::vector<Instance>& instances) {
   Shifts shifts;
-  if (scene.program[0].op != BooleanOp::kUnion) return shifts;
-  std::erase_if(scene.instances, [&](const Instance& instance) {
-    if (instance.parent != 0) return false;
+  for (const Instance& instance : instances) {
     const Affine& m = instance.world_from_leaf;
     shifts[{instance.leaf, linear_of(m)}].push_back(m[3]);
-    --scene.program[0].child_count;
-    return true;
-  });
+  }
   return shifts;
 }
 
@@ -44,7 +40,7 @@ Shifts take_united(Scene& scene) {
 
 Mesh convex_hull(Scene scene) {
   std::vector<Vec3> points;
-  for (auto& [shape, shifts] : take_united(scene)) {
+  for (auto& [shape, shifts] : shifts_of(take_united(scene))) {
     const auto& [leaf, linear] = shape;
     const std::vector<Vec3> vertices =
         explicit_mesh(scene.leaves[leaf]).vertices;

@@ -138,6 +138,8 @@ class Lowerer {
     Scene scene;                          // their union
   };
   Apart lower_apart(const Node& node, const Affine& world);
+  // A lowerer for those children; nothing lowered yet.
+  Lowerer make_inner(const Node& node, const Affine& world);
 
   // --- lower_minkowski.cpp --------------------------------------------------
   Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);

@@ -1,0 +1,25 @@
+#pragma once
+// Leaves that the program only unites: their surfaces need no Boolean.
+
+#include <utility>
+#include <vector>
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// Takes the instances that stand directly below a root that is a union out of
+// the scene; the rest is what only a Boolean can tell.
+inline std::vector<Instance> take_united(Scene& scene) {
+  std::vector<Instance> united;
+  if (scene.program[0].op != BooleanOp::kUnion) return united;
+  std::erase_if(scene.instances, [&](const Instance& instance) {
+    if (instance.parent != 0) return false;
+    united.push_back(instance);
+    --scene.program[0].child_count;
+    return true;
+  });
+  return united;
+}
+
+}  // namespace lamina::csg

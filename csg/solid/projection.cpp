@@ -1,0 +1,153 @@
+#include "csg/solid/detail/projection.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "csg/planar/clip.h"
+#include "csg/program_state.h"
+#include "csg/solid/boundary_faces.h"
+#include "csg/solid/detail/plane_section.h"
+#include "csg/solid/detail/program_region.h"
+#include "csg/solid/detail/united.h"
+
+namespace lamina::csg {
+namespace {
+
+using planar::Contour;
+using planar::Region;
+using Side = WindowSection::Side;
+
+struct IsLess {
+  bool operator()(Vec2 a, Vec2 b) const {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  }
+};
+
+// Polygons summed up: an edge that comes in both directions is none. Of a mesh
+// seen from above little more than its outline is left, with the winding
+// numbers of all its faces together.
+class PolygonSum {
+ public:
+  void add(const Contour& contour) {
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      add_edge(contour[i], contour[(i + 1) % contour.size()]);
+    }
+  }
+
+  // The edges that are left, joined to contours in some way.
+  std::vector<Contour> take() {
+    std::vector<Contour> contours;
+    while (!ends_.empty()) {
+      Contour& contour = contours.emplace_back();
+      for (auto edge = ends_.begin(); edge != ends_.end();
+           edge = ends_.find(contour.back())) {
+        const Vec2 from = edge->first;
+        const Vec2 to = edge->second.back();
+        edge->second.pop_back();
+        if (edge->second.empty()) ends_.erase(edge);
+        if (contour.empty()) contour.push_back(from);
+        contour.push_back(to);
+      }
+      contour.pop_back();
+    }
+    return contours;
+  }
+
+ private:
+  void add_edge(Vec2 from, Vec2 to) {
+    if (from == to) return;
+    const auto edges = ends_.find(to);
+    if (edges != ends_.end()) {
+      std::vector<Vec2>& ends = edges->second;
+      const auto opposite = std::find(ends.begin(), ends.end(), from);
+      if (opposite != ends.end()) {
+        ends.erase(opposite);
+        if (ends.empty()) ends_.erase(edges);
+        return;
+      }
+    }
+    ends_[from].push_back(to);
+  }
+
+  std::map<Vec2, std::vector<Vec2>, IsLess> ends_;  // of edges, by their begins
+};
+
+Region shadow_of(const std::vector<std::vector<Vec3>>& contours) {
+  Region region;
+  for (const auto& contour : contours) {
+    Contour& flat = region.contours.emplace_back();
+    for (const Vec3 point : contour) flat.emplace_back(point.x, point.y);
+  }
+  return region;
+}
+
+void add_if_upwards(const Region& face, PolygonSum& sum) {
+  if (!(planar::area(face) > 0)) return;
+  for (const Contour& contour : face.contours) sum.add(contour);
+}
+
+// What the program holds for just above or below the plane.
+Region evaluate_at(const Scene& scene, const Plane& plane,
+                   const std::vector<std::uint32_t>& near,
+                   const std::vector<PlacedLeaf>& leaves, Side side) {
+  std::vector<LiveInstance> live;
+  const Vec2 low = Vec2(scene.box.low) - 1.0;
+  const Vec2 high = Vec2(scene.box.high) + 1.0;
+  const Region window{{{low, {high.x, low.y}, high, {low.x, high.y}}}};
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    live.push_back({near[i], whole_section(leaves[i], plane, side)});
+  }
+  const auto value =
+      evaluate_in_window(scene, ProgramState(scene), live, window);
+  return value.value_or(window);
+}
+
+}  // namespace
+
+Region project(Scene scene) {
+  std::vector<Contour> shadows;
+  const auto add = [&](PolygonSum& sum) {
+    for (Contour& contour : sum.take()) shadows.push_back(std::move(contour));
+  };
+  for (const Instance& instance : take_united(scene)) {
+    const LeafFaces faces =
+        faces_of(scene.leaves[instance.leaf], instance.world_from_leaf);
+    PolygonSum sum;
+    for (std::size_t i = 0; i < faces.faces.size(); ++i) {
+      add_if_upwards(shadow_of(faces.contours_of(i)), sum);
+    }
+    add(sum);
+  }
+  PolygonSum sum;
+  for (const BoundaryFace& face : boundary_faces(scene)) {
+    add_if_upwards(shadow_of(face.contours), sum);
+  }
+  add(sum);
+  // Cracks between faces that were cut are no holes.
+  Region region = planar::from_windings(shadows);
+  planar::drop_hairlines(region, kCoplanarDistance);
+  return region;
+}
+
+Region cut_at_zero(const Scene& scene) {
+  const Plane plane(Vec3(0), Vec3(0, 0, 1));
+  std::vector<std::uint32_t> near;
+  std::vector<PlacedLeaf> leaves;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (!plane.meets(instance.box)) continue;
+    near.push_back(i);
+    leaves.emplace_back(scene.leaves[instance.leaf], instance.world_from_leaf);
+  }
+  const Region above = evaluate_at(scene, plane, near, leaves, Side::kAbove);
+  const Region below = evaluate_at(scene, plane, near, leaves, Side::kBelow);
+  if (above == below) return above;
+  const std::vector<Region> both{above, below};
+  return planar::unite(both);
+}
+
+}  // namespace lamina::csg
