@@ -69,7 +69,7 @@ class TreeBuilder {
 
   // The tree with these at the top level.
   Tree tree(const Children& children) {
-    return {arena_, node(Group{}, children)};
+    return {arena_, node(Group{}, children), {}};
   }
 
   template <typename T>
