@@ -80,6 +80,9 @@ struct LinearExtrudeParams {
   int slices = 0;  // 0: not given; csg/planar/facets.h has the rules
   Vec2 scale = Vec2(1);
   Facets facets = {};
+  // With the deprecated file=: what `.csg` prints, whole. The import that is
+  // the only child then does not show.
+  std::string_view csg_text = {};
 };
 struct LinearExtrude {
   const LinearExtrudeParams* params;
@@ -88,6 +91,7 @@ struct RotateExtrude {
   double angle_deg = 360;
   int convexity = 2;
   Facets facets = {};
+  std::string_view csg_text = {};  // as for LinearExtrude
 };
 
 // --- Leaves ---------------------------------------------------------------
@@ -183,17 +187,12 @@ struct SurfaceParams {
 struct Surface {
   const SurfaceParams* params;
 };
-// Extrusions with the deprecated file=, not supported yet.
-struct Unsupported {
-  std::string_view name;
-  std::string_view csg_text;
-};
 
 struct Node {
   std::variant<Group, Union, Difference, Intersection, Hull, Minkowski, Render,
                Transform, Color, Resize, Offset, Projection, LinearExtrude,
                RotateExtrude, Cube, Sphere, Cylinder, Polyhedron, Square,
-               Circle, Polygon, Text, Import, Surface, Unsupported>
+               Circle, Polygon, Text, Import, Surface>
       op;
   std::span<const Node* const> children;
   SourceRange range;

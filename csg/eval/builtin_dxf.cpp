@@ -1,19 +1,23 @@
 #include "csg/eval/builtin_dxf.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "csg/degrees.h"
 #include "csg/eval/conversions.h"
-#include "csg/eval/dxf_measures.h"
 #include "csg/eval/files.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/text.h"
+#include "csg/import/dxf.h"
+#include "csg/import/file_bytes.h"
+#include "csg/import/format_error.h"
 
 namespace lamina::csg {
 
@@ -86,21 +90,28 @@ bool can_open(const Query& query, const CallCode& code, Frame& frame) {
   return false;
 }
 
-DxfMeasures measure(const Query& query, Frame& frame) {
-  DxfMeasures measures =
-      read_dxf_measures(query.path, query.layer, query.origin, query.scale);
-  for (const auto& [kind, count] : measures.unknown_entities) {
-    const std::string shown = relative_quoted(query.path, frame);
-    frame.in.warn({}, query.layer.empty()
-                          ? fmt::format("Unsupported DXF Entity '{}' ({:x}) in "
-                                        "{}.",
-                                        kind, count, shown)
-                          : fmt::format("Unsupported DXF Entity '{}' ({:x}) in "
-                                        "layer '{}' of {}",
-                                        kind, count, query.layer,
-                                        shown.substr(1, shown.size() - 2)));
+// What cannot be read measures nothing.
+DxfDrawing read_drawing(const Query& query, const CallCode& code,
+                        Frame& frame) {
+  DxfOptions options{query.layer, query.origin, query.scale, {}, query.path};
+  // OpenSCAD measures circles of 36 sides.
+  options.fragments = [](double) { return 36; };
+  DxfDrawing drawing;
+  try {
+    const auto bytes = FileBytes::open(query.path);
+    if (bytes) drawing = parse_dxf(bytes->view(), options);
+  } catch (const FormatError& fault) {
+    warn(code, frame,
+         fmt::format("{} importing file '{}'", fault.what(), query.path));
   }
-  return measures;
+  for (const std::string& warning : drawing.warnings) {
+    frame.in.warn({}, warning);
+  }
+  for (const std::string& warning : unknown_entity_warnings(
+           drawing, query.layer, relative_quoted(query.path, frame))) {
+    frame.in.warn({}, warning);
+  }
+  return drawing;
 }
 
 double atan2_deg(double y, double x) {
@@ -141,8 +152,8 @@ std::optional<double> length_of(const DxfDimension& dimension) {
 Value builtin_dxf_dim(const CallCode& code, Frame& frame) {
   const Query query = read_query(Kind::kDim, code, frame);
   if (!can_open(query, code, frame)) return Value();
-  const DxfMeasures measures = measure(query, frame);
-  for (const DxfDimension& dimension : measures.dimensions) {
+  const DxfDrawing drawing = read_drawing(query, code, frame);
+  for (const DxfDimension& dimension : drawing.dimensions) {
     if (!query.name.empty() && dimension.name != query.name) continue;
     if (const std::optional<double> length = length_of(dimension)) {
       return Value(*length);
@@ -161,10 +172,14 @@ Value builtin_dxf_dim(const CallCode& code, Frame& frame) {
 Value builtin_dxf_cross(const CallCode& code, Frame& frame) {
   const Query query = read_query(Kind::kCross, code, frame);
   if (!can_open(query, code, frame)) return Value();
-  const DxfMeasures measures = measure(query, frame);
-  if (measures.lone_lines.size() >= 2) {
-    const auto [a, b] = measures.lone_lines[0];
-    const auto [c, d] = measures.lone_lines[1];
+  // The first two lines that no other line touches.
+  std::vector<Vec2> ends;
+  for (const DxfPath& path : read_drawing(query, code, frame).paths) {
+    if (path.is_closed || path.points.size() != 2) continue;
+    ends.insert(ends.end(), path.points.begin(), path.points.end());
+  }
+  if (ends.size() >= 4) {
+    const auto [a, b, c, d] = std::array{ends[0], ends[1], ends[2], ends[3]};
     const double denominator =
         (d.y - c.y) * (b.x - a.x) - (d.x - c.x) * (b.y - a.y);
     if (denominator != 0) {

@@ -413,18 +413,40 @@ Vec2 read_extrusion_scale(const Value& scale, const Value& origin,
   return Vec2(std::max(factors.x, 0.0), std::max(factors.y, 0.0));
 }
 
-void append_file_start(const Value& file, const Value& layer,
-                       const Vec2& origin, const BuiltinModuleCode& code,
-                       Frame& frame, std::string& text) {
-  const std::string path = find_file(to_text(file), code, frame);
-  text += "file = " + relative_quoted(path, frame);
+// Makes the node that the deprecated file= stands for: a drawing to extrude.
+ImportParams import_drawing(const Value& file, const Value& layer, Vec2 origin,
+                            double scale, const BuiltinModuleCode& code,
+                            Frame& frame) {
+  Interpreter& in = frame.in;
+  ImportParams params;
+  params.path = in.keep_text(find_file(to_text(file), code, frame));
+  params.format = ImportFormat::kDxf;
+  params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
+  params.origin = origin;
+  params.scale = scale;
+  params.facets = current_facets(in);
+  return params;
+}
+
+void append_drawing(const ImportParams& drawing, Frame& frame,
+                    std::string& text) {
+  text += "file = " + relative_quoted(std::string(drawing.path), frame);
   text += ", layer = ";
-  append_quoted(layer.is_undef() ? "" : to_text(layer), text);
+  append_quoted(drawing.layer, text);
   text += ", origin = [";
-  append_stream_number(origin.x, text);
+  append_stream_number(drawing.origin.x, text);
   text += ", ";
-  append_stream_number(origin.y, text);
+  append_stream_number(drawing.origin.y, text);
   text += "], ";
+}
+
+// Puts the drawing below the extrusion that comes next. What tells it from
+// others is the extrusion's text.
+void make_drawing(ImportParams drawing, std::string_view csg_text,
+                  const BuiltinModuleCode& code, Frame& frame) {
+  Interpreter& in = frame.in;
+  drawing.csg_text = csg_text;
+  in.make_node(Import{in.keep(drawing)}, code, in.node_mark());
 }
 
 void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
@@ -446,7 +468,6 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
   LinearExtrudeParams params;
   params.facets = current_facets(in);
   const Value& file = arguments[kFile];
-  std::string file_text;
   if (file.is_string()) {
     in.deprecate({},
                  "Support for reading files in linear_extrude will be removed "
@@ -471,15 +492,17 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
   params.twist_deg = to_finite(arguments[kTwist]).value_or(0.0);
   params.has_twist = params.twist_deg != 0.0;
   if (file.is_string() && !file.as_string().empty()) {
-    append_file_start(file, arguments[kLayer], origin, code, frame, file_text);
-    file_text += timestamp_text(find_file(to_text(file), code, frame)) + ", ";
-    std::string text = "linear_extrude(" + file_text;
+    const ImportParams drawing = import_drawing(file, arguments[kLayer], origin,
+                                                params.scale.x, code, frame);
+    std::string text = "linear_extrude(";
+    append_drawing(drawing, frame, text);
+    text += timestamp_text(std::string(drawing.path)) + ", ";
     append_linear_extrude(params, text);
-    in.make_node(Unsupported{"linear_extrude", in.keep_text(text + ")")}, code,
-                 mark);
-    return;
+    params.csg_text = in.keep_text(text + ")");
+    make_drawing(drawing, params.csg_text, code, frame);
+  } else {
+    run_statements(*code.block, frame);
   }
-  run_statements(*code.block, frame);
   in.make_node(LinearExtrude{in.keep(params)}, code, mark);
 }
 
@@ -505,18 +528,21 @@ void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
     extrude.angle_deg = 360;
   }
   if (!file.is_undef() && !to_text(file).empty()) {
+    const double given = arguments[kScale].number_or_zero();
+    const double scale = given <= 0 ? 1 : given;
+    const ImportParams drawing =
+        import_drawing(file, arguments[kLayer], origin, scale, code, frame);
     std::string text = "rotate_extrude(";
-    append_file_start(file, arguments[kLayer], origin, code, frame, text);
-    const double scale = arguments[kScale].number_or_zero();
+    append_drawing(drawing, frame, text);
     text += "scale = ";
-    append_stream_number(scale <= 0 ? 1 : scale, text);
-    text += ", " + timestamp_text(find_file(to_text(file), code, frame)) + ", ";
+    append_stream_number(scale, text);
+    text += ", " + timestamp_text(std::string(drawing.path)) + ", ";
     append_rotate_extrude(extrude, text);
-    in.make_node(Unsupported{"rotate_extrude", in.keep_text(text + ")")}, code,
-                 mark);
-    return;
+    extrude.csg_text = in.keep_text(text + ")");
+    make_drawing(drawing, extrude.csg_text, code, frame);
+  } else {
+    run_statements(*code.block, frame);
   }
-  run_statements(*code.block, frame);
   in.make_node(extrude, code, mark);
 }
 

@@ -182,15 +182,28 @@ struct OpPrinter {
   void operator()(const Text& op) { out << op.params->csg_text; }
   void operator()(const Import& op) { out << op.params->csg_text; }
   void operator()(const Surface& op) { out << op.params->csg_text; }
-  void operator()(const Unsupported& op) { out << op.csg_text; }
 };
+
+// Where a node stands for all below it in `.csg`.
+std::string_view whole_text(const Node& node) {
+  if (const auto* linear = std::get_if<LinearExtrude>(&node.op)) {
+    return linear->params->csg_text;
+  }
+  const auto* around = std::get_if<RotateExtrude>(&node.op);
+  return around != nullptr ? around->csg_text : std::string_view();
+}
 
 void append_node(const Node& node, std::size_t depth, std::string& text) {
   if (node.is_background) text += '%';
   if (node.is_highlight) text += '#';
   text.append(depth, '\t');
-  std::visit(OpPrinter{Writer(text)}, node.op);
-  if (node.children.empty()) {
+  const std::string_view whole = whole_text(node);
+  if (whole.empty()) {
+    std::visit(OpPrinter{Writer(text)}, node.op);
+  } else {
+    text += whole;
+  }
+  if (node.children.empty() || !whole.empty()) {
     text += ";\n";
     return;
   }

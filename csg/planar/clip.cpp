@@ -21,6 +21,9 @@ constexpr double kCleanDistance = 1.415;
 // OpenSCAD's limit for spikes at sharp corners of delta offsets [amounts].
 constexpr double kMiterLimit = 1000000;
 
+// Its limit for those of strokes [half widths].
+constexpr double kStrokeMiterLimit = 2;
+
 [[noreturn]] void fail_range_check() {
   throw std::range_error("Range check failed for polygon");
 }
@@ -97,6 +100,18 @@ ClipperLib::JoinType to_join_type(Join join) {
   return ClipperLib::jtRound;
 }
 
+ClipperLib::EndType to_end_type(Cap cap) {
+  switch (cap) {
+    case Cap::kButt:
+      return ClipperLib::etOpenButt;
+    case Cap::kRound:
+      return ClipperLib::etOpenRound;
+    case Cap::kSquare:
+      return ClipperLib::etOpenSquare;
+  }
+  return ClipperLib::etOpenSquare;
+}
+
 }  // namespace
 
 Region unite(std::span<const Region> regions) {
@@ -144,6 +159,17 @@ Region offset(const Region& region, double amount, Join join,
     // A sharp corner's spike went too far.
     fail_range_check();
   }
+  return to_region(result);
+}
+
+Region stroke(std::span<const Vec2> path, double width, Join join, Cap cap,
+              double arc_tolerance) {
+  ClipperLib::ClipperOffset offsetter(kStrokeMiterLimit,
+                                      arc_tolerance * kGridPerMm);
+  offsetter.AddPath(to_path(Contour(path.begin(), path.end())),
+                    to_join_type(join), to_end_type(cap));
+  ClipperLib::Paths result;
+  offsetter.Execute(result, static_cast<double>(to_grid(width / 2)));
   return to_region(result);
 }
 

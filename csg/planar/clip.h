@@ -42,4 +42,12 @@ enum class Join { kRound, kMiter, kBevel };
 Region offset(const Region& region, double amount, Join join,
               double arc_tolerance);
 
+enum class Cap { kButt, kRound, kSquare };
+
+// What a pen of this width covers that draws the path from end to end.
+//
+// arc_tolerance  as for offset()
+Region stroke(std::span<const Vec2> path, double width, Join join, Cap cap,
+              double arc_tolerance);
+
 }  // namespace lamina::planar

@@ -79,6 +79,17 @@ Region make_text(const TextParams& params, text::Typesetter& typesetter,
   });
 }
 
+Region fill_shapes(std::span<const std::vector<Contour>> shapes,
+                   SourceRange range, Diagnostics& diagnostics) {
+  return with_range_check(range, diagnostics, [&] {
+    std::vector<Region> regions;
+    for (const std::vector<Contour>& contours : shapes) {
+      regions.push_back(planar::from_contours(contours));
+    }
+    return regions.empty() ? Region() : planar::unite(regions);
+  });
+}
+
 Region combine_regions(BooleanOp op, std::span<const Region> regions,
                        SourceRange range, Diagnostics& diagnostics) {
   return with_range_check(range, diagnostics, [&] {

@@ -4,13 +4,34 @@
 
 #include <fmt/format.h>
 
+#include "csg/import/dxf.h"
+#include "csg/import/file_bytes.h"
+#include "csg/import/format_error.h"
 #include "csg/import/mesh_file.h"
+#include "csg/import/surface_file.h"
+#include "csg/import/svg.h"
+#include "csg/planar/clip.h"
 #include "csg/solid/detail/face.h"
+#include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/lowerer.h"
 #include "csg/solid/detail/mend.h"
 
 namespace lamina::csg {
 namespace {
+
+std::uint32_t line_of(SourceRange range) {
+  return range.is_known() ? range.source->openscad_line(range.begin) : 0;
+}
+
+// As OpenSCAD shows a path in quotes.
+std::string quoted_from_here(std::string_view path) {
+  return fmt::format("\"{}\"",
+                     std::filesystem::path(path)
+                         .lexically_proximate(std::filesystem::current_path())
+                         .generic_string());
+}
+
+// --- Meshes -----------------------------------------------------------------
 
 // Closed and consistent, whatever the file has.
 Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
@@ -35,17 +56,84 @@ Leaf make_import_leaf(const ImportParams& params, SourceRange range,
   return leaf;
 }
 
-void report_unknown_format(const ImportParams& params, SourceRange range,
-                           Diagnostics& diagnostics) {
-  const std::filesystem::path path(params.path);
-  diagnostics.error(
-      range,
-      fmt::format(
-          "Unsupported file format while trying to import file "
-          "'\"{}\"', import() at line {}",
-          path.lexically_proximate(std::filesystem::current_path())
-              .generic_string(),
-          range.is_known() ? range.source->openscad_line(range.begin) : 0));
+// --- Drawings ---------------------------------------------------------------
+
+planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
+                        SourceRange range, Diagnostics& diagnostics) {
+  DxfOptions options{std::string(params.layer),
+                     params.origin,
+                     params.scale,
+                     {},
+                     std::string(params.path)};
+  options.fragments = [&fineness](double r) {
+    return circle_fragments(r, fineness);
+  };
+  const auto bytes = FileBytes::open(options.path);
+  if (!bytes) {
+    diagnostics.warning(range,
+                        fmt::format("Can't open DXF file '{}'.", options.path));
+    return {};
+  }
+  DxfDrawing drawing;
+  try {
+    drawing = parse_dxf(bytes->view(), options);
+  } catch (const FormatError& fault) {
+    diagnostics.error(range, fmt::format("{} importing file '{}'", fault.what(),
+                                         options.path));
+    return {};
+  }
+  for (std::string& warning : drawing.warnings) {
+    diagnostics.warning(range, std::move(warning));
+  }
+  for (std::string& warning : unknown_entity_warnings(
+           drawing, options.layer, quoted_from_here(options.path))) {
+    diagnostics.warning(range, std::move(warning));
+  }
+  std::vector<planar::Contour> contours;
+  for (DxfPath& path : drawing.paths) {
+    contours.push_back(std::move(path.points));  // open ones are closed, too
+  }
+  return fill_shapes({&contours, 1}, range, diagnostics);
+}
+
+SvgContours outline_stroke(std::span<const Vec2> path,
+                           const SvgStroke& stroke) {
+  // OpenSCAD's, in the units of the drawing.
+  constexpr double kArcTolerance = 2.5e-5;
+  const planar::Join join =
+      stroke.join == SvgStroke::Join::kRound   ? planar::Join::kRound
+      : stroke.join == SvgStroke::Join::kBevel ? planar::Join::kBevel
+                                               : planar::Join::kMiter;
+  const planar::Cap cap =
+      stroke.cap == SvgStroke::Cap::kButt    ? planar::Cap::kButt
+      : stroke.cap == SvgStroke::Cap::kRound ? planar::Cap::kRound
+                                             : planar::Cap::kSquare;
+  return planar::stroke(path, stroke.width, join, cap, kArcTolerance).contours;
+}
+
+planar::Region read_svg(const ImportParams& params, SourceRange range,
+                        Diagnostics& diagnostics) {
+  const auto bytes = FileBytes::open(std::string(params.path));
+  if (!bytes) {
+    diagnostics.error(range,
+                      fmt::format("Can't open file '{}', import() at line {}",
+                                  params.path, line_of(range)));
+    return {};
+  }
+  SvgOptions options{params.dpi, params.center, outline_stroke};
+  std::vector<SvgContours> shapes;
+  try {
+    shapes = parse_svg(bytes->view(), options);
+  } catch (const FormatError& fault) {
+    Diagnostic diagnostic{
+        Severity::kError, range,
+        fmt::format("Error parsing file '{}', import() at line {}", params.path,
+                    line_of(range))};
+    diagnostic.hints.push_back({range, fault.what()});
+    diagnostics.report(std::move(diagnostic));
+    return {};
+  }
+  return fill_shapes(shapes, range, diagnostics);
 }
 
 }  // namespace
@@ -53,41 +141,57 @@ void report_unknown_format(const ImportParams& params, SourceRange range,
 Shape Lowerer::lower_op(const Import& op, const Node& node,
                         const Affine& world) {
   const ImportParams& params = *op.params;
-  const std::string key = fmt::format("{} {}", params.path, params.csg_text);
+  const Fineness fine = fineness(params.facets, world);
+  const std::string key =
+      fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
-  if (is_new) entry->second = read_import(params, node);
+  if (is_new) entry->second = read_import(params, fine, node.range);
   return place_file(entry->second, node, world);
 }
 
 Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
-                                        const Node& node) {
-  FileShape shape{Dimension::kSolid};
+                                        const Fineness& fine,
+                                        SourceRange range) {
   switch (params.format) {
     case ImportFormat::kUnknown:
-      report_unknown_format(params, node.range, diagnostics_);
-      break;
+      diagnostics_.error(
+          range, fmt::format("Unsupported file format while trying to import "
+                             "file '{}', import() at line {}",
+                             quoted_from_here(params.path), line_of(range)));
+      return {Dimension::kSolid};
     case ImportFormat::kDxf:
+      return {Dimension::kFlat, read_dxf(params, fine, range, diagnostics_)};
     case ImportFormat::kSvg:
-      fail_unsupported(node, "import");
+      return {Dimension::kFlat, read_svg(params, range, diagnostics_)};
     case ImportFormat::kStl:
     case ImportFormat::kOff:
     case ImportFormat::kObj:
     case ImportFormat::kAmf:
     case ImportFormat::k3mf:
-      shape.leaf = add_leaf(make_import_leaf(params, node.range, diagnostics_));
       break;
   }
-  return shape;
+  return {Dimension::kSolid,
+          {},
+          add_leaf(make_import_leaf(params, range, diagnostics_))};
+}
+
+Shape Lowerer::lower_op(const Surface& op, const Node& node,
+                        const Affine& world) {
+  const SurfaceParams& params = *op.params;
+  const std::string key = fmt::format("{} {}", params.path, params.csg_text);
+  const auto [entry, is_new] = file_shapes_.try_emplace(key);
+  if (is_new) {
+    Leaf leaf;
+    leaf.meshes.push_back(read_surface_file(params, node.range, diagnostics_));
+    entry->second = {Dimension::kSolid, {}, add_leaf(std::move(leaf))};
+  }
+  return place_file(entry->second, node, world);
 }
 
 Shape Lowerer::place_file(const FileShape& shape, const Node& node,
                           const Affine& world) {
   if (shape.leaf) place(*shape.leaf, Vec3(1), node, world);
   return {shape.dimension, shape.region};
-}
-
-Shape Lowerer::lower_op(const Surface&, const Node& node, const Affine&) {
-  fail_unsupported(node, "surface");
 }
 
 }  // namespace lamina::csg

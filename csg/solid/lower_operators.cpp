@@ -86,11 +86,6 @@ Shape Lowerer::lower_op(const Transform& op, const Node& node,
   return shape;
 }
 
-Shape Lowerer::lower_op(const Unsupported& op, const Node& node,
-                        const Affine&) {
-  fail_unsupported(node, op.name);
-}
-
 // --- Children
 // -----------------------------------------------------------------
 

@@ -59,6 +59,9 @@ class TextLines {
     return trim(line);
   }
 
+  // No line comes after the one that next() gave.
+  bool is_done() const { return is_done_; }
+
   // Of the line that next() gave, from 1.
   std::size_t number() const { return number_; }
 

@@ -35,6 +35,11 @@ planar::Region offset_region(const Offset& offset, const Fineness& fineness,
                              const planar::Region& region, SourceRange range,
                              Diagnostics& diagnostics);
 
+// Each shape is where its contours enclose a point an odd number of times; the
+// region is the union of all.
+planar::Region fill_shapes(std::span<const std::vector<planar::Contour>> shapes,
+                           SourceRange range, Diagnostics& diagnostics);
+
 // Applies the part of the matrix that acts in the plane. Outer contours stay
 // counter-clockwise.
 planar::Region transform_region(planar::Region region, const Mat4& matrix,

@@ -60,7 +60,6 @@ class Lowerer {
   Shape lower_op(const Difference&, const Node& node, const Affine& world);
   Shape lower_op(const Intersection&, const Node& node, const Affine& world);
   Shape lower_op(const Transform& op, const Node& node, const Affine& world);
-  Shape lower_op(const Unsupported& op, const Node& node, const Affine& world);
 
   // The operands of an operator: those of the first child's dimension.
   struct Operands {
@@ -123,7 +122,8 @@ class Lowerer {
     planar::Region region = {};
     std::optional<std::uint32_t> leaf = std::nullopt;
   };
-  FileShape read_import(const ImportParams& params, const Node& node);
+  FileShape read_import(const ImportParams& params, const Fineness& fine,
+                        SourceRange range);
   Shape place_file(const FileShape& shape, const Node& node,
                    const Affine& world);
   // --- lower_boundary.cpp ---------------------------------------------------

@@ -187,8 +187,11 @@ TEST_F(LowerTest, BoxesAreThoseOfTheVertices) {
   EXPECT_NEAR(glm::length(box.high - scene.box.high), 0, 1e-12);
 }
 
+// Without a typesetter.
+const TextParams kText;
+
 TEST_F(LowerTest, UnsupportedModulesEndTheRun) {
-  EXPECT_THROW(run({b.node(Unsupported{"linear_extrude", ""})}), GeometryError);
+  EXPECT_THROW(run({b.node(Text{&kText})}), GeometryError);
 }
 
 TEST_F(LowerTest, WithoutOperandsNothingNeedsSupport) {
@@ -198,7 +201,7 @@ TEST_F(LowerTest, WithoutOperandsNothingNeedsSupport) {
 }
 
 TEST_F(LowerTest, WhatIsNotDrawnNeedNotBeSupported) {
-  Node* ghost = b.node(Unsupported{"linear_extrude", ""});
+  Node* ghost = b.node(Text{&kText});
   ghost->is_background = true;
   EXPECT_EQ(run_solid({b.cube(Vec3(1)), ghost}).instances.size(), 1u);
 }

@@ -1,0 +1,19 @@
+#pragma once
+// The path language of SVG: "M 0,0 h 3 c …".
+
+#include <string_view>
+#include <vector>
+
+#include "csg/vec.h"
+
+namespace lamina::csg {
+
+struct SvgSubpath {
+  std::vector<Vec2> points;
+  bool is_drawn = false;  // open: as a stroke
+};
+
+// Curves become 20 lines each, arcs one for each 18° and four more.
+std::vector<SvgSubpath> parse_svg_path(std::string_view data);
+
+}  // namespace lamina::csg

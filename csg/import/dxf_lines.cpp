@@ -1,0 +1,136 @@
+#include "csg/import/detail/dxf_lines.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <set>
+
+namespace lamina::csg {
+namespace {
+
+constexpr double kStep = 0x1p-10;  // mm
+
+class Joiner {
+ public:
+  Joiner(const std::vector<DxfLine>& lines, const DxfGrid& grid)
+      : lines_(lines),
+        grid_(grid),
+        is_taken_(lines.size()),
+        ends_(grid.size()) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto [a, b] = lines[i];
+      add_end(a, i);
+      if (a != b) add_end(b, i);
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) watch(i);
+  }
+
+  std::vector<DxfPath> join() {
+    std::vector<DxfPath> paths;
+    while (!open_.empty()) {
+      const std::size_t line = *open_.begin();
+      paths.push_back({walk(line, is_open_end(lines_[line][0]) ? 0 : 1)});
+    }
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (is_taken_[i]) continue;
+      DxfPath path{walk(i, 0), true};
+      path.points.erase(path.points.begin());  // the last one, too
+      paths.push_back(std::move(path));
+    }
+    return paths;
+  }
+
+ private:
+  // Lines that end in a point.
+  struct End {
+    std::vector<std::size_t> lines;
+    std::size_t first = 0;  // those before it are taken
+    std::size_t left = 0;   // that are not taken
+  };
+
+  void add_end(std::uint32_t point, std::size_t line) {
+    ends_[point].lines.push_back(line);
+    ++ends_[point].left;
+  }
+
+  bool is_open_end(std::uint32_t point) const { return ends_[point].left == 1; }
+
+  void watch(std::size_t line) {
+    const auto [a, b] = lines_[line];
+    if (is_open_end(a) || is_open_end(b)) open_.insert(line);
+  }
+
+  // The first line in the point that is not taken.
+  std::optional<std::size_t> next(std::uint32_t point) {
+    End& end = ends_[point];
+    if (end.left == 0) return std::nullopt;
+    while (is_taken_[end.lines[end.first]]) ++end.first;
+    return end.lines[end.first];
+  }
+
+  void take(std::size_t line) {
+    is_taken_[line] = true;
+    open_.erase(line);
+    const auto [a, b] = lines_[line];
+    leave(a);
+    if (a != b) leave(b);
+  }
+
+  void leave(std::uint32_t point) {
+    --ends_[point].left;
+    if (ends_[point].left == 1) watch(*next(point));
+  }
+
+  // Takes lines until none goes on.
+  std::vector<Vec2> walk(std::size_t line, std::size_t from) {
+    std::vector<Vec2> points = {grid_[lines_[line][from]]};
+    for (std::optional<std::size_t> at = line; at;) {
+      const std::uint32_t to = lines_[*at][1 - from];
+      points.push_back(grid_[to]);
+      take(*at);
+      at = next(to);
+      if (at) from = lines_[*at][0] == to ? 0 : 1;
+    }
+    return points;
+  }
+
+  const std::vector<DxfLine>& lines_;
+  const DxfGrid& grid_;
+  std::vector<bool> is_taken_;
+  std::vector<End> ends_;       // by point
+  std::set<std::size_t> open_;  // lines with an end that no other line shares
+};
+
+}  // namespace
+
+std::uint32_t DxfGrid::snap(Vec2 point) {
+  const std::int64_t x = std::llround(point.x / kStep);
+  const std::int64_t y = std::llround(point.y / kStep);
+  if (const auto own = cells_.find({x, y}); own != cells_.end()) {
+    return own->second;
+  }
+  std::int64_t nearest = 10;
+  std::uint32_t found = 0;
+  for (std::int64_t i = x - 1; i <= x + 1; ++i) {
+    for (std::int64_t j = y - 1; j <= y + 1; ++j) {
+      const auto cell = cells_.find({i, j});
+      const std::int64_t distance = std::abs(x - i) + std::abs(y - j);
+      if (cell == cells_.end() || distance >= nearest) continue;
+      nearest = distance;
+      found = cell->second;
+    }
+  }
+  if (nearest < 10) return found;
+  found = static_cast<std::uint32_t>(points_.size());
+  cells_.emplace(Cell{x, y}, found);
+  points_.emplace_back(static_cast<double>(x) * kStep,
+                       static_cast<double>(y) * kStep);
+  return found;
+}
+
+std::vector<DxfPath> join_lines(const std::vector<DxfLine>& lines,
+                                const DxfGrid& grid) {
+  return Joiner(lines, grid).join();
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,116 @@
+// Images of heights. libpng reports faults by longjmp, so what it runs in has
+// nothing to destroy.
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include "csg/import/format_error.h"
+#include "csg/import/surface_file.h"
+
+namespace lamina::csg {
+namespace {
+
+// A few hundred bytes of PNG may unpack to gigabytes of heights, and each pixel
+// makes four triangles.
+constexpr std::size_t kMostPixels = std::size_t{1} << 23;
+
+struct Image {
+  std::string_view bytes;  // not yet read
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  std::vector<std::uint8_t> pixels;  // RGBA
+  std::string fault;
+};
+
+void read_bytes(png_structp png, png_bytep data, std::size_t size) {
+  Image& image = *static_cast<Image*>(png_get_io_ptr(png));
+  if (image.bytes.size() < size) png_error(png, "the file is cut off");
+  std::memcpy(data, image.bytes.data(), size);
+  image.bytes.remove_prefix(size);
+}
+
+void keep_fault(png_structp png, png_const_charp message) {
+  static_cast<Image*>(png_get_error_ptr(png))->fault = message;
+  png_longjmp(png, 1);
+}
+void ignore_warning(png_structp, png_const_charp) {}
+
+// Everything as 8 bits of red, green, blue, alpha, and as it stands: no gamma.
+void ask_for_rgba(png_structp png) {
+  png_set_expand(png);
+  png_set_strip_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
+  png_set_interlace_handling(png);
+}
+
+// False where it failed; image.fault says why.
+bool decode(png_structp png, png_infop info, Image& image) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_read_fn(png, &image, read_bytes);
+  png_read_info(png, info);
+  image.columns = png_get_image_width(png, info);
+  image.rows = png_get_image_height(png, info);
+  if (image.columns * image.rows > kMostPixels) {
+    image.fault = fmt::format("{} x {} pixels: {} are the most", image.columns,
+                              image.rows, kMostPixels);
+    return false;
+  }
+  ask_for_rgba(png);
+  png_read_update_info(png, info);
+  const std::size_t stride = png_get_rowbytes(png, info);
+  image.pixels.resize(stride * image.rows);
+  // Of an interlaced image every pass goes over all rows.
+  const int passes = png_get_interlace_type(png, info) == PNG_INTERLACE_NONE
+                         ? 1
+                         : PNG_INTERLACE_ADAM7_PASSES;
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t row = 0; row < image.rows; ++row) {
+      png_read_row(png, image.pixels.data() + row * stride, nullptr);
+    }
+  }
+  png_read_end(png, nullptr);
+  return true;
+}
+
+Image read_image(std::string_view bytes) {
+  Image image;
+  image.bytes = bytes;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &image,
+                                           keep_fault, ignore_warning);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  const bool is_read = info != nullptr && decode(png, info, image);
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!is_read) throw FormatError("PNG: " + image.fault);
+  return image;
+}
+
+}  // namespace
+
+HeightField parse_png(std::string_view bytes, bool invert) {
+  const Image image = read_image(bytes);
+  HeightField field;
+  field.columns = image.columns;
+  field.rows = image.rows;
+  field.heights.resize(image.columns * image.rows);
+  for (std::size_t row = 0; row < image.rows; ++row) {
+    const std::uint8_t* pixel = &image.pixels[4 * row * image.columns];
+    double* height = &field.heights[(image.rows - 1 - row) * image.columns];
+    for (std::size_t i = 0; i < image.columns; ++i, pixel += 4, ++height) {
+      const double luminance =
+          0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
+      *height = 100.0 / 255 * (invert ? 1 - luminance : luminance);
+      field.bottom = std::min(field.bottom, *height - 1);
+    }
+  }
+  return field;
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,202 @@
+#include "csg/import/surface_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "csg/import/detail/text_lines.h"
+#include "csg/import/file_bytes.h"
+#include "csg/import/format_error.h"
+
+namespace lamina::csg {
+namespace {
+
+constexpr std::string_view kPngMark = "\x89PNG\r\n\x1a\n";
+
+class MeshBuilder {
+ public:
+  MeshBuilder(const HeightField& field, bool center) : field_(field) {
+    if (!center) return;
+    const Vec2 size(static_cast<double>(field.columns) - 1,
+                    static_cast<double>(field.rows) - 1);
+    shift_ = -size / 2.0;
+  }
+
+  Mesh build() {
+    const std::size_t columns = field_.columns;
+    const std::size_t rows = field_.rows;
+    mesh_.vertices.reserve(2 * columns * rows + 2 * (columns + rows));
+    mesh_.triangles.reserve(4 * columns * rows + 6 * (columns + rows));
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t column = 0; column < columns; ++column) {
+        add_vertex(column, row, 0, height(column, row));
+      }
+    }
+    for (std::size_t row = 0; row + 1 < rows; ++row) {
+      for (std::size_t column = 0; column + 1 < columns; ++column) {
+        add_cell(column, row);
+      }
+    }
+    close();
+    return std::move(mesh_);
+  }
+
+ private:
+  double height(std::size_t column, std::size_t row) const {
+    return field_.heights[row * field_.columns + column];
+  }
+  std::uint32_t index(std::size_t column, std::size_t row) const {
+    return static_cast<std::uint32_t>(row * field_.columns + column);
+  }
+
+  std::uint32_t add_vertex(std::size_t column, std::size_t row, double aside,
+                           double z) {
+    mesh_.vertices.emplace_back(shift_.x + static_cast<double>(column) + aside,
+                                shift_.y + static_cast<double>(row) + aside, z);
+    return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
+  }
+
+  void add_cell(std::size_t column, std::size_t row) {
+    const double mean =
+        (height(column, row) + height(column + 1, row) +
+         height(column, row + 1) + height(column + 1, row + 1)) /
+        4;
+    const std::uint32_t top = add_vertex(column, row, 0.5, mean);
+    const std::uint32_t corners[] = {index(column, row), index(column + 1, row),
+                                     index(column + 1, row + 1),
+                                     index(column, row + 1)};
+    for (std::size_t i = 0; i < 4; ++i) {
+      mesh_.triangles.push_back({corners[i], corners[(i + 1) % 4], top});
+    }
+  }
+
+  // The walls below the border, and the bottom.
+  void close() {
+    std::vector<std::array<std::size_t, 2>> border;  // counter-clockwise
+    const std::size_t right = field_.columns - 1;
+    const std::size_t back = field_.rows - 1;
+    for (std::size_t i = 0; i < right; ++i) border.push_back({i, 0});
+    for (std::size_t i = 0; i < back; ++i) border.push_back({right, i});
+    for (std::size_t i = right; i > 0; --i) border.push_back({i, back});
+    for (std::size_t i = back; i > 0; --i) border.push_back({0, i});
+    const auto below = static_cast<std::uint32_t>(mesh_.vertices.size());
+    const auto count = static_cast<std::uint32_t>(border.size());
+    for (const auto [column, row] : border) {
+      add_vertex(column, row, 0, field_.bottom);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t j = (i + 1) % count;
+      const std::uint32_t a = index(border[i][0], border[i][1]);
+      const std::uint32_t b = index(border[j][0], border[j][1]);
+      mesh_.triangles.push_back({below + i, below + j, b});
+      mesh_.triangles.push_back({below + i, b, a});
+    }
+    // The bottom: one half on each side of its diagonal.
+    const auto x = static_cast<std::uint32_t>(right);
+    const auto y = static_cast<std::uint32_t>(back);
+    const auto at = [=](std::uint32_t i) { return below + i % count; };
+    add_half(x, x, y, at);
+    add_half(2 * x + y, x, y, at);
+  }
+
+  // Between the points of the border before a corner and those behind it, up to
+  // the two ends of the diagonal. No triangle is flat.
+  template <typename At>
+  void add_half(std::uint32_t corner, std::uint32_t before,
+                std::uint32_t behind, At at) {
+    const auto add = [this](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh_.triangles.push_back({a, c, b});  // seen from below
+    };
+    std::uint32_t i = 1;
+    std::uint32_t j = 1;
+    add(at(corner - 1), at(corner), at(corner + 1));
+    while (i < before || j < behind) {
+      // In step, as far as both last.
+      if (j == behind || (i < before && std::uint64_t{i} * behind <=
+                                            std::uint64_t{j} * before)) {
+        add(at(corner - i - 1), at(corner - i), at(corner + j));
+        ++i;
+      } else {
+        add(at(corner - i), at(corner + j), at(corner + j + 1));
+        ++j;
+      }
+    }
+  }
+
+  const HeightField& field_;
+  Vec2 shift_ = Vec2(0);
+  Mesh mesh_;
+};
+
+}  // namespace
+
+HeightField parse_dat(std::string_view bytes) {
+  HeightField field;
+  std::vector<std::vector<double>> rows;
+  TextLines lines(bytes);
+  while (const auto line = lines.next()) {
+    if (line->empty() || line->front() == '#') continue;
+    std::vector<double>& row = rows.emplace_back();
+    std::string_view rest = *line;
+    while (field.fault.empty()) {
+      const std::string_view word = take_word(rest);
+      if (word.empty()) break;
+      const auto number = to_number<double>(word);
+      if (!number || !std::isfinite(*number)) {
+        field.fault =
+            "bad lexical cast: source type value could not be interpreted as "
+            "target";
+        break;
+      }
+      row.push_back(*number);
+      field.bottom = std::min(field.bottom, *number - 1);
+    }
+    field.columns = std::max(field.columns, row.size());
+    if (!field.fault.empty()) break;
+  }
+  if (!rows.empty() && rows.back().empty()) rows.pop_back();
+  field.rows = rows.size();
+  for (std::vector<double>& row : rows) {
+    row.resize(field.columns);
+    field.heights.insert(field.heights.end(), row.begin(), row.end());
+  }
+  return field;
+}
+
+Mesh make_surface(const HeightField& field, bool center) {
+  if (field.rows < 2 || field.columns < 2) return {};
+  return MeshBuilder(field, center).build();
+}
+
+Mesh read_surface_file(const SurfaceParams& params, SourceRange range,
+                       Diagnostics& diagnostics) {
+  const std::string path(params.path);
+  const auto bytes = FileBytes::open(path);
+  if (!bytes) {
+    diagnostics.warning(range,
+                        fmt::format("The file '{}' couldn't be opened.", path));
+    return {};
+  }
+  if (!bytes->view().starts_with(kPngMark)) {
+    const HeightField field = parse_dat(bytes->view());
+    if (!field.fault.empty()) {
+      diagnostics.warning(
+          range, fmt::format("Illegal value in '{}': {}", path, field.fault));
+    }
+    return make_surface(field, params.center);
+  }
+  try {
+    return make_surface(parse_png(bytes->view(), params.invert), params.center);
+  } catch (const FormatError& fault) {
+    Diagnostic diagnostic{Severity::kWarning, range,
+                          fmt::format("Can't read PNG image '{}'", path)};
+    diagnostic.hints.push_back({range, fault.what()});
+    diagnostics.report(std::move(diagnostic));
+    return {};
+  }
+}
+
+}  // namespace lamina::csg
