@@ -1,5 +1,6 @@
 #include "csg/import/detail/dxf_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -9,6 +10,17 @@ namespace lamina::csg {
 namespace {
 
 constexpr double kStep = 0x1p-10;  // mm
+
+// Whether OpenSCAD turns the closed path round, to have all run the same way:
+// by the directions at its leftmost point.
+bool would_turn(const std::vector<Vec2>& points) {
+  const auto leftmost = std::min_element(
+      points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+  const auto b = static_cast<std::size_t>(leftmost - points.begin());
+  const Vec2 before = points[b == 0 ? points.size() - 2 : b - 1] - *leftmost;
+  const Vec2 behind = points[b == points.size() - 1 ? 1 : b + 1] - *leftmost;
+  return std::atan2(before.x, before.y) < std::atan2(behind.x, behind.y);
+}
 
 class Joiner {
  public:
@@ -31,10 +43,15 @@ class Joiner {
       const std::size_t line = *open_.begin();
       paths.push_back({walk(line, is_open_end(lines_[line][0]) ? 0 : 1)});
     }
+    const bool has_open = !paths.empty();
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (is_taken_[i]) continue;
       DxfPath path{walk(i, 0), true};
-      path.points.erase(path.points.begin());  // the last one, too
+      // One end goes, the other one closes the path: it is the same point,
+      // unless the path ran into a dead end.
+      const bool is_turned = !has_open && would_turn(path.points);
+      path.points.erase(is_turned ? path.points.end() - 1
+                                  : path.points.begin());
       paths.push_back(std::move(path));
     }
     return paths;

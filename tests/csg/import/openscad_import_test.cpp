@@ -111,7 +111,8 @@ void expect_the_same_vertices(const std::string& scad, double tolerance) {
   EXPECT_EQ(strangers(expected, actual, tolerance), std::vector<std::string>());
   EXPECT_EQ(strangers(actual, expected, tolerance), std::vector<std::string>());
   const double volume = signed_volume(expected);
-  EXPECT_NEAR(signed_volume(actual), volume, 1e-5 * (1 + std::abs(volume)));
+  EXPECT_NEAR(signed_volume(actual), volume,
+              10 * tolerance * (1 + std::abs(volume)));
 }
 
 class Meshes : public testing::TestWithParam<std::string> {};
