@@ -38,7 +38,7 @@ TEST(ParseDxf, JoinsLinesInAnyOrderAndDirection) {
   ASSERT_EQ(drawing.paths.size(), 1U);
   EXPECT_TRUE(drawing.paths[0].is_closed);
   EXPECT_EQ(drawing.paths[0].points,
-            (std::vector<Vec2>{{4, 0}, {0, 3}, {0, 0}}));
+            (std::vector<Vec2>{{0, 0}, {4, 0}, {0, 3}}));
 }
 
 TEST(ParseDxf, AnOpenPathBeginsAtItsEnd) {
