@@ -286,7 +286,7 @@ Vec3 Plane::lift(Vec2 p) const {
 bool Plane::meets(const Box3& box) const {
   const double reach = glm::dot(glm::abs(normal_), 0.5 * (box.high - box.low));
   return std::abs(height(0.5 * (box.low + box.high))) <=
-         reach + kCoplanarDistance;
+         reach + 2 * kCoplanarDistance;
 }
 
 PlacedLeaf::PlacedLeaf(const Leaf& leaf, const Affine& world_from_leaf)

@@ -90,6 +90,17 @@ void add_if_upwards(const Region& face, PolygonSum& sum) {
   for (const Contour& contour : face.contours) sum.add(contour);
 }
 
+// Faces that were cut fit together only up to the clipper's grid. What is
+// thinner than a tie between them is no gap.
+Region close_cracks(const Region& region) {
+  constexpr double kGrowth = 0.5 * kCoplanarDistance;
+  // Not needed where every join is a miter.
+  constexpr double kArcTolerance = kGrowth;
+  const Region grown =
+      planar::offset(region, kGrowth, planar::Join::kMiter, kArcTolerance);
+  return planar::offset(grown, -kGrowth, planar::Join::kMiter, kArcTolerance);
+}
+
 // What the program holds for just above or below the plane.
 Region evaluate_at(const Scene& scene, const Plane& plane,
                    const std::vector<std::uint32_t>& near,
@@ -122,15 +133,14 @@ Region project(Scene scene) {
     }
     add(sum);
   }
+  const bool was_cut = !scene.instances.empty();
   PolygonSum sum;
   for (const BoundaryFace& face : boundary_faces(scene)) {
     add_if_upwards(shadow_of(face.contours), sum);
   }
   add(sum);
-  // Cracks between faces that were cut are no holes.
-  Region region = planar::from_windings(shadows);
-  planar::drop_hairlines(region, kCoplanarDistance);
-  return region;
+  const Region region = planar::from_windings(shadows);
+  return was_cut ? close_cracks(region) : region;
 }
 
 Region cut_at_zero(const Scene& scene) {

@@ -30,7 +30,8 @@ class Plane {
   Vec2 flatten(Vec3 p) const { return {p[u_], p[v_]}; }
   // The point of the plane with these coordinates.
   Vec3 lift(Vec2 p) const;
-  // Whether the box reaches the plane, up to kCoplanarDistance.
+  // Whether the box reaches the plane, or comes near: a vertex that counts as
+  // on the plane is in no box that does not.
   bool meets(const Box3& box) const;
 
  private:

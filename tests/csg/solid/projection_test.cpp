@@ -76,6 +76,28 @@ TEST_F(Projections, CutWhatOnlyTouchesThePlane) {
   EXPECT_NEAR(planar::area(cut({dented})), 16, kRounding);
 }
 
+// Whether a vertex this near lies on the plane may be decided either way, but
+// for all its faces alike.
+TEST_F(Projections, CutALeafWithVerticesAtTheVeryLimit) {
+  const Node* pipe = b.node(
+      Difference{}, {b.sphere(5, 32), b.scale({1, 1, 2}, {b.sphere(2, 32)})});
+  const double ring = 5 * std::cos(std::numbers::pi * 7.5 / 16);
+  for (const double nudge : {1e-6, -1e-6, 1e-6 + 1e-15, 1e-6 - 1e-15}) {
+    const planar::Region region =
+        cut({b.translate({0, 0, nudge - ring}, {pipe})});
+    EXPECT_EQ(region.contours.size(), 2u);
+  }
+}
+
+// Where two curved faces cut each other, what is left of their facets meets up
+// to rounding: no crack may part the shadow.
+TEST_F(Projections, HaveNoCracks) {
+  const Node* crescent =
+      b.node(Difference{},
+             {b.sphere(10, 80), b.translate({5, 3, 1}, {b.sphere(10, 80)})});
+  EXPECT_EQ(shadow({crescent}).contours.size(), 1u);
+}
+
 TEST_F(Projections, CutBesideThePlaneFails) {
   EXPECT_TRUE(cut({b.translate({0, 0, 1}, {b.cube({1, 1, 1})})}).is_empty());
   EXPECT_EQ(messages(), (std::vector<std::string>{"Projection() failed."}));
