@@ -263,9 +263,18 @@ struct FunctionLiteral : Callable {
   std::uint32_t hops = 0;  // from the maker's frame to the closure's link
   const ast::FunctionLiteral* definition = nullptr;
   const Source* document = nullptr;  // as in Frame
+  Scope* scope = nullptr;            // where it is written
+  struct Activation* activation = nullptr;
 
   // As `echo` shows it.
   std::string text() const;
+};
+
+// How a call meets a function literal: the version of it that has parameters
+// for all that the call names, and the plan for that version.
+struct LiteralCall {
+  const FunctionLiteral* literal = nullptr;
+  ArgumentPlan plan;
 };
 
 struct LiteralCode : Expression {
@@ -291,8 +300,11 @@ struct CallCode : Expression {
   const Expression* callee = nullptr;
   bool is_name = true;
   // How the arguments meet the function literal called last.
-  mutable const Callable* planned_for = nullptr;
-  mutable const ArgumentPlan* callee_plan = nullptr;
+  mutable const FunctionLiteral* planned_for = nullptr;
+  mutable const LiteralCall* literal_call = nullptr;
+  // A function's call of itself in tail position: OpenSCAD looks at its
+  // arguments' names once, so that their warnings come once.
+  bool is_self_call = false;
   // Of a call in tail position: the arguments without those that pass a
   // parameter on to itself; the values of fallbacks, which OpenSCAD
   // evaluates once per call site, in the scope of the call.

@@ -180,9 +180,10 @@ void Interpreter::add_file(const std::string& path) {
   if (known_files_.insert(path).second) files_.push_back(path);
 }
 
-void Interpreter::find_plan(const CallCode& call, const Callable& callable) {
-  call.callee_plan = &resolver_.plan_for(call, callable);
-  call.planned_for = &callable;
+void Interpreter::find_plan(const CallCode& call,
+                            const FunctionLiteral& literal) {
+  call.literal_call = &resolver_.plan_for(call, literal);
+  call.planned_for = &literal;
   grow_dynamic();
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "csg/eval/code.h"
@@ -115,9 +116,14 @@ class Interpreter {
   // The variables of a used file, assigned anew, as OpenSCAD does for every
   // call, unless its assignments depend on nothing outside.
   Frame& enter_unit(Unit& unit);
-  const ArgumentPlan& plan_for(const CallCode& call, const Callable& callable) {
-    if (call.planned_for != &callable) find_plan(call, callable);
-    return *call.callee_plan;
+  const LiteralCall& plan_for(const CallCode& call,
+                              const FunctionLiteral& literal) {
+    if (call.planned_for != &literal) find_plan(call, literal);
+    return *call.literal_call;
+  }
+  // Whether this is the first time that the call at `range` asks.
+  bool is_first_of_call(SourceRange range) {
+    return calls_seen_.emplace(range.source, range.begin, range.end).second;
   }
   Resolver& resolver() { return resolver_; }
   // Makes room for `$` variables that resolving brought up.
@@ -181,7 +187,7 @@ class Interpreter {
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
   void unwind_trail(std::size_t mark);
-  void find_plan(const CallCode& call, const Callable& callable);
+  void find_plan(const CallCode& call, const FunctionLiteral& literal);
   void assign_unit(Unit& unit, Frame& frame);
 
   Resolver& resolver_;
@@ -201,6 +207,7 @@ class Interpreter {
   std::set<std::pair<std::string, std::string>> deprecations_;
   std::vector<std::string> files_;
   std::set<std::string> known_files_;
+  std::set<std::tuple<const Source*, std::uint32_t, std::uint32_t>> calls_seen_;
   Box boxes_;  // sentinel of the list of all boxes
   // Variables of used files, alive as long as closures may refer to them.
   struct UnitFrame {
@@ -314,11 +321,15 @@ void instantiate(const InstantiationCode& code, Frame& frame);
 // Evaluates let-like bindings one after the other.
 void run_bindings(Bindings bindings, Frame& frame);
 
+// Whether a call's further rounds repeat the warnings of its arguments.
+enum class Repeats : std::uint8_t { kTold, kSilent };
+
 // Stores arguments and defaults of a call into the callee's frame.
 void pass_arguments(const ArgumentPlan& plan,
                     std::span<const Parameter> parameters,
                     std::span<const WrittenArgument> arguments,
-                    SourceRange range, Frame& caller, Frame& callee);
+                    SourceRange range, Frame& caller, Frame& callee,
+                    Repeats repeats = Repeats::kTold);
 
 // "a = 1, 2" as echo prints its arguments.
 std::string echo_text(std::span<const WrittenArgument> arguments, Frame& frame);

@@ -1,5 +1,6 @@
 #include "csg/eval/resolve_expression.h"
 
+#include <algorithm>
 #include <numbers>
 #include <unordered_set>
 #include <variant>
@@ -137,6 +138,27 @@ std::uint32_t ExpressionResolver::capture(Activation& literal,
   return static_cast<std::uint32_t>(captures.size() - 1);
 }
 
+namespace {
+
+// The version of a literal, if any, through whose closures a variable comes.
+const Activation* version_between(const Activation& here,
+                                  const Variable& variable) {
+  const Activation* a = &here;
+  while (a != variable.activation && !a->is_version) a = a->lexical;
+  return a == variable.activation ? nullptr : a;
+}
+
+// Variables that a literal's closures have not captured are of no use to its
+// versions: they came later, or a nearer one certainly has a value.
+bool is_within_reach(const Activation& here, const Variable& variable) {
+  if (variable.is_statement_level) return true;
+  const Activation* version = version_between(here, variable);
+  return version == nullptr ||
+         std::ranges::count(version->captured_variables, &variable) != 0;
+}
+
+}  // namespace
+
 const Expression* ExpressionResolver::load(Variable& variable,
                                            SourceRange range,
                                            bool* is_certain) {
@@ -155,7 +177,8 @@ const Expression* ExpressionResolver::load(Variable& variable,
     code->run = code->hops == 1 ? run_outer : run_far_outer;
     if (code->hops == 1) code->kind = Kind::kOuter;
   } else {
-    *is_certain = variable.is_set && !variable.may_be_unset;
+    *is_certain = variable.is_set && !variable.may_be_unset &&
+                  version_between(here, variable) == nullptr;
     if (!variable.is_set || variable.is_repeated) variable.is_boxed = true;
     code->run = run_captured;
     code->slot = capture(here, variable);
@@ -185,6 +208,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
     Variable& variable = *found->second;
     const bool is_here = variable.activation == scope_->activation;
     if (is_here && !variable.is_set && !variable.may_be_unset) continue;
+    if (!is_within_reach(*scope_->activation, variable)) continue;
     candidates.push_back(load(variable, range, &is_certain));
     if (!is_certain && !is_here && variable.is_statement_level) {
       scope->resets.push_back(variable.slot);
@@ -559,7 +583,17 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
   Activation& here = *scope_->activation;
   if (here.callable == nullptr || !code.is_name) return;
   if (here.kind == Activation::Kind::kFunction) {
-    if (code.function != here.callable || code.callee != nullptr) return;
+    auto& self = static_cast<Function&>(*here.callable);
+    if (code.function == nullptr || code.callee != nullptr ||
+        code.function->definition != self.definition) {
+      return;
+    }
+    code.is_self_call = true;
+    // What the caller of this version named besides stays what it is.
+    if (&resolver_.with_extras(self, code.arguments) != &self) return;
+    code.function = &self;
+    *code.plan = resolver_.plan(
+        self.parameters, self.definition->parameters.size(), code.arguments);
     std::vector<BoundArgument> moved;
     for (const BoundArgument& bound : code.plan->bound) {
       const Expression& argument = *code.arguments[bound.written].value;
@@ -591,11 +625,13 @@ const Expression* ExpressionResolver::function_literal(
   FunctionLiteral& literal = resolver_.new_literal();
   literal.definition = &written;
   literal.document = scope_->unit->document;
+  literal.scope = scope_;
   Activation& around = *scope_->activation;
   Activation& activation =
       resolver_.open_activation(Activation::Kind::kLiteral, around);
   activation.literal = &literal;
   activation.callable = &literal;
+  literal.activation = &activation;
   literal.hops = around.is_statement_level() ? 0 : 1;
   Scope& inner = resolver_.open_scope(*scope_, activation);
   resolver_.resolve_callable(literal, written.parameters, *written.body, inner,

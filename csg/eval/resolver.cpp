@@ -407,14 +407,42 @@ Module& Resolver::with_extras(Module& module,
   return *extended;
 }
 
-const ArgumentPlan& Resolver::plan_for(const CallCode& call,
-                                       const Callable& callable) {
-  const auto [entry, is_new] = literal_plans_.try_emplace({&call, &callable});
+// The literal's closures are made: its versions know what these captured.
+const FunctionLiteral& Resolver::with_extras(
+    const FunctionLiteral& literal,
+    std::span<const WrittenArgument> arguments) {
+  const std::vector<std::string_view> names =
+      extra_names(literal.parameters, arguments);
+  if (names.empty()) return literal;
+  const FunctionLiteral*& known = extra_literals_[{&literal, joined(names)}];
+  if (known != nullptr) return *known;
+  FunctionLiteral& version = new_literal();
+  version = literal;
+  version.parameters = extended_parameters(literal.parameters, names, 0);
+  Activation& activation =
+      open_activation(Activation::Kind::kLiteral, *literal.scope->activation);
+  activation.callable = &version;
+  activation.literal = &version;
+  activation.captured_variables = literal.activation->captured_variables;
+  activation.is_version = true;
+  version.activation = &activation;
+  resolve_callable(version, literal.definition->parameters,
+                   *literal.definition->body,
+                   open_scope(*literal.scope, activation), *literal.scope);
+  known = &version;
+  return version;
+}
+
+const LiteralCall& Resolver::plan_for(const CallCode& call,
+                                      const FunctionLiteral& literal) {
+  const auto [entry, is_new] = literal_calls_.try_emplace({&call, &literal});
+  LiteralCall& planned = entry->second;
   if (is_new) {
-    entry->second =
-        plan(callable.parameters, callable.parameters.size(), call.arguments);
+    planned.literal = &with_extras(literal, call.arguments);
+    planned.plan = plan(planned.literal->parameters,
+                        literal.definition->parameters.size(), call.arguments);
   }
-  return entry->second;
+  return planned;
 }
 
 }  // namespace lamina::csg

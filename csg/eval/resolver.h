@@ -40,6 +40,8 @@ struct Activation {
   Callable* callable = nullptr;   // of a function or function literal
   FunctionLiteral* literal = nullptr;
   std::vector<Variable*> captured_variables;  // one per capture of `literal`
+  // A further version of a literal: its closures exist, captures are settled.
+  bool is_version = false;
   std::uint32_t next_slot = 0;
   std::uint32_t slot_count = 0;
 
@@ -121,7 +123,8 @@ class Resolver {
                     std::span<const WrittenArgument> arguments,
                     Surplus surplus = Surplus::kWarn);
   // The same for a call of a function literal, made once for each pair.
-  const ArgumentPlan& plan_for(const CallCode& call, const Callable& callable);
+  const LiteralCall& plan_for(const CallCode& call,
+                              const FunctionLiteral& literal);
 
   // --- For ExpressionResolver and StatementResolver
 
@@ -170,6 +173,9 @@ class Resolver {
                         std::span<const WrittenArgument> arguments);
   Module& with_extras(Module& module,
                       std::span<const WrittenArgument> arguments);
+  const FunctionLiteral& with_extras(
+      const FunctionLiteral& literal,
+      std::span<const WrittenArgument> arguments);
   // What is said of arguments that a user's module has no parameter for.
   Surplus module_surplus() const {
     return options_.check_parameters ? Surplus::kWarn : Surplus::kSilent;
@@ -199,10 +205,12 @@ class Resolver {
   std::deque<FunctionLiteral> literals_;
   std::deque<ArgumentPlan> plans_;
   std::deque<std::vector<CallCode::TailDefault>> tail_defaults_;
-  std::map<std::pair<const CallCode*, const Callable*>, ArgumentPlan>
-      literal_plans_;
+  std::map<std::pair<const CallCode*, const FunctionLiteral*>, LiteralCall>
+      literal_calls_;
   std::map<std::pair<const void*, std::string>, Function*> extra_functions_;
   std::map<std::pair<const void*, std::string>, Module*> extra_modules_;
+  std::map<std::pair<const void*, std::string>, const FunctionLiteral*>
+      extra_literals_;
   std::deque<Unit> units_;
   std::unordered_map<const ast::Program*, Unit*> unit_of_;
   std::unordered_map<std::string, std::uint32_t> dynamic_index_;

@@ -671,17 +671,29 @@ std::string FunctionLiteral::text() const {
   return text + ") " + expression_text(*definition->body);
 }
 
+namespace {
+
+void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
+                       Frame& caller, Repeats repeats) {
+  if (plan.warnings.empty()) return;
+  if (repeats == Repeats::kSilent && !caller.in.is_first_of_call(range)) return;
+  for (const std::string& warning : plan.warnings) warn(caller, range, warning);
+}
+
+}  // namespace
+
 void pass_arguments(const ArgumentPlan& plan,
                     std::span<const Parameter> parameters,
                     std::span<const WrittenArgument> arguments,
-                    SourceRange range, Frame& caller, Frame& callee) {
+                    SourceRange range, Frame& caller, Frame& callee,
+                    Repeats repeats) {
   for (const std::uint32_t i : plan.defaults) {
     const Parameter& parameter = parameters[i];
     Value value =
         parameter.fallback ? run(parameter.fallback, callee) : Value();
     callee.in.assign(parameter.target, std::move(value), callee);
   }
-  for (const std::string& warning : plan.warnings) warn(caller, range, warning);
+  warn_of_arguments(plan, range, caller, repeats);
   for (const BoundArgument& bound : plan.bound) {
     Value value = run(arguments[bound.written].value, caller);
     callee.in.assign(bound.target, std::move(value), callee);
@@ -692,8 +704,10 @@ namespace {
 
 // `$` variables that a tail call's arguments and enclosing lets bind stay
 // bound; everything else of the frame is overwritten.
-void jump(const CallCode& call, std::span<const BoundArgument> bound,
-          std::size_t trail_mark, Frame& frame) {
+void jump(const CallCode& call, const ArgumentPlan& plan,
+          std::span<const BoundArgument> bound, std::size_t trail_mark,
+          Frame& frame) {
+  warn_of_arguments(plan, call.range, frame, Repeats::kSilent);
   const auto count = static_cast<std::uint32_t>(bound.size());
   Frame scratch{frame.in};
   Value* memory = LAMINA_FRAME_MEMORY(count);
@@ -729,13 +743,13 @@ bool jump_to_literal(const CallCode& call, const Callable& callable,
   if (call.callee == nullptr || call.name != name) return false;
   if (frame.closure->method != nullptr) return false;
   const Value callee = run(call.callee, frame);
-  if (!callee.is_function() || callee.as_function().code != &callable ||
-      &callee.as_function() != frame.closure) {
+  if (!callee.is_function() || &callee.as_function() != frame.closure) {
     return false;
   }
-  const ArgumentPlan& plan = frame.in.plan_for(call, callable);
-  if (!plan.defaults.empty()) return false;
-  jump(call, plan.bound, trail_mark, frame);
+  const auto& here = static_cast<const FunctionLiteral&>(callable);
+  const auto& [literal, plan] = frame.in.plan_for(call, here);
+  if (literal != &here || !plan.defaults.empty()) return false;
+  jump(call, plan, plan.bound, trail_mark, frame);
   return true;
 }
 
@@ -766,7 +780,7 @@ bool run_round(const Callable& callable, std::string_view name,
       case Expression::Kind::kTailCall: {
         const auto& call = as<CallCode>(*code);
         if (call.tail_defaults != nullptr) {
-          jump(call, call.tail_arguments, trail_mark, frame);
+          jump(call, *call.plan, call.tail_arguments, trail_mark, frame);
           return true;
         }
         if (jump_to_literal(call, callable, name, trail_mark, frame)) {
@@ -834,7 +848,8 @@ Value call_function(const CallCode& code, Frame& frame) {
   Value* memory = LAMINA_FRAME_MEMORY(function.slot_count);
   const FrameSlots slots(callee, memory, function.slot_count);
   pass_arguments(*code.plan, function.parameters, code.arguments, code.range,
-                 frame, callee);
+                 frame, callee,
+                 code.is_self_call ? Repeats::kSilent : Repeats::kTold);
   return run_body(function, function.name, function.range, callee);
 }
 
@@ -849,18 +864,19 @@ Value call_function(const CallCode& code, Frame& frame) {
 // The callee holds a function; `function` keeps it alive.
 Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
   const Closure& closure = function.as_function();
-  const Callable& callable = *closure.code;
-  const Source* callable_document = closure.code->document;
-  const ArgumentPlan& plan = frame.in.plan_for(code, callable);
+  const auto& [literal, plan] = frame.in.plan_for(code, *closure.code);
+  const Callable& callable = *literal;
   const DynamicScope scope(frame.in);
   Frame callee{frame.in};
   callee.link = closure.link;
   callee.closure = &closure;
-  callee.document = callable_document;
+  callee.document = literal->document;
   Value* memory = LAMINA_FRAME_MEMORY(callable.slot_count);
   const FrameSlots slots(callee, memory, callable.slot_count);
+  const bool is_self_call =
+      code.kind == Expression::Kind::kTailCall && frame.closure == &closure;
   pass_arguments(plan, callable.parameters, code.arguments, code.range, frame,
-                 callee);
+                 callee, is_self_call ? Repeats::kSilent : Repeats::kTold);
   if (closure.method != nullptr) [[unlikely]]
     pass_this(closure, callee);
   return run_body(callable, code.name, code.range, callee);
