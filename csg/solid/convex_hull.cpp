@@ -31,8 +31,11 @@ bool is_less(Vec3 a, Vec3 b) {
   return a.y < b.y || (a.y == b.y && a.z < b.z);
 }
 
-// Sorts the points and leaves each of them once.
+// Sorts the points and leaves each of them once; those beyond all numbers have
+// no place.
 void make_unique(std::vector<Vec3>& points) {
+  // 0 · x is NaN where x is not finite.
+  std::erase_if(points, [](Vec3 p) { return glm::dot(p, Vec3(0)) != 0; });
   std::sort(points.begin(), points.end(), is_less);
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }

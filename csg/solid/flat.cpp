@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,23 +11,13 @@
 #include "csg/planar/facets.h"
 #include "csg/planar/minkowski.h"
 #include "csg/solid/detail/points.h"
+#include "csg/solid/detail/range_check.h"
 
 namespace lamina::csg {
 namespace {
 
 using planar::Contour;
 using planar::Region;
-
-template <typename Make>
-Region with_range_check(SourceRange range, Diagnostics& diagnostics,
-                        Make make) {
-  try {
-    return make();
-  } catch (const std::range_error&) {
-    diagnostics.warning(range, "Range check failed for polygon. skipping");
-    return {};
-  }
-}
 
 std::vector<Contour> read_paths(const Polygon& polygon, SourceRange range,
                                 Diagnostics& diagnostics) {

@@ -5,6 +5,7 @@
 #include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/lowerer.h"
 #include "csg/solid/detail/projection.h"
+#include "csg/solid/detail/range_check.h"
 #include "csg/solid/detail/resize.h"
 #include "csg/solid/detail/scene_hull.h"
 
@@ -50,7 +51,9 @@ Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
   }
   if (apart.scene.instances.empty()) return {};
   Leaf leaf;
-  leaf.meshes.push_back(convex_hull(std::move(apart.scene)));
+  leaf.meshes.push_back(with_range_check(node.range, diagnostics_, [&] {
+    return convex_hull(std::move(apart.scene));
+  }));
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};
 }
@@ -68,7 +71,9 @@ Shape Lowerer::lower_op(const Resize& op, const Node& node,
                              diagnostics_)};
   }
   if (apart.scene.instances.empty()) return {apart.dimension};
-  const Vec3 factor = resize_factor(op, apart.scene);
+  const Vec3 factor = with_range_check(
+      node.range, diagnostics_, [&] { return resize_factor(op, apart.scene); });
+  if (factor == Vec3(0)) return {Dimension::kSolid};
   place_scene(apart.scene, world * scaling(factor));
   return {Dimension::kSolid};
 }
@@ -82,12 +87,14 @@ Shape Lowerer::lower_op(const Projection& op, const Node& node,
   if (op.cut) report_strays(operands);
   const Scene scene = inner.take_scene();
   if (scene.instances.empty()) return {};
-  planar::Region region = op.cut ? cut_at_zero(scene) : project(scene);
-  if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
-  if (op.cut && !is_empty(scene)) {
-    diagnostics_.warning({}, "Projection() failed.");
-  }
-  return {};
+  return with_range_check(node.range, diagnostics_, [&]() -> Shape {
+    planar::Region region = op.cut ? cut_at_zero(scene) : project(scene);
+    if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
+    if (op.cut && !is_empty(scene)) {
+      diagnostics_.warning({}, "Projection() failed.");
+    }
+    return {};
+  });
 }
 
 }  // namespace lamina::csg

@@ -42,6 +42,18 @@ TEST(ConvexHull, OfAGridIsItsBox) {
   EXPECT_DOUBLE_EQ(signed_volume(mesh), 5 * 6 * 7);
 }
 
+TEST(ConvexHull, LeavesOutPointsThatAreNotFinite) {
+  const double infinity = HUGE_VAL;
+  EXPECT_EQ(convex_hull({{0, 0, 0},
+                         {1, 0, 0},
+                         {0, 1, 0},
+                         {0, 0, 1},
+                         {infinity, 0, 0},
+                         {0, std::nan(""), 0}})
+                .vertices.size(),
+            4u);
+}
+
 TEST(ConvexHull, KeepsItsShapeFarFromTheOrigin) {
   std::vector<Vec3> points;
   for (int i = 0; i < 8; ++i) {

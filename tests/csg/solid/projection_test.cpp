@@ -98,6 +98,14 @@ TEST_F(Projections, HaveNoCracks) {
   EXPECT_EQ(shadow({crescent}).contours.size(), 1u);
 }
 
+TEST_F(Projections, BeyondTheClippersRangeAreLeftOut) {
+  const Node* far = b.translate({1e10, 0, 0}, {b.cube({1, 1, 1})});
+  EXPECT_TRUE(shadow({far}).is_empty());
+  EXPECT_TRUE(cut({far}).is_empty());
+  EXPECT_EQ(messages(), std::vector<std::string>(
+                            2, "Range check failed for polygon. skipping"));
+}
+
 TEST_F(Projections, CutBesideThePlaneFails) {
   EXPECT_TRUE(cut({b.translate({0, 0, 1}, {b.cube({1, 1, 1})})}).is_empty());
   EXPECT_EQ(messages(), (std::vector<std::string>{"Projection() failed."}));
