@@ -120,13 +120,17 @@ std::vector<double> heights_of(const csg::Mesh& mesh) {
   return generic_heights({{mesh}, {}, {}, {}}, low->z, high->z, kHeights);
 }
 
+// openscad's words where it left a part of the design out.
+std::string missing_part(const Reference& reference) {
+  constexpr std::string_view kWords =
+      "Unable to convert to CGAL_Nef_Polyhedron";
+  if (reference.words.find(kWords) == std::string::npos) return "";
+  return fmt::format("openscad left a part out: {}", kWords);
+}
+
 // Why openscad's mesh is no judge of a section that differs; empty: it is one.
 std::string fault_of(const Reference& reference, double z, double distance) {
-  constexpr std::string_view kPartMissing =
-      "Unable to convert to CGAL_Nef_Polyhedron";
-  if (reference.words.find(kPartMissing) != std::string::npos) {
-    return fmt::format("openscad left a part out: {}", kPartMissing);
-  }
+  if (const auto part = missing_part(reference); !part.empty()) return part;
   const double overlap = overlap_of_section(reference.mesh, z, distance);
   const double allowed =
       distance *
@@ -151,9 +155,14 @@ Outcome judge_mesh(const Reference& reference, const fs::path& design) {
       return {"no-judge", error.what()};
     }
   }
-  const LaminaResult lamina =
+  LaminaResult lamina =
       run_lamina(design, is_outline ? std::vector<double>{} : heights);
-  if (!lamina.complaint.empty()) return {"differs", lamina.complaint};
+  if (lamina.is_empty) {
+    // Of a solid without volume, all sections are.
+    lamina.layers.resize(heights.size());
+  } else if (!lamina.complaint.empty()) {
+    return {"differs", lamina.complaint};
+  }
   if (lamina.layers.size() != heights.size()) {
     return {"differs", fmt::format("{} layers", lamina.layers.size())};
   }
@@ -187,6 +196,9 @@ Outcome judge_design(const std::string& name) {
     case ReferenceKind::kEmpty: {
       const LaminaResult lamina = run_lamina(design, {});
       if (lamina.is_empty) return {"empty", ""};
+      if (const auto part = missing_part(reference); !part.empty()) {
+        return {"no-judge", part};
+      }
       return {"differs", "openscad's is empty; " + lamina.complaint};
     }
     case ReferenceKind::kFailed:
