@@ -1,6 +1,7 @@
 #pragma once
 // The built-in functions of the language.
 
+#include <span>
 #include <string_view>
 
 #include "csg/eval/code.h"
@@ -21,5 +22,16 @@ Value call_math(const CallCode& code, Frame& frame);
 
 // Known by address: its argument is resolved without a warning.
 Value builtin_is_undef(const CallCode& code, Frame& frame);
+
+// --- For the files that define them ---
+
+struct BuiltinFunctionRow {
+  std::string_view name;
+  BuiltinFunction function;
+  MathFunction math;
+};
+std::span<const BuiltinFunctionRow> number_rows();
+std::span<const BuiltinFunctionRow> string_rows();
+std::span<const BuiltinFunctionRow> vector_rows();
 
 }  // namespace lamina::csg

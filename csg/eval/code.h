@@ -100,6 +100,12 @@ struct Expression {
   std::uint32_t slot = 0;
 };
 
+// An expression as the node that its function knows it to be.
+template <typename T>
+const T& as(const Expression& expression) {
+  return static_cast<const T&>(expression);
+}
+
 struct Constant : Expression {
   const Value* value = nullptr;
 };

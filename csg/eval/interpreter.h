@@ -283,6 +283,8 @@ constexpr std::uint32_t kMostStatementElements = 10000;
 inline Value run(const Expression* code, Frame& frame) {
   return code->run(*code, frame);
 }
+// Most messages are never made: this keeps their code out of the hot functions.
+void warn(Frame& frame, SourceRange range, std::string message);
 inline bool is_plain(const Value& value) {
   return !value.is_unset() && value.type() != Type::kBox;
 }
@@ -317,6 +319,13 @@ void run_assignments(const Block& block, Frame& frame);
 void run_statements(const Block& block, Frame& frame);
 void run_block(const Block& block, Frame& frame);
 void instantiate(const InstantiationCode& code, Frame& frame);
+
+// A fresh box for a variable that closures share.
+inline void prepare(const Target& target, Frame& frame) {
+  if (target.variable != nullptr && target.variable->is_boxed) {
+    frame.slots[target.index] = frame.in.make_box();
+  }
+}
 
 // Evaluates let-like bindings one after the other.
 void run_bindings(Bindings bindings, Frame& frame);

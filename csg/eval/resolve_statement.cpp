@@ -9,32 +9,6 @@
 
 namespace lamina::csg {
 
-namespace {
-
-// Opens a scope for statements; its slots are free again when it closes.
-class BlockScope {
- public:
-  BlockScope(Scope*& current, Scope& inner)
-      : current_(current),
-        outer_(current),
-        first_slot_(inner.activation->next_slot) {
-    current = &inner;
-  }
-  ~BlockScope() {
-    current_->activation->next_slot = first_slot_;
-    current_ = outer_;
-  }
-  BlockScope(const BlockScope&) = delete;
-  BlockScope& operator=(const BlockScope&) = delete;
-
- private:
-  Scope*& current_;
-  Scope* outer_;
-  std::uint32_t first_slot_;
-};
-
-}  // namespace
-
 template <typename T>
 T* StatementResolver::make(InstantiationCode::Run run, SourceRange range) {
   T* code = resolver_.make<T>();
@@ -137,8 +111,8 @@ std::span<const InstantiationCode* const> StatementResolver::instantiations(
 }
 
 Block* StatementResolver::block(ast::Statements statements) {
-  const BlockScope open(scope_,
-                        resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(scope_,
+                         resolver_.open_scope(*scope_, *scope_->activation));
   auto* block = resolver_.make<Block>();
   block->assignments = assignments(statements, nullptr);
   block->statements = instantiations(statements);
@@ -180,13 +154,11 @@ InstantiationCode* StatementResolver::user_module(
   auto* code = make<UserModuleCode>(run_user_module, range);
   code->is_foreign = callee.is_foreign;
   if (!callee.is_foreign) {
-    for (const Activation* a = scope_->activation;
-         a != callee.module->scope->activation; a = a->link) {
-      ++code->hops;
-    }
+    code->hops =
+        scope_->activation->count_hops(*callee.module->scope->activation);
   }
-  const BlockScope open(scope_,
-                        resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(scope_,
+                         resolver_.open_scope(*scope_, *scope_->activation));
   code->block = resolver_.make<Block>();
   code->block->assignments = assignments(written.children, nullptr);
   code->arguments = expressions().arguments(written.arguments);
@@ -212,8 +184,8 @@ InstantiationCode* StatementResolver::loop(const ast::Instantiation& written,
                                            SourceRange range) {
   auto* code = make<ForCode>(run_for, range);
   code->is_intersection = written.name == "intersection_for";
-  const BlockScope open(scope_,
-                        resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(scope_,
+                         resolver_.open_scope(*scope_, *scope_->activation));
   std::vector<Binding> bindings;
   for (const ast::Argument& argument : written.arguments) {
     ExpressionResolver resolver = expressions();
@@ -237,8 +209,8 @@ InstantiationCode* StatementResolver::loop(const ast::Instantiation& written,
 InstantiationCode* StatementResolver::let(const ast::Instantiation& written,
                                           SourceRange range) {
   auto* code = make<LetModuleCode>(run_let_module, range);
-  const BlockScope open(scope_,
-                        resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(scope_,
+                         resolver_.open_scope(*scope_, *scope_->activation));
   code->bindings =
       expressions().sequential_bindings(written.arguments, range, true);
   code->block = block(written.children);
@@ -258,8 +230,8 @@ InstantiationCode* StatementResolver::assign(const ast::Instantiation& written,
     binding.value = expressions().resolve(*argument.value);
     bindings.push_back(binding);
   }
-  const BlockScope open(scope_,
-                        resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(scope_,
+                         resolver_.open_scope(*scope_, *scope_->activation));
   for (Binding& binding : bindings) {
     ExpressionResolver resolver = expressions();
     Variable* variable = nullptr;
@@ -301,8 +273,8 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
       entry->parameters, entry->positional_count, code->arguments));
   code->parameter_count = static_cast<std::uint32_t>(entry->parameters.size());
 
-  const BlockScope open(scope_,
-                        resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(scope_,
+                         resolver_.open_scope(*scope_, *scope_->activation));
   code->block = resolver_.make<Block>();
   code->block->assignments = assignments(written.children, nullptr);
   if (entry->needs_late_argument && !written.arguments.empty() &&

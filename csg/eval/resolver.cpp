@@ -17,6 +17,12 @@ std::uint32_t Activation::new_slot() {
   return next_slot++;
 }
 
+std::uint32_t Activation::count_hops(const Activation& outer) const {
+  std::uint32_t hops = 0;
+  for (const Activation* a = this; a != &outer; a = a->link) ++hops;
+  return hops;
+}
+
 Resolver::Resolver(const Loader& loader, const EvaluateOptions& options)
     : loader_(loader), options_(options) {
   for (const char* name : {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt",

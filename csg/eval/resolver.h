@@ -49,6 +49,8 @@ struct Activation {
     return kind == Kind::kFile || kind == Kind::kModule;
   }
   std::uint32_t new_slot();
+  // How many static links lead to `outer`.
+  std::uint32_t count_hops(const Activation& outer) const;
 };
 
 struct Scope {
@@ -64,6 +66,28 @@ struct Scope {
   std::unordered_map<std::string_view, Module*> modules;
   // Slots of a block that code of another activation may see unset.
   std::vector<std::uint32_t> resets;
+};
+
+// Opens a scope; its slots are free again when it closes.
+class NestedScope {
+ public:
+  NestedScope(Scope*& current, Scope& inner)
+      : current_(current),
+        outer_(current),
+        first_slot_(inner.activation->next_slot) {
+    current = &inner;
+  }
+  ~NestedScope() {
+    current_->activation->next_slot = first_slot_;
+    current_ = outer_;
+  }
+  NestedScope(const NestedScope&) = delete;
+  NestedScope& operator=(const NestedScope&) = delete;
+
+ private:
+  Scope*& current_;
+  Scope* outer_;
+  std::uint32_t first_slot_;
 };
 
 // A file: the main program or one that is used.
