@@ -25,7 +25,7 @@ std::uint32_t facet_count(std::string_view bytes) {
 
 bool is_binary(std::string_view bytes) {
   return bytes.size() >= kHeader &&
-         bytes.size() == kHeader + kRecord * facet_count(bytes);
+         bytes.size() == kHeader + kRecord * std::size_t{facet_count(bytes)};
 }
 
 RawMesh parse_binary(std::string_view bytes) {
@@ -114,7 +114,14 @@ RawMesh parse_text(std::string_view bytes) {
 RawMesh parse_stl(std::string_view bytes) {
   if (is_binary(bytes)) return parse_binary(bytes);
   if (bytes.starts_with("solid")) return parse_text(bytes);
-  return {};
+  throw FormatError(
+      bytes.size() < kHeader
+          ? "STL file is neither text nor a whole header"
+          : fmt::format(
+                "STL file of {} facets should be {} bytes long, not {},",
+                facet_count(bytes),
+                kHeader + kRecord * std::size_t{facet_count(bytes)},
+                bytes.size()));
 }
 
 }  // namespace lamina::csg

@@ -13,7 +13,8 @@
 namespace lamina::csg {
 
 // throws  FormatError for a vertex without three numbers, and for a fourth
-//         vertex in a loop
+//         vertex in a loop; for what is neither text nor as long as its
+//         facets need
 RawMesh parse_stl(std::string_view bytes);
 
 }  // namespace lamina::csg

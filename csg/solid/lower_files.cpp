@@ -145,7 +145,17 @@ Shape Lowerer::lower_op(const Import& op, const Node& node,
   const std::string key =
       fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
-  if (is_new) entry->second = read_import(params, fine, node.range);
+  if (is_new) {
+    const std::size_t messages = diagnostics_.all().size();
+    entry->second = read_import(params, fine, node.range);
+    const bool is_empty =
+        !entry->second.leaf && entry->second.region.is_empty();
+    if (is_empty && diagnostics_.all().size() == messages) {
+      diagnostics_.warning(node.range,
+                           fmt::format("File {} holds nothing to import",
+                                       quoted_from_here(params.path)));
+    }
+  }
   return place_file(entry->second, node, world);
 }
 

@@ -62,12 +62,15 @@ TEST(ParseStl, TrustsTheSizeMoreThanTheWordSolid) {
   EXPECT_EQ(parse_stl(binary("solid x\n", kFacets)).mesh.triangles.size(), 2U);
 }
 
-TEST(ParseStl, WhatIsOfNeitherKindHasNoFacets) {
-  EXPECT_TRUE(parse_stl("").mesh.triangles.empty());
-  EXPECT_TRUE(parse_stl("garbage").mesh.triangles.empty());
+TEST(ParseStl, SaysWhatAFileOfNeitherKindLacks) {
+  const std::string_view no_header =
+      "STL file is neither text nor a whole header";
+  EXPECT_EQ(fault_of([] { parse_stl(""); }), no_header);
+  EXPECT_EQ(fault_of([] { parse_stl("garbage"); }), no_header);
   std::string cut_off = binary("x", kFacets);
   cut_off.pop_back();
-  EXPECT_TRUE(parse_stl(cut_off).mesh.triangles.empty());
+  EXPECT_EQ(fault_of([&] { parse_stl(cut_off); }),
+            "STL file of 2 facets should be 184 bytes long, not 183,");
 }
 
 TEST(ParseStl, NamesTheLineOfAVertexWithoutNumbers) {
