@@ -72,7 +72,7 @@ struct Run {
   SourceStore sources;
   Diagnostics diagnostics;
   Loader loader;
-  text::Typesetter typesetter{text::module_folders()};
+  text::Typesetter typesetter{text::module_folders(), diagnostics};
   RunReport report;
   const std::chrono::steady_clock::time_point begin =
       std::chrono::steady_clock::now();
@@ -155,6 +155,8 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   options.seed = run.options.seed;
   options.check_parameters = run.options.checks_parameters;
   options.check_ranges = run.options.checks_parameter_ranges;
+  run.typesetter.add_fonts(run.loader.fonts());
+  options.text_measurer = &run.typesetter;
   const std::size_t errors = count_errors(run.diagnostics);
   return timed(run.report.evaluate_seconds, [&]() -> Evaluated {
     try {
@@ -210,7 +212,6 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   // Lowering comes before slicing because transforms, 2D parts and hulls need
   // the whole tree, layers only the leaves.
   const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
-    run.typesetter.add_fonts(run.loader.fonts());
     return csg::lower(tree,
                       {run.options.world_from_design, run.options.chordal_error,
                        &run.typesetter},

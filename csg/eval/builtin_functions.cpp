@@ -7,6 +7,7 @@
 
 #include "csg/eval/builtin_call.h"
 #include "csg/eval/builtin_dxf.h"
+#include "csg/eval/builtin_metrics.h"
 #include "csg/eval/builtin_objects.h"
 #include "csg/eval/builtin_search.h"
 #include "csg/eval/interpreter.h"
@@ -95,6 +96,8 @@ std::span<const BuiltinFunctionRow> program_rows() {
       {"object", builtin_object, nullptr},
       {"has_key", builtin_has_key, nullptr},
       {"import", builtin_import, nullptr},
+      {"textmetrics", builtin_textmetrics, nullptr},
+      {"fontmetrics", builtin_fontmetrics, nullptr},
   };
   return kRows;
 }

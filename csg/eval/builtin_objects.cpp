@@ -10,8 +10,8 @@
 #include "csg/eval/files.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/json.h"
+#include "csg/eval/named_arguments.h"
 #include "csg/eval/object.h"
-#include "csg/eval/resolver.h"
 #include "csg/eval/text.h"
 
 namespace lamina::csg {
@@ -140,28 +140,9 @@ Value builtin_is_object(const CallCode& code, Frame& frame) {
 
 // --- import -----------------------------------------------------------------
 
-namespace {
-
-// The value of the only parameter, `file`, by position or by name.
-Value file_argument(const CallCode& code, Frame& frame) {
-  std::vector<Parameter> parameters(1);
-  parameters[0].name = "file";
-  parameters[0].target = {Target::Kind::kSlot, 0, nullptr};
-  const ArgumentPlan plan =
-      frame.in.resolver().plan(parameters, 1, code.arguments);
-  for (const std::string& warning : plan.warnings) warn(code, frame, warning);
-  Value file;
-  for (const BoundArgument& bound : plan.bound) {
-    Value value = run(code.arguments[bound.written].value, frame);
-    if (bound.target.kind == Target::Kind::kSlot) file = std::move(value);
-  }
-  return file;
-}
-
-}  // namespace
-
 Value builtin_import(const CallCode& code, Frame& frame) {
-  const Value file = file_argument(code, frame);
+  static constexpr std::string_view kNames[] = {"file"};
+  const Value file = run_named_arguments(kNames, 1, code, frame)[0];
   const std::string name = file.is_string() ? to_text(file) : std::string();
   const fs::path caller = fs::absolute(code.range.source->path());
   const std::string path =

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "csg/text_measurer.h"
 #include "csg/tree.h"
 #include "parser/ast.h"
 #include "parser/diagnostic.h"
@@ -36,6 +37,8 @@ struct EvaluateOptions {
   // Arguments that a user's module has no parameter for are warned of
   // (`--check-parameters`); those of functions and built-in modules always.
   bool check_parameters = true;
+  // For textmetrics() and fontmetrics(), which are undef without.
+  TextMeasurer* text_measurer = nullptr;
   // Numbers outside their range (`--check-parameter-ranges`) are warned of.
   bool check_ranges = false;
 };

@@ -58,11 +58,13 @@ Region make_polygon(const Polygon& polygon, SourceRange range,
                           [&] { return planar::from_contours(contours); });
 }
 
-Region make_text(const TextParams& params, text::Typesetter& typesetter,
-                 SourceRange range, Diagnostics& diagnostics) {
-  const int segments = planar::curve_segment_count(params.size, params.facets);
-  const auto contours =
-      typesetter.outline(params, segments, range, diagnostics);
+Region make_text(const TextParams& params, const Fineness& fineness,
+                 text::Typesetter& typesetter, SourceRange range,
+                 Diagnostics& diagnostics) {
+  const text::Chords chords = {
+      planar::curve_segment_count(params.size, params.facets),
+      fineness.is_by_error() ? fineness.chordal_error : 0};
+  const auto contours = typesetter.outline(params, chords, range, diagnostics);
   return with_range_check(range, diagnostics, [&] {
     return planar::from_contours(contours, planar::FillRule::kNonZero);
   });

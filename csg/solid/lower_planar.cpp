@@ -27,10 +27,13 @@ Shape Lowerer::lower_op(const Offset& op, const Node& node,
                         node.range, diagnostics_)};
 }
 
-Shape Lowerer::lower_op(const Text& text, const Node& node, const Affine&) {
+Shape Lowerer::lower_op(const Text& text, const Node& node,
+                        const Affine& world) {
   if (!options_.typesetter) fail_unsupported(node, "text");
-  return {Dimension::kFlat, make_text(*text.params, *options_.typesetter,
-                                      node.range, diagnostics_)};
+  const TextParams& params = *text.params;
+  return {Dimension::kFlat,
+          make_text(params, fineness(params.facets, world),
+                    *options_.typesetter, node.range, diagnostics_)};
 }
 
 Shape Lowerer::flatten_children(const Node& node, const Affine& world) {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <vector>
 
+#include "csg/text/detail/alignment.h"
 #include "csg/text/detail/font_cache.h"
 #include "csg/text/detail/glyph_row.h"
 #include "csg/text/detail/pen.h"
@@ -19,26 +20,51 @@ class FontEngine : public Engine {
   }
 
   const Typeset* set(const csg::TextParams& params,
-                     int segments) noexcept override {
+                     const Chords& chords) noexcept override {
+    return typeset(params, [&](const Font& font, Typeset& result) {
+      pen_ = Pen(params.size, chords);
+      draw(params, font);
+      result.points = pen_.points();
+      result.ends = pen_.ends();
+    });
+  }
+
+  const Typeset* measure_text(const csg::TextParams& params) noexcept override {
+    return typeset(params, [&](const Font& font, Typeset& result) {
+      const GlyphRow row = shape(params, font, 1, messages_);
+      result.text_metrics = measure(params, row, messages_);
+    });
+  }
+
+  const Typeset* measure_font(const csg::TextParams& params) noexcept override {
+    return typeset(params, [&](const Font& font, Typeset& result) {
+      result.font_metrics = measure(params.size, font);
+    });
+  }
+
+ private:
+  // Finds the font and lets `work` fill the result with it.
+  template <typename Work>
+  const Typeset* typeset(const csg::TextParams& params,
+                         const Work& work) noexcept {
     try {
       messages_.clear();
-      pen_ = Pen(params.size, segments);
-      draw(params);
-      result_ = {pen_.points(), pen_.ends(), messages_};
+      result_ = {};
+      const Font& font = fonts_.find(std::string(params.font));
+      if (!font.complaint.empty()) {
+        messages_.push_back({Severity::kWarning, font.complaint});
+      }
+      result_.has_font = font.face != nullptr;
+      if (result_.has_font) work(font, result_);
+      result_.messages = messages_;
       return &result_;
     } catch (const std::exception&) {
       return nullptr;
     }
   }
 
- private:
-  void draw(const csg::TextParams& params) {
-    const Font& font = fonts_.find(std::string(params.font));
-    if (!font.complaint.empty()) {
-      messages_.push_back({Severity::kWarning, font.complaint});
-    }
-    if (!font.face) return;
-    const GlyphRow row = shape(params, font, messages_);
+  void draw(const csg::TextParams& params, const Font& font) {
+    const GlyphRow row = shape(params, font, kShrink, messages_);
     Vec2 place = align(params, row, messages_);
     for (const Glyph& glyph : row.glyphs) {
       auto& outline = reinterpret_cast<FT_OutlineGlyphRec_&>(*glyph.outline);
@@ -48,7 +74,7 @@ class FontEngine : public Engine {
   }
 
   FontCache fonts_;
-  Pen pen_{1, 1};
+  Pen pen_{1, {}};
   std::vector<Message> messages_;
   Typeset result_;
 };

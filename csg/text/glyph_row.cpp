@@ -68,38 +68,19 @@ OwnedGlyph load_glyph(const Font& font, FT_UInt index) {
   return glyph->format == FT_GLYPH_FORMAT_OUTLINE ? std::move(owned) : nullptr;
 }
 
-double horizontal_offset(std::string_view halign, double width,
-                         std::vector<Message>& messages) {
-  if (halign == "right") return -width;
-  if (halign == "center") return -width / 2;
-  if (halign != "left") {
-    messages.push_back(
-        {Severity::kPlain,
-         fmt::format("Unknown value for the halign parameter (use \"left\", "
-                     "\"right\" or \"center\"): '{}'",
-                     halign)});
-  }
-  return 0;
-}
+// Of FreeType's whole numbers and HarfBuzz's.
+Vec2 to_vec(double x, double y) { return Vec2(x, y) / double{Font::kSize}; }
 
-double vertical_offset(std::string_view valign, double ascent, double descent,
-                       std::vector<Message>& messages) {
-  if (valign == "top") return -ascent;
-  if (valign == "center") return descent / 2 - ascent / 2;
-  if (valign == "bottom") return descent;
-  if (valign != "baseline") {
-    messages.push_back(
-        {Severity::kPlain,
-         fmt::format("Unknown value for the valign parameter (use "
-                     "\"baseline\", \"bottom\", \"top\" or \"center\"): '{}'",
-                     valign)});
-  }
-  return 0;
+Box box_of(FT_Glyph glyph) {
+  FT_BBox box;
+  FT_Glyph_Get_CBox(glyph, FT_GLYPH_BBOX_GRIDFIT, &box);
+  return {to_vec(static_cast<double>(box.xMin), static_cast<double>(box.yMin)),
+          to_vec(static_cast<double>(box.xMax), static_cast<double>(box.yMax))};
 }
 
 }  // namespace
 
-GlyphRow shape(const csg::TextParams& params, const Font& font,
+GlyphRow shape(const csg::TextParams& params, const Font& font, double scale,
                std::vector<Message>& messages) {
   const Owned<hb_buffer_t> buffer = shape_text(params, font, messages);
   unsigned count = 0;
@@ -121,34 +102,13 @@ GlyphRow shape(const csg::TextParams& params, const Font& font,
                        infos[i].codepoint, i, params.text)});
       continue;
     }
-    FT_Glyph_Get_CBox(glyph.outline.get(), FT_GLYPH_BBOX_GRIDFIT, &glyph.box);
-    glyph.shift = Vec2(places[i].x_offset, places[i].y_offset) * kUnscale;
-    glyph.advance = Vec2(places[i].x_advance, places[i].y_advance) * kUnscale *
-                    params.spacing;
+    glyph.box = box_of(glyph.outline.get());
+    glyph.shift = scale * to_vec(places[i].x_offset, places[i].y_offset);
+    glyph.advance = scale * params.spacing *
+                    to_vec(places[i].x_advance, places[i].y_advance);
     row.glyphs.push_back(std::move(glyph));
   }
   return row;
-}
-
-Vec2 align(const csg::TextParams& params, const GlyphRow& row,
-           std::vector<Message>& messages) {
-  double width = 0;
-  double ascent = 0;
-  double descent = 0;
-  for (const Glyph& glyph : row.glyphs) {
-    const FT_BBox& box = glyph.box;
-    if (row.is_horizontal) {
-      width += glyph.advance.x;
-      ascent = std::max(ascent, static_cast<double>(box.yMax) * kUnscale);
-      descent = std::max(descent, static_cast<double>(-box.yMin) * kUnscale);
-    } else {
-      width =
-          std::max(width, static_cast<double>(box.xMax - box.xMin) * kUnscale);
-      ascent += glyph.advance.y;
-    }
-  }
-  return {horizontal_offset(params.halign, width, messages),
-          vertical_offset(params.valign, ascent, descent, messages)};
 }
 
 }  // namespace lamina::text

@@ -1,6 +1,10 @@
 #include "csg/text/detail/pen.h"
 
+#include <algorithm>
+#include <cmath>
 #include <new>
+
+#include <glm/geometric.hpp>
 
 #include "csg/text/detail/font_cache.h"
 
@@ -67,9 +71,18 @@ void Pen::line_to(Vec2 to) {
   at_ = to;
 }
 
+// A chord over a step h of the parameter is at most max|B''| h²/8 away.
+int Pen::chord_count(double bend) const {
+  constexpr double kMost = 1 << 16;
+  if (!(chords_.error > 0)) return chords_.count;
+  const double n = std::sqrt(std::abs(size_) * bend / (8 * chords_.error));
+  return static_cast<int>(std::clamp(std::ceil(n), 1.0, kMost));
+}
+
 void Pen::curve_to(Vec2 control, Vec2 to) {
-  for (int i = 1; i <= segments_; ++i) {
-    const double a = static_cast<double>(i) / segments_;
+  const int n = chord_count(2 * glm::length(at_ - 2.0 * control + to));
+  for (int i = 1; i <= n; ++i) {
+    const double a = static_cast<double>(i) / n;
     const double b = 1 - a;
     add(b * b * at_ + 2 * a * b * control + a * a * to);
   }
@@ -77,8 +90,11 @@ void Pen::curve_to(Vec2 control, Vec2 to) {
 }
 
 void Pen::curve_to(Vec2 control1, Vec2 control2, Vec2 to) {
-  for (int i = 1; i <= segments_; ++i) {
-    const double a = static_cast<double>(i) / segments_;
+  const double bend = 6 * std::max(glm::length(at_ - 2.0 * control1 + control2),
+                                   glm::length(control1 - 2.0 * control2 + to));
+  const int n = chord_count(bend);
+  for (int i = 1; i <= n; ++i) {
+    const double a = static_cast<double>(i) / n;
     const double b = 1 - a;
     add(b * b * b * at_ + 3 * a * b * b * control1 + 3 * a * a * b * control2 +
         a * a * a * to);

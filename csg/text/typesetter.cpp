@@ -17,14 +17,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kModule = "lamina_text.so";
 
-[[noreturn]] void fail(SourceRange range, std::string words) {
-  throw GeometryError({Severity::kError, range, std::move(words)});
+[[noreturn]] void fail(Diagnostics& diagnostics, const std::string& words) {
+  diagnostics.error({}, words);
+  throw GeometryError({Severity::kError, {}, words});
 }
 
 // The module stays open to the end: the libraries below it keep state of
 // their own that outlives their callers.
 MakeEngine* open_module(const std::vector<std::string>& folders,
-                        SourceRange range) {
+                        Diagnostics& diagnostics) {
   for (const std::string& folder : folders) {
     const std::string path = folder + "/" + kModule;
     std::error_code error;
@@ -32,13 +33,22 @@ MakeEngine* open_module(const std::vector<std::string>& folders,
     void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* symbol = module ? dlsym(module, kMakeEngineName) : nullptr;
     if (!symbol) {
-      fail(range,
+      fail(diagnostics,
            fmt::format("Can't open the module for text(): {}", dlerror()));
     }
     return reinterpret_cast<MakeEngine*>(symbol);
   }
-  fail(range, fmt::format("Can't find the module for text(), {}, in {}",
-                          kModule, fmt::join(folders, " or ")));
+  fail(diagnostics, fmt::format("Can't find the module for text(), {}, in {}",
+                                kModule, fmt::join(folders, " or ")));
+}
+
+const Typeset& checked(const Typeset* typeset,
+                       std::vector<std::string>& warnings) {
+  if (!typeset) throw std::bad_alloc();
+  for (const Message& message : typeset->messages) {
+    warnings.push_back(message.words);
+  }
+  return *typeset;
 }
 
 }  // namespace
@@ -51,8 +61,9 @@ std::vector<std::string> module_folders() {
   return {folder.string(), (folder.parent_path() / "lib/lamina").string()};
 }
 
-Typesetter::Typesetter(std::vector<std::string> folders)
-    : folders_(std::move(folders)) {}
+Typesetter::Typesetter(std::vector<std::string> folders,
+                       Diagnostics& diagnostics)
+    : folders_(std::move(folders)), diagnostics_(diagnostics) {}
 
 Typesetter::~Typesetter() = default;
 
@@ -60,25 +71,26 @@ void Typesetter::add_fonts(const std::vector<std::string>& files) {
   font_files_.insert(font_files_.end(), files.begin(), files.end());
 }
 
-void Typesetter::open_engine(SourceRange range, Diagnostics& diagnostics) {
-  engine_.reset(open_module(folders_, range)(kEngineVersion));
+Engine& Typesetter::engine() {
+  if (engine_) return *engine_;
+  engine_.reset(open_module(folders_, diagnostics_)(kEngineVersion));
   if (!engine_) {
-    fail(range, fmt::format("{} is of another version of lamina", kModule));
+    fail(diagnostics_, fmt::format("{} is of another version", kModule));
   }
   for (const std::string& file : font_files_) {
     if (!engine_->add_font(file.c_str())) {
-      diagnostics.report({Severity::kPlain,
-                          {},
-                          fmt::format("Can't register font '{}'", file)});
+      diagnostics_.report({Severity::kPlain,
+                           {},
+                           fmt::format("Can't register font '{}'", file)});
     }
   }
+  return *engine_;
 }
 
 std::vector<std::vector<Vec2>> Typesetter::outline(
-    const csg::TextParams& params, int segments, SourceRange range,
+    const csg::TextParams& params, const Chords& chords, SourceRange range,
     Diagnostics& diagnostics) {
-  if (!engine_) open_engine(range, diagnostics);
-  const Typeset* typeset = engine_->set(params, segments);
+  const Typeset* typeset = engine().set(params, chords);
   if (!typeset) throw std::bad_alloc();
   for (const Message& message : typeset->messages) {
     diagnostics.report({message.severity, range, message.words});
@@ -91,6 +103,20 @@ std::vector<std::vector<Vec2>> Typesetter::outline(
     begin = end;
   }
   return contours;
+}
+
+std::optional<csg::TextMetrics> Typesetter::measure_text(
+    const csg::TextParams& params, std::vector<std::string>& warnings) {
+  const Typeset& typeset = checked(engine().measure_text(params), warnings);
+  if (!typeset.has_font) return std::nullopt;
+  return typeset.text_metrics;
+}
+
+std::optional<csg::FontMetrics> Typesetter::measure_font(
+    const csg::TextParams& params, std::vector<std::string>& warnings) {
+  const Typeset& typeset = checked(engine().measure_font(params), warnings);
+  if (!typeset.has_font) return std::nullopt;
+  return typeset.font_metrics;
 }
 
 }  // namespace lamina::text

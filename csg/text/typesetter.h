@@ -5,9 +5,11 @@
 // (detail/engine.h): a design without text pays nothing for them.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "csg/text_measurer.h"
 #include "csg/tree.h"
 #include "csg/vec.h"
 #include "parser/diagnostic.h"
@@ -18,13 +20,22 @@ namespace lamina::text {
 // installed.
 std::vector<std::string> module_folders();
 
+// Into how many chords a curve is cut.
+struct Chords {
+  int count = 1;
+  // Greatest distance of a chord from its curve [mm]; 0: `count` decides.
+  double error = 0;
+};
+
 class Engine;
 
-class Typesetter {
+class Typesetter : public csg::TextMeasurer {
  public:
-  // folders  where the module is looked for, in this order
-  explicit Typesetter(std::vector<std::string> folders);
-  ~Typesetter();
+  // folders      where the module is looked for, in this order
+  // diagnostics  gets what is wrong with fonts that the design brings along;
+  //              outlives the typesetter
+  Typesetter(std::vector<std::string> folders, Diagnostics& diagnostics);
+  ~Typesetter() override;
   Typesetter(const Typesetter&) = delete;
   Typesetter& operator=(const Typesetter&) = delete;
 
@@ -33,17 +44,25 @@ class Typesetter {
 
   // The polygons of a text; inside is where they wind other than 0 times.
   //
-  // segments     into which a curve is cut
   // diagnostics  gets unknown alignments, fonts that are missing or broken
   // throws       GeometryError where the module is missing
   std::vector<std::vector<Vec2>> outline(const csg::TextParams& params,
-                                         int segments, SourceRange range,
+                                         const Chords& chords,
+                                         SourceRange range,
                                          Diagnostics& diagnostics);
 
+  std::optional<csg::TextMetrics> measure_text(
+      const csg::TextParams& params,
+      std::vector<std::string>& warnings) override;
+  std::optional<csg::FontMetrics> measure_font(
+      const csg::TextParams& params,
+      std::vector<std::string>& warnings) override;
+
  private:
-  void open_engine(SourceRange range, Diagnostics& diagnostics);
+  Engine& engine();
 
   std::vector<std::string> folders_;
+  Diagnostics& diagnostics_;
   std::vector<std::string> font_files_;
   std::unique_ptr<Engine> engine_;
 };

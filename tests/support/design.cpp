@@ -35,7 +35,7 @@ struct Design::State {
     try {
       program = load(*loader);
       tree = csg::evaluate(program, *loader, {}, diagnostics);
-      text::Typesetter typesetter({LAMINA_MODULES});
+      text::Typesetter typesetter({LAMINA_MODULES}, diagnostics);
       typesetter.add_fonts(loader->fonts());
       options.typesetter = &typesetter;
       lowered = csg::lower(tree, options, diagnostics);

@@ -18,8 +18,9 @@ namespace lamina::csg {
 planar::Region make_polygon(const Polygon& polygon, SourceRange range,
                             Diagnostics& diagnostics);
 
-planar::Region make_text(const TextParams& params, text::Typesetter& typesetter,
-                         SourceRange range, Diagnostics& diagnostics);
+planar::Region make_text(const TextParams& params, const Fineness& fineness,
+                         text::Typesetter& typesetter, SourceRange range,
+                         Diagnostics& diagnostics);
 
 // regions  at least one
 planar::Region combine_regions(BooleanOp op,

@@ -1,15 +1,17 @@
 #pragma once
 // What the program sees of the module lamina_text.so.
 //
-// FreeType, HarfBuzz and Fontconfig take 15 shared libraries and 10 ms to
-// load, and few designs have text. So they stand behind a module that is opened
-// on first use. It offers one C function, which makes an Engine. Nothing is
-// thrown across: what fails says so by its result.
+// FreeType, HarfBuzz and Fontconfig come with eight more shared libraries, and
+// few designs have text. So they stand behind a module that is opened on first
+// use. It offers one C function, which makes an Engine. Nothing is thrown
+// across: what fails says so by its result.
 
 #include <cstdint>
 #include <span>
 #include <string>
 
+#include "csg/text/typesetter.h"
+#include "csg/text_measurer.h"
 #include "csg/tree.h"
 #include "csg/vec.h"
 #include "parser/diagnostic.h"
@@ -21,11 +23,16 @@ struct Message {
   std::string words;
 };
 
-// A text as polygons: inside is where they wind other than 0 times.
+// What came of a text: its polygons, or its measures.
 struct Typeset {
-  std::span<const Vec2> points;         // of all polygons, one after another
-  std::span<const std::uint32_t> ends;  // of each polygon in `points`
+  bool has_font = false;
   std::span<const Message> messages;
+  // Of all polygons, one after another, and the end of each. Inside is where
+  // they wind other than 0 times.
+  std::span<const Vec2> points;
+  std::span<const std::uint32_t> ends;
+  csg::TextMetrics text_metrics;
+  csg::FontMetrics font_metrics;
 };
 
 class Engine {
@@ -35,14 +42,17 @@ class Engine {
   // Lets texts use the font in the file `path`. False if it holds none.
   virtual bool add_font(const char* path) noexcept = 0;
 
-  // segments  into which a curve is cut
-  // returns   what stays valid until the next call; null: out of memory
+  // What these return stays valid until the next call; null: out of memory.
   virtual const Typeset* set(const csg::TextParams& params,
-                             int segments) noexcept = 0;
+                             const Chords& chords) noexcept = 0;
+  virtual const Typeset* measure_text(
+      const csg::TextParams& params) noexcept = 0;
+  virtual const Typeset* measure_font(
+      const csg::TextParams& params) noexcept = 0;
 };
 
 // Changes whenever something above does.
-constexpr int kEngineVersion = 1;
+constexpr int kEngineVersion = 2;
 
 // The module's function: a new engine; null if it has another version or there
 // is no memory.

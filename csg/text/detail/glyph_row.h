@@ -15,15 +15,20 @@
 
 namespace lamina::text {
 
+struct Box {
+  Vec2 low = Vec2(0);
+  Vec2 high = Vec2(0);
+};
+
 struct ReleaseGlyph {
   void operator()(FT_Glyph glyph) const { FT_Done_Glyph(glyph); }
 };
 using OwnedGlyph = std::unique_ptr<FT_GlyphRec_, ReleaseGlyph>;
 
-// Lengths are those of text(size = 1).
+// Lengths are in units of text(size = 1).
 struct Glyph {
   OwnedGlyph outline;
-  FT_BBox box;   // of the outline and its control points [1/64 pixel]
+  Box box;       // of the outline and its control points
   Vec2 shift;    // of the outline from where it would stand
   Vec2 advance;  // to the next glyph, spacing included
 };
@@ -33,18 +38,14 @@ struct GlyphRow {
   bool is_horizontal = true;
 };
 
-// OpenSCAD 2021.01 scales what HarfBuzz says about distances 2.4% smaller than
-// the outlines themselves, and so it is here.
-constexpr double kUnscale = 1 / 1.024e5;
+// OpenSCAD 2021.01 sets glyphs, and takes the heights of rows, 2.4% smaller
+// than the outlines are. Outlines are drawn so; later releases, whose values
+// measures have, no longer do this.
+constexpr double kShrink = 1 / 1.024;
 
+// scale     multiplies distances, but not outlines and their boxes
 // messages  gets glyphs that cannot be loaded
-GlyphRow shape(const csg::TextParams& params, const Font& font,
+GlyphRow shape(const csg::TextParams& params, const Font& font, double scale,
                std::vector<Message>& messages);
-
-// Where the first glyph's origin stands, by halign and valign.
-//
-// messages  gets alignments that are none
-Vec2 align(const csg::TextParams& params, const GlyphRow& row,
-           std::vector<Message>& messages);
 
 }  // namespace lamina::text

@@ -1,14 +1,16 @@
 #pragma once
 // Draws the outlines of glyphs as polygons.
 //
-// A curve becomes a fixed number of chords, evenly spaced in its parameter, as
-// in OpenSCAD 2021.01.
+// A curve becomes chords that are evenly spaced in its parameter, as in
+// OpenSCAD 2021.01; their number is given, or as small as a chordal error
+// allows.
 
 #include <cstdint>
 #include <vector>
 
 #include <ft2build.h>
 
+#include "csg/text/typesetter.h"
 #include "csg/vec.h"
 #include FT_OUTLINE_H
 
@@ -16,9 +18,8 @@ namespace lamina::text {
 
 class Pen {
  public:
-  // size      scales everything [mm]
-  // segments  of a curve
-  Pen(double size, int segments) : size_(size), segments_(segments) {}
+  // size  scales everything [mm]
+  Pen(double size, const Chords& chords) : size_(size), chords_(chords) {}
 
   // `origin` is the outline's own; where it lies before scaling.
   void draw(FT_Outline& outline, Vec2 origin);
@@ -34,11 +35,13 @@ class Pen {
   void line_to(Vec2 to);
   void curve_to(Vec2 control, Vec2 to);
   void curve_to(Vec2 control1, Vec2 control2, Vec2 to);
+  // For a curve whose second derivative is at most `bend`, before scaling.
+  int chord_count(double bend) const;
   void add(Vec2 point);
   void close();
 
   double size_;
-  int segments_;
+  Chords chords_;
   Vec2 origin_ = Vec2(0);
   Vec2 at_ = Vec2(0);
   std::vector<Vec2> points_;

@@ -66,10 +66,21 @@ Vec2 shift_between(const Contours& from, const Contours& to) {
   return shift;
 }
 
+double perimeter(const planar::Region& region) {
+  double sum = 0;
+  for (const auto& contour : region.contours) {
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 edge = contour[(i + 1) % contour.size()] - contour[i];
+      sum += std::hypot(edge.x, edge.y);
+    }
+  }
+  return sum;
+}
+
 class TypesetterTest : public ::testing::Test {
  protected:
-  Contours set(const csg::TextParams& params, int segments = 4) {
-    return typesetter_.outline(params, segments, {}, diagnostics_);
+  Contours set(const csg::TextParams& params, const Chords& chords = {4}) {
+    return typesetter_.outline(params, chords, {}, diagnostics_);
   }
   Contours set(std::string_view text) { return set(params_of(text)); }
 
@@ -79,8 +90,9 @@ class TypesetterTest : public ::testing::Test {
     return words;
   }
 
-  Typesetter typesetter_{{LAMINA_MODULES}};
   Diagnostics diagnostics_;
+  std::vector<std::string> warnings_;
+  Typesetter typesetter_{{LAMINA_MODULES}, diagnostics_};
 };
 
 TEST_F(TypesetterTest, AnOHasAHole) {
@@ -116,7 +128,7 @@ TEST_F(TypesetterTest, SizeScales) {
 TEST_F(TypesetterTest, EverySegmentOfACurveIsAVertex) {
   const auto count = [&](int segments) {
     std::size_t points = 0;
-    for (const auto& contour : set(params_of("S"), segments)) {
+    for (const auto& contour : set(params_of("S"), {segments})) {
       points += contour.size();
     }
     return points;
@@ -128,13 +140,36 @@ TEST_F(TypesetterTest, EverySegmentOfACurveIsAVertex) {
 
 TEST_F(TypesetterTest, CurvesGrowTowardsTheirLimit) {
   const auto area = [&](int segments) {
-    return planar::area(planar::from_contours(set(params_of("o"), segments),
+    return planar::area(planar::from_contours(set(params_of("o"), {segments}),
                                               planar::FillRule::kNonZero));
   };
   // The error of a chord falls with the square of their number.
   const double error8 = area(64) - area(8);
   const double error16 = area(64) - area(16);
   EXPECT_NEAR(error8 / error16, 4, 0.3);
+}
+
+TEST_F(TypesetterTest, AChordalErrorIsKeptWithFewVertices) {
+  const auto region = [&](const Chords& chords) {
+    return planar::from_contours(set(params_of("Ogs"), chords),
+                                 planar::FillRule::kNonZero);
+  };
+  const planar::Region exact = region({100});
+  std::size_t fewer = 100000;
+  for (const double error : {0.001, 0.01, 0.1}) {
+    const planar::Region rough = region({4, error});
+    const planar::Region both[] = {exact, rough};
+    const planar::Region all = planar::unite(both);
+    const planar::Region common = planar::intersect(both);
+    // Chords of height h leave segments of ⅔ of their length times h.
+    const double difference = planar::area(all) - planar::area(common);
+    EXPECT_LE(difference, 2.0 / 3 * error * perimeter(exact));
+    EXPECT_GE(difference, 0.02 * error * perimeter(exact));
+    std::size_t count = 0;
+    for (const auto& contour : rough.contours) count += contour.size();
+    EXPECT_LT(count, fewer);
+    fewer = count;
+  }
 }
 
 TEST_F(TypesetterTest, AlignmentOnlyShifts) {
@@ -216,6 +251,86 @@ TEST_F(TypesetterTest, UnknownAlignmentsAreReportedInOpenScadsWords) {
 
 TEST_F(TypesetterTest, BytesThatAreNoUtf8DoNoHarm) {
   EXPECT_FALSE(set("A\xff\xc3").empty());
+}
+
+// --- Metrics ----------------------------------------------------------------
+
+TEST_F(TypesetterTest, TheBoxOfALetterIsThatOfItsOutline) {
+  // Boxes are rounded outwards to whole pixels of size/1562.5 mm.
+  const double pixel = 10 / 1562.5;
+  for (const char* letter : {"O", "g", "W"}) {
+    csg::TextParams params = params_of(letter);
+    const auto metrics = typesetter_.measure_text(params, warnings_);
+    const Box box = box_of(set(params, {100}));
+    EXPECT_NEAR(metrics->position.x, box.low.x, pixel) << letter;
+    EXPECT_NEAR(metrics->position.y, box.low.y, pixel);
+    EXPECT_NEAR(metrics->position.x + metrics->size.x, box.high.x, pixel);
+    EXPECT_NEAR(metrics->position.y + metrics->size.y, box.high.y, pixel);
+    EXPECT_NEAR(metrics->ascent, box.high.y, pixel);
+    EXPECT_NEAR(metrics->descent, box.low.y, pixel);
+  }
+}
+
+TEST_F(TypesetterTest, AlignmentMovesTheBox) {
+  csg::TextParams params = params_of("Apogee");
+  const auto left = typesetter_.measure_text(params, warnings_);
+  EXPECT_EQ(left->offset, Vec2(0));
+  params.halign = "default";
+  params.valign = "default";
+  EXPECT_EQ(typesetter_.measure_text(params, warnings_)->position,
+            left->position);
+  params.halign = "right";
+  params.valign = "bottom";
+  const auto right = typesetter_.measure_text(params, warnings_);
+  EXPECT_EQ(right->offset, Vec2(-left->advance.x, -left->descent));
+  EXPECT_NEAR(right->position.x, left->position.x + right->offset.x, 1e-12);
+  EXPECT_NEAR(right->position.y, 0, 1e-12);
+  params.halign = "center";
+  params.valign = "center";
+  const auto middle = typesetter_.measure_text(params, warnings_);
+  EXPECT_NEAR(middle->offset.x, right->offset.x / 2, 1e-12);
+  EXPECT_NEAR(middle->position.y, -middle->size.y / 2, 1e-12);
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(TypesetterTest, AColumnHangsBelowItsOriginUnlessToldOtherwise) {
+  csg::TextParams params = params_of("IO");
+  params.direction = "ttb";
+  params.halign = params.valign = "default";
+  const auto hanging = typesetter_.measure_text(params, warnings_);
+  EXPECT_EQ(hanging->offset, Vec2(0));
+  EXPECT_LT(hanging->position.y + hanging->size.y, 0);
+  EXPECT_EQ(hanging->advance.x, 0);
+  params.valign = "bottom";
+  params.halign = "left";
+  const auto standing = typesetter_.measure_text(params, warnings_);
+  EXPECT_EQ(standing->offset.y, -hanging->advance.y);
+  EXPECT_NEAR(standing->position.x, 0, 1e-12);
+  EXPECT_TRUE(warnings_.empty());
+  params.valign = "baseline";
+  typesetter_.measure_text(params, warnings_);
+  EXPECT_EQ(warnings_,
+            std::vector<std::string>{
+                "Don't use valign=\"baseline\" with vertical layouts"});
+}
+
+TEST_F(TypesetterTest, ABlankHasAnAdvanceOnly) {
+  const auto metrics = typesetter_.measure_text(params_of("  "), warnings_);
+  EXPECT_EQ(metrics->size, Vec2(0));
+  EXPECT_EQ(metrics->ascent, 0);
+  // Two blanks of 569 units, 2048 to the em of 100/72 sizes.
+  EXPECT_NEAR(metrics->advance.x, 2 * 569 / 2048.0 * 1000 / 72, 1e-3);
+}
+
+TEST_F(TypesetterTest, AFontTellsItsMeasures) {
+  const auto metrics = typesetter_.measure_font(params_of(""), warnings_);
+  const double unit = 1000.0 / 72 / 2048;
+  EXPECT_NEAR(metrics->nominal_ascent, 1854 * unit, 1e-3);
+  EXPECT_NEAR(metrics->nominal_descent, -434 * unit, 1e-3);
+  EXPECT_NEAR(metrics->interline, (1854 + 434 + 67) * unit, 1e-3);
+  EXPECT_GT(metrics->max_ascent, metrics->nominal_ascent);
+  EXPECT_EQ(metrics->family, "Liberation Sans");
+  EXPECT_EQ(metrics->style, "Regular");
 }
 
 // --- Fonts ------------------------------------------------------------------
@@ -308,19 +423,19 @@ TEST_F(TypesetterTest, AFontCutInItsGlyphsDoesNoHarm) {
   const support::TemporaryFolder folder;
   const std::string whole = renamed_font();
   for (std::size_t size = 20000; size < whole.size(); size += 30000) {
-    Typesetter typesetter({LAMINA_MODULES});
+    Typesetter typesetter({LAMINA_MODULES}, diagnostics_);
     typesetter.add_fonts({folder.write("cut.ttf", whole.substr(0, size))});
     csg::TextParams params = params_of("The quick brown fox");
     params.font = "Ziberation Sans";
-    typesetter.outline(params, 4, {}, diagnostics_);
+    typesetter.outline(params, {4}, {}, diagnostics_);
   }
 }
 
 TEST(Typesetter, SaysWhereAMissingModuleWasLookedFor) {
-  Typesetter typesetter({"/nowhere", "/neither"});
   Diagnostics diagnostics;
+  Typesetter typesetter({"/nowhere", "/neither"}, diagnostics);
   try {
-    typesetter.outline(params_of("A"), 4, {}, diagnostics);
+    typesetter.outline(params_of("A"), {4}, {}, diagnostics);
     FAIL() << "no error";
   } catch (const GeometryError& error) {
     EXPECT_STREQ(error.what(),
@@ -332,9 +447,9 @@ TEST(Typesetter, SaysWhereAMissingModuleWasLookedFor) {
 TEST(Typesetter, SaysThatAModuleCannotBeOpened) {
   const support::TemporaryFolder folder;
   folder.write("lamina_text.so", "no library");
-  Typesetter typesetter({folder.path()});
   Diagnostics diagnostics;
-  EXPECT_THROW(typesetter.outline(params_of("A"), 4, {}, diagnostics),
+  Typesetter typesetter({folder.path()}, diagnostics);
+  EXPECT_THROW(typesetter.outline(params_of("A"), {4}, {}, diagnostics),
                GeometryError);
 }
 

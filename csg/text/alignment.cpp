@@ -1,0 +1,155 @@
+#include "csg/text/detail/alignment.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace lamina::text {
+namespace {
+
+// What to say about alignments that are none.
+struct Complaints {
+  Severity severity;
+  std::vector<Message>& messages;
+};
+
+double choose_x(std::string_view halign, double left, double center,
+                double right, const Complaints& complaints) {
+  if (halign == "left") return left;
+  if (halign == "center") return center;
+  if (halign == "right") return right;
+  complaints.messages.push_back(
+      {complaints.severity,
+       fmt::format("Unknown value for the halign parameter (use \"left\", "
+                   "\"right\" or \"center\"): '{}'",
+                   halign)});
+  return 0;
+}
+
+double choose_y(std::string_view valign, double top, double center,
+                double bottom, const Complaints& complaints) {
+  if (valign == "top") return top;
+  if (valign == "center") return center;
+  if (valign == "baseline") return 0;
+  if (valign == "bottom") return bottom;
+  complaints.messages.push_back(
+      {complaints.severity,
+       fmt::format("Unknown value for the valign parameter (use \"baseline\", "
+                   "\"bottom\", \"top\" or \"center\"): '{}'",
+                   valign)});
+  return 0;
+}
+
+std::string_view value_or(std::string_view alignment,
+                          std::string_view fallback) {
+  return alignment == "default" ? fallback : alignment;
+}
+
+// The boxes of all glyphs where they stand.
+struct Extent {
+  Box ink{Vec2(std::numeric_limits<double>::max()),
+          Vec2(std::numeric_limits<double>::lowest())};
+  // Of the highest and the lowest glyph, each above its own origin.
+  double ascent = std::numeric_limits<double>::lowest();
+  double descent = std::numeric_limits<double>::max();
+  Vec2 advance = Vec2(0);
+
+  bool has_ink() const { return ink.high.x >= ink.low.x; }
+};
+
+Extent extent_of(const GlyphRow& row) {
+  Extent extent;
+  for (const Glyph& glyph : row.glyphs) {
+    const Box& box = glyph.box;
+    const Vec2 place = extent.advance + glyph.shift;
+    extent.advance += glyph.advance;
+    if (!(box.high.x > box.low.x && box.high.y > box.low.y)) continue;
+    extent.ascent = std::max(extent.ascent, box.high.y);
+    extent.descent = std::min(extent.descent, box.low.y);
+    extent.ink = {glm::min(extent.ink.low, place + box.low),
+                  glm::max(extent.ink.high, place + box.high)};
+  }
+  return extent;
+}
+
+Vec2 offset_of(const csg::TextParams& params, bool is_horizontal,
+               const Extent& extent, std::vector<Message>& messages) {
+  const Complaints complaints = {Severity::kWarning, messages};
+  const Vec2 half = extent.advance / 2.0;
+  if (is_horizontal) {
+    return {choose_x(value_or(params.halign, "left"), 0, -half.x,
+                     -extent.advance.x, complaints),
+            choose_y(value_or(params.valign, "baseline"), -extent.ascent,
+                     -(extent.ascent + extent.descent) / 2, -extent.descent,
+                     complaints)};
+  }
+  const double x =
+      choose_x(value_or(params.halign, "center"), -extent.ink.low.x, 0,
+               -extent.ink.high.x, complaints);
+  if (params.valign == "baseline") {
+    messages.push_back({Severity::kWarning,
+                        "Don't use valign=\"baseline\" with vertical layouts"});
+  }
+  return {x, choose_y(value_or(params.valign, "top"), 0, -half.y,
+                      -extent.advance.y, complaints)};
+}
+
+}  // namespace
+
+Vec2 align(const csg::TextParams& params, const GlyphRow& row,
+           std::vector<Message>& messages) {
+  double width = 0;
+  double ascent = 0;
+  double descent = 0;
+  for (const Glyph& glyph : row.glyphs) {
+    const Box& box = glyph.box;
+    if (row.is_horizontal) {
+      width += glyph.advance.x;
+      ascent = std::max(ascent, box.high.y * kShrink);
+      descent = std::max(descent, -box.low.y * kShrink);
+    } else {
+      width = std::max(width, (box.high.x - box.low.x) * kShrink);
+      ascent += glyph.advance.y;
+    }
+  }
+  const Complaints complaints = {Severity::kPlain, messages};
+  return {choose_x(params.halign, 0, -width / 2, -width, complaints),
+          choose_y(params.valign, -ascent, descent / 2 - ascent / 2, descent,
+                   complaints)};
+}
+
+csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,
+                         std::vector<Message>& messages) {
+  const Extent extent = extent_of(row);
+  csg::TextMetrics metrics;
+  metrics.advance = extent.advance * params.size;
+  if (!extent.has_ink()) return metrics;
+  const Vec2 offset = offset_of(params, row.is_horizontal, extent, messages);
+  metrics.position = (offset + extent.ink.low) * params.size;
+  metrics.size = (extent.ink.high - extent.ink.low) * params.size;
+  metrics.ascent = extent.ascent * params.size;
+  metrics.descent = extent.descent * params.size;
+  metrics.offset = offset * params.size;
+  return metrics;
+}
+
+csg::FontMetrics measure(double size, const Font& font) {
+  const FT_FaceRec& face = *font.face;
+  const auto scaled = [&](FT_Long units) {
+    return static_cast<double>(FT_MulFix(units, face.size->metrics.y_scale)) /
+           Font::kSize * size;
+  };
+  csg::FontMetrics metrics;
+  metrics.nominal_ascent = scaled(face.ascender);
+  metrics.nominal_descent = scaled(face.descender);
+  metrics.max_ascent = scaled(face.bbox.yMax);
+  metrics.max_descent = scaled(face.bbox.yMin);
+  metrics.interline = scaled(face.height);
+  if (face.family_name) metrics.family = face.family_name;
+  if (face.style_name) metrics.style = face.style_name;
+  return metrics;
+}
+
+}  // namespace lamina::text
