@@ -40,11 +40,15 @@ std::string FunctionLiteral::text() const {
 
 namespace {
 
-void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
-                       Frame& caller, Repeats repeats) {
-  if (plan.warnings.empty()) return;
+[[gnu::noinline]] void give_warnings(const ArgumentPlan& plan,
+                                     SourceRange range, Frame& caller,
+                                     Repeats repeats) {
   if (repeats == Repeats::kSilent && !caller.in.is_first_of_call(range)) return;
   for (const std::string& warning : plan.warnings) warn(caller, range, warning);
+}
+void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
+                       Frame& caller, Repeats repeats) {
+  if (!plan.warnings.empty()) give_warnings(plan, range, caller, repeats);
 }
 
 }  // namespace
