@@ -158,34 +158,78 @@ Value compare(BinaryOp op, const Value& left, const Value& right,
 
 // --- Arithmetic -----------------------------------------------------------
 
-Value add_or_subtract(BinaryOp op, const Value& left, const Value& right,
-                      std::string& reason) {
+// The vector of `result_of` of the first `count` elements; in place where no
+// other value holds them all.
+template <typename ResultOf>
+Value map_elements(Value&& vector, std::size_t count,
+                   const ResultOf& result_of) {
+  const std::span<Value> own = vector.own_elements();
+  if (own.size() == count && count > 0) {
+    for (std::size_t i = 0; i < count; ++i) {
+      own[i] = result_of(i, std::move(own[i]));
+    }
+    return std::move(vector);
+  }
+  const std::span<const Value> elements = vector.as_vector();
+  VectorBuilder result(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    result.push(result_of(i, Value(elements[i])));
+  }
+  return result.finish();
+}
+
+Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
+                              std::string& reason);
+
+// Inlined for the sake of numbers, the elements of most vectors.
+[[gnu::always_inline]] inline Value add_or_subtract(BinaryOp op, Value&& left,
+                                                    Value&& right,
+                                                    std::string& reason) {
   if (left.is_number() && right.is_number()) {
     return Value(op == BinaryOp::kAdd ? left.as_number() + right.as_number()
                                       : left.as_number() - right.as_number());
   }
+  return add_or_subtract_vectors(op, std::move(left), std::move(right), reason);
+}
+
+Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
+                              std::string& reason) {
   if (!left.is_vector() || !right.is_vector()) {
     return undefined(op, left, right, reason);
   }
   const std::span<const Value> a = left.as_vector();
   const std::span<const Value> b = right.as_vector();
-  VectorBuilder result(std::min(a.size(), b.size()));
+  const std::size_t count = std::min(a.size(), b.size());
   std::string unused;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    result.push(add_or_subtract(op, a[i], b[i], unused));
+  if (right.own_elements().size() == count) {
+    return map_elements(
+        std::move(right), count, [&](std::size_t i, Value&& element) {
+          return add_or_subtract(op, Value(a[i]), std::move(element), unused);
+        });
   }
-  return result.finish();
+  return map_elements(
+      std::move(left), count, [&](std::size_t i, Value&& element) {
+        return add_or_subtract(op, std::move(element), Value(b[i]), unused);
+      });
 }
 
-Value multiply(const Value& left, const Value& right, std::string& reason);
+Value multiply_any(Value&& left, Value&& right, std::string& reason);
 
-Value multiply_elements(std::span<const Value> elements, const Value& factor) {
-  VectorBuilder result(elements.size());
-  std::string unused;
-  for (const Value& element : elements) {
-    result.push(multiply(element, factor, unused));
+[[gnu::always_inline]] inline Value multiply(Value&& left, Value&& right,
+                                             std::string& reason) {
+  if (left.is_number() && right.is_number()) {
+    return Value(left.as_number() * right.as_number());
   }
-  return result.finish();
+  return multiply_any(std::move(left), std::move(right), reason);
+}
+
+Value multiply_elements(Value&& vector, const Value& factor) {
+  const std::size_t count = vector.as_vector().size();
+  std::string unused;
+  return map_elements(
+      std::move(vector), count, [&](std::size_t, Value&& element) {
+        return multiply(std::move(element), Value(factor), unused);
+      });
 }
 
 Value multiply_matrix_by_vector(std::span<const Value> matrix,
@@ -326,15 +370,12 @@ Value multiply_any_vectors(std::span<const Value> a, std::span<const Value> b,
   return Value();
 }
 
-Value multiply(const Value& left, const Value& right, std::string& reason) {
-  if (left.is_number() && right.is_number()) {
-    return Value(left.as_number() * right.as_number());
-  }
+Value multiply_any(Value&& left, Value&& right, std::string& reason) {
   if (left.is_vector() && right.is_number()) {
-    return multiply_elements(left.as_vector(), right);
+    return multiply_elements(std::move(left), right);
   }
   if (left.is_number() && right.is_vector()) {
-    return multiply_elements(right.as_vector(), left);
+    return multiply_elements(std::move(right), left);
   }
   if (left.is_vector() && right.is_vector()) {
     return multiply_any_vectors(left.as_vector(), right.as_vector(), reason);
@@ -342,24 +383,24 @@ Value multiply(const Value& left, const Value& right, std::string& reason) {
   return undefined(BinaryOp::kMultiply, left, right, reason);
 }
 
-Value divide(const Value& left, const Value& right, std::string& reason) {
+Value divide(Value&& left, Value&& right, std::string& reason) {
   if (left.is_number() && right.is_number()) {
     return Value(left.as_number() / right.as_number());
   }
   std::string unused;
   if (left.is_vector() && right.is_number()) {
-    VectorBuilder result(left.as_vector().size());
-    for (const Value& element : left.as_vector()) {
-      result.push(divide(element, right, unused));
-    }
-    return result.finish();
+    const std::size_t count = left.as_vector().size();
+    return map_elements(
+        std::move(left), count, [&](std::size_t, Value&& element) {
+          return divide(std::move(element), Value(right), unused);
+        });
   }
   if (left.is_number() && right.is_vector()) {
-    VectorBuilder result(right.as_vector().size());
-    for (const Value& element : right.as_vector()) {
-      result.push(divide(left, element, unused));
-    }
-    return result.finish();
+    const std::size_t count = right.as_vector().size();
+    return map_elements(
+        std::move(right), count, [&](std::size_t, Value&& element) {
+          return divide(Value(left), std::move(element), unused);
+        });
   }
   return undefined(BinaryOp::kDivide, left, right, reason);
 }
@@ -444,8 +485,7 @@ bool is_less(const Value& left, const Value& right) {
   return compare(BinaryOp::kLess, left, right, unused).is_true();
 }
 
-Value apply_binary(BinaryOp op, const Value& left, const Value& right,
-                   std::string& reason) {
+Value apply_binary(BinaryOp op, Value left, Value right, std::string& reason) {
   switch (op) {
     case BinaryOp::kEqual:
       return Value(are_equal(left, right));
@@ -458,11 +498,11 @@ Value apply_binary(BinaryOp op, const Value& left, const Value& right,
       return compare(op, left, right, reason);
     case BinaryOp::kAdd:
     case BinaryOp::kSubtract:
-      return add_or_subtract(op, left, right, reason);
+      return add_or_subtract(op, std::move(left), std::move(right), reason);
     case BinaryOp::kMultiply:
-      return multiply(left, right, reason);
+      return multiply(std::move(left), std::move(right), reason);
     case BinaryOp::kDivide:
-      return divide(left, right, reason);
+      return divide(std::move(left), std::move(right), reason);
     default:
       break;
   }
@@ -476,27 +516,27 @@ Value apply_binary(BinaryOp op, const Value& left, const Value& right,
   return apply_bitwise(op, a, b, reason);
 }
 
-Value apply_unary(ast::UnaryOp op, const Value& value, std::string& reason) {
+Value apply_unary(ast::UnaryOp op, Value value, std::string& reason) {
   switch (op) {
     case ast::UnaryOp::kNot:
       return Value(!value.is_true());
     case ast::UnaryOp::kNegate:
-      return negate(value, reason);
+      return negate(std::move(value), reason);
     case ast::UnaryOp::kBitNot:
       return invert(value, reason);
   }
   return Value();
 }
 
-Value negate(const Value& value, std::string& reason) {
+Value negate(Value value, std::string& reason) {
   if (value.is_number()) return Value(-value.as_number());
   if (value.is_vector()) {
-    VectorBuilder result(value.as_vector().size());
+    const std::size_t count = value.as_vector().size();
     std::string unused;
-    for (const Value& element : value.as_vector()) {
-      result.push(negate(element, unused));
-    }
-    return result.finish();
+    return map_elements(std::move(value), count,
+                        [&](std::size_t, Value&& element) {
+                          return negate(std::move(element), unused);
+                        });
   }
   reason = fmt::format("undefined operation (-{})", type_name(value.type()));
   return Value();

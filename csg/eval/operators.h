@@ -27,12 +27,14 @@ inline double modulo(double a, double b) {
   return std::fmod(a, b);
 }
 
-// All but `&&` and `||`, which do not evaluate both sides.
-Value apply_binary(ast::BinaryOp op, const Value& left, const Value& right,
+// All but `&&` and `||`, which do not evaluate both sides. A vector moved in
+// that no other value holds may become the result: `[..] * 2 + [..]` makes two
+// vectors, not four.
+Value apply_binary(ast::BinaryOp op, Value left, Value right,
                    std::string& reason);
 
-Value apply_unary(ast::UnaryOp op, const Value& value, std::string& reason);
-Value negate(const Value& value, std::string& reason);
+Value apply_unary(ast::UnaryOp op, Value value, std::string& reason);
+Value negate(Value value, std::string& reason);
 
 // left == right; never undefined.
 bool are_equal(const Value& left, const Value& right);

@@ -12,6 +12,11 @@ namespace {
 
 using ast::BinaryOp;
 
+// What `look` found: itself if it is the spill, else a copy.
+Value take(const Value& value, Value& spill) {
+  return &value == &spill ? std::move(spill) : value;
+}
+
 Value run_not(const Expression& expression, Frame& frame) {
   return Value(!is_true(as<UnaryCode>(expression).operand, frame));
 }
@@ -21,7 +26,7 @@ Value run_negate(const Expression& expression, Frame& frame) {
   const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
   if (operand.is_number()) return Value(-operand.as_number());
   std::string reason;
-  Value result = negate(operand, reason);
+  Value result = negate(take(operand, spill), reason);
   if (!reason.empty()) warn(frame, expression.range, std::move(reason));
   return result;
 }
@@ -30,7 +35,8 @@ Value run_bit_not(const Expression& expression, Frame& frame) {
   Value spill;
   const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
   std::string reason;
-  Value result = apply_unary(ast::UnaryOp::kBitNot, operand, reason);
+  Value result =
+      apply_unary(ast::UnaryOp::kBitNot, take(operand, spill), reason);
   if (!reason.empty()) warn(frame, expression.range, std::move(reason));
   return result;
 }
@@ -50,16 +56,6 @@ Expression::Run unary_runner(ast::UnaryOp op) {
 }
 
 namespace {
-
-// Operands that are not both numbers, or bits.
-[[gnu::noinline]] Value run_binary_any(const BinaryCode& code,
-                                       const Value& left, const Value& right,
-                                       Frame& frame) {
-  std::string reason;
-  Value result = apply_binary(code.op, left, right, reason);
-  if (!reason.empty()) warn(frame, code.range, std::move(reason));
-  return result;
-}
 
 template <BinaryOp op>
 Value on_numbers(double a, double b) {
@@ -101,6 +97,7 @@ class Operand {
   Operand(const Expression* code, Frame& frame)
       : value_(look(code, frame, spill_)) {}
   const Value& value() const { return value_; }
+  Value take() { return csg::take(value_, spill_); }
 
  private:
   Value spill_;
@@ -114,6 +111,7 @@ class Operand<Reach::kLocal> {
                    ? frame.slots[code->slot]
                    : look_further(code, frame, spill_)) {}
   const Value& value() const { return value_; }
+  Value take() { return csg::take(value_, spill_); }
 
  private:
   Value spill_;
@@ -125,6 +123,7 @@ class Operand<Reach::kConstant> {
   Operand(const Expression* code, Frame&)
       : value_(*static_cast<const Constant*>(code)->value) {}
   const Value& value() const { return value_; }
+  Value take() { return value_; }
 
  private:
   const Value& value_;
@@ -134,32 +133,41 @@ class Operand<Reach::kComputed> {
  public:
   Operand(const Expression* code, Frame& frame) : value_(run(code, frame)) {}
   const Value& value() const { return value_; }
+  Value take() { return std::move(value_); }
 
  private:
   Value value_;
 };
+
+// Operands that are not both numbers, or bits.
+template <typename Left, typename Right>
+[[gnu::noinline]] Value run_binary_any(const BinaryCode& code, Left& left,
+                                       Right& right, Frame& frame) {
+  std::string reason;
+  Value result = apply_binary(code.op, left.take(), right.take(), reason);
+  if (!reason.empty()) warn(frame, code.range, std::move(reason));
+  return result;
+}
 
 // The right operand goes first, as in the released openscad: messages of both
 // come in that order.
 template <BinaryOp op, Reach left_reach, Reach right_reach>
 Value run_binary(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
-  const Operand<right_reach> right(code.right, frame);
-  const Operand<left_reach> left(code.left, frame);
+  Operand<right_reach> right(code.right, frame);
+  Operand<left_reach> left(code.left, frame);
   const Value& a = left.value();
   const Value& b = right.value();
   if (a.is_number() && b.is_number()) [[likely]] {
     return on_numbers<op>(a.as_number(), b.as_number());
   }
-  return run_binary_any(code, a, b, frame);
+  return run_binary_any(code, left, right, frame);
 }
 
 Value run_bitwise(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
-  Value spill_left;
-  Value spill_right;
-  const Value& right = look(code.right, frame, spill_right);
-  const Value& left = look(code.left, frame, spill_left);
+  Operand<Reach::kLooked> right(code.right, frame);
+  Operand<Reach::kLooked> left(code.left, frame);
   return run_binary_any(code, left, right, frame);
 }
 

@@ -186,6 +186,12 @@ class Value {
   const Members& as_object() const;
   Box& as_box() const;
 
+  // Elements of a vector that no other value holds, to be overwritten; none of
+  // any other value.
+  std::span<Value> own_elements() {
+    if (!is_vector() || payload_.object->references != 1) return {};
+    return {vector_buffer().data(), length_};
+  }
   // Elements of a vector; none for any other type.
   std::span<const Value> elements() const {
     return is_vector() ? as_vector() : std::span<const Value>();
