@@ -8,8 +8,8 @@
 
 namespace lamina::csg {
 
-// One body: nothing is joined, turned or closed yet, but every index names a
-// vertex. Faces are counter-clockwise from outside, if the file keeps to that.
+// One body: nothing is turned or closed yet and equal vertices need not be one,
+// but every index names a vertex. Faces are counter-clockwise from outside, if the file keeps to that.
 struct RawMesh {
   Mesh mesh;
   std::vector<std::vector<std::uint32_t>> polygons;  // faces of 4 corners up

@@ -3,11 +3,13 @@
 #include <array>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/format_error.h"
+#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -28,23 +30,38 @@ bool is_binary(std::string_view bytes) {
          bytes.size() == kHeader + kRecord * std::size_t{facet_count(bytes)};
 }
 
+// Joins equal corners at once: there are six times as many as vertices, and
+// they are most of what a large file needs of memory.
+class FacetJoiner {
+ public:
+  explicit FacetJoiner(std::size_t count) { triangles_.reserve(count); }
+
+  void add(const std::array<Vec3, 3>& corners) {
+    triangles_.push_back({vertices_.name(corners[0]),
+                          vertices_.name(corners[1]),
+                          vertices_.name(corners[2])});
+  }
+
+  RawMesh take() {
+    return {{vertices_.take_points(), std::move(triangles_)}, {}};
+  }
+
+ private:
+  VertexTable vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
+
 RawMesh parse_binary(std::string_view bytes) {
   const std::size_t count = facet_count(bytes);
-  RawMesh raw;
-  raw.mesh.vertices.resize(3 * count);
-  raw.mesh.triangles.resize(count);
+  FacetJoiner facets(count);
   for (std::size_t i = 0; i < count; ++i) {
-    std::array<float, 9> numbers{};
-    std::memcpy(numbers.data(), bytes.data() + kHeader + kRecord * i + kNormal,
-                sizeof numbers);
-    Vec3* corners = &raw.mesh.vertices[3 * i];
-    corners[0] = {numbers[0], numbers[1], numbers[2]};
-    corners[1] = {numbers[3], numbers[4], numbers[5]};
-    corners[2] = {numbers[6], numbers[7], numbers[8]};
-    const auto first = static_cast<std::uint32_t>(3 * i);
-    raw.mesh.triangles[i] = {first, first + 1, first + 2};
+    std::array<float, 9> n{};
+    std::memcpy(n.data(), bytes.data() + kHeader + kRecord * i + kNormal,
+                sizeof n);
+    facets.add({Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]),
+                Vec3(n[6], n[7], n[8])});
   }
-  return raw;
+  return facets.take();
 }
 
 bool holds(std::string_view line, std::string_view words) {
@@ -86,7 +103,7 @@ std::optional<Vec3> read_vertex(std::string_view line, const TextLines& lines) {
 }
 
 RawMesh parse_text(std::string_view bytes) {
-  RawMesh raw;
+  FacetJoiner facets(0);
   TextLines lines(bytes);
   lines.next();  // the name
   std::array<Vec3, 3> corners{};
@@ -101,12 +118,9 @@ RawMesh parse_text(std::string_view bytes) {
     if (!vertex) continue;
     corners[count] = *vertex;
     if (++count < 3) continue;
-    const auto first = static_cast<std::uint32_t>(raw.mesh.vertices.size());
-    raw.mesh.vertices.insert(raw.mesh.vertices.end(), corners.begin(),
-                             corners.end());
-    raw.mesh.triangles.push_back({first, first + 1, first + 2});
+    facets.add(corners);
   }
-  return raw;
+  return facets.take();
 }
 
 }  // namespace

@@ -1,24 +1,26 @@
 // Mending on a table of edges.
 //
-// A half-edge structure refuses what designs are full of: edges of four
-// triangles, cones that meet in a point. Here a mesh is only a list of
-// triangles and a sorted list of their edges, which anything fits, and "closed"
-// is a sum: as many a→b as b→a. Holes are what is missing from that sum; as
-// the boundary of anything has no boundary, the missing edges always fall into
-// loops, and every loop can be capped.
+// Here a mesh is only a list of triangles and a sorted table of their edges,
+// which anything fits, and "closed" is a sum: as many a→b as b→a. Holes are
+// what is missing from that sum; as the boundary of anything has no boundary,
+// the missing edges always fall into loops, and every loop can be capped.
+//
+// Nearly every file is sound once its equal vertices are one. Then one look at
+// the table tells, and nothing is repaired.
 
 #include "csg/solid/detail/mend.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "csg/solid/detail/edge_table.h"
 #include "csg/solid/detail/face.h"
 #include "csg/solid/leaf_mesh.h"
+#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -30,46 +32,37 @@ using Triangle = std::array<std::uint32_t, 3>;
 // were computed apart differ by rounding, 1e-15 or so; nobody prints 1e-6.
 constexpr double kMergeDistance = 0.00000095367431640625;
 
-struct VertexLess {
-  bool operator()(const Vec3& a, const Vec3& b) const {
-    if (a.x != b.x) return a.x < b.x;
-    if (a.y != b.y) return a.y < b.y;
-    return a.z < b.z;
-  }
-};
-
 void rename_corners(Mesh& mesh, const std::vector<std::uint32_t>& new_names) {
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& corner : t) corner = new_names[corner];
   }
 }
 
-// Lets triangles name the first of equal vertices.
+// Makes one vertex of equal ones.
 void merge_equal_vertices(Mesh& mesh) {
-  std::map<Vec3, std::uint32_t, VertexLess> first;
-  std::vector<std::uint32_t> merged;
-  merged.reserve(mesh.vertices.size());
-  for (const Vec3& vertex : mesh.vertices) {
-    const auto id = static_cast<std::uint32_t>(merged.size());
-    merged.push_back(first.try_emplace(vertex, id).first->second);
-  }
-  rename_corners(mesh, merged);
+  VertexTable table;
+  std::vector<std::uint32_t> names;
+  names.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) names.push_back(table.name(vertex));
+  mesh.vertices = table.take_points();
+  rename_corners(mesh, names);
 }
 
 // Lets triangles name the first of vertices within kMergeDistance, found in
 // the cells of that size around each.
 void merge_near_vertices(Mesh& mesh) {
-  std::map<Vec3, std::uint32_t, VertexLess> first_in_cell;
+  VertexTable cells;
+  std::vector<std::uint32_t> first_in_cell;  // by name of the cell
   std::vector<std::uint32_t> merged;
   merged.reserve(mesh.vertices.size());
   const auto find_near = [&](const Vec3& vertex, const Vec3& cell) {
     for (int i = 0; i < 27; ++i) {
       const Vec3 shift(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      const auto found = first_in_cell.find(cell + shift);
-      if (found != first_in_cell.end() &&
-          glm::distance(mesh.vertices[found->second], vertex) <=
-              kMergeDistance) {
-        return found->second;
+      const auto found = cells.find(cell + shift);
+      if (!found) continue;
+      const std::uint32_t first = first_in_cell[*found];
+      if (glm::distance(mesh.vertices[first], vertex) <= kMergeDistance) {
+        return first;
       }
     }
     return static_cast<std::uint32_t>(merged.size());
@@ -77,7 +70,10 @@ void merge_near_vertices(Mesh& mesh) {
   for (const Vec3& vertex : mesh.vertices) {
     const Vec3 cell = glm::floor(vertex / kMergeDistance);
     const std::uint32_t name = find_near(vertex, cell);
-    if (name == merged.size()) first_in_cell.try_emplace(cell, name);
+    const bool is_first = name == merged.size();
+    if (is_first && cells.name(cell) == first_in_cell.size()) {
+      first_in_cell.push_back(name);
+    }
     merged.push_back(name);
   }
   rename_corners(mesh, merged);
@@ -91,60 +87,22 @@ std::size_t drop_degenerate(Mesh& mesh) {
 
 // Keeps the first of triangles with the same corners in the same order.
 std::size_t drop_repeated(Mesh& mesh) {
-  std::set<Triangle> seen;
-  return std::erase_if(mesh.triangles, [&](Triangle t) {
+  std::vector<Triangle> turned = mesh.triangles;
+  for (Triangle& t : turned) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return !seen.insert(t).second;
-  });
-}
-
-// One side of one triangle, the smaller vertex first.
-struct Side {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::uint32_t triangle = 0;
-  bool is_rising = false;  // the triangle runs from low to high
-
-  bool is_same_edge(const Side& other) const {
-    return low == other.low && high == other.high;
   }
-};
-
-// Sorted by edge, so that the sides of an edge stand together.
-std::vector<Side> collect_sides(const Mesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle& t = mesh.triangles[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = t[k];
-      const std::uint32_t b = t[(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), i, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) <
-           std::tie(b.low, b.high, b.triangle);
+  std::vector<std::uint32_t> order(turned.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::tie(turned[a], a) < std::tie(turned[b], b);
   });
-  return sides;
-}
-
-// Calls visit(begin, end) for the sides of each edge.
-template <typename Visit>
-void for_each_edge(const std::vector<Side>& sides, Visit visit) {
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    while (end < sides.size() && sides[end].is_same_edge(sides[begin])) ++end;
-    visit(begin, end);
+  std::vector<bool> is_repeated(turned.size());
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    is_repeated[order[i]] = turned[order[i]] == turned[order[i - 1]];
   }
-}
-
-// True where an edge has no partner, however the triangles are turned.
-bool is_open(const Mesh& mesh) {
-  bool is_any_odd = false;
-  for_each_edge(collect_sides(mesh), [&](std::size_t begin, std::size_t end) {
-    is_any_odd = is_any_odd || (end - begin) % 2 == 1;
+  return std::erase_if(mesh.triangles, [&, i = 0u](const Triangle&) mutable {
+    return is_repeated[i++];
   });
-  return is_any_odd;
 }
 
 // Triangles that share a plain edge, and whether they run against each other.
@@ -153,23 +111,35 @@ struct Neighbour {
   bool is_opposed = false;
 };
 
-std::vector<std::vector<Neighbour>> find_neighbours(
-    const Mesh& mesh, const std::vector<Side>& sides) {
-  std::vector<std::vector<Neighbour>> neighbours(mesh.triangles.size());
-  for_each_edge(sides, [&](std::size_t begin, std::size_t end) {
-    if (end - begin != 2) return;
-    const Side& a = sides[begin];
-    const Side& b = sides[begin + 1];
-    const bool is_opposed = a.is_rising == b.is_rising;
-    neighbours[a.triangle].push_back({b.triangle, is_opposed});
-    neighbours[b.triangle].push_back({a.triangle, is_opposed});
+// The neighbours of one triangle, at most one at each side.
+class Neighbours {
+ public:
+  void add(Neighbour neighbour) { all_[count_++] = neighbour; }
+  const Neighbour* begin() const { return all_.data(); }
+  const Neighbour* end() const { return all_.data() + count_; }
+
+ private:
+  std::array<Neighbour, 3> all_{};
+  std::uint32_t count_ = 0;
+};
+
+std::vector<Neighbours> find_neighbours(const Mesh& mesh) {
+  std::vector<Neighbours> neighbours(mesh.triangles.size());
+  const EdgeTable edges(mesh);
+  edges.for_each_edge([&](std::uint32_t, std::span<const Side> sides) {
+    if (sides.size() != 2) return;
+    const std::uint32_t a = sides[0].triangle();
+    const std::uint32_t b = sides[1].triangle();
+    const bool is_opposed = sides[0].is_rising() == sides[1].is_rising();
+    neighbours[a].add({b, is_opposed});
+    neighbours[b].add({a, is_opposed});
   });
   return neighbours;
 }
 
 // Turns the minority of each component.
 std::size_t orient(Mesh& mesh) {
-  const auto neighbours = find_neighbours(mesh, collect_sides(mesh));
+  const std::vector<Neighbours> neighbours = find_neighbours(mesh);
   enum class Turn : std::uint8_t { kUnknown, kKeep, kTurn };
   std::vector<Turn> turns(mesh.triangles.size(), Turn::kUnknown);
   std::size_t turned = 0;
@@ -204,14 +174,12 @@ using OpenEdges = std::unordered_map<std::uint32_t, std::vector<std::uint32_t>>;
 
 // The directed edges that are missing: from vertex to vertices.
 OpenEdges find_open_edges(const Mesh& mesh) {
-  const std::vector<Side> sides = collect_sides(mesh);
   OpenEdges open;
-  for_each_edge(sides, [&](std::size_t begin, std::size_t end) {
+  const EdgeTable edges(mesh);
+  edges.for_each_edge([&](std::uint32_t low, std::span<const Side> sides) {
     int rising = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      rising += sides[i].is_rising ? 1 : -1;
-    }
-    const auto [low, high] = std::pair(sides[begin].low, sides[begin].high);
+    for (const Side& side : sides) rising += side.is_rising() ? 1 : -1;
+    const std::uint32_t high = sides[0].high;
     for (; rising > 0; --rising) open[high].push_back(low);
     for (; rising < 0; ++rising) open[low].push_back(high);
   });
@@ -279,19 +247,24 @@ void drop_unused_vertices(Mesh& mesh) {
   mesh.vertices = std::move(used);
 }
 
-}  // namespace
-
-Mending mend(Mesh& mesh) {
-  Mending mending;
-  merge_equal_vertices(mesh);
-  mending.dropped_triangles = drop_degenerate(mesh);
-  if (is_open(mesh)) {
+// What is needed where the table of edges is not sound.
+void repair(Mesh& mesh, Mending& mending) {
+  if (EdgeTable(mesh).is_open()) {
     merge_near_vertices(mesh);
     mending.dropped_triangles += drop_degenerate(mesh);
   }
   mending.turned_triangles = orient(mesh);
   mending.repeated_triangles = drop_repeated(mesh);
   mending.closed_holes = close_holes(mesh);
+}
+
+}  // namespace
+
+Mending mend(Mesh& mesh) {
+  Mending mending;
+  merge_equal_vertices(mesh);
+  mending.dropped_triangles = drop_degenerate(mesh);
+  if (!EdgeTable(mesh).is_sound()) repair(mesh, mending);
   drop_unused_vertices(mesh);
   if (signed_volume(mesh) < 0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
