@@ -44,6 +44,7 @@ struct Union {};
 struct Difference {};
 struct Intersection {};
 struct Hull {};
+struct Fill {};
 struct Minkowski {
   int convexity = 0;
 };
@@ -189,10 +190,10 @@ struct Surface {
 };
 
 struct Node {
-  std::variant<Group, Union, Difference, Intersection, Hull, Minkowski, Render,
-               Transform, Color, Resize, Offset, Projection, LinearExtrude,
-               RotateExtrude, Cube, Sphere, Cylinder, Polyhedron, Square,
-               Circle, Polygon, Text, Import, Surface>
+  std::variant<Group, Union, Difference, Intersection, Hull, Fill, Minkowski,
+               Render, Transform, Color, Resize, Offset, Projection,
+               LinearExtrude, RotateExtrude, Cube, Sphere, Cylinder, Polyhedron,
+               Square, Circle, Polygon, Text, Import, Surface>
       op;
   std::span<const Node* const> children;
   SourceRange range;

@@ -307,13 +307,14 @@ void render(const BuiltinModuleCode& code, Frame& frame) {
   frame.in.make_node(render, code, mark);
 }
 
-// --- hull, minkowski, resize ------------------------------------------------
+// --- hull, fill, minkowski, resize ------------------------------------------
 
-void hull(const BuiltinModuleCode& code, Frame& frame) {
+template <typename Op>
+void outline_operation(const BuiltinModuleCode& code, Frame& frame) {
   const std::size_t mark = frame.in.node_mark();
   const ModuleArguments arguments(code, frame);
   run_block(*code.block, frame);
-  frame.in.make_node(Hull{}, code, mark);
+  frame.in.make_node(Op{}, code, mark);
 }
 
 void minkowski(const BuiltinModuleCode& code, Frame& frame) {
@@ -561,7 +562,8 @@ std::vector<BuiltinModuleRow> operation_rows() {
       {"multmatrix", transform<TransformKind::kMatrix>, {"m"}},
       {"color", color, {"c", "alpha"}},
       {"render", render, {"convexity"}},
-      {"hull", hull, {}},
+      {"hull", outline_operation<Hull>, {}},
+      {"fill", outline_operation<Fill>, {}},
       {"minkowski", minkowski, {"convexity"}},
       {"resize", resize, {"newsize", "auto", "convexity"}},
       {"projection", projection, {"cut"}, {"convexity"}},

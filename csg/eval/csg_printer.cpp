@@ -84,6 +84,7 @@ struct OpPrinter {
   void operator()(const Difference&) { out << "difference()"; }
   void operator()(const Intersection&) { out << "intersection()"; }
   void operator()(const Hull&) { out << "hull()"; }
+  void operator()(const Fill&) { out << "fill()"; }
   void operator()(const Minkowski& op) {
     out << "minkowski(convexity = "
         << std::to_string(static_cast<unsigned>(op.convexity)) << ")";

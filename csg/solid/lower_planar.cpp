@@ -1,3 +1,4 @@
+#include "csg/planar/minkowski.h"
 #include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/lowerer.h"
 
@@ -25,6 +26,17 @@ Shape Lowerer::lower_op(const Offset& op, const Node& node,
   return {Dimension::kFlat,
           offset_region(op, fineness(op.facets, world), shape.region,
                         node.range, diagnostics_)};
+}
+
+Shape Lowerer::lower_op(const Fill&, const Node& node, const Affine& world) {
+  Shape shape = lower_children(node, world, BooleanOp::kUnion);
+  shape.region = planar::fill(shape.region);
+  if (shape.dimension != Dimension::kSolid) return shape;
+  for (const Node* child : node.children) {
+    if (child->is_background) continue;
+    diagnostics_.warning(child->range, "fill() not yet implemented for 3D");
+  }
+  return shape;
 }
 
 Shape Lowerer::lower_op(const Text& text, const Node& node,

@@ -106,6 +106,7 @@ class Lowerer {
   Shape lower_op(const Circle& op, const Node& node, const Affine& world);
   Shape lower_op(const Polygon& op, const Node& node, const Affine& world);
   Shape lower_op(const Offset& op, const Node& node, const Affine& world);
+  Shape lower_op(const Fill& op, const Node& node, const Affine& world);
   Shape lower_op(const Text& op, const Node& node, const Affine& world);
 
   // The children's union in the plane, whatever else there is.

@@ -80,6 +80,50 @@ TEST_F(LowerPlanarTest, PointsThatAreNoneMakeAnEmptyPolygon) {
                 "Unable to convert points[2] to a vec2 of numbers"}));
 }
 
+TEST_F(LowerPlanarTest, FillTakesHolesAway) {
+  const auto region = run_flat(
+      {b.node(Fill{}, {b.node(Difference{}, {b.node(Square{{4, 4}, true}),
+                                             b.node(Square{{2, 2}, true})})})});
+  EXPECT_EQ(planar::area(region), 16);
+}
+
+TEST_F(LowerPlanarTest, FillLeavesSolidsAndSaysSo) {
+  EXPECT_EQ(run_solid({b.node(Fill{}, {b.cube(Vec3(1))})}).instances.size(),
+            1u);
+  EXPECT_EQ(messages(),
+            (std::vector<std::string>{"fill() not yet implemented for 3D"}));
+}
+
+TEST_F(LowerPlanarTest, MinkowskiAddsFlatChildren) {
+  EXPECT_EQ(planar::area(run_flat(
+                {b.node(Minkowski{}, {b.node(Square{{4, 4}, true}),
+                                      b.node(Square{{1, 2}, true})})})),
+            5 * 6);
+}
+
+// As openscad 2021.01 has it.
+TEST_F(LowerPlanarTest, MinkowskiPassesOverEmptyChildrenUnlessOneIsLeft) {
+  const auto big = [&] { return b.node(Square{{4, 4}, true}); };
+  const auto small = [&] { return b.node(Square{{1, 1}, true}); };
+  const auto nothing = [&] { return b.node(Square{{0, 0}, true}); };
+  EXPECT_EQ(planar::area(
+                run_flat({b.node(Minkowski{}, {big(), nothing(), small()})})),
+            25);
+  EXPECT_EQ(planar::area(
+                run_flat({b.node(Minkowski{}, {big(), small(), nothing()})})),
+            25);
+  EXPECT_TRUE(run({b.node(Minkowski{}, {big(), nothing()})}).is_empty());
+  EXPECT_TRUE(run({b.node(Minkowski{}, {nothing(), big()})}).is_empty());
+}
+
+TEST_F(LowerPlanarTest, MinkowskiDoesNotMixDimensions) {
+  EXPECT_TRUE(run({b.node(Minkowski{}, {b.node(Square{}), b.cube(Vec3(1))})})
+                  .is_empty());
+  EXPECT_EQ(messages(), (std::vector<std::string>{
+                            "Mixing 2D and 3D objects is not supported",
+                            "Ignoring 3D child object for 2D operation"}));
+}
+
 TEST_F(LowerPlanarTest, OffsetGrowsTheUnionOfItsChildren) {
   Offset offset{.amount = 1, .is_delta = true};
   EXPECT_NEAR(
