@@ -1,9 +1,9 @@
 #pragma once
 // What textmetrics() and fontmetrics() tell, and who measures it.
 //
-// The evaluator does not know fonts; it is given a measurer. The values are
-// those of OpenSCAD's releases after 2021.01, which set letters 2.4% further
-// apart than text() does in 2021.01, and here.
+// The evaluator does not know fonts; it is given a measurer. The functions are
+// newer than OpenSCAD 2021.01. What they tell is true of text() here, which is
+// that of 2021.01; later releases set letters 2.4% further apart.
 
 #include <optional>
 #include <string>
@@ -38,9 +38,6 @@ class TextMeasurer {
  public:
   virtual ~TextMeasurer() = default;
 
-  // Both take the alignment "default" as well: left on the baseline, in columns
-  // below the origin and centred on it.
-  //
   // warnings  gets what is wrong with the parameters
   // returns   no value where there is no font
   // throws    GeometryError where the font libraries are missing

@@ -57,8 +57,8 @@ class TextArguments {
     params.script = script_;
     params.direction = direction_;
     params.language = string_or("language", "en");
-    params.halign = string_or("halign", "default");
-    params.valign = string_or("valign", "default");
+    params.halign = string_or("halign", "left");
+    params.valign = string_or("valign", "baseline");
     return params;
   }
 

@@ -9,19 +9,13 @@
 namespace lamina::text {
 namespace {
 
-// What to say about alignments that are none.
-struct Complaints {
-  Severity severity;
-  std::vector<Message>& messages;
-};
-
 double choose_x(std::string_view halign, double left, double center,
-                double right, const Complaints& complaints) {
+                double right, std::vector<Message>& messages) {
   if (halign == "left") return left;
   if (halign == "center") return center;
   if (halign == "right") return right;
-  complaints.messages.push_back(
-      {complaints.severity,
+  messages.push_back(
+      {Severity::kPlain,
        fmt::format("Unknown value for the halign parameter (use \"left\", "
                    "\"right\" or \"center\"): '{}'",
                    halign)});
@@ -29,22 +23,17 @@ double choose_x(std::string_view halign, double left, double center,
 }
 
 double choose_y(std::string_view valign, double top, double center,
-                double bottom, const Complaints& complaints) {
+                double bottom, std::vector<Message>& messages) {
   if (valign == "top") return top;
   if (valign == "center") return center;
   if (valign == "baseline") return 0;
   if (valign == "bottom") return bottom;
-  complaints.messages.push_back(
-      {complaints.severity,
+  messages.push_back(
+      {Severity::kPlain,
        fmt::format("Unknown value for the valign parameter (use \"baseline\", "
                    "\"bottom\", \"top\" or \"center\"): '{}'",
                    valign)});
   return 0;
-}
-
-std::string_view value_or(std::string_view alignment,
-                          std::string_view fallback) {
-  return alignment == "default" ? fallback : alignment;
 }
 
 // The boxes of all glyphs where they stand.
@@ -74,28 +63,6 @@ Extent extent_of(const GlyphRow& row) {
   return extent;
 }
 
-Vec2 offset_of(const csg::TextParams& params, bool is_horizontal,
-               const Extent& extent, std::vector<Message>& messages) {
-  const Complaints complaints = {Severity::kWarning, messages};
-  const Vec2 half = extent.advance / 2.0;
-  if (is_horizontal) {
-    return {choose_x(value_or(params.halign, "left"), 0, -half.x,
-                     -extent.advance.x, complaints),
-            choose_y(value_or(params.valign, "baseline"), -extent.ascent,
-                     -(extent.ascent + extent.descent) / 2, -extent.descent,
-                     complaints)};
-  }
-  const double x =
-      choose_x(value_or(params.halign, "center"), -extent.ink.low.x, 0,
-               -extent.ink.high.x, complaints);
-  if (params.valign == "baseline") {
-    messages.push_back({Severity::kWarning,
-                        "Don't use valign=\"baseline\" with vertical layouts"});
-  }
-  return {x, choose_y(value_or(params.valign, "top"), 0, -half.y,
-                      -extent.advance.y, complaints)};
-}
-
 }  // namespace
 
 Vec2 align(const csg::TextParams& params, const GlyphRow& row,
@@ -114,10 +81,9 @@ Vec2 align(const csg::TextParams& params, const GlyphRow& row,
       ascent += glyph.advance.y;
     }
   }
-  const Complaints complaints = {Severity::kPlain, messages};
-  return {choose_x(params.halign, 0, -width / 2, -width, complaints),
+  return {choose_x(params.halign, 0, -width / 2, -width, messages),
           choose_y(params.valign, -ascent, descent / 2 - ascent / 2, descent,
-                   complaints)};
+                   messages)};
 }
 
 csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,
@@ -126,7 +92,7 @@ csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,
   csg::TextMetrics metrics;
   metrics.advance = extent.advance * params.size;
   if (!extent.has_ink()) return metrics;
-  const Vec2 offset = offset_of(params, row.is_horizontal, extent, messages);
+  const Vec2 offset = align(params, row, messages);
   metrics.position = (offset + extent.ink.low) * params.size;
   metrics.size = (extent.ink.high - extent.ink.low) * params.size;
   metrics.ascent = extent.ascent * params.size;

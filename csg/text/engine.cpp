@@ -31,7 +31,7 @@ class FontEngine : public Engine {
 
   const Typeset* measure_text(const csg::TextParams& params) noexcept override {
     return typeset(params, [&](const Font& font, Typeset& result) {
-      const GlyphRow row = shape(params, font, 1, messages_);
+      const GlyphRow row = shape(params, font, messages_);
       result.text_metrics = measure(params, row, messages_);
     });
   }
@@ -64,7 +64,7 @@ class FontEngine : public Engine {
   }
 
   void draw(const csg::TextParams& params, const Font& font) {
-    const GlyphRow row = shape(params, font, kShrink, messages_);
+    const GlyphRow row = shape(params, font, messages_);
     Vec2 place = align(params, row, messages_);
     for (const Glyph& glyph : row.glyphs) {
       auto& outline = reinterpret_cast<FT_OutlineGlyphRec_&>(*glyph.outline);

@@ -80,7 +80,7 @@ Box box_of(FT_Glyph glyph) {
 
 }  // namespace
 
-GlyphRow shape(const csg::TextParams& params, const Font& font, double scale,
+GlyphRow shape(const csg::TextParams& params, const Font& font,
                std::vector<Message>& messages) {
   const Owned<hb_buffer_t> buffer = shape_text(params, font, messages);
   unsigned count = 0;
@@ -103,8 +103,8 @@ GlyphRow shape(const csg::TextParams& params, const Font& font, double scale,
       continue;
     }
     glyph.box = box_of(glyph.outline.get());
-    glyph.shift = scale * to_vec(places[i].x_offset, places[i].y_offset);
-    glyph.advance = scale * params.spacing *
+    glyph.shift = kShrink * to_vec(places[i].x_offset, places[i].y_offset);
+    glyph.advance = kShrink * params.spacing *
                     to_vec(places[i].x_advance, places[i].y_advance);
     row.glyphs.push_back(std::move(glyph));
   }

@@ -18,8 +18,7 @@ namespace lamina::text {
 Vec2 align(const csg::TextParams& params, const GlyphRow& row,
            std::vector<Message>& messages);
 
-// textmetrics() of the releases after 2021.01. The row is shaped with a scale
-// of 1.
+// textmetrics(): of what text() draws.
 csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,
                          std::vector<Message>& messages);
 

@@ -39,13 +39,11 @@ struct GlyphRow {
 };
 
 // OpenSCAD 2021.01 sets glyphs, and takes the heights of rows, 2.4% smaller
-// than the outlines are. Outlines are drawn so; later releases, whose values
-// measures have, no longer do this.
+// than the outlines are. Later releases no longer do this.
 constexpr double kShrink = 1 / 1.024;
 
-// scale     multiplies distances, but not outlines and their boxes
 // messages  gets glyphs that cannot be loaded
-GlyphRow shape(const csg::TextParams& params, const Font& font, double scale,
+GlyphRow shape(const csg::TextParams& params, const Font& font,
                std::vector<Message>& messages);
 
 }  // namespace lamina::text
