@@ -149,6 +149,10 @@ Reference render_reference(const fs::path& root, const fs::path& design) {
   if (reference.kind == ReferenceKind::kSolid ||
       reference.kind == ReferenceKind::kOutline) {
     reference.mesh = read_binary_stl(stl);
+    // Of degenerate faces alone, openscad writes none.
+    if (reference.mesh.triangles.empty()) {
+      reference.kind = ReferenceKind::kEmpty;
+    }
   }
   return reference;
 }
