@@ -5,21 +5,19 @@
 #include <utility>
 #include <vector>
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Nef_polyhedron_3.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h>
 
+#include "tests/oracle/nef_polyhedron.h"
+
 namespace lamina::oracle {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Polyhedron = CGAL::Polyhedron_3<Kernel>;
-using Nef = CGAL::Nef_polyhedron_3<Kernel>;
+using Point = NefKernel::Point_3;
+using Polyhedron = CGAL::Polyhedron_3<NefKernel>;
 
 Nef nef_of(const csg::Mesh& mesh) {
   namespace pmp = CGAL::Polygon_mesh_processing;
@@ -61,26 +59,9 @@ Nef evaluate(csg::BooleanOp op, const std::optional<Nef>& minuend,
   return result.regularization();
 }
 
-csg::Mesh mesh_of(const Nef& nef) {
-  std::vector<Point> points;
-  std::vector<std::vector<std::size_t>> polygons;
-  CGAL::convert_nef_polyhedron_to_polygon_soup(nef, points, polygons, true);
-  csg::Mesh mesh;
-  for (const Point& p : points) {
-    mesh.vertices.push_back({CGAL::to_double(p.x()), CGAL::to_double(p.y()),
-                             CGAL::to_double(p.z())});
-  }
-  for (const auto& polygon : polygons) {
-    mesh.triangles.push_back({static_cast<std::uint32_t>(polygon[0]),
-                              static_cast<std::uint32_t>(polygon[1]),
-                              static_cast<std::uint32_t>(polygon[2])});
-  }
-  return mesh;
-}
-
 }  // namespace
 
-csg::Mesh nef_boundary(const WorldScene& scene) {
+Nef nef_of(const WorldScene& scene) {
   std::vector<std::optional<Nef>> minuends(scene.program.size());
   std::vector<std::vector<Nef>> others(scene.program.size());
   const auto hand = [&](std::size_t parent, bool is_minuend, Nef nef) {
@@ -99,7 +80,28 @@ csg::Mesh nef_boundary(const WorldScene& scene) {
     hand(node.parent, node.is_minuend,
          evaluate(node.op, minuends[n], others[n]));
   }
-  return mesh_of(evaluate(scene.program[0].op, minuends[0], others[0]));
+  return evaluate(scene.program[0].op, minuends[0], others[0]);
+}
+
+csg::Mesh mesh_of(const Nef& nef) {
+  std::vector<Point> points;
+  std::vector<std::vector<std::size_t>> polygons;
+  CGAL::convert_nef_polyhedron_to_polygon_soup(nef, points, polygons, true);
+  csg::Mesh mesh;
+  for (const Point& p : points) {
+    mesh.vertices.push_back({CGAL::to_double(p.x()), CGAL::to_double(p.y()),
+                             CGAL::to_double(p.z())});
+  }
+  for (const auto& polygon : polygons) {
+    mesh.triangles.push_back({static_cast<std::uint32_t>(polygon[0]),
+                              static_cast<std::uint32_t>(polygon[1]),
+                              static_cast<std::uint32_t>(polygon[2])});
+  }
+  return mesh;
+}
+
+csg::Mesh nef_boundary(const WorldScene& scene) {
+  return mesh_of(nef_of(scene));
 }
 
 }  // namespace lamina::oracle
