@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -16,6 +17,7 @@
 #include <libqhull_r/qhull_ra.h>
 
 #include "csg/planar/convex_hull.h"
+#include "csg/solid/detail/range.h"
 #include "csg/solid/leaf_mesh.h"
 #include "parser/check.h"
 
@@ -31,11 +33,19 @@ bool is_less(Vec3 a, Vec3 b) {
   return a.y < b.y || (a.y == b.y && a.z < b.z);
 }
 
+bool is_too_far(Vec3 p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >
+         kGreatestCoordinate;
+}
+
 // Sorts the points and leaves each of them once; those beyond all numbers have
 // no place.
 void make_unique(std::vector<Vec3>& points) {
   // 0 · x is NaN where x is not finite.
   std::erase_if(points, [](Vec3 p) { return glm::dot(p, Vec3(0)) != 0; });
+  if (std::any_of(points.begin(), points.end(), is_too_far)) {
+    throw std::range_error("point too far for a hull");
+  }
   std::sort(points.begin(), points.end(), is_less);
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }

@@ -11,7 +11,6 @@
 #include "csg/planar/facets.h"
 #include "csg/planar/minkowski.h"
 #include "csg/solid/detail/points.h"
-#include "csg/solid/detail/range_check.h"
 
 namespace lamina::csg {
 namespace {
@@ -54,8 +53,7 @@ Region make_polygon(const Polygon& polygon, SourceRange range,
                     Diagnostics& diagnostics) {
   if (!check_points(polygon.points, "vec2", range, diagnostics)) return {};
   const auto contours = read_paths(polygon, range, diagnostics);
-  return with_range_check(range, diagnostics,
-                          [&] { return planar::from_contours(contours); });
+  return planar::from_contours(contours);
 }
 
 Region make_text(const TextParams& params, const Fineness& fineness,
@@ -65,61 +63,46 @@ Region make_text(const TextParams& params, const Fineness& fineness,
       planar::curve_segment_count(params.size, params.facets),
       fineness.is_by_error() ? fineness.chordal_error : 0};
   const auto contours = typesetter.outline(params, chords, range, diagnostics);
-  return with_range_check(range, diagnostics, [&] {
-    return planar::from_contours(contours, planar::FillRule::kNonZero);
-  });
+  return planar::from_contours(contours, planar::FillRule::kNonZero);
 }
 
-Region fill_shapes(std::span<const std::vector<Contour>> shapes,
-                   SourceRange range, Diagnostics& diagnostics) {
-  return with_range_check(range, diagnostics, [&] {
-    std::vector<Region> regions;
-    for (const std::vector<Contour>& contours : shapes) {
-      regions.push_back(planar::from_contours(contours));
-    }
-    return regions.empty() ? Region() : planar::unite(regions);
-  });
+Region fill_shapes(std::span<const std::vector<Contour>> shapes) {
+  std::vector<Region> regions;
+  for (const std::vector<Contour>& contours : shapes) {
+    regions.push_back(planar::from_contours(contours));
+  }
+  return regions.empty() ? Region() : planar::unite(regions);
 }
 
-Region combine_regions(BooleanOp op, std::span<const Region> regions,
-                       SourceRange range, Diagnostics& diagnostics) {
-  return with_range_check(range, diagnostics, [&] {
-    switch (op) {
-      case BooleanOp::kDifference:
-        return planar::subtract(regions);
-      case BooleanOp::kIntersection:
-        return planar::intersect(regions);
-      case BooleanOp::kUnion:
-        break;
-    }
-    return planar::unite(regions);
-  });
+Region combine_regions(BooleanOp op, std::span<const Region> regions) {
+  switch (op) {
+    case BooleanOp::kDifference:
+      return planar::subtract(regions);
+    case BooleanOp::kIntersection:
+      return planar::intersect(regions);
+    case BooleanOp::kUnion:
+      break;
+  }
+  return planar::unite(regions);
 }
 
-Region add_regions(std::span<const Region> regions, SourceRange range,
-                   Diagnostics& diagnostics) {
-  return with_range_check(range, diagnostics, [&] {
-    Region sum = regions[0];
-    bool has_sum = regions.size() == 1;
-    for (const Region& region : regions.subspan(1)) {
-      if (region.is_empty()) continue;
-      sum = planar::add(sum, region);
-      has_sum = true;
-    }
-    return has_sum ? sum : Region{};
-  });
+Region add_regions(std::span<const Region> regions) {
+  Region sum = regions[0];
+  bool has_sum = regions.size() == 1;
+  for (const Region& region : regions.subspan(1)) {
+    if (region.is_empty()) continue;
+    sum = planar::add(sum, region);
+    has_sum = true;
+  }
+  return has_sum ? sum : Region{};
 }
 
 Region offset_region(const Offset& offset, const Fineness& fineness,
-                     const Region& region, SourceRange range,
-                     Diagnostics& diagnostics) {
+                     const Region& region) {
   const double distance = std::abs(offset.amount);
   const int n = circle_fragments(distance, fineness);
   const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
-  return with_range_check(range, diagnostics, [&] {
-    return planar::offset(region, offset.amount, join_of(offset),
-                          arc_tolerance);
-  });
+  return planar::offset(region, offset.amount, join_of(offset), arc_tolerance);
 }
 
 Region transform_region(Region region, const Mat4& m, SourceRange range,

@@ -1,6 +1,8 @@
 #include "csg/solid/lower.h"
 
+#include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "csg/solid/detail/lowerer.h"
+#include "csg/solid/detail/range.h"
 
 namespace lamina::csg {
 namespace {
@@ -27,12 +30,41 @@ void survey(const Node& node, Survey& result) {
   }
 }
 
-std::vector<Note> call_chain(const Node& node) {
+std::vector<Note> call_chain(const CallFrame* caller) {
   std::vector<Note> notes;
-  for (const CallFrame* frame = node.caller; frame; frame = frame->caller) {
+  for (const CallFrame* frame = caller; frame; frame = frame->caller) {
     notes.push_back({frame->range, fmt::format("called by '{}'", frame->name)});
   }
   return notes;
+}
+
+[[noreturn]] void fail_too_far(SourceRange range, const CallFrame* caller) {
+  throw GeometryError({Severity::kError, range,
+                       "Coordinates beyond 1e9 mm: too large for exact layers",
+                       call_chain(caller)});
+}
+
+bool is_too_far(double coordinate) {
+  return !(std::abs(coordinate) <= kGreatestCoordinate);
+}
+
+// Whether the instance is what stretches the scene's box too far.
+bool stretches(const Box3& box, const Box3& whole) {
+  for (int i = 0; i < 3; ++i) {
+    if (box.low[i] == whole.low[i] && is_too_far(box.low[i])) return true;
+    if (box.high[i] == whole.high[i] && is_too_far(box.high[i])) return true;
+  }
+  return false;
+}
+
+// Judges what the layers can show: a cutter may be as large as it likes.
+void check_range(const Scene& scene) {
+  if (scene.box.is_empty()) return;
+  for (const Instance& instance : scene.instances) {
+    if (stretches(instance.box, scene.box)) {
+      fail_too_far(instance.range, instance.caller);
+    }
+  }
 }
 
 }  // namespace
@@ -40,7 +72,7 @@ std::vector<Note> call_chain(const Node& node) {
 void fail_unsupported(const Node& node, std::string_view module) {
   throw GeometryError({Severity::kError, node.range,
                        fmt::format("Module '{}' is not supported yet", module),
-                       call_chain(node)});
+                       call_chain(node.caller)});
 }
 
 Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
@@ -50,8 +82,12 @@ Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
 }
 
 Shape Lowerer::lower(const Node& node, const Affine& world) {
-  return std::visit([&](const auto& op) { return lower_op(op, node, world); },
-                    node.op);
+  try {
+    return std::visit([&](const auto& op) { return lower_op(op, node, world); },
+                      node.op);
+  } catch (const std::range_error&) {
+    fail_too_far(node.range, node.caller);
+  }
 }
 
 Scene Lowerer::take_scene() {
@@ -69,8 +105,10 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   Lowerer lowerer(found.childless, options, diagnostics);
   Shape shape = lowerer.lower(*root, options.world_from_design);
   if (!shape.region.is_empty()) return {std::move(shape.region)};
-  if (lowerer.has_parts()) return {lowerer.take_scene()};
-  return {};
+  if (!lowerer.has_parts()) return {};
+  Scene scene = lowerer.take_scene();
+  check_range(scene);
+  return {std::move(scene)};
 }
 
 }  // namespace lamina::csg

@@ -45,7 +45,8 @@ struct Lowered {
 // Lowers the whole tree, or the subtree of the `!` modifier. Recurses as deep
 // as the tree is nested. Time and memory are linear in the tree.
 //
-// throws  GeometryError where the tree has geometry that is not supported
+// throws  GeometryError where the solid, or a polygon or face that has to be
+//         clipped on the way, reaches beyond 1e9 mm
 //
 // The scene keeps pointers to the tree's call frames.
 Lowered lower(const Tree& tree, const LowerOptions& options,

@@ -5,7 +5,6 @@
 #include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/lowerer.h"
 #include "csg/solid/detail/projection.h"
-#include "csg/solid/detail/range_check.h"
 #include "csg/solid/detail/resize.h"
 #include "csg/solid/detail/scene_hull.h"
 
@@ -51,9 +50,7 @@ Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
   }
   if (apart.scene.instances.empty()) return {};
   Leaf leaf;
-  leaf.meshes.push_back(with_range_check(node.range, diagnostics_, [&] {
-    return convex_hull(std::move(apart.scene));
-  }));
+  leaf.meshes.push_back(convex_hull(std::move(apart.scene)));
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};
 }
@@ -63,17 +60,14 @@ Shape Lowerer::lower_op(const Resize& op, const Node& node,
   Apart apart = lower_apart(node, world);
   if (apart.dimension == Dimension::kFlat) {
     if (apart.regions.empty()) return {Dimension::kFlat};
-    planar::Region region = combine_regions(BooleanOp::kUnion, apart.regions,
-                                            node.range, diagnostics_);
+    planar::Region region = combine_regions(BooleanOp::kUnion, apart.regions);
     const Vec3 factor(resize_factor(op, region), 1);
     return {Dimension::kFlat,
             transform_region(std::move(region), scaling(factor), node.range,
                              diagnostics_)};
   }
   if (apart.scene.instances.empty()) return {apart.dimension};
-  const Vec3 factor = with_range_check(
-      node.range, diagnostics_, [&] { return resize_factor(op, apart.scene); });
-  if (factor == Vec3(0)) return {Dimension::kSolid};
+  const Vec3 factor = resize_factor(op, apart.scene);
   place_scene(apart.scene, world * scaling(factor));
   return {Dimension::kSolid};
 }
@@ -87,14 +81,12 @@ Shape Lowerer::lower_op(const Projection& op, const Node& node,
   if (op.cut) report_strays(operands);
   const Scene scene = inner.take_scene();
   if (scene.instances.empty()) return {};
-  return with_range_check(node.range, diagnostics_, [&]() -> Shape {
-    planar::Region region = op.cut ? cut_at_zero(scene) : project(scene);
-    if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
-    if (op.cut && !is_empty(scene)) {
-      diagnostics_.warning({}, "Projection() failed.");
-    }
-    return {};
-  });
+  planar::Region region = op.cut ? cut_at_zero(scene) : project(scene);
+  if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
+  if (op.cut && !is_empty(scene)) {
+    diagnostics_.warning({}, "Projection() failed.");
+  }
+  return {};
 }
 
 }  // namespace lamina::csg

@@ -93,7 +93,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
   for (DxfPath& path : drawing.paths) {
     contours.push_back(std::move(path.points));  // open ones are closed, too
   }
-  return fill_shapes({&contours, 1}, range, diagnostics);
+  return fill_shapes({&contours, 1});
 }
 
 SvgContours outline_stroke(std::span<const Vec2> path,
@@ -133,7 +133,7 @@ planar::Region read_svg(const ImportParams& params, SourceRange range,
     diagnostics.report(std::move(diagnostic));
     return {};
   }
-  return fill_shapes(shapes, range, diagnostics);
+  return fill_shapes(shapes);
 }
 
 }  // namespace

@@ -26,14 +26,15 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
     case Dimension::kNone:
       return {};
     case Dimension::kFlat:
-      return {Dimension::kFlat,
-              add_regions(operands.regions, node.range, diagnostics_)};
+      return {Dimension::kFlat, add_regions(operands.regions)};
     case Dimension::kSolid:
       break;
   }
   std::vector<Operand> solids;
   for (const Scene& scene : apart.take_scenes(operands.begins)) {
-    if (!scene.instances.empty()) solids.push_back(make_operand(scene));
+    if (scene.instances.empty()) continue;
+    Operand solid = make_operand(scene);
+    if (!solid.is_empty()) solids.push_back(std::move(solid));
   }
   if (solids.empty()) return {};
   place_sum(add_operands(std::move(solids)), node, world);

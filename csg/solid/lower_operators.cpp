@@ -145,8 +145,7 @@ Shape Lowerer::lower_children(const Node& node, const Affine& world,
       return {};
     case Dimension::kFlat:
       if (operands.regions.empty()) return {Dimension::kFlat};
-      return {Dimension::kFlat,
-              combine_regions(op, operands.regions, node.range, diagnostics_)};
+      return {Dimension::kFlat, combine_regions(op, operands.regions)};
     case Dimension::kSolid:
       break;
   }

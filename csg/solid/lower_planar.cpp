@@ -24,8 +24,7 @@ Shape Lowerer::lower_op(const Offset& op, const Node& node,
   const Shape shape = flatten_children(node, world);
   if (shape.dimension == Dimension::kNone) return {};
   return {Dimension::kFlat,
-          offset_region(op, fineness(op.facets, world), shape.region,
-                        node.range, diagnostics_)};
+          offset_region(op, fineness(op.facets, world), shape.region)};
 }
 
 Shape Lowerer::lower_op(const Fill&, const Node& node, const Affine& world) {
@@ -55,8 +54,8 @@ Shape Lowerer::flatten_children(const Node& node, const Affine& world) {
   if (operands.regions.empty()) {
     return {operands.count > 1 ? Dimension::kFlat : Dimension::kNone};
   }
-  return {Dimension::kFlat, combine_regions(BooleanOp::kUnion, operands.regions,
-                                            node.range, diagnostics_)};
+  return {Dimension::kFlat,
+          combine_regions(BooleanOp::kUnion, operands.regions)};
 }
 
 }  // namespace lamina::csg

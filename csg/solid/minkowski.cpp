@@ -147,6 +147,7 @@ class Divider {
   void add_boolean(std::uint32_t node) {
     Scene part = node == 0 ? scene_ : cut_out(node);
     std::vector<Convex> faces = make_faces(triangulate(boundary_faces(part)));
+    if (faces.empty()) return;  // nothing is left of it
     operand_.bodies.push_back(make_body(std::move(part), std::move(faces)));
   }
 

@@ -177,6 +177,18 @@ TEST(Minkowski, AnIntersectionGrowsByABox) {
               4 * 3, 1e-6);
 }
 
+// As in OpenSCAD, wherever it stands among the children.
+TEST(Minkowski, AnOperandOfWhichNothingIsLeftDoesNotCount) {
+  const std::string nothing =
+      "difference() { cube(1); cube(3, center = true); }";
+  for (const std::string& sum :
+       {"minkowski() { " + nothing + " cube(1); cube([1, 2, 3]); }",
+        "minkowski() { cube(1); cube([1, 2, 3]); " + nothing + " }"}) {
+    EXPECT_NEAR(section_area(sum, 2), 2 * 3, 1e-9);
+    EXPECT_NEAR(section_area(sum, 3.9), 2 * 3, 1e-9);
+  }
+}
+
 const char* const kBodies[] = {
     "cube([3, 2, 1]);",
     "rotate([20, 30, 40]) cube([2, 3, 1]);",

@@ -14,11 +14,12 @@
 namespace lamina::csg {
 
 // A closed mesh; its vertices are some of the points, bit by bit. Empty where
-// all points lie in one plane, up to rounding.
+// all points lie in one plane, up to rounding. Throws std::range_error for
+// points beyond kGreatestCoordinate.
 Mesh convex_hull(std::vector<Vec3> points);
 
 // Some of the points that have the same hull, whatever their dimension: few,
-// as a rule.
+// as a rule. Throws as convex_hull does.
 std::vector<Vec3> extreme_points(std::vector<Vec3> points);
 
 }  // namespace lamina::csg

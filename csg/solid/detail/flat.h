@@ -1,8 +1,8 @@
 #pragma once
 // The 2D modules of the tree, as regions.
 //
-// What is wrong with their parameters is reported with OpenSCAD's words;
-// coordinates too large to be clipped make the result empty, as there.
+// What is wrong with their parameters is reported with OpenSCAD's words. All of
+// them throw std::range_error for coordinates beyond 1e9 mm.
 
 #include <span>
 
@@ -24,22 +24,19 @@ planar::Region make_text(const TextParams& params, const Fineness& fineness,
 
 // regions  at least one
 planar::Region combine_regions(BooleanOp op,
-                               std::span<const planar::Region> regions,
-                               SourceRange range, Diagnostics& diagnostics);
+                               std::span<const planar::Region> regions);
 
 // minkowski(): the sum of all regions that are not empty. Empty where the first
 // is, or where all others are.
-planar::Region add_regions(std::span<const planar::Region> regions,
-                           SourceRange range, Diagnostics& diagnostics);
+planar::Region add_regions(std::span<const planar::Region> regions);
 
 planar::Region offset_region(const Offset& offset, const Fineness& fineness,
-                             const planar::Region& region, SourceRange range,
-                             Diagnostics& diagnostics);
+                             const planar::Region& region);
 
 // Each shape is where its contours enclose a point an odd number of times; the
 // region is the union of all.
-planar::Region fill_shapes(std::span<const std::vector<planar::Contour>> shapes,
-                           SourceRange range, Diagnostics& diagnostics);
+planar::Region fill_shapes(
+    std::span<const std::vector<planar::Contour>> shapes);
 
 // Applies the part of the matrix that acts in the plane. Outer contours stay
 // counter-clockwise.

@@ -46,6 +46,7 @@ class Lowerer {
 
   // The solid parts of the subtree are left on top of the builder's stack, in
   // world coordinates; a region is in the node's own coordinates.
+  // Throws GeometryError where something has to be clipped beyond 1e9 mm.
   Shape lower(const Node& node, const Affine& world);
 
   Scene take_scene();

@@ -213,6 +213,38 @@ TEST_F(LowerTest, AMillionChildrenAreOneFlatUnion) {
   EXPECT_EQ(scene.program.size(), 1u);
 }
 
+TEST_F(LowerTest, RefusesWhatReachesTooFar) {
+  const auto cube = [&](double size) { return b.cube(Vec3(size)); };
+  EXPECT_EQ(run_solid({cube(1e9)}).instances.size(), 1u);
+  const std::vector<const Node*> faults = {
+      cube(2e9),
+      b.translate({0, -1e12, 0}, {cube(1)}),
+      b.node(Hull{}, {cube(1), cube(2e9)}),
+      b.node(Hull{}, {cube(1), cube(1e200)}),
+      b.node(Hull{}, {b.node(Difference{},
+                             {cube(4e9), b.scale({1, 1, 9}, {cube(3e9)})}),
+                      cube(1)}),
+      b.node(Minkowski{}, {cube(6e8), cube(6e8)}),
+      b.node(Minkowski{},
+             {b.sphere(1, 8), b.translate({2e9, 0, 0}, {cube(1)})}),
+      b.node(Minkowski{},
+             {b.node(Difference{}, {cube(4), b.scale({1, 1, 9}, {cube(3)})}),
+              b.translate({2e9, 0, 0}, {cube(1)})})};
+  for (const Node* fault : faults) {
+    EXPECT_THROW(run({cube(1), fault}), GeometryError);
+  }
+}
+
+TEST_F(LowerTest, CuttersMayBeAsLargeAsTheyLike) {
+  const Node* huge = b.translate(Vec3(-1e12), {b.cube(Vec3(2e12))});
+  EXPECT_EQ(run_solid({b.node(Intersection{}, {b.cube(Vec3(1)), huge})})
+                .instances.size(),
+            2u);
+  EXPECT_EQ(run_solid({b.node(Difference{}, {b.cube(Vec3(1)), huge})})
+                .instances.size(),
+            2u);
+}
+
 // Runs on a stack as large as the program's own.
 void* lower_on_large_stack(void* tree) {
   Diagnostics diagnostics;
