@@ -65,11 +65,14 @@ struct Leaf {
 
 // A leaf put into the world. Where the linear part of world_from_leaf has a
 // negative determinant (mirror) the map turns surfaces inside out: who needs
-// orientation negates windings there. It is never singular.
+// orientation negates windings there.
 struct Instance {
   std::uint32_t leaf = 0;    // index into Scene::leaves
   std::uint32_t parent = 0;  // index into Scene::program
   bool is_minuend = false;   // first operand of a difference
+  // The matrix is singular: no volume, but hulls, sums and shadows see it. Only
+  // in scenes lowered for these, as a child of a root that is a union.
+  bool is_flat = false;
   Affine world_from_leaf{1.0};
   Box3 box;           // in the world, of the transformed vertices
   SourceRange range;  // of the module call that made the leaf

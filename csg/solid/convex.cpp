@@ -214,6 +214,7 @@ Convex make_flat(std::vector<Vec3> polygon, Vec3 normal) {
   body.add_facet(loop, normal);
   std::reverse(loop.begin(), loop.end());
   body.add_facet(loop, -normal);
+  if (count == 1) return body;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t next = i + 1 == count ? 0 : i + 1;
     const Vec3 out = glm::cross(body.vertices[next] - body.vertices[i], normal);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -183,30 +184,23 @@ Mesh mesh_of(const std::vector<Vec3>& points,
   return mesh;
 }
 
-// The corners of points in a plane, seen along the axis nearest its normal.
-std::vector<Vec3> corners_in_plane(const std::vector<Vec3>& points,
-                                   Vec3 normal) {
+// The corners of unique points in a plane.
+FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
+  // Seen along the axis nearest to the normal.
   const Vec3 size = glm::abs(normal);
   int drop = size.y > size.x ? 1 : 0;
   if (size.z > size[drop]) drop = 2;
-  const auto flatten = [&](Vec3 p) {
-    return Vec2(p[(drop + 1) % 3], p[(drop + 2) % 3]);
-  };
+  std::map<std::pair<double, double>, Vec3> from_shadow;
   std::vector<Vec2> shadow;
-  for (const Vec3 point : points) shadow.push_back(flatten(point));
-  const planar::Region hull = planar::convex_hull(std::move(shadow));
-  if (hull.is_empty()) return points;
-  std::vector<Vec2> corners = hull.contours[0];
-  const auto is_less_in_plane = [](Vec2 a, Vec2 b) {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
-  };
-  std::sort(corners.begin(), corners.end(), is_less_in_plane);
-  std::vector<Vec3> result;
   for (const Vec3 point : points) {
-    if (std::binary_search(corners.begin(), corners.end(), flatten(point),
-                           is_less_in_plane)) {
-      result.push_back(point);
-    }
+    shadow.emplace_back(point[(drop + 1) % 3], point[(drop + 2) % 3]);
+    from_shadow[{shadow.back().x, shadow.back().y}] = point;
+  }
+  const planar::Region hull = planar::convex_hull(std::move(shadow));
+  if (hull.is_empty()) return {points, normal};
+  FlatHull result{{}, normal[drop] > 0 ? normal : -normal};
+  for (const Vec2 corner : hull.contours[0]) {
+    result.corners.push_back(from_shadow.at({corner.x, corner.y}));
   }
   return result;
 }
@@ -241,10 +235,23 @@ std::vector<Vec3> extreme_points(std::vector<Vec3> points) {
     case 1:
       return {points.front(), points.back()};
     case 2:
-      return corners_in_plane(points, span.normal);
+      return hull_in_plane(points, span.normal).corners;
     default:
       return hull_of_solid(points).vertices;
   }
+}
+
+FlatHull flat_hull(std::vector<Vec3> points) {
+  make_unique(points);
+  if (points.size() < 2) return {points, Vec3(0, 0, 1)};
+  const Span span = find_span(points);
+  if (span.dimension > 1) return hull_in_plane(points, span.normal);
+  const Vec3 along = points.back() - points.front();
+  const Vec3 size = glm::abs(along);
+  Vec3 other(0);
+  other[size.x > size.y ? 1 : 0] = 1;
+  return {{points.front(), points.back()},
+          glm::normalize(glm::cross(along, other))};
 }
 
 }  // namespace lamina::csg

@@ -10,6 +10,7 @@
 #include "csg/planar/convex_faces.h"
 #include "csg/planar/minkowski.h"
 #include "csg/planar/region.h"
+#include "csg/solid/detail/convex_hull.h"
 #include "csg/solid/leaf_mesh.h"
 
 namespace lamina::csg {
@@ -206,6 +207,27 @@ std::optional<std::vector<Convex>> convex_parts(const Leaf& leaf,
   parts.push_back(place(draft_of(explicit_mesh(leaf)), matrix));
   if (is_convex(parts[0])) return parts;
   return std::nullopt;
+}
+
+std::vector<Convex> flat_parts(const Leaf& leaf, const Affine& matrix) {
+  std::vector<std::vector<Vec3>> solids;
+  if (auto parts = convex_parts(leaf, Affine(1.0))) {
+    for (Convex& part : *parts) solids.push_back(std::move(part.vertices));
+  } else {
+    // The image of a solid without volume is that of its surface.
+    const Mesh mesh = explicit_mesh(leaf);
+    for (const auto& t : mesh.triangles) {
+      solids.push_back(
+          {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+    }
+  }
+  std::vector<Convex> flats;
+  for (std::vector<Vec3>& points : solids) {
+    for (Vec3& point : points) point = matrix * Vec4(point, 1);
+    FlatHull hull = flat_hull(std::move(points));
+    flats.push_back(make_flat(std::move(hull.corners), hull.normal));
+  }
+  return flats;
 }
 
 }  // namespace lamina::csg

@@ -97,6 +97,11 @@ Scene Lowerer::take_scene() {
   return scene;
 }
 
+Scene Lowerer::take_solids() {
+  builder_.drop_flat();
+  return take_scene();
+}
+
 Lowered lower(const Tree& tree, const LowerOptions& options,
               Diagnostics& diagnostics) {
   Survey found;
@@ -105,8 +110,8 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   Lowerer lowerer(found.childless, options, diagnostics);
   Shape shape = lowerer.lower(*root, options.world_from_design);
   if (!shape.region.is_empty()) return {std::move(shape.region)};
-  if (!lowerer.has_parts()) return {};
-  Scene scene = lowerer.take_scene();
+  Scene scene = lowerer.take_solids();
+  if (scene.instances.empty()) return {};
   check_range(scene);
   return {std::move(scene)};
 }

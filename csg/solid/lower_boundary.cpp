@@ -40,7 +40,8 @@ Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world) {
   Operands operands =
       inner.lower_operands(node, Affine(1.0), true, Dimension::kNone);
   report_strays(operands);
-  return {operands.dimension, std::move(operands.regions), inner.take_scene()};
+  return {operands.dimension, std::move(operands.regions), inner.take_scene(),
+          is_boolean(BooleanOp::kUnion, operands)};
 }
 
 Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
@@ -67,9 +68,9 @@ Shape Lowerer::lower_op(const Resize& op, const Node& node,
                              diagnostics_)};
   }
   if (apart.scene.instances.empty()) return {apart.dimension};
-  const Vec3 factor = resize_factor(op, apart.scene);
+  const Vec3 factor = resize_factor(op, apart.scene, apart.is_boolean);
   place_scene(apart.scene, world * scaling(factor));
-  return {Dimension::kSolid};
+  return {Dimension::kSolid, {}, apart.is_boolean};
 }
 
 Shape Lowerer::lower_op(const Projection& op, const Node& node,
@@ -83,7 +84,7 @@ Shape Lowerer::lower_op(const Projection& op, const Node& node,
   if (scene.instances.empty()) return {};
   planar::Region region = op.cut ? cut_at_zero(scene) : project(scene);
   if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
-  if (op.cut && !is_empty(scene)) {
+  if (op.cut && misses_zero(scene)) {
     diagnostics_.warning({}, "Projection() failed.");
   }
   return {};

@@ -30,15 +30,21 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
     case Dimension::kSolid:
       break;
   }
-  std::vector<Operand> solids;
-  for (const Scene& scene : apart.take_scenes(operands.begins)) {
-    if (scene.instances.empty()) continue;
-    Operand solid = make_operand(scene);
-    if (!solid.is_empty()) solids.push_back(std::move(solid));
-  }
+  std::vector<Scene> solids = apart.take_scenes(operands.begins);
+  std::erase_if(solids,
+                [](const Scene& scene) { return scene.instances.empty(); });
   if (solids.empty()) return {};
-  place_sum(add_operands(std::move(solids)), node, world);
-  return {Dimension::kSolid};
+  if (solids.size() == 1) {
+    place_scene(solids[0], world);
+    return {Dimension::kSolid, {}, operands.has_boolean};
+  }
+  std::vector<Operand> terms;
+  for (const Scene& scene : solids) terms.push_back(make_operand(scene));
+  std::erase_if(terms, [](const Operand& term) { return term.is_empty(); });
+  if (terms.empty()) return {};
+  const Operand sum = add_operands(std::move(terms));
+  place_sum(sum, node, world);
+  return {Dimension::kSolid, {}, !sum.bodies.empty() || sum.convex.size() > 1};
 }
 
 void Lowerer::place_sum(const Operand& sum, const Node& node,

@@ -77,13 +77,15 @@ Shape Lowerer::lower_op(const Transform& op, const Node& node,
             transform_region(std::move(shape.region), *op.matrix, node.range,
                              diagnostics_)};
   }
-  if (shape.dimension == Dimension::kSolid &&
-      determinant(Affine(*op.matrix)) == 0) {
-    diagnostics_.warning(node.range,
-                         "Scaling a 3D object with 0 - removing object");
-    builder_.drop(mark);
-  }
+  if (determinant(Affine(*op.matrix)) == 0) flatten(mark, shape, node.range);
   return shape;
+}
+
+void Lowerer::flatten(std::size_t mark, const Shape& shape, SourceRange range) {
+  builder_.flatten(mark);
+  if (!shape.is_boolean || builder_.mark() == mark) return;
+  diagnostics_.warning(range, "Scaling a 3D object with 0 - removing object");
+  builder_.drop(mark);
 }
 
 // --- Children
@@ -114,11 +116,22 @@ void Lowerer::add_operand(const Node& child, const Affine& world, bool is_union,
     shape.region = {};
   }
   ++operands.count;
+  if (builder_.mark() > begin) {
+    ++operands.solid_count;
+    operands.has_boolean = operands.has_boolean || shape.is_boolean;
+  }
   if (!is_union) operands.begins.push_back(begin);
   if (operands.dimension != Dimension::kSolid &&
       !(is_union && shape.region.is_empty())) {
     operands.regions.push_back(std::move(shape.region));
   }
+}
+
+bool Lowerer::is_boolean(BooleanOp op, const Operands& operands) {
+  // What is empty takes no part in a union.
+  const bool is_union = op == BooleanOp::kUnion;
+  return operands.has_boolean ||
+         (is_union ? operands.solid_count : operands.count) > 1;
 }
 
 void Lowerer::report_strays(const Operands& operands) {
@@ -155,7 +168,9 @@ Shape Lowerer::lower_children(const Node& node, const Affine& world,
     builder_.apply_intersection(operands.begins);
   }
   const bool is_nothing = builder_.mark() == mark && operands.count > 1;
-  return {is_nothing ? Dimension::kNone : Dimension::kSolid};
+  return {is_nothing ? Dimension::kNone : Dimension::kSolid,
+          {},
+          is_boolean(op, operands)};
 }
 
 }  // namespace lamina::csg

@@ -44,16 +44,20 @@ Convex add_solids(const Convex& a, const Convex& b) {
   return make_solid(hull.vertices, loops);
 }
 
-// Both have their edges; the sum does not.
-Convex add_convex(const Convex& a, const Convex& b) {
-  if (a.is_flat) return add_flat(a, b);
-  if (b.is_flat) return add_flat(b, a);
-  return add_solids(a, b);
-}
+bool is_point(const Convex& body) { return body.vertices.size() == 1; }
 
 Convex move(Convex body, const Vec3& shift) {
   for (Vec3& vertex : body.vertices) vertex += shift;
   return body;
+}
+
+// Both have their edges; the sum does not.
+Convex add_convex(const Convex& a, const Convex& b) {
+  if (is_point(a)) return move(b, a.vertices[0]);
+  if (is_point(b)) return move(a, b.vertices[0]);
+  if (a.is_flat) return add_flat(a, b);
+  if (b.is_flat) return add_flat(b, a);
+  return add_solids(a, b);
 }
 
 // --- Bodies ------------------------------------------------------------------
@@ -153,7 +157,10 @@ class Divider {
 
   void add_instance(const Instance& instance) {
     const Leaf& leaf = scene_.leaves[instance.leaf];
-    if (auto parts = convex_parts(leaf, instance.world_from_leaf)) {
+    const Affine& matrix = instance.world_from_leaf;
+    auto parts = instance.is_flat ? flat_parts(leaf, matrix)
+                                  : convex_parts(leaf, matrix);
+    if (parts) {
       std::move(parts->begin(), parts->end(),
                 std::back_inserter(operand_.convex));
       return;
@@ -212,6 +219,7 @@ Body move(Body body, const Vec3& shift) {
 // A ⊕ B with A a body and B convex.
 void add(const Body& a, const Convex& b, Operand& sum) {
   sum.bodies.push_back(move(a, middle(b)));
+  if (is_point(b)) return;
   const Convex moved = move(b, a.shift);
   for (const Convex& face : *a.faces) {
     sum.convex.push_back(add_flat(face, moved));

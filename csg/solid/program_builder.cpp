@@ -58,23 +58,40 @@ ProgramBuilder::Part ProgramBuilder::unite(std::span<const Part> parts,
   return make_operator(BooleanOp::kUnion, parts, box);
 }
 
+void ProgramBuilder::flatten(std::size_t mark) {
+  for (const Part part : parts_above(mark)) {
+    if (!part.is_operator) instances_[part.index].is_flat = true;
+  }
+}
+
+void ProgramBuilder::drop_flat() {
+  std::erase_if(stack_, [&](Part part) { return is_flat(part); });
+}
+
 void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
   if (begins.size() < 2) return;
   const std::size_t mark = begins[0];
   const auto all = parts_above(mark);
-  const auto minuend = all.first(begins[1] - mark);
+  std::vector<Part> minuend;
+  for (const Part part : all.first(begins[1] - mark)) {
+    if (!is_flat(part)) minuend.push_back(part);
+  }
   if (minuend.empty()) return drop(mark);
 
   // Keep the subtrahends that can reach the minuend; a union of them is as
   // good as each of them in turn.
   const Box3 box = box_of(minuend);
   std::vector<Part> operands{{}};
-  for (const Part part : all.subspan(minuend.size())) {
+  for (const Part part : all.subspan(begins[1] - mark)) {
+    if (is_flat(part)) continue;
     if (have_common_volume(box, box_of(part))) operands.push_back(part);
   }
-  if (operands.size() == 1) return drop(begins[1]);
-  operands.front() = unite(minuend, box);
   drop(mark);
+  if (operands.size() == 1) {
+    stack_.insert(stack_.end(), minuend.begin(), minuend.end());
+    return;
+  }
+  operands.front() = unite(minuend, box);
   stack_.push_back(make_operator(BooleanOp::kDifference, operands, box));
 }
 
@@ -97,6 +114,7 @@ void ProgramBuilder::apply_intersection(std::span<const std::size_t> begins) {
   for (std::size_t i = 0; i < begins.size(); ++i) {
     kept.clear();
     for (const Part part : operand(i)) {
+      if (is_flat(part)) continue;
       if (have_common_volume(box, box_of(part))) kept.push_back(part);
     }
     if (kept.empty()) return drop(mark);

@@ -76,7 +76,7 @@ class PolygonSum {
   std::map<Vec2, std::vector<Vec2>, IsLess> ends_;  // of edges, by their begins
 };
 
-Region shadow_of(const std::vector<std::vector<Vec3>>& contours) {
+Region flatten(const std::vector<std::vector<Vec3>>& contours) {
   Region region;
   for (const auto& contour : contours) {
     Contour& flat = region.contours.emplace_back();
@@ -88,6 +88,14 @@ Region shadow_of(const std::vector<std::vector<Vec3>>& contours) {
 void add_if_upwards(const Region& face, PolygonSum& sum) {
   if (!(planar::area(face) > 0)) return;
   for (const Contour& contour : face.contours) sum.add(contour);
+}
+
+void add_shadow(const Leaf& leaf, const Affine& world_from_leaf,
+                PolygonSum& sum) {
+  const LeafFaces faces = faces_of(leaf, world_from_leaf);
+  for (std::size_t i = 0; i < faces.faces.size(); ++i) {
+    add_if_upwards(flatten(faces.contours_of(i)), sum);
+  }
 }
 
 // Faces that were cut fit together only up to the clipper's grid. What is
@@ -117,6 +125,20 @@ Region evaluate_at(const Scene& scene, const Plane& plane,
   return value.value_or(window);
 }
 
+// What is flat and lies in the plane.
+Region flat_at_zero(const Scene& scene) {
+  std::vector<Contour> shadows;
+  for (const Instance& instance : scene.instances) {
+    const double low = instance.box.low.z;
+    const double high = instance.box.high.z;
+    if (!instance.is_flat || std::max(-low, high) > kCoplanarDistance) continue;
+    PolygonSum sum;
+    add_shadow(scene.leaves[instance.leaf], instance.world_from_leaf, sum);
+    for (Contour& contour : sum.take()) shadows.push_back(std::move(contour));
+  }
+  return planar::from_windings(shadows);
+}
+
 }  // namespace
 
 Region project(Scene scene) {
@@ -125,18 +147,14 @@ Region project(Scene scene) {
     for (Contour& contour : sum.take()) shadows.push_back(std::move(contour));
   };
   for (const Instance& instance : take_united(scene)) {
-    const LeafFaces faces =
-        faces_of(scene.leaves[instance.leaf], instance.world_from_leaf);
     PolygonSum sum;
-    for (std::size_t i = 0; i < faces.faces.size(); ++i) {
-      add_if_upwards(shadow_of(faces.contours_of(i)), sum);
-    }
+    add_shadow(scene.leaves[instance.leaf], instance.world_from_leaf, sum);
     add(sum);
   }
   const bool was_cut = !scene.instances.empty();
   PolygonSum sum;
   for (const BoundaryFace& face : boundary_faces(scene)) {
-    add_if_upwards(shadow_of(face.contours), sum);
+    add_if_upwards(flatten(face.contours), sum);
   }
   add(sum);
   const Region region = planar::from_windings(shadows);
@@ -149,15 +167,36 @@ Region cut_at_zero(const Scene& scene) {
   std::vector<PlacedLeaf> leaves;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    if (!plane.meets(instance.box)) continue;
+    if (instance.is_flat || !plane.meets(instance.box)) continue;
     near.push_back(i);
     leaves.emplace_back(scene.leaves[instance.leaf], instance.world_from_leaf);
   }
   const Region above = evaluate_at(scene, plane, near, leaves, Side::kAbove);
   const Region below = evaluate_at(scene, plane, near, leaves, Side::kBelow);
-  if (above == below) return above;
-  const std::vector<Region> both{above, below};
-  return planar::unite(both);
+  const Region flat = flat_at_zero(scene);
+  if (above == below && flat.is_empty()) return above;
+  const std::vector<Region> all{above, below, flat};
+  return planar::unite(all);
+}
+
+bool misses_zero(Scene scene) {
+  bool is_there = false;
+  const auto meets_zero = [&](double low, double high) {
+    is_there = true;
+    return low <= 0 && high >= 0;
+  };
+  for (const Instance& instance : take_united(scene)) {
+    if (meets_zero(instance.box.low.z, instance.box.high.z)) return false;
+  }
+  for (const BoundaryFace& face : boundary_faces(scene)) {
+    for (const std::vector<Vec3>& contour : face.contours) {
+      const auto [low, high] = std::minmax_element(
+          contour.begin(), contour.end(),
+          [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+      if (meets_zero(low->z, high->z)) return false;
+    }
+  }
+  return is_there;
 }
 
 }  // namespace lamina::csg

@@ -10,7 +10,7 @@ namespace {
 // new size / size where there is a new size, else 1.
 double factor_of(double new_size, double size, bool may_mirror) {
   const bool is_given = may_mirror ? new_size != 0 : new_size > 0;
-  return is_given ? new_size / size : 1;
+  return is_given && size > 0 ? new_size / size : 1;
 }
 
 bool only_unites(const Scene& scene) {
@@ -40,21 +40,20 @@ Vec2 resize_factor(const Resize& op, const planar::Region& region) {
   return factor;
 }
 
-Vec3 resize_factor(const Resize& op, const Scene& scene) {
+Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
   const Box3 box = box_of_result(scene);
   if (box.is_empty()) return Vec3(1);
-  const bool may_mirror = scene.instances.size() > 1;
   int greatest = 0;
   for (int i = 1; i < 3; ++i) {
     if (op.new_size[i] > op.new_size[greatest]) greatest = i;
   }
   Vec3 factor;
   for (int i = 0; i < 3; ++i) {
-    const bool is_given = may_mirror ? op.new_size[i] != 0 : op.new_size[i] > 0;
+    const bool is_given = is_boolean ? op.new_size[i] != 0 : op.new_size[i] > 0;
     const bool follows = op.auto_size[static_cast<std::size_t>(i)] && !is_given;
     const int axis = follows ? greatest : i;
     factor[i] = factor_of(op.new_size[axis], box.high[axis] - box.low[axis],
-                          may_mirror);
+                          is_boolean);
   }
   return factor;
 }
@@ -71,11 +70,6 @@ Box3 box_of_result(const Scene& scene) {
     }
   }
   return box;
-}
-
-bool is_empty(const Scene& scene) {
-  if (only_unites(scene)) return scene.instances.empty();
-  return boundary_faces(scene).empty();
 }
 
 }  // namespace lamina::csg

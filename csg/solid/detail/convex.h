@@ -59,7 +59,8 @@ struct Convex {
 };
 
 // polygon  convex, counter-clockwise around the normal; of two points, it is a
-//          segment, and the normal anything at a right angle to it
+//          segment, and the normal anything at a right angle to it; of one,
+//          anything
 Convex make_flat(std::vector<Vec3> polygon, Vec3 normal);
 
 // The solid with these facets. Whether they are closed and convex is for the

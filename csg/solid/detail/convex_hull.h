@@ -22,4 +22,12 @@ Mesh convex_hull(std::vector<Vec3> points);
 // as a rule. Throws as convex_hull does.
 std::vector<Vec3> extreme_points(std::vector<Vec3> points);
 
+// The corners of points in one plane, counter-clockwise around the normal; two
+// of points on a line.
+struct FlatHull {
+  std::vector<Vec3> corners;
+  Vec3 normal = Vec3(0);  // of unit length
+};
+FlatHull flat_hull(std::vector<Vec3> points);
+
 }  // namespace lamina::csg

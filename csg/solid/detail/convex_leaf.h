@@ -17,4 +17,7 @@ namespace lamina::csg {
 std::optional<std::vector<Convex>> convex_parts(const Leaf& leaf,
                                                 const Affine& matrix);
 
+// The leaf under a singular matrix, as a union of flat convex bodies.
+std::vector<Convex> flat_parts(const Leaf& leaf, const Affine& matrix);
+
 }  // namespace lamina::csg

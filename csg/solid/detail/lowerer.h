@@ -34,6 +34,9 @@ enum class Dimension { kNone, kFlat, kSolid };
 struct Shape {
   Dimension dimension = Dimension::kNone;
   planar::Region region = {};
+  // Of a solid: OpenSCAD would have evaluated a Boolean for it, and not hold it
+  // as one list of faces. Scaled by 0 the former is removed, the latter flat.
+  bool is_boolean = false;
 };
 
 struct Operand;
@@ -50,7 +53,8 @@ class Lowerer {
   Shape lower(const Node& node, const Affine& world);
 
   Scene take_scene();
-  bool has_parts() const { return builder_.mark() > 0; }
+  // Without what is flat.
+  Scene take_solids();
 
  private:
   // --- lower_operators.cpp --------------------------------------------------
@@ -62,6 +66,10 @@ class Lowerer {
   Shape lower_op(const Intersection&, const Node& node, const Affine& world);
   Shape lower_op(const Transform& op, const Node& node, const Affine& world);
 
+  // The parts above the mark, of this shape, were put in the world by a
+  // singular matrix.
+  void flatten(std::size_t mark, const Shape& shape, SourceRange range);
+
   // The operands of an operator: those of the first child's dimension.
   struct Operands {
     Dimension dimension = Dimension::kNone;
@@ -70,12 +78,15 @@ class Lowerer {
     std::vector<planar::Region> regions;
     std::vector<const Node*> strays;  // of the other dimension
     const Node* first_mixed = nullptr;
+    std::size_t solid_count = 0;  // of those that are not empty
+    bool has_boolean = false;     // among these
   };
   // All children; `dimension` decides unless it is kNone.
   Operands lower_operands(const Node& node, const Affine& world, bool is_union,
                           Dimension dimension);
   void add_operand(const Node& child, const Affine& world, bool is_union,
                    Operands& operands);
+  static bool is_boolean(BooleanOp op, const Operands& operands);
   void report_strays(const Operands& operands);
   Shape lower_children(const Node& node, const Affine& world, BooleanOp op);
 
@@ -138,6 +149,7 @@ class Lowerer {
     Dimension dimension = Dimension::kNone;
     std::vector<planar::Region> regions;  // one for each child that has one
     Scene scene;                          // their union
+    bool is_boolean = false;              // as Shape's
   };
   Apart lower_apart(const Node& node, const Affine& world);
   // A lowerer for those children; nothing lowered yet.

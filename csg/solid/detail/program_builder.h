@@ -27,8 +27,14 @@ class ProgramBuilder {
   // Forgets the parts above the mark.
   void drop(std::size_t mark) { stack_.resize(mark); }
 
+  // Marks the instances above the mark as flat.
+  void flatten(std::size_t mark);
+  // Forgets what is flat.
+  void drop_flat();
+
   // The operands are the parts from each begin up to the next one, the last
   // operand's up to the top. At least one operand; an operand may be empty.
+  // What is flat counts as empty.
   void apply_difference(std::span<const std::size_t> begins);
   void apply_intersection(std::span<const std::size_t> begins);
 
@@ -52,6 +58,9 @@ class ProgramBuilder {
     Box3 box;
   };
 
+  bool is_flat(Part part) const {
+    return !part.is_operator && instances_[part.index].is_flat;
+  }
   const Box3& box_of(Part part) const;
   Box3 box_of(std::span<const Part> parts) const;
   std::span<const Part> parts_above(std::size_t mark) const;

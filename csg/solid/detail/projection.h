@@ -16,4 +16,7 @@ planar::Region project(Scene scene);
 // the one just below, both.
 planar::Region cut_at_zero(const Scene& scene);
 
+// Whether there is a solid, and all of it is above or below the plane z = 0.
+bool misses_zero(Scene scene);
+
 }  // namespace lamina::csg

@@ -8,15 +8,13 @@
 namespace lamina::csg {
 
 // A size of 0 keeps that direction, or with `auto` scales it as the direction
-// of the greatest new size. Negative sizes keep it, too; only a solid of more
-// than one leaf they mirror (there OpenSCAD 2021.01 has another code for it).
+// of the greatest new size. Negative sizes keep it, too; only the result of a
+// Boolean they mirror (there OpenSCAD 2021.01 has another code for it). What
+// has no extent in a direction keeps that.
 Vec2 resize_factor(const Resize& op, const planar::Region& region);
-Vec3 resize_factor(const Resize& op, const Scene& scene);
+Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean);
 
 // The box of the solid itself, however its leaves are combined.
 Box3 box_of_result(const Scene& scene);
-
-// Whether the Boolean leaves nothing.
-bool is_empty(const Scene& scene);
 
 }  // namespace lamina::csg

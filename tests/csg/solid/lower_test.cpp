@@ -85,13 +85,6 @@ TEST_F(LowerTest, BackgroundIsIgnored) {
   EXPECT_TRUE(run({ghost}).is_empty());
 }
 
-TEST_F(LowerTest, FlattenedSolidsVanishWithAWarning) {
-  EXPECT_TRUE(run({b.scale({1, 1, 0}, {b.cube(Vec3(1))})}).is_empty());
-  ASSERT_EQ(diagnostics.all().size(), 1u);
-  EXPECT_EQ(diagnostics.all()[0].message,
-            "Scaling a 3D object with 0 - removing object");
-}
-
 TEST_F(LowerTest, OperandsOutsideTheOverlapAreDropped) {
   const Scene scene = run_solid(
       {b.node(Intersection{},
