@@ -36,8 +36,9 @@ Slicing (lengths in millimetres):
   --axis AXIS         direction of building: z, x, y, -x, -y or -z [z]
   --chordal-error MM  distance of facets from curves where $fn does not say
                       [$fa and $fs decide]
-  --tolerance MM      leave out vertices that move a contour by less; 0 keeps
-                      all [0.001]
+  --tolerance MM, --simplify MM
+                      write the fewest vertices within this distance of the
+                      contour; 0 writes all [0.001]
   --ray auto|MM       distance of the rays; speed only, except for
                       --contour paper [auto]
   --threads N         threads at work [as many as the machine has]

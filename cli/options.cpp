@@ -118,12 +118,14 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
                                  "must be at least 0.000001 mm");
     }
   });
-  add_text(app, "--tolerance", "length", [&](const std::string& text) {
-    settings.tolerance = require_number("--tolerance", text);
-    if (settings.tolerance < 0) {
-      throw CLI::ValidationError("--tolerance", "must not be negative");
-    }
-  });
+  // Two names of one thing: what simplification is for, and what it promises.
+  add_text(
+      app, "--tolerance,--simplify", "length", [&](const std::string& text) {
+        settings.tolerance = require_number("--tolerance", text);
+        if (settings.tolerance < 0) {
+          throw CLI::ValidationError("--tolerance", "must not be negative");
+        }
+      });
   add_text(app, "--ray", "length", [&](const std::string& text) {
     settings.ray_pitch = text == "auto" ? 0 : require_positive("--ray", text);
   });

@@ -2,253 +2,319 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
+#include <span>
 
 namespace lamina::slicer {
 namespace {
 
-// Rectangles are widened by this [mm], so that rounding cannot hide a vertex
-// that lies on their rim: the kinetic ray merges what is nearer.
-constexpr double kRimWidth = 1e-9;
+// Strips are widened by this [mm] across: what the file's 32-bit numbers can
+// move a vertex towards an edge, up to 100 mm from the origin.
+constexpr double kClearance = 2e-5;
 
-// Shortest run that is always tried; longer ones at most double from run to
-// run, so that runs that fail cost no more than those that succeed.
-constexpr std::uint32_t kFirstRun = 16;
+// And by this [mm] along, so that rounding hides nothing at their ends.
+constexpr double kEndMargin = 1e-9;
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+// A search for the next vertex goes on for so many vertices, and twice as many
+// as it has reached, after the last one that a line reaches.
+constexpr std::uint32_t kPatience = 16;
+
+// Loops change their area by at most this factor, or its inverse.
+constexpr double kAreaFactor = 2;
 
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
 
-// Twice the area over the perimeter (measured along the axes, hence at most
-// √2 too long): how thick a loop is where it is long.
-double thickness(std::span<const Vec2> closed_loop) {
-  double doubled_area = 0;
-  double length = 0;
-  const Vec2 origin = closed_loop.front();
-  for (std::size_t i = 1; i < closed_loop.size(); ++i) {
-    const Vec2 a = closed_loop[i - 1] - origin;
-    const Vec2 b = closed_loop[i] - origin;
-    doubled_area += cross(a, b);
-    length += std::abs(b.x - a.x) + std::abs(b.y - a.y);
-  }
-  return length > 0 ? std::abs(doubled_area) / length : 0;
+bool keeps_area(double before, double after) {
+  return after / before >= 1 / kAreaFactor && after / before <= kAreaFactor;
 }
 
-std::uint32_t cell_index(double cell, std::uint32_t count) {
-  return static_cast<std::uint32_t>(
-      std::clamp(cell, 0.0, static_cast<double>(count - 1)));
-}
+// Directions of the lines from the anchor that pass all vertices so far within
+// the tolerance.
+class Cone {
+ public:
+  explicit Cone(double tolerance) : tolerance_(tolerance) {}
+
+  bool is_empty() const { return !is_open_ && cross(right_, left_) < 0; }
+  bool contains(Vec2 to) const {
+    return is_open_ || (cross(right_, to) >= 0 && cross(to, left_) >= 0);
+  }
+
+  // to  the vertex, seen from the anchor, and its distance
+  void narrow(Vec2 to, double distance) {
+    if (distance == 0) return;
+    // Half the angle's sine and cosine. What is nearer than the tolerance
+    // asks for no more than not to lie behind the anchor.
+    const double sine = std::min(1.0, tolerance_ / distance);
+    const Vec2 ahead = to * std::sqrt(1 - sine * sine);
+    const Vec2 aside = left_of(to) * sine;
+    if (is_open_ || cross(right_, ahead - aside) > 0) right_ = ahead - aside;
+    if (is_open_ || cross(ahead + aside, left_) > 0) left_ = ahead + aside;
+    is_open_ = false;
+  }
+
+ private:
+  double tolerance_;
+  bool is_open_ = true;  // all directions
+  Vec2 right_{0, 0};
+  Vec2 left_{0, 0};
+};
 
 }  // namespace
 
+// A straight way past a run of vertices, and the run as it is seen from there.
+struct Simplifier::Shortcut {
+  std::uint32_t first;
+  std::uint32_t last;
+  Vec2 origin;
+  Vec2 along;  // unit length
+  double length;
+  double lowest = 0;  // deviations of the run, positive to the left
+  double highest = 0;
+  std::uint32_t farthest = 0;  // the vertex of greatest deviation
+  bool is_ahead = true;        // the run lies between the ends
+
+  // abscissa and deviation of a point
+  Vec2 place_of(Vec2 point) const {
+    const Vec2 to = point - origin;
+    return {dot(along, to), cross(along, to)};
+  }
+};
+
 void Simplifier::simplify(ldni::Contours& contours) {
   if (!(tolerance_ > 0) || contours.is_empty()) return;
-  // Copy the loops, each from its leftmost point and closed.
+  copy_loops(contours);
+  kept_.assign(points_.size(), 0);
+  for (const Loop& loop : loops_) choose(loop);
+  // A vertex that mending brings back can lie in another strip: look again.
+  for (bool is_changed = has_left_out(); is_changed;) {
+    fill_grid();
+    is_changed = false;
+    for (const Loop& loop : loops_) is_changed |= mend(loop);
+  }
+  for (const Loop& loop : loops_) thin_out(loop);
+  write_kept(contours);
+}
+
+void Simplifier::copy_loops(const ldni::Contours& contours) {
   points_.clear();
-  loop_ends_.clear();
+  loops_.clear();
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);
     const auto first = std::min_element(
         loop.begin(), loop.end(), [](const Vec2& a, const Vec2& b) {
           return a.x < b.x || (a.x == b.x && a.y < b.y);
         });
+    const auto begin = static_cast<std::uint32_t>(points_.size());
     points_.insert(points_.end(), first, loop.end());
     points_.insert(points_.end(), loop.begin(), first + 1);
-    loop_ends_.push_back(static_cast<std::uint32_t>(points_.size()));
-  }
-  has_cells_ = false;
-  result_.clear();
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : loop_ends_) {
-    simplify_loop(begin, end - 1);
-    begin = end;
-  }
-  std::swap(contours, result_);
-}
-
-void Simplifier::fill_cells() {
-  has_cells_ = true;
-  Vec2 low = points_.front();
-  Vec2 high = low;
-  for (const Vec2& p : points_) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  // Choose cells: about four a vertex, of equal width and height.
-  const Vec2 size = high - low;
-  const double wanted = 4.0 * static_cast<double>(points_.size());
-  const double longest = std::max({size.x, size.y, kRimWidth});
-  cells_.x0 = low.x;
-  cells_.y0 = low.y;
-  cells_.cells_per_mm = std::min(
-      std::sqrt(wanted / std::max(size.x * size.y, 1e-300)), wanted / longest);
-  cells_.columns = 1 + static_cast<std::uint32_t>(size.x * cells_.cells_per_mm);
-  cells_.rows = 1 + static_cast<std::uint32_t>(size.y * cells_.cells_per_mm);
-  cells_.last.assign(std::size_t{cells_.columns} * cells_.rows, kNone);
-
-  run_begin_.resize(points_.size());
-  previous_run_.resize(points_.size());
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : loop_ends_) {
-    for (std::uint32_t i = begin; i + 1 < end; ++i) {
-      const Vec2 at = (points_[i] - low) * cells_.cells_per_mm;
-      std::uint32_t& last =
-          cells_.last[std::size_t{static_cast<std::uint32_t>(at.y)} *
-                          cells_.columns +
-                      static_cast<std::uint32_t>(at.x)];
-      if (i > begin && last == i - 1) {
-        run_begin_[i] = run_begin_[i - 1];
-      } else {
-        run_begin_[i] = i;
-        previous_run_[i] = last;
-      }
-      last = i;
-    }
-    begin = end;
+    loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
+                      2 * ldni::signed_area(loop)});
   }
 }
 
-// begin … end: the loop's vertices, the last a copy of the first.
-void Simplifier::simplify_loop(std::uint32_t begin, std::uint32_t end) {
-  const double tolerance = std::min(
-      tolerance_, thickness({points_.data() + begin, end - begin + 1U}) / 4);
-  std::uint32_t longest = kFirstRun;
-  for (std::uint32_t anchor = begin; anchor != end;) {
-    result_.points.push_back(points_[anchor]);
-    std::uint32_t last =
-        longest_run(anchor, std::min(end, anchor + longest), tolerance);
-    while (last > anchor + 1 && !is_safe(anchor, last, tolerance)) {
-      last = anchor + (last - anchor) / 2;
-    }
-    longest = std::max(kFirstRun, 2 * (last - anchor));
-    anchor = last;
+// Chooses vertices as if the loop were alone.
+void Simplifier::choose(const Loop& loop) {
+  for (double tolerance = tolerance_; tolerance > kEndMargin; tolerance /= 2) {
+    choose_within(loop, tolerance);
+    if (keeps_area(loop.doubled_area, doubled_area_kept(loop))) return;
   }
-  result_.ends.push_back(static_cast<std::uint32_t>(result_.points.size()));
+  std::fill(kept_.begin() + loop.begin, kept_.begin() + loop.end + 1, 1);
+}
+
+void Simplifier::choose_within(const Loop& loop, double tolerance) {
+  std::fill(kept_.begin() + loop.begin, kept_.begin() + loop.end, 0);
+  for (std::uint32_t anchor = loop.begin; anchor != loop.end;) {
+    kept_[anchor] = 1;
+    anchor = farthest_reach(anchor, loop.end, tolerance);
+  }
+  kept_[loop.end] = 1;
 }
 
 // Last vertex, at most `end`, for which a straight line from the anchor passes
-// all vertices between within the tolerance (by the cone alone).
-std::uint32_t Simplifier::longest_run(std::uint32_t anchor, std::uint32_t end,
-                                      double tolerance) const {
+// all vertices between within the tolerance, nearly always.
+std::uint32_t Simplifier::farthest_reach(std::uint32_t anchor,
+                                         std::uint32_t end,
+                                         double tolerance) const {
   if (end < anchor + 2) return end;
-  // Most runs of a coarse section end at once; that is cheap to see.
+  // Most runs of a coarse section end at once; that is cheap to see: no line
+  // passes both vertices.
   const Vec2 first = points_[anchor + 1] - points_[anchor];
   const Vec2 second = points_[anchor + 2] - points_[anchor];
   const double area = cross(first, second);
-  if (area * area > tolerance * tolerance * dot(second, second)) {
+  if (area * area >
+      2 * tolerance * tolerance * (dot(first, first) + dot(second, second))) {
     return anchor + 1;
   }
-  Vec2 right{0, 0};  // of the cone; no cone yet while it is 0
-  Vec2 left{0, 0};
+  Cone cone(tolerance);
+  std::uint32_t reach = anchor + 1;
   double farthest = 0;
   for (std::uint32_t i = anchor + 1; i <= end; ++i) {
     const Vec2 to = points_[i] - points_[anchor];
-    if (cross(right, to) < 0 || cross(to, left) < 0) return i - 1;
     const double distance = std::sqrt(dot(to, to));
-    if (distance < farthest - tolerance) return i - 1;  // it turns back
+    // The end of a shortcut is its farthest vertex.
+    if (distance >= farthest && cone.contains(to)) reach = i;
+    if (distance < farthest - tolerance) break;  // it turns back
+    if (i - reach > kPatience + 2 * (reach - anchor)) break;
     farthest = std::max(farthest, distance);
-    if (distance <= tolerance) continue;
-    // Narrow the cone to the lines that pass this vertex near enough. The
-    // chord is a little narrower than the tangents: on the safe side.
-    const Vec2 aside = left_of(to) * (tolerance / distance);
-    const bool is_first = right.x == 0 && right.y == 0;
-    if (is_first || cross(right, to - aside) > 0) right = to - aside;
-    if (is_first || cross(to + aside, left) > 0) left = to + aside;
+    cone.narrow(to, distance);
+    if (cone.is_empty()) break;
   }
-  return end;
+  return reach;
 }
 
-bool Simplifier::is_safe(std::uint32_t anchor, std::uint32_t last,
-                         double tolerance) {
-  const Vec2 shortcut = points_[last] - points_[anchor];
-  const double length = std::sqrt(dot(shortcut, shortcut));
-  if (length == 0) return false;
-  const Vec2 along = shortcut / length;
-  double lowest = 0;
-  double highest = 0;
-  for (std::uint32_t i = anchor + 1; i < last; ++i) {
-    const Vec2 to = points_[i] - points_[anchor];
-    const double abscissa = dot(along, to);
-    if (abscissa < 0 || abscissa > length) return false;
-    const double deviation = cross(along, to);
-    lowest = std::min(lowest, deviation);
-    highest = std::max(highest, deviation);
-  }
-  if (highest > tolerance || -lowest > tolerance) return false;
-  if (!has_cells_) fill_cells();
-  return !has_foreign_vertex(anchor, last, along, length, lowest, highest);
+bool Simplifier::has_left_out() const {
+  return std::find(kept_.begin(), kept_.end(), 0) != kept_.end();
 }
 
-bool Simplifier::has_foreign_vertex(std::uint32_t anchor, std::uint32_t last,
-                                    Vec2 along, double length, double lowest,
-                                    double highest) const {
-  const Vec2 a = points_[anchor];
-  const Vec2 b = points_[last];
-  const auto lies_in_rectangle = [&](std::uint32_t i) {
-    const Vec2 to = points_[i] - a;
-    const double abscissa = dot(along, to);
-    const double deviation = cross(along, to);
-    return abscissa >= -kRimWidth && abscissa <= length + kRimWidth &&
-           deviation >= lowest - kRimWidth && deviation <= highest + kRimWidth;
-  };
-  // A loop's first vertex ends its last run too, as a copy.
-  const auto is_own_copy = [&](std::uint32_t i) {
-    return points_[i] == b || points_[i] == a;
-  };
-  const auto has_foreign_in = [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t i = from; i < to; ++i) {
-      if (lies_in_rectangle(i) && !is_own_copy(i)) return true;
+void Simplifier::fill_grid() {
+  members_.clear();
+  for (const Loop& loop : loops_) {
+    for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
+      if (kept_[i] != 0) members_.push_back(i);
     }
-    return false;
-  };
-  const auto has_foreign_in_cell = [&](std::uint32_t newest) {
-    for (std::uint32_t end = newest; end != kNone;) {
-      const std::uint32_t begin = run_begin_[end];
-      if (has_foreign_in(begin, std::min(end + 1, anchor)) ||
-          has_foreign_in(std::max(begin, last + 1), end + 1)) {
-        return true;
-      }
-      end = previous_run_[begin];
-    }
-    return false;
-  };
+  }
+  grid_.fill(points_, members_);
+}
 
-  // Walk the cells row by row; a point of R is at most `reach` from the
-  // shortcut in x and in y.
-  const double reach = std::max(highest, -lowest) + kRimWidth;
-  const double scale = cells_.cells_per_mm;
-  const auto row_of = [&](double y) {
-    return cell_index((y - cells_.y0) * scale, cells_.rows);
-  };
-  const auto column_of = [&](double x) {
-    return cell_index((x - cells_.x0) * scale, cells_.columns);
-  };
-  const Vec2 lower = a.y <= b.y ? a : b;
-  const Vec2 upper = a.y <= b.y ? b : a;
-  const double slope =
-      upper.y > lower.y ? (upper.x - lower.x) / (upper.y - lower.y) : 0;
-  const std::uint32_t first_row = row_of(lower.y - reach);
-  const std::uint32_t last_row = row_of(upper.y + reach);
-  for (std::uint32_t row = first_row; row <= last_row; ++row) {
-    double x0 = lower.x;
-    double x1 = upper.x;
-    if (first_row != last_row && upper.y > lower.y) {
-      const double row_low = cells_.y0 + row / scale - reach;
-      const double row_high = cells_.y0 + (row + 1) / scale + reach;
-      x0 += slope * (std::clamp(row_low, lower.y, upper.y) - lower.y);
-      x1 = lower.x + slope * (std::clamp(row_high, lower.y, upper.y) - lower.y);
+// Splits runs until each is safe from what the grid holds. Returns whether a
+// vertex was brought back.
+bool Simplifier::mend(const Loop& loop) {
+  bool is_changed = false;
+  for (std::uint32_t first = loop.begin; first != loop.end;) {
+    pending_.assign(1, next_kept(first));
+    while (!pending_.empty()) {
+      const std::uint32_t last = pending_.back();
+      if (last > first + 1) {
+        const Shortcut shortcut = measure(first, last);
+        if (!is_safe(shortcut)) {
+          kept_[shortcut.farthest] = 1;
+          pending_.push_back(shortcut.farthest);
+          is_changed = true;
+          continue;
+        }
+      }
+      first = last;
+      pending_.pop_back();
     }
-    const std::uint32_t last_column = column_of(std::max(x0, x1) + reach);
-    for (std::uint32_t column = column_of(std::min(x0, x1) - reach);
-         column <= last_column; ++column) {
-      if (has_foreign_in_cell(
-              cells_.last[std::size_t{row} * cells_.columns + column])) {
+  }
+  return is_changed;
+}
+
+// Leaves out every vertex that can be spared, one after another.
+void Simplifier::thin_out(const Loop& loop) {
+  double area = doubled_area_kept(loop);
+  std::uint32_t first = loop.begin;
+  for (std::uint32_t middle = next_kept(first); middle != loop.end;) {
+    const std::uint32_t last = next_kept(middle);
+    const Vec2 to_middle = points_[middle] - points_[first];
+    const Vec2 to_last = points_[last] - points_[first];
+    const double corner = cross(to_middle, to_last);
+    if (corner * corner <= tolerance_ * tolerance_ * dot(to_last, to_last) &&
+        keeps_area(loop.doubled_area, area - corner) &&
+        is_safe(measure(first, last))) {
+      kept_[middle] = 0;
+      area -= corner;
+    } else {
+      first = middle;
+    }
+    middle = last;
+  }
+}
+
+void Simplifier::write_kept(ldni::Contours& contours) const {
+  contours.clear();
+  for (const Loop& loop : loops_) {
+    for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
+      if (kept_[i] != 0) contours.points.push_back(points_[i]);
+    }
+    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
+  }
+}
+
+std::uint32_t Simplifier::next_kept(std::uint32_t i) const {
+  do {
+    ++i;
+  } while (kept_[i] == 0);
+  return i;
+}
+
+double Simplifier::doubled_area_kept(const Loop& loop) const {
+  const Vec2 origin = points_[loop.begin];
+  double sum = 0;
+  for (std::uint32_t i = loop.begin; i != loop.end;) {
+    const std::uint32_t next = next_kept(i);
+    sum += cross(points_[i] - origin, points_[next] - origin);
+    i = next;
+  }
+  return sum;
+}
+
+Simplifier::Shortcut Simplifier::measure(std::uint32_t first,
+                                         std::uint32_t last) const {
+  const Vec2 way = points_[last] - points_[first];
+  const double length = std::sqrt(dot(way, way));
+  Shortcut shortcut{first, last, points_[first], way / length, length};
+  shortcut.farthest = first + (last - first) / 2;
+  for (std::uint32_t i = first + 1; i < last; ++i) {
+    const Vec2 place = shortcut.place_of(points_[i]);
+    shortcut.is_ahead &= place.x >= 0 && place.x <= length;
+    if (std::abs(place.y) > std::max(shortcut.highest, -shortcut.lowest)) {
+      shortcut.farthest = i;
+    }
+    shortcut.lowest = std::min(shortcut.lowest, place.y);
+    shortcut.highest = std::max(shortcut.highest, place.y);
+  }
+  return shortcut;
+}
+
+// Whether the run keeps within the tolerance and no vertex of the grid that is
+// still kept lies in its strip.
+bool Simplifier::is_safe(const Shortcut& shortcut) const {
+  if (!shortcut.is_ahead || shortcut.highest > tolerance_ ||
+      -shortcut.lowest > tolerance_) {
+    return false;
+  }
+  const Vec2 a = points_[shortcut.first];
+  const Vec2 b = points_[shortcut.last];
+  const double reach =
+      std::max(shortcut.highest, -shortcut.lowest) + kClearance;
+  return !grid_.has_near(a, b, reach, [&](std::uint32_t i) {
+    if (kept_[i] == 0 || (i >= shortcut.first && i <= shortcut.last)) {
+      return false;
+    }
+    // Another loop may touch this one in a vertex.
+    const Vec2& point = points_[i];
+    if (point == a || point == b) return false;
+    return is_in_strip(shortcut, shortcut.place_of(point));
+  });
+}
+
+bool Simplifier::is_in_strip(const Shortcut& shortcut, Vec2 place) const {
+  if (place.x < -kEndMargin || place.x > shortcut.length + kEndMargin ||
+      place.y < shortcut.lowest - kClearance ||
+      place.y > shortcut.highest + kClearance) {
+    return false;
+  }
+  Vec2 from{0, 0};
+  for (std::uint32_t i = shortcut.first + 1; i <= shortcut.last; ++i) {
+    const Vec2 to = shortcut.place_of(points_[i]);
+    // The part of this edge that stands above or below the place.
+    const Vec2 left = from.x <= to.x ? from : to;
+    const Vec2 right = from.x <= to.x ? to : from;
+    const double begin = std::max(left.x, place.x - kEndMargin);
+    const double end = std::min(right.x, place.x + kEndMargin);
+    if (begin <= end) {
+      const double slope =
+          right.x > left.x ? (right.y - left.y) / (right.x - left.x) : 0;
+      const double y0 = left.y + slope * (begin - left.x);
+      const double y1 = right.y - slope * (right.x - end);
+      if (place.y >= std::min({0.0, y0, y1}) - kClearance &&
+          place.y <= std::max({0.0, y0, y1}) + kClearance) {
         return true;
       }
     }
+    from = to;
   }
   return false;
 }

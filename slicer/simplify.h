@@ -4,37 +4,40 @@
 // A section of a fine tessellation has a vertex every few micrometres; a wax
 // printer's beam is ten times wider. Dropping vertices is easy; keeping walls
 // and gaps thinner than the tolerance open is what needs thought, and sections
-// of real jewelry have them.
+// of real jewelry have them. The vertices that stay are the loops' own, so
+// corners keep their digits.
 //
-// 1. Sleeve. From an anchor vertex a the run of vertices that follow is
-//    extended as long as a straight line from a passes within the tolerance of
-//    them all: a cone of admissible directions that narrows with every vertex,
-//    O(1) each (Williams 1978; Imai and Iri 1988 for the bound).
-// 2. Proof. In the frame of the shortcut a-b the run must lie in the
-//    rectangle R = [0, length] × [lowest, highest deviation], the deviations
-//    at most the tolerance. Then every point of the run is within the
-//    tolerance of the shortcut, and, since the run crosses every abscissa of
-//    it, the other way round.
-// 3. Safety. No vertex of the layer that is not of the run may lie in R. This
-//    one test keeps the topology of everything: an edge of another part that
-//    meets the shortcut would enter and leave R (it has no end inside), part a
-//    from b in R, and so cross the run; but contours are disjoint. The same
-//    holds for two shortcuts, since the ends of each are foreign to the other.
-//    So loops stay simple and disjoint, keep their nesting, and nothing small
-//    changes sides. A run that fails is halved.
-// 4. Loops as thin as the tolerance themselves are treated with a quarter of
-//    their own thickness (2 · area / perimeter), so that none collapses: a loop
-//    within d of a line is at most 2 d thick.
+// 1. Choose. From an anchor a the next vertex to keep is the farthest that a
+//    straight line reaches within the tolerance of all between: a cone of
+//    directions that narrows with every vertex (Imai and Iri 1988), O(1) each.
+//    On sections of rings 1 to 3 % more vertices stay than the fewest possible.
+// 2. Prove. In the frame of the shortcut a-b the run that it replaces must lie
+//    in [0, length] × [-tolerance, tolerance]. The run crosses every abscissa
+//    of the shortcut, so each of the two is within the tolerance of the other.
+//    Moving every point of the run straight down to the shortcut sweeps the
+//    strip between them; no vertex that stays may lie in a strip.
+// 3. Mend. A run that fails is split at its farthest vertex, until none fails.
+// 4. Thin out. A vertex whose run and the next pass the proof as one is left
+//    out: what the splits no longer need.
 //
-// For the foreign vertices all vertices stand in a grid of some four times as
-// many cells, as lists of runs of neighbours: a shortcut walks the cells under
-// R and skips its own run in one step. So the whole is linear in practice: 25
-// to 30 ns a vertex on the sections of a ring of a million facets.
+// Why the topology stays. Prick the plane at all vertices that stay. Runs can
+// be moved to their shortcuts without crossing a prick, and runs are disjoint.
+// Two straight segments that cross, cross once, and no motion that respects the
+// pricks could part them; so shortcuts do not cross. Hence loops stay simple,
+// disjoint and nested as they were, with vertices on the sides on which they
+// were. Vertices that do not stay need not be heeded: two walls closer than the
+// tolerance are thinned out together.
+//
+// A loop as small as the tolerance would dwindle to a sliver; so loops keep at
+// least half of their area and at most double it.
+//
+// The cost is linear in practice.
 
 #include <cstdint>
 #include <vector>
 
 #include "ldni/contours.h"
+#include "slicer/point_grid.h"
 
 namespace lamina::slicer {
 
@@ -50,34 +53,38 @@ class Simplifier {
   void simplify(ldni::Contours& contours);
 
  private:
-  // Vertices i in the same cell as i-1 continue its run.
-  struct Cells {
-    std::vector<std::uint32_t> last;  // cell → last vertex of its newest run
-    double x0 = 0;
-    double y0 = 0;
-    double cells_per_mm = 0;
-    std::uint32_t columns = 1;
-    std::uint32_t rows = 1;
+  // Vertices [begin, end] of points_; the last is a copy of the first.
+  struct Loop {
+    std::uint32_t begin;
+    std::uint32_t end;
+    double doubled_area;  // signed [mm²]
   };
+  struct Shortcut;
 
-  void fill_cells();
-  void simplify_loop(std::uint32_t begin, std::uint32_t end);
-  std::uint32_t longest_run(std::uint32_t anchor, std::uint32_t end,
-                            double tolerance) const;
-  bool is_safe(std::uint32_t anchor, std::uint32_t last, double tolerance);
-  bool has_foreign_vertex(std::uint32_t anchor, std::uint32_t last, Vec2 along,
-                          double length, double lowest, double highest) const;
-  const Vec2& point(std::uint32_t i) const { return points_[i]; }
+  void copy_loops(const ldni::Contours& contours);
+  void choose(const Loop& loop);
+  void choose_within(const Loop& loop, double tolerance);
+  std::uint32_t farthest_reach(std::uint32_t anchor, std::uint32_t end,
+                               double tolerance) const;
+  bool has_left_out() const;
+  void fill_grid();
+  bool mend(const Loop& loop);
+  void thin_out(const Loop& loop);
+  void write_kept(ldni::Contours& contours) const;
+
+  std::uint32_t next_kept(std::uint32_t i) const;
+  double doubled_area_kept(const Loop& loop) const;
+  Shortcut measure(std::uint32_t first, std::uint32_t last) const;
+  bool is_safe(const Shortcut& shortcut) const;
+  bool is_in_strip(const Shortcut& shortcut, Vec2 place) const;
 
   double tolerance_;
-  ldni::Contours result_;
-  std::vector<Vec2> points_;  // of the layer, each loop closed by its first
-  std::vector<std::uint32_t> loop_ends_;
-  std::vector<std::uint32_t> run_begin_;     // vertex → first of its run
-  std::vector<std::uint32_t> previous_run_;  // first of a run → last of the
-                                             // run before it in that cell
-  Cells cells_;
-  bool has_cells_ = false;  // filled for the layer in hand
+  std::vector<Vec2> points_;
+  std::vector<Loop> loops_;
+  std::vector<std::uint8_t> kept_;      // of points_
+  std::vector<std::uint32_t> pending_;  // of a run, the ends that split it
+  std::vector<std::uint32_t> members_;  // of the grid: what was kept
+  PointGrid grid_;
 };
 
 }  // namespace lamina::slicer

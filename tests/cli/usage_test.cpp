@@ -72,6 +72,8 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"a.scad", "--layer", "0.1mm"},
       {"a.scad", "--layer", "nan"},
       {"a.scad", "--tolerance", "-0.1"},
+      {"a.scad", "--simplify", "nan"},
+      {"a.scad", "--simplify", "0.1", "--tolerance", "0.1"},
       {"a.scad", "--heights", "1,0.5"},
       {"a.scad", "--heights", "1,,2"},
       {"a.scad", "--axis", "w"},
