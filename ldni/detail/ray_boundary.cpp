@@ -121,8 +121,24 @@ void RaySweep::split_at_touches() {
       note_disorder_after(number, entry.above);
       if (std::abs(y_before(entry) - y) >= kColumnWidth) split_piece(entry);
     }
-    if (tracer_.has_end_near(y)) split_all_near(number, y);
+    if (tracer_.has_end_near(y) || meets_boundary(number, y)) {
+      split_all_near(number, y);
+    }
   }
+}
+
+// Whether the entry is boundary and other boundary above it goes through the
+// same point of the column; entries that are none may lie between. What is
+// below has been touched as well: whatever happens in a point, the entries on
+// both sides of it are.
+bool RaySweep::meets_boundary(std::uint32_t number, double y) {
+  if (status_[number].survival == 0) return false;
+  for (std::uint32_t e = status_[number].above; e != status_.sentinel();
+       e = status_[e].above) {
+    if (std::abs(y_after(status_[e]) - y) >= kColumnWidth) return false;
+    if (status_[e].survival != 0) return true;
+  }
+  return false;
 }
 
 // Cuts all boundary through a point of the column. `number` is an entry there;

@@ -29,6 +29,9 @@ constexpr std::size_t kGrowthOfMembers = 3;
 // endless: rounding could make the pairwise order of entries a circle.
 constexpr std::uint64_t kMostSwapsPerEntry = 64;
 
+// Relative error of the x of a crossing: a few roundings.
+constexpr double kRoundingOfX = 1e-15;
+
 }  // namespace
 
 // --- The layer --------------------------------------------------------------
@@ -43,11 +46,12 @@ void RaySweep::sweep(const ChainBlock& block, std::uint32_t layer,
                      Contours& contours) {
   begin_layer(block, block.layer(layer));
   while (next_turn_ < turns_.size()) {
-    // The next stop is a turn or a change; entering a slab may find changes.
+    // The next stop is a turn or a change; entering a slab may find changes,
+    // those of a column that reaches into it before the column is worked off.
     const double x = std::min(turns_[next_turn_].x, agenda_.next_change());
-    if (agenda_.slab_end() <= x) {
+    if (agenda_.slab_end() <= x + kColumnWidth) {
       agenda_.enter_next_slab();
-      look_again();
+      look_again(x);
     } else {
       process_column(x);
     }
@@ -98,10 +102,12 @@ std::uint32_t RaySweep::slab_count(double width) const {
   return static_cast<std::uint32_t>(std::ceil(count));
 }
 
-// Looks again at the pairs whose outlook ends in the slab just entered.
-void RaySweep::look_again() {
+// Looks again at the pairs whose outlook ends in the slab just entered; the
+// next stop is at `next_stop`, perhaps just before the slab.
+void RaySweep::look_again(double next_stop) {
   // The column before may reach into this slab.
-  const double x = std::max(agenda_.slab_start(), column_right_);
+  const double x =
+      std::max(std::min(agenda_.slab_start(), next_stop), column_right_);
   agenda_.visit_slab([this, x](const PairRef& pair) {
     const std::uint32_t lower = pair.entry;
     if (!status_.is_alive(lower)) return;
@@ -306,14 +312,21 @@ void RaySweep::swap_with_above(std::uint32_t lower) {
 }
 
 // Where two chains cross they have one point, on the flatter one: a steep one's
-// y at the rounded x may be far off.
+// y at the rounded x may be far off. What is farther off than rounding makes it
+// was a tie at the end of a segment.
 void RaySweep::note_crossing(Entry& a, Entry& b) {
   const bool is_a_steeper =
       std::abs(a.cursor.slope()) > std::abs(b.cursor.slope());
   Entry& steeper = is_a_steeper ? a : b;
   const Entry& flatter = is_a_steeper ? b : a;
-  steeper.crossing_y = flatter.cursor.y_at(column_right_);
+  const double x = column_right_;
+  const double y = steeper.cursor.y_at(x);
+  steeper.crossing_y = flatter.cursor.y_at(x);
   steeper.crossing_column = column_;
+  const double rounding = kRoundingOfX * std::abs(x * steeper.cursor.slope());
+  if (std::abs(steeper.crossing_y - y) > kColumnWidth + rounding) {
+    tracer_.note_jump();
+  }
 }
 
 void RaySweep::set_tie(std::uint32_t entry, bool is_tied) {

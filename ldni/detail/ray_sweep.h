@@ -76,7 +76,7 @@ class RaySweep {
   // The layer.
   void begin_layer(const ChainBlock& block, std::span<const Chain> chains);
   std::uint32_t slab_count(double width) const;
-  void look_again();
+  void look_again(double next_stop);
   void forget_old_sets();
 
   // The order in a column.
@@ -102,6 +102,7 @@ class RaySweep {
   void update_group(std::uint32_t member);
   void change_survival(Entry& entry, std::int8_t survival);
   void split_at_touches();
+  bool meets_boundary(std::uint32_t number, double y);
   void split_all_near(std::uint32_t number, double y);
   void split_piece(Entry& entry);
   void note_disorder_before(std::uint32_t lower, std::uint32_t upper);
@@ -114,8 +115,11 @@ class RaySweep {
   // where it leaves it to the right.
   ChainCursor cursor_before(const Entry& entry) const;
   double y_before(const Entry& entry) const {
-    return crosses_here(entry) ? entry.crossing_y
-                               : cursor_before(entry).y_at(column_left_);
+    if (crosses_here(entry)) return entry.crossing_y;
+    const ChainCursor& cursor = entry.cursor;
+    const bool is_here =
+        cursor.left_x() < column_left_ && cursor.right_x() >= column_left_;
+    return (is_here ? cursor : cursor_before(entry)).y_at(column_left_);
   }
   double y_after(Entry& entry) const {
     entry.cursor.advance(column_right_);

@@ -173,6 +173,17 @@ TEST_P(CrossCheck, ContoursOfTheKineticRayMeetTheIntervalsOfEveryRay) {
   run(check_kinetic_ray);
 }
 
+// Three faces through one point that all stay boundary, or a slab that begins
+// inside a column: each once left a loop that touched itself.
+TEST(CrossCheck, LoopsThatMeetInAPointAreApart) {
+  for (const std::uint64_t seed : {1151, 1840, 2247}) {
+    check_kinetic_ray(seed, SceneStyle::kAligned);
+  }
+  for (const std::uint64_t seed : {1390, 2130}) {
+    check_kinetic_ray(seed, SceneStyle::kNoisy);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Styles, CrossCheck,
                          ::testing::Range(0, support::kSceneStyleCount));
 
