@@ -115,6 +115,8 @@ void RaySweep::split_at_touches() {
   for (const std::uint32_t number : touched_) {
     if (!status_.is_alive(number)) continue;
     Entry& entry = status_[number];
+    if (entry.touch_column == column_) continue;
+    entry.touch_column = column_;
     const double y = y_after(entry);
     if (entry.survival != 0) {
       note_disorder_after(entry.below, number);

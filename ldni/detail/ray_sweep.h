@@ -117,9 +117,10 @@ class RaySweep {
   double y_before(const Entry& entry) const {
     if (crosses_here(entry)) return entry.crossing_y;
     const ChainCursor& cursor = entry.cursor;
-    const bool is_here =
-        cursor.left_x() < column_left_ && cursor.right_x() >= column_left_;
-    return (is_here ? cursor : cursor_before(entry)).y_at(column_left_);
+    if (cursor.left_x() < column_left_ && cursor.right_x() >= column_left_) {
+      return cursor.y_at(column_left_);
+    }
+    return cursor_before(entry).y_at(column_left_);
   }
   double y_after(Entry& entry) const {
     entry.cursor.advance(column_right_);

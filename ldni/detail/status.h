@@ -84,6 +84,7 @@ struct Entry {
   std::uint32_t outlook = 0;    // stamp of the present look at the pair above
   std::uint32_t column = 0;     // the last one that judged its tie group
   std::uint32_t split_column = 0;  // the last one that ended or began a piece
+  std::uint32_t touch_column = 0;  // the last one that looked for touches
 
   double crossing_y = 0;  // where it crosses a flatter chain in that column
   std::uint32_t crossing_column = 0;
