@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "csg/degrees.h"
@@ -19,7 +20,13 @@ constexpr double kGreatestTwistPerSlice = 120;
 constexpr double kMostFacets = 1 << 30;
 
 int to_count(double x) { return static_cast<int>(std::min(x, kMostFacets)); }
-int ceil_to_count(double x) { return to_count(std::ceil(x)); }
+
+// As many slices are none that no int can count, as $fs = 0 asks for.
+int to_slices(double x) {
+  return std::abs(x) <= std::numeric_limits<int>::max() ? static_cast<int>(x)
+                                                        : 0;
+}
+int ceil_to_slices(double x) { return to_slices(std::ceil(x)); }
 
 // Length of the helix that a vertex follows [mm].
 double helix_length(double radius, double height, double twist) {
@@ -46,17 +53,17 @@ int twisted_slice_count(const csg::LinearExtrudeParams& params,
   const double twist_deg = std::abs(params.twist_deg);
   const double fn = params.facets.fn;
   const int least =
-      std::max(ceil_to_count(twist_deg / kGreatestTwistPerSlice), 1);
+      std::max(ceil_to_slices(twist_deg / kGreatestTwistPerSlice), 1);
   if (max_radius < kSmallestRadius || !std::isfinite(fn)) return least;
-  if (fn > 0) return std::max(ceil_to_count(twist_deg / 360 * fn), least);
+  if (fn > 0) return std::max(ceil_to_slices(twist_deg / 360 * fn), least);
   const double twist = twist_deg * std::numbers::pi / 180;
   const bool is_cone = params.scale.x == params.scale.y && params.scale.x != 1;
   const double length = is_cone
                             ? conical_helix_length(max_radius, params.height,
                                                    twist, params.scale.x)
                             : helix_length(max_radius, params.height, twist);
-  const int by_angle = ceil_to_count(twist_deg / params.facets.fa);
-  const int by_length = ceil_to_count(length / params.facets.fs);
+  const int by_angle = ceil_to_slices(twist_deg / params.facets.fa);
+  const int by_length = ceil_to_slices(length / params.facets.fs);
   return std::max(std::min(by_angle, by_length), least);
 }
 
@@ -67,7 +74,7 @@ int fragment_count(double r, const csg::Facets& facets) {
   if (facets.fn > 0) return to_count(std::max(facets.fn, 3.0));
   const double by_angle = 360 / facets.fa;
   const double by_length = r * 2 * std::numbers::pi / facets.fs;
-  return ceil_to_count(std::max(std::min(by_angle, by_length), 5.0));
+  return to_count(std::ceil(std::fmax(std::fmin(by_angle, by_length), 5)));
 }
 
 int curve_segment_count(double size, const csg::Facets& facets) {
@@ -90,10 +97,10 @@ int slice_count(const csg::LinearExtrudeParams& params, double max_radius,
   if (params.scale.x == params.scale.y) return 1;
   const double fn = params.facets.fn;
   if (max_shift < kSmallestRadius || !std::isfinite(fn)) return 1;
-  if (fn > 0) return std::max(to_count(fn), 1);
+  if (fn > 0) return std::max(to_slices(fn), 1);
   const double length =
       std::sqrt(max_shift * max_shift + params.height * params.height);
-  return std::max(ceil_to_count(length / params.facets.fs), 1);
+  return std::max(ceil_to_slices(length / params.facets.fs), 1);
 }
 
 }  // namespace lamina::planar

@@ -52,6 +52,33 @@ TEST(FragmentCount, FollowsFnFaFs) {
   EXPECT_EQ(fragment_count(1e-7, {.fn = 50, .fa = 12, .fs = 2}), 3);
 }
 
+// OpenSCAD 2021.01 takes the other one.
+TEST(FragmentCount, LeavesOutWhatIsNoNumber) {
+  const double nan = std::nan("");
+  EXPECT_EQ(fragment_count(10, {.fn = 0, .fa = nan, .fs = 2}), 32);
+  EXPECT_EQ(fragment_count(10, {.fn = 0, .fa = 12, .fs = nan}), 30);
+  EXPECT_EQ(fragment_count(10, {.fn = 0, .fa = nan, .fs = nan}), 5);
+}
+
+// What OpenSCAD 2021.01 makes of them: the fewest slices there may be.
+TEST(SliceCount, IsTheLeastWhereNoIntCanHoldIt) {
+  csg::LinearExtrudeParams params;
+  params.height = 5;
+  params.has_twist = true;
+  params.twist_deg = 300;
+  params.facets = {.fn = 0, .fa = 12, .fs = 0};
+  EXPECT_EQ(slice_count(params, 1, 0), 3);
+  params.facets = {.fn = 0, .fa = 0, .fs = 2};
+  EXPECT_EQ(slice_count(params, 1, 0), 3);
+  params.twist_deg = 1e300;
+  EXPECT_EQ(slice_count(params, 1, 0), 1);
+  csg::LinearExtrudeParams cone;
+  cone.height = 5;
+  cone.scale = {2, 3};
+  cone.facets = {.fn = 0, .fa = 12, .fs = 0};
+  EXPECT_EQ(slice_count(cone, 1, 1), 1);
+}
+
 TEST(UnitCircle, IsExactlySymmetric) {
   const auto points = unit_circle(24);
   for (std::size_t i = 0; i < 24; ++i) {
