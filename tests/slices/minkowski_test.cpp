@@ -177,6 +177,27 @@ TEST(Minkowski, AnIntersectionGrowsByABox) {
               4 * 3, 1e-6);
 }
 
+// An extruded ell, a plate, a rod and a point.
+TEST(Minkowski, FlatOperandsAddTheirExtent) {
+  const std::string ell =
+      "difference() { cube([3, 3, 2]); translate([1, 1, -1]) cube(4); }";
+  const auto area = [&](const std::string& flat) {
+    return section_area("minkowski() { " + ell + flat + " }", 1.5);
+  };
+  EXPECT_NEAR(area("scale([1, 1, 0]) cube(1);"), 4 * 2 + 2 * 2, 1e-6);
+  EXPECT_NEAR(area("scale([0, 1, 1]) cube(1);"), 3 * 2 + 1 * 2, 1e-6);
+  EXPECT_NEAR(area("scale([1, 0, 0]) cube(1);"), 4 * 1 + 2 * 2, 1e-6);
+  EXPECT_NEAR(area("scale(0) cube(1);"), 3 + 2, 1e-6);
+  EXPECT_NEAR(area("translate([0, 0, 9]) scale(0) cube(1);"), 0, 1e-6);
+}
+
+TEST(Minkowski, TwoPlatesAcrossGiveABox) {
+  EXPECT_NEAR(section_area("minkowski() { scale([1, 1, 0]) cube([2, 3, 1]);"
+                           " scale([0, 1, 1]) cube([1, 2, 4]); }",
+                           1),
+              2 * 5, 1e-9);
+}
+
 // As in OpenSCAD, wherever it stands among the children.
 TEST(Minkowski, AnOperandOfWhichNothingIsLeftDoesNotCount) {
   const std::string nothing =

@@ -162,6 +162,19 @@ TEST_F(Hulls, OfABooleanOfNothingAreNothing) {
   EXPECT_TRUE(run({b.node(Hull{}, {nothing})}).is_empty());
 }
 
+// Base and top of a frustum, of no volume of their own.
+TEST_F(Hulls, TakeTheCornersOfFlattenedSolids) {
+  const Node* base = b.scale({1, 1, 0}, {b.cube({3, 3, 1})});
+  const Node* top =
+      b.translate({1, 1, 6}, {b.scale({1, 1, 0}, {b.cube({1, 1, 1})})});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {base, b.node(Group{}, {top})})}),
+              6.0 / 3 * (9 + 3 + 1), kRounding);
+  const Node* tip =
+      b.translate({1, 1, 6}, {b.scale(Vec3(0), {b.sphere(1, 8)})});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {base, tip})}), 6.0 / 3 * 9,
+              kRounding);
+}
+
 TEST_F(Hulls, InThePlaneTakeAllOutlines) {
   const planar::Region region = run_flat(
       {b.node(Hull{}, {b.node(Square{{1, 1}}),
