@@ -4,10 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -15,38 +12,14 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <unistd.h>
+
+#include "tests/support/openscad_cache.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lamina::oracle {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// FNV-1a.
-std::uint64_t hash(const std::string& text) {
-  std::uint64_t value = 0xcbf29ce484222325;
-  for (const char c : text) {
-    value ^= static_cast<unsigned char>(c);
-    value *= 0x100000001b3;
-  }
-  return value;
-}
-
-// Runs openscad with `arguments`; its output goes to `log`.
-void run(const std::string& arguments, const fs::path& log) {
-  const std::string command =
-      fmt::format("openscad {} > '{}' 2>&1", arguments, log.string());
-  if (std::system(command.c_str()) != 0) {
-    throw std::runtime_error(
-        fmt::format("failed: {}\n{}", command, read_file(log)));
-  }
-}
 
 float read_float(const char* bytes) {
   float value = 0;
@@ -56,29 +29,20 @@ float read_float(const char* bytes) {
 
 }  // namespace
 
-csg::Mesh render_with_openscad(const fs::path& design, const fs::path& cache) {
-  fs::create_directories(cache);
-  const std::string unique = fmt::format("{}.tmp", ::getpid());
-  const fs::path log = cache / (unique + ".log");
-  run("--version", log);
-  const fs::path stl =
-      cache / fmt::format("{}-{:016x}.stl", design.stem().string(),
-                          hash(read_file(log) + read_file(design)));
-  if (!fs::exists(stl)) {
-    const fs::path beside = cache / (unique + ".stl");
-    run(fmt::format("--export-format binstl -o '{}' '{}'", beside.string(),
-                    design.string()),
-        log);
-    fs::rename(beside, stl);
+csg::Mesh render_with_openscad(const fs::path& design) {
+  const support::OpenScadResult result =
+      support::ask_openscad(design, "stl", {"--export-format", "binstl"});
+  if (result.output.empty()) {
+    throw std::runtime_error(
+        fmt::format("openscad fails on {}\n{}", design.string(), result.words));
   }
-  fs::remove(log);
-  return read_binary_stl(stl);
+  return read_binary_stl(result.output);
 }
 
 csg::Mesh read_binary_stl(const fs::path& path) {
   constexpr std::size_t kHeader = 80;
   constexpr std::size_t kRecord = 50;
-  const std::string bytes = read_file(path);
+  const std::string bytes = support::read_file(path.string());
   std::uint32_t count = 0;
   if (bytes.size() >= kHeader + 4) {
     std::memcpy(&count, bytes.data() + kHeader, 4);

@@ -7,13 +7,11 @@
 
 namespace lamina::oracle {
 
-// The mesh that `openscad` makes of `design`, corners that agree joined. Kept
-// in `cache` under the design's text and the program's version: rendering takes
-// seconds. The design may not read other files.
+// The mesh that `openscad` makes of `design`, corners that agree joined. The
+// design may not read other files: what was rendered is kept.
 //
 // throws  std::runtime_error where the program is missing or fails
-csg::Mesh render_with_openscad(const std::filesystem::path& design,
-                               const std::filesystem::path& cache);
+csg::Mesh render_with_openscad(const std::filesystem::path& design);
 
 // Reads a binary STL file.
 csg::Mesh read_binary_stl(const std::filesystem::path& path);

@@ -28,7 +28,6 @@ namespace fs = std::filesystem;
 
 const fs::path kScenes = LAMINA_ORACLE_SCENES;
 const fs::path kRows = LAMINA_ORACLE_ROWS;
-const fs::path kCache = LAMINA_ORACLE_CACHE;
 
 constexpr std::size_t kHeights = 10;
 
@@ -115,7 +114,7 @@ TEST_P(Scene, EqualsTheExactSections) {
 }
 
 TEST_P(Scene, EqualsWhatOpenScadRenders) {
-  const csg::Mesh mesh = render_with_openscad(scene_path(GetParam()), kCache);
+  const csg::Mesh mesh = render_with_openscad(scene_path(GetParam()));
   const double distance = kOpenScadDistance + float32_spacing(mesh);
   const auto layers = support::slice_heights(design_.scene(), heights_);
   ASSERT_EQ(layers.size(), heights_.size());
@@ -146,7 +145,7 @@ TEST_P(Scene, HasExactSectionsThatPolygonSetsConfirm) {
 }
 
 TEST_P(Scene, HasExactSectionsThatOpenScadConfirms) {
-  const csg::Mesh mesh = render_with_openscad(scene_path(GetParam()), kCache);
+  const csg::Mesh mesh = render_with_openscad(scene_path(GetParam()));
   const double distance = kOpenScadDistance + float32_spacing(mesh);
   for (const double z : heights_) {
     const Verdict verdict =

@@ -26,7 +26,7 @@ class Text : public ::testing::TestWithParam<std::string> {};
 TEST_P(Text, EqualsWhatOpenScadRenders) {
   const fs::path path =
       fs::path(LAMINA_ORACLE_TEXTS) / fmt::format("{}.scad", GetParam());
-  const csg::Mesh mesh = render_with_openscad(path, LAMINA_ORACLE_CACHE);
+  const csg::Mesh mesh = render_with_openscad(path);
   const double distance = kOpenScadDistance + float32_spacing(mesh);
   const auto design = support::Design::from_file(path);
   const auto layers = support::slice_heights(design.scene(), {0.5});

@@ -8,9 +8,8 @@
 
 namespace lamina::support {
 
-TemporaryFolder::TemporaryFolder() {
-  std::string path =
-      (std::filesystem::temp_directory_path() / "lamina-test-XXXXXX").string();
+TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent) {
+  std::string path = (parent / "lamina-test-XXXXXX").string();
   if (::mkdtemp(path.data()) == nullptr) {
     throw std::runtime_error("no temporary folder can be made");
   }
