@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <fstream>
 #include <future>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,6 +20,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/conformance/page.h"
 #include "tests/conformance/programs.h"
 #include "tests/conformance/suite.h"
 #include "tests/support/temporary_folder.h"
@@ -85,46 +85,28 @@ std::vector<Row> count(const std::vector<Case>& cases,
   return rows;
 }
 
-std::string page() {
-  return support::read_file(LAMINA_SOURCES "/docs/conformance.md");
-}
-
-bool has_line(const std::string& text, const std::string& line) {
-  return ("\n" + text).find("\n" + line + "\n") != std::string::npos;
-}
-
-// "| `echotest/x.echo` | reason |".
-std::string exception_mark(const std::string& name) {
-  return fmt::format("\n| `{}` | ", name);
-}
-
 TEST(Conformance, IsWhatItsPageSays) {
   const Suite suite = collect_suite(LAMINA_OPENSCAD_DATA);
   const std::vector<Verdict> verdicts = judge_all(suite.cases);
-  const std::string text = page();
 
   std::string table = "| category | passed | passed, drifted | failed |\n";
   table += "|---|---|---|---|\n";
   for (const Row& row : count(suite.cases, verdicts)) {
     table += line_of(row) + "\n";
-    EXPECT_TRUE(has_line(text, line_of(row)))
+    EXPECT_TRUE(page_has_line(line_of(row)))
         << "docs/conformance.md lacks: " << line_of(row);
   }
   std::printf("%s%zu expected files without a design\n", table.c_str(),
               suite.without_design.size());
   std::ofstream(LAMINA_LANGUAGE_TABLE) << table;
 
-  std::set<std::string> drifted;
   for (std::size_t i = 0; i < suite.cases.size(); ++i) {
     const std::string name = suite.cases[i].name();
-    const bool is_excepted =
-        text.find(exception_mark(name)) != std::string::npos;
     const bool has_failed = verdicts[i] == Verdict::kFailed;
-    EXPECT_EQ(has_failed, is_excepted)
+    EXPECT_EQ(has_failed, is_exception(name))
         << name << (has_failed ? " fails" : " is listed but passes");
     if (verdicts[i] != Verdict::kDrifted) continue;
-    EXPECT_NE(text.find("`" + name + "`"), std::string::npos)
-        << name << " has drifted and is not listed";
+    EXPECT_TRUE(page_names(name)) << name << " has drifted and is not listed";
   }
 }
 

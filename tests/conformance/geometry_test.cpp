@@ -5,12 +5,11 @@
 // regions and holes equal, the symmetric difference within openscad's own
 // rounding times the perimeter. A mesh that is open or overlaps itself in a
 // section, or that openscad left a part out of, is no judge of that design.
-// Every case leaves a row for the table that `geometry_table` prints;
+// Every case leaves a row for the table that geometry_table_test checks;
 // docs/conformance.md lists the exceptions.
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -20,7 +19,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/oracle/conformance/reference.h"
+#include "tests/conformance/geometry_rows.h"
+#include "tests/conformance/page.h"
+#include "tests/conformance/reference.h"
 #include "tests/oracle/exact_region.h"
 #include "tests/oracle/judge.h"
 #include "tests/oracle/openscad.h"
@@ -28,41 +29,20 @@
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
-namespace lamina::oracle {
+namespace lamina::conformance {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = "/usr/share/openscad";
-const fs::path kRows = LAMINA_GEOMETRY_ROWS;
+using oracle::ExactRegion;
+
+const fs::path kData = LAMINA_OPENSCAD_DATA;
 
 constexpr std::size_t kHeights = 7;
 constexpr int kLaminaSeconds = 60;
 
 // OpenSCAD's own grid of 2D designs, 2^-16 mm, and a bit [mm].
 constexpr double kOpenScadDistance = 2e-5;
-
-std::vector<std::string> design_names() {
-  std::vector<std::string> names;
-  for (const char* folder :
-       {"examples", "testdata/scad/2D", "testdata/scad/3D", "testdata/scad/svg",
-        "testdata/scad/dxf", "testdata/scad/stl", "testdata/scad/amf",
-        "testdata/scad/3mf"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-      if (entry.path().extension() != ".scad") continue;
-      names.push_back(entry.path().lexically_relative(kRoot).string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-// Whether docs/conformance.md has a row for the design.
-bool is_exception(const std::string& name) {
-  static const std::string page =
-      support::read_file(LAMINA_SOURCES "/docs/conformance.md");
-  return page.find(fmt::format("| `{}` |", name)) != std::string::npos;
-}
 
 struct LaminaResult {
   bool is_empty = false;
@@ -108,16 +88,16 @@ LaminaResult run_lamina(const fs::path& design,
 }
 
 struct Outcome {
-  std::string verdict;    // equal, differs, no-judge, empty, failed, slow
-  std::string complaint;  // of a design that differs
-  double distance = 0;    // symmetric difference / perimeter [mm]
+  std::string verdict;    // equal, empty, no-judge, differs
+  std::string complaint;  // where it is neither equal nor empty
 };
 
 std::vector<double> heights_of(const csg::Mesh& mesh) {
   const auto [low, high] = std::minmax_element(
       mesh.vertices.begin(), mesh.vertices.end(),
       [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
-  return generic_heights({{mesh}, {}, {}, {}}, low->z, high->z, kHeights);
+  return oracle::generic_heights({{mesh}, {}, {}, {}}, low->z, high->z,
+                                 kHeights);
 }
 
 // openscad's words where it left a part of the design out.
@@ -131,10 +111,12 @@ std::string missing_part(const Reference& reference) {
 // Why openscad's mesh is no judge of a section that differs; empty: it is one.
 std::string fault_of(const Reference& reference, double z, double distance) {
   if (const auto part = missing_part(reference); !part.empty()) return part;
-  const double overlap = overlap_of_section(reference.mesh, z, distance);
+  const double overlap =
+      oracle::overlap_of_section(reference.mesh, z, distance);
   const double allowed =
       distance *
-      compare(exact_section(reference.mesh, z, distance), ExactRegion())
+      oracle::compare(oracle::exact_section(reference.mesh, z, distance),
+                      ExactRegion())
           .expected_perimeter;
   if (overlap <= allowed) return "";
   return fmt::format("overlaps itself at z = {} in {:.3g} mm²", z, overlap);
@@ -142,7 +124,7 @@ std::string fault_of(const Reference& reference, double z, double distance) {
 
 Outcome judge_mesh(const Reference& reference, const fs::path& design) {
   const csg::Mesh& mesh = reference.mesh;
-  const double distance = kOpenScadDistance + float32_spacing(mesh);
+  const double distance = kOpenScadDistance + oracle::float32_spacing(mesh);
   const bool is_outline = reference.kind == ReferenceKind::kOutline;
   const std::vector<double> heights =
       is_outline ? std::vector<double>{0.5} : heights_of(mesh);
@@ -150,7 +132,7 @@ Outcome judge_mesh(const Reference& reference, const fs::path& design) {
   std::vector<ExactRegion> sections;
   for (const double z : heights) {
     try {
-      sections.push_back(exact_section(mesh, z, distance));
+      sections.push_back(oracle::exact_section(mesh, z, distance));
     } catch (const std::runtime_error& error) {
       return {"no-judge", error.what()};
     }
@@ -166,10 +148,10 @@ Outcome judge_mesh(const Reference& reference, const fs::path& design) {
   if (lamina.layers.size() != heights.size()) {
     return {"differs", fmt::format("{} layers", lamina.layers.size())};
   }
-  Outcome outcome = {"equal", "", 0};
+  Outcome outcome = {"equal", ""};
   for (std::size_t i = 0; i < heights.size(); ++i) {
-    const Verdict verdict =
-        judge(sections[i], lamina.layers[i], {distance, distance});
+    const oracle::Verdict verdict =
+        oracle::judge(sections[i], lamina.layers[i], {distance, distance});
     if (!verdict.complaint.empty()) {
       const std::string fault = fault_of(reference, heights[i], distance);
       if (!fault.empty()) return {"no-judge", fault};
@@ -177,18 +159,13 @@ Outcome judge_mesh(const Reference& reference, const fs::path& design) {
       outcome.complaint +=
           fmt::format("z = {}: {}\n", heights[i], verdict.complaint);
     }
-    if (verdict.comparison.expected_perimeter > 0) {
-      outcome.distance =
-          std::max(outcome.distance, verdict.comparison.difference_area /
-                                         verdict.comparison.expected_perimeter);
-    }
   }
   return outcome;
 }
 
 Outcome judge_design(const std::string& name) {
-  const fs::path design = kRoot / name;
-  const Reference reference = render_reference(kRoot, design);
+  const fs::path design = kData / name;
+  const Reference reference = render_reference(kData, design);
   switch (reference.kind) {
     case ReferenceKind::kSolid:
     case ReferenceKind::kOutline:
@@ -201,10 +178,6 @@ Outcome judge_design(const std::string& name) {
       }
       return {"differs", "openscad's is empty; " + lamina.complaint};
     }
-    case ReferenceKind::kFailed:
-      return {"failed", reference.words};
-    case ReferenceKind::kTooSlow:
-      return {"slow", ""};
   }
   throw std::logic_error("no such kind");
 }
@@ -214,12 +187,7 @@ class Geometry : public ::testing::TestWithParam<std::string> {};
 TEST_P(Geometry, EqualsWhatOpenScadRenders) {
   const std::string& name = GetParam();
   const Outcome outcome = judge_design(name);
-  fs::create_directories(kRows);
-  std::string row = name;
-  std::replace(row.begin(), row.end(), '/', ':');
-  std::ofstream(kRows / row)
-      << fmt::format("{} {:.2e} {}\n{}\n", outcome.verdict, outcome.distance,
-                     is_exception(name), outcome.complaint);
+  write_row(LAMINA_GEOMETRY_ROWS, {name, outcome.verdict, outcome.complaint});
   if (is_exception(name)) {
     EXPECT_EQ(outcome.verdict, "differs")
         << "docs/conformance.md calls " << name << " an exception";
@@ -236,8 +204,9 @@ std::string case_name(const ::testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, Geometry,
-                         ::testing::ValuesIn(design_names()), case_name);
+INSTANTIATE_TEST_SUITE_P(Designs, Geometry,
+                         ::testing::ValuesIn(geometry_designs(kData)),
+                         case_name);
 
 }  // namespace
-}  // namespace lamina::oracle
+}  // namespace lamina::conformance
