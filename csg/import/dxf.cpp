@@ -49,8 +49,7 @@ class Reader {
   DxfDrawing read() {
     for (;;) {
       const auto code_text = lines_.next();
-      const auto data = lines_.next();
-      if (!code_text || !data) break;
+      if (!code_text) break;
       const auto code = to_number<int>(*code_text);
       if (!code) {
         if (lines_.is_done()) break;
@@ -58,7 +57,7 @@ class Reader {
             fmt::format("Illegal ID '{}' in `{}'", *code_text, options_.path));
         break;
       }
-      read_group(*code, *data);
+      read_group(*code, lines_.next().value_or(""));
     }
     drawing_.paths = join_lines(drawn_, grid_);
     return std::move(drawing_);
@@ -74,6 +73,7 @@ class Reader {
       } catch (const MissingValue&) {
         drawing_.warnings.push_back(fmt::format(
             "Not enough input values for {}. in '{}'", data, options_.path));
+        return;  // OpenSCAD goes on with the same entity
       }
       entity_ = Entity();
       entity_.kind = data;
