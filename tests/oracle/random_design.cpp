@@ -14,6 +14,7 @@ class Writer {
   Writer(RandomKind kind, std::uint32_t seed) : kind_(kind), random_(seed) {}
 
   std::string design(std::size_t leaf_count) {
+    if (kind_ == RandomKind::kNear) shift_ = std::pow(10.0, uniform(-9, -5));
     std::string body = tree(leaf_count, 0);
     if (kind_ != RandomKind::kTurnedGrid) return body;
     return fmt::format("rotate([{:.3f}, {:.3f}, {:.3f}])\n{}",
@@ -24,7 +25,8 @@ class Writer {
 
  private:
   bool is_grid() const {
-    return kind_ == RandomKind::kGrid || kind_ == RandomKind::kTurnedGrid;
+    return kind_ == RandomKind::kGrid || kind_ == RandomKind::kTurnedGrid ||
+           kind_ == RandomKind::kNear;
   }
 
   // The standard's distributions differ from library to library; these do not.
@@ -44,7 +46,11 @@ class Writer {
   std::string place(double low, double high) {
     const double value = uniform(low, high);
     if (!is_grid()) return fmt::format("{:.4f}", value);
-    return fmt::format("{}", std::round(value * 4) / 4);
+    const double on_grid = std::round(value * 4) / 4;
+    if (kind_ != RandomKind::kNear || below(2) == 0) {
+      return fmt::format("{}", on_grid);
+    }
+    return fmt::format("{:.12f}", on_grid + (below(2) == 0 ? shift_ : -shift_));
   }
 
   std::string tree(std::size_t leaf_count, std::size_t depth) {
@@ -116,7 +122,7 @@ class Writer {
 
   std::string leaf() {
     if (kind_ == RandomKind::kThin) return thin_leaf();
-    switch (below(is_grid() ? 4 : 6)) {
+    switch (below(is_grid() ? 4 : 7)) {
       case 0:
       case 1:
         return fmt::format("cube([{}, {}, {}]);", length(0.5, 5),
@@ -134,6 +140,12 @@ class Writer {
       case 4:
         return fmt::format("sphere(r = {}, $fn = {});", length(0.5, 3),
                            5 + below(12));
+      case 5:
+        return fmt::format(
+            "hull() {{ cube([{}, {}, {}]); translate([{}, {}, {}]) sphere(r = "
+            "{}, $fn = {}); }}",
+            length(0.5, 3), length(0.5, 3), length(0.5, 3), place(-2, 2),
+            place(-2, 2), place(-2, 2), length(0.3, 1.5), 5 + below(8));
       default:
         return fmt::format("cylinder(r1 = {}, r2 = {}, h = {}, $fn = {});",
                            length(0.5, 2), below(2) == 0 ? "0" : length(0, 2),
@@ -156,6 +168,7 @@ class Writer {
 
   RandomKind kind_;
   std::mt19937 random_;
+  double shift_ = 0;  // off the grid [mm], in kNear
 };
 
 }  // namespace
@@ -170,6 +183,8 @@ const char* name_of(RandomKind kind) {
       return "generic";
     case RandomKind::kThin:
       return "thin";
+    case RandomKind::kNear:
+      return "near";
   }
   return "";
 }

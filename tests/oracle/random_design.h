@@ -17,7 +17,11 @@ enum class RandomKind {
   kGeneric,
   // Plates and slots down to 1e-4 mm, turned at random about z.
   kThin,
+  // As kGrid, but leaves are off the grid by one distance between 1e-9 and
+  // 1e-5 mm: faces are neither the same nor well apart.
+  kNear,
 };
+inline constexpr int kRandomKindCount = 5;
 
 const char* name_of(RandomKind kind);
 
