@@ -8,11 +8,35 @@
 #include <utility>
 #include <vector>
 
+#include "csg/solid/detail/convex_hull.h"
 #include "csg/solid/detail/flat.h"
 #include "csg/solid/detail/lowerer.h"
 #include "csg/solid/detail/minkowski.h"
 
 namespace lamina::csg {
+namespace {
+
+bool is_flat(const Operand& term) {
+  return term.bodies.empty() &&
+         std::all_of(term.convex.begin(), term.convex.end(),
+                     [](const Convex& part) { return part.is_flat; });
+}
+
+// Whether OpenSCAD, which adds one term after another, loses the sum on the
+// way: a sum without volume is empty to it, and so is all that is added to
+// that.
+bool is_lost(const std::vector<Operand>& terms) {
+  if (terms.size() < 3 || !is_flat(terms[0]) || !is_flat(terms[1])) {
+    return false;
+  }
+  const Operand first = add_operands({terms[0], terms[1]});
+  return std::all_of(first.convex.begin(), first.convex.end(),
+                     [](const Convex& part) {
+                       return convex_hull(part.vertices).triangles.empty();
+                     });
+}
+
+}  // namespace
 
 Shape Lowerer::lower_op(const Minkowski&, const Node& node,
                         const Affine& world) {
@@ -41,7 +65,7 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
   std::vector<Operand> terms;
   for (const Scene& scene : solids) terms.push_back(make_operand(scene));
   std::erase_if(terms, [](const Operand& term) { return term.is_empty(); });
-  if (terms.empty()) return {};
+  if (terms.empty() || is_lost(terms)) return {};
   const Operand sum = add_operands(std::move(terms));
   place_sum(sum, node, world);
   return {Dimension::kSolid, {}, !sum.bodies.empty() || sum.convex.size() > 1};

@@ -92,6 +92,19 @@ TEST_F(Flattened, SumsWithThemAreSwept) {
               8, kRounding);
 }
 
+TEST_F(Flattened, SumsThatBeginWithoutVolumeAreEmpty) {
+  const auto edge = [&](const Vec3& along) {
+    return b.scale(along, {b.cube(Vec3(1))});
+  };
+  const Node* x = edge({1, 0, 0});
+  const Node* y = edge({0, 1, 0});
+  const Node* z = edge({0, 0, 1});
+  EXPECT_TRUE(run({b.node(Minkowski{}, {x, y, z})}).is_empty());
+  EXPECT_TRUE(run({b.node(Minkowski{}, {x, y, b.cube(Vec3(1))})}).is_empty());
+  EXPECT_NEAR(sum_volume({x, b.cube(Vec3(1)), y}), 2 * 2 * 1, kRounding);
+  EXPECT_NEAR(sum_volume({x, edge({0, 1, 1}), y}), 2, kRounding);
+}
+
 TEST_F(Flattened, SumsWithAPointAreMoved) {
   const Node* point_at = b.translate({5, 6, 7}, {point()});
   const Scene scene =
