@@ -39,6 +39,10 @@ Slicing (lengths in millimetres):
   --tolerance MM, --simplify MM
                       write the fewest vertices within this distance of the
                       contour; 0 writes all [0.001]
+  --scale FACTOR      size of the print over that of the design, such as 1.02
+                      where casting shrinks [1]
+  --compensate MM     move contours into the solid by half the width of the
+                      beam; negative: out of it [0]
   --ray auto|MM       distance of the rays; speed only, except for
                       --contour paper [auto]
   --threads N         threads at work [as many as the machine has]

@@ -188,21 +188,6 @@ std::string csg_text(Run& run, const csg::Tree& tree) {
   return csg::print_csg(tree, *csg::select_root(tree, run.diagnostics));
 }
 
-// The one layer of a 2D design.
-void take_outline(const planar::Region& outline, slicer::LayerSink& sink,
-                  RunReport& report) {
-  slicer::Layer layer;
-  for (const planar::Contour& contour : outline.contours) {
-    auto& [points, ends] = layer.contours;
-    points.insert(points.end(), contour.begin(), contour.end());
-    ends.push_back(static_cast<std::uint32_t>(points.size()));
-  }
-  report.slice.layers = 1;
-  report.slice.loops = layer.contours.loop_count();
-  report.slice.points = layer.contours.points.size();
-  sink.take(layer);
-}
-
 [[noreturn]] void refuse_geometry(const std::string& words) {
   throw GeometryError({Severity::kError, {}, words});
 }
@@ -214,7 +199,7 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
     return csg::lower(tree,
                       {run.options.world_from_design, run.options.chordal_error,
-                       &run.typesetter},
+                       &run.typesetter, run.options.scale},
                       run.diagnostics);
   });
   if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
@@ -222,7 +207,8 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
     if (run.options.format != OutputFormat::kLayersJson) {
       refuse_geometry("Current top level object is not a 3D object.");
     }
-    take_outline(*outline, sink, run.report);
+    run.report.slice = slicer::slice_outline(*outline, run.options.settings,
+                                             sink, run.diagnostics);
     return;
   }
   const csg::Scene& scene = *lowered.scene();

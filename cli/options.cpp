@@ -72,6 +72,34 @@ std::vector<double> parse_heights(const std::string& option,
 // Finer facets than these are finer than samples that count as one.
 constexpr double kLeastChordalError = 1e-6;  // mm
 
+// Beyond these a design is not shrunk or enlarged but mistyped.
+constexpr double kLeastScale = 0.001;
+constexpr double kGreatestScale = 1000;
+
+// No beam is wider, and no resin bleeds farther [mm].
+constexpr double kGreatestCompensation = 100;
+
+double require_within(const std::string& option, std::string_view text,
+                      double least, double greatest, std::string_view unit) {
+  const double value = require_number(option, text);
+  if (!(value >= least && value <= greatest)) {
+    throw CLI::ValidationError(
+        option, fmt::format("must be from {} to {}{}, not {}", least, greatest,
+                            unit, text));
+  }
+  return value;
+}
+
+double parse_scale(const std::string& text) {
+  if (text.ends_with('%')) {
+    throw CLI::ValidationError(
+        "--scale", fmt::format("a factor was expected, such as 1.02 for a "
+                               "print 2% larger, not '{}'",
+                               text));
+  }
+  return require_within("--scale", text, kLeastScale, kGreatestScale, "");
+}
+
 // The right-handed turn that makes `axis` the building direction.
 Affine turn_to_axis(std::string_view axis) {
   const Vec3 x(1, 0, 0);
@@ -126,6 +154,13 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
           throw CLI::ValidationError("--tolerance", "must not be negative");
         }
       });
+  add_text(app, "--compensate", "length", [&](const std::string& text) {
+    settings.compensation =
+        require_within("--compensate", text, -kGreatestCompensation,
+                       kGreatestCompensation, " mm");
+  });
+  add_text(app, "--scale", "factor",
+           [&](const std::string& text) { options.scale = parse_scale(text); });
   add_text(app, "--ray", "length", [&](const std::string& text) {
     settings.ray_pitch = text == "auto" ? 0 : require_positive("--ray", text);
   });

@@ -23,6 +23,7 @@ struct DesignOptions {
   std::string parameter_file;     // -p; empty: none
   std::string parameter_set;      // -P
   Affine world_from_design{1.0};  // --axis
+  double scale = 1;
   double chordal_error = 0;       // [mm]; 0: $fa and $fs decide
   slicer::Settings settings;
   std::uint32_t seed = 0;

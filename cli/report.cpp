@@ -54,6 +54,10 @@ std::string report_json(const RunReport& report) {
   add("stops", slice.sweep.stops);
   add("evaluations", slice.sweep.evaluations);
   add("resolved_layers", slice.sweep.resolved_layers);
+  add("vanished_regions", slice.losses.vanished_regions);
+  add("vanished_holes", slice.losses.vanished_holes);
+  add("broken_walls", slice.losses.broken_walls);
+  add("closed_gaps", slice.losses.closed_gaps);
   add("open_paths", slice.open_paths);
   add("capped_columns", slice.sweep.capped_columns);
   add("repaired_columns", slice.sweep.repaired_columns);

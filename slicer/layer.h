@@ -12,6 +12,7 @@ struct Layer {
   double section_z = 0;  // height of the section [mm]
   double bottom = 0;     // the layer's lower side [mm]
   double top = 0;        // its upper side; = bottom = section_z for --heights
+  double compensation = 0;  // contours have been moved inwards by this [mm]
   ldni::Contours contours;
 };
 

@@ -17,6 +17,7 @@ struct Settings {
   std::vector<double> heights;    // not empty: sections at exactly these
   double ray_pitch = 0;           // [mm]; 0 = auto
   double tolerance = 0.001;       // [mm]; 0 writes all vertices
+  double compensation = 0;        // [mm] inwards; negative: outwards
   ContourMode contour = ContourMode::kFaithful;
   BoxMode boxes = BoxMode::kLocal;               // of the paper's samplers
   SamplerKind sampler = SamplerKind::kScanline;  // of the paper's contours

@@ -1,6 +1,7 @@
 #include "slicer/slice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -15,6 +16,7 @@
 
 #include "ldni/grid.h"
 #include "ldni/leaf_section.h"
+#include "slicer/compensate.h"
 #include "slicer/paper_slicer.h"
 #include "slicer/simplify.h"
 
@@ -129,12 +131,13 @@ struct Block {
   std::vector<ldni::Contours> contours;  // one a layer
   double section_seconds = 0;
   double sweep_seconds = 0;
-  double simplify_seconds = 0;
+  double finish_seconds = 0;  // compensation and simplification
 };
 
 // What one thread keeps from block to block.
 struct Worker {
   std::unique_ptr<BlockSlicer> slicer;
+  Compensator compensator;
   Simplifier simplifier;
 };
 
@@ -166,9 +169,14 @@ ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
 // another layer with a contour follows, unless each height is wanted.
 class OrderedOutput {
  public:
-  OrderedOutput(const ldni::LayerGrid& grid, bool keeps_empty, LayerSink& sink,
-                SliceReport& report)
-      : grid_(grid), keeps_empty_(keeps_empty), sink_(sink), report_(report) {}
+  OrderedOutput(const ldni::LayerGrid& grid, const Settings& settings,
+                LayerSink& sink, SliceReport& report)
+      : grid_(grid),
+        keeps_empty_(!settings.heights.empty()),
+        sink_(sink),
+        report_(report) {
+    layer_.compensation = settings.compensation;
+  }
 
   void take(std::uint32_t index, ldni::Contours& contours) {
     if (contours.is_empty() && !keeps_empty_) {
@@ -204,11 +212,12 @@ class OrderedOutput {
 // The pipeline.
 class Job {
  public:
-  Job(const Plan& plan, std::uint32_t layer_count, double tolerance,
+  Job(const Plan& plan, std::uint32_t layer_count, const Settings& settings,
       unsigned threads)
       : layer_count_(layer_count),
-        workers_([&plan, tolerance] {
-          return Worker{plan.make_slicer(), Simplifier(tolerance)};
+        workers_([&plan, &settings] {
+          return Worker{plan.make_slicer(), Compensator(settings.compensation),
+                        Simplifier(settings.tolerance)};
         }),
         blocks_(kBlocksPerThread * threads) {
     const std::uint32_t size = plan.blocks.choose(layer_count);
@@ -230,6 +239,7 @@ class Job {
     for (const Worker& worker : workers_) {
       report.sweep += worker.slicer->counts();
       report.open_paths += worker.slicer->open_paths();
+      report.losses += worker.compensator.counts();
     }
   }
 
@@ -267,8 +277,10 @@ class Job {
         worker.slicer->make_contours(i, block->contours[i]);
       }
     });
-    block->simplify_seconds = measure([&] {
+    // Simplification comes last, so that it thins out the arcs too.
+    block->finish_seconds = measure([&] {
       for (std::uint32_t i = 0; i < block->layer_count; ++i) {
+        worker.compensator.compensate(block->contours[i]);
         worker.simplifier.simplify(block->contours[i]);
       }
     });
@@ -280,7 +292,7 @@ class Job {
     report.section_seconds += block.section_seconds;
     report.sweep_seconds += block.sweep_seconds;
     report.output_seconds +=
-        block.simplify_seconds + measure([&] {
+        block.finish_seconds + measure([&] {
           for (std::uint32_t i = 0; i < block.layer_count; ++i) {
             output.take(block.first_layer + i, block.contours[i]);
           }
@@ -308,35 +320,76 @@ void warn_of_broken_promises(const SliceReport& report,
   warn(report.sweep.repaired_columns, "ends of boundary found no partner");
 }
 
-[[noreturn]] void throw_empty() {
-  throw GeometryError(
-      {Severity::kError, {}, "Current top level object is empty.", {}});
+// Too thin for the beam is no fault of the layers, but no part of the print.
+void warn_of_losses(const CompensationCounts& losses, double compensation,
+                    Diagnostics& diagnostics) {
+  const auto warn = [&](std::uint64_t loops, const char* loop,
+                        std::uint64_t gaps, const char* gap) {
+    if (loops + gaps == 0) return;
+    diagnostics.warning(
+        {}, fmt::format("{} {} and {} {} of {} mm or less vanished in the "
+                        "compensation, counted over all layers",
+                        loops, loop, gaps, gap, 2 * std::abs(compensation)));
+  };
+  warn(losses.vanished_regions, "regions", losses.broken_walls, "walls");
+  warn(losses.vanished_holes, "holes", losses.closed_gaps, "gaps");
+}
+
+[[noreturn]] void throw_empty(const SliceReport& report) {
+  throw GeometryError({Severity::kError,
+                       {},
+                       report.losses.vanished_regions > 0
+                           ? "Nothing is left of the design after compensation."
+                           : "Current top level object is empty.",
+                       {}});
 }
 
 }  // namespace
 
 SliceReport slice(const csg::Scene& scene, const Settings& settings,
                   LayerSink& sink, Diagnostics& diagnostics) {
-  const bool keeps_empty = !settings.heights.empty();
-  if (scene.box.is_empty() && !keeps_empty) throw_empty();
+  SliceReport report;
+  if (scene.box.is_empty() && settings.heights.empty()) throw_empty(report);
   const unsigned threads =
       settings.threads != 0 ? settings.threads
                             : std::max(1U, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   threads);
   const ldni::LayerGrid grid = make_grid(scene, settings);
-  SliceReport report;
   Plan plan;
   report.section_seconds = measure([&] {
     plan = settings.contour == ContourMode::kPaper
                ? plan_paper(scene, settings, grid)
                : plan_faithful(scene, settings, grid);
   });
-  OrderedOutput output(grid, keeps_empty, sink, report);
-  Job(plan, grid.layer_count(), settings.tolerance, threads)
-      .run(output, report);
+  OrderedOutput output(grid, settings, sink, report);
+  Job(plan, grid.layer_count(), settings, threads).run(output, report);
   warn_of_broken_promises(report, diagnostics);
-  if (report.layers == 0) throw_empty();
+  warn_of_losses(report.losses, settings.compensation, diagnostics);
+  if (report.layers == 0) throw_empty(report);
+  return report;
+}
+
+SliceReport slice_outline(const planar::Region& outline,
+                          const Settings& settings, LayerSink& sink,
+                          Diagnostics& diagnostics) {
+  Layer layer;
+  layer.compensation = settings.compensation;
+  for (const planar::Contour& contour : outline.contours) {
+    auto& [points, ends] = layer.contours;
+    points.insert(points.end(), contour.begin(), contour.end());
+    ends.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  Compensator compensator(settings.compensation);
+  compensator.compensate(layer.contours);
+  SliceReport report;
+  report.layers = 1;
+  report.loops = layer.contours.loop_count();
+  report.points = layer.contours.points.size();
+  report.losses = compensator.counts();
+  warn_of_losses(report.losses, settings.compensation, diagnostics);
+  if (layer.contours.is_empty()) throw_empty(report);
+  sink.take(layer);
   return report;
 }
 

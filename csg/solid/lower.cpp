@@ -108,8 +108,14 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   survey(*tree.root, found);
   const Node* root = found.root_modifier ? found.root_modifier : tree.root;
   Lowerer lowerer(found.childless, options, diagnostics);
-  Shape shape = lowerer.lower(*root, options.world_from_design);
-  if (!shape.region.is_empty()) return {std::move(shape.region)};
+  Shape shape = lowerer.lower(
+      *root, options.world_from_design * Mat4(glm::dmat3(options.scale)));
+  if (!shape.region.is_empty()) {
+    for (planar::Contour& contour : shape.region.contours) {
+      for (Vec2& point : contour) point *= options.scale;
+    }
+    return {std::move(shape.region)};
+  }
   Scene scene = lowerer.take_solids();
   if (scene.instances.empty()) return {};
   check_range(scene);

@@ -21,17 +21,20 @@ class Typesetter;
 namespace lamina::csg {
 
 struct LowerOptions {
-  // Put in front of every instance's matrix (`--axis`). Orthogonal.
+  // Put in front of every instance's matrix (`--axis`). Orthogonal. An outline
+  // is not turned.
   Affine world_from_design{1.0};
   // Greatest distance in the world of facets from the round surface that they
   // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
   double chordal_error = 0;
   // For text(), which is an error without.
   text::Typesetter* typesetter = nullptr;
+  // Of the whole design, outlines too, about its origin (`--scale`); more
+  // than 0. Facets are those of the design before.
+  double scale = 1;
 };
 
-// What a design is: nothing, an outline in the plane (in the design's
-// coordinates), or a solid.
+// What a design is: nothing, an outline in the plane, or a solid.
 struct Lowered {
   std::variant<std::monostate, planar::Region, Scene> geometry;
 

@@ -78,7 +78,7 @@ void SlcWriter::begin_file(const Layer& first) {
   append(output_, std::uint8_t{1});
   append(output_, static_cast<float>(first.bottom));
   append(output_, static_cast<float>(first.top - first.bottom));
-  append(output_, 0.0F);  // line-width compensation
+  append(output_, static_cast<float>(first.compensation));
   append(output_, 0.0F);  // reserved
 }
 

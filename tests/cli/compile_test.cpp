@@ -159,13 +159,78 @@ TEST(Compile, OneAndManyThreadsWriteTheSameBytes) {
     for (const char* const mode : {"faithful", "paper"}) {
       ASSERT_EQ(
           run(folder, {"a.scad", "-o", std::string(mode) + threads + ".slc",
-                       "--threads", threads, "--contour", mode})
+                       "--threads", threads, "--contour", mode, "--compensate",
+                       "0.02", "--simplify", "0.01"})
               .status,
           0);
       EXPECT_EQ(read_file(folder.file(std::string(mode) + threads + ".slc")),
                 read_file(folder.file(std::string(mode) + "1.slc")));
     }
   }
+}
+
+TEST(Compile, ScaleIsScaleOfTheDesignAndLeavesLayersAsTheyAre) {
+  const TemporaryFolder folder;
+  const std::string text =
+      "module it() { translate([1, 2, 3]) { cube(10, center = true);"
+      "translate([0, 0, 4]) sphere(4, $fn = 30); } }";
+  folder.write("a.scad", text + "it();");
+  folder.write("b.scad", text + "scale(1.02) it();");
+  for (const char* const axis : {"z", "-x"}) {
+    ASSERT_EQ(run(folder, {"a.scad", "--scale", "1.02", "--axis", axis}).status,
+              0);
+    ASSERT_EQ(run(folder, {"b.scad", "--axis", axis}).status, 0);
+    EXPECT_EQ(read_file(folder.file("a.slc")), read_file(folder.file("b.slc")))
+        << axis;
+  }
+  folder.write("c.scad", "cube(10);");
+  ASSERT_EQ(run(folder, {"c.scad", "--scale", "1.02", "--layer", "0.1"}).status,
+            0);
+  EXPECT_EQ(read_slc(folder.file("c.slc")).size(), 102U);
+  slicer::SlcReader reader(folder.file("c.slc"));
+  EXPECT_EQ(reader.sampling().front().thickness, 0.1F);
+  EXPECT_NEAR((*reader.header().extents)[0].y, 10.2, 1e-6);
+  folder.write("flat.scad", "square(10);");
+  ASSERT_EQ(run(folder, {"flat.scad", "--scale", "1.5", "-o", "a.layers.json"})
+                .status,
+            0);
+  EXPECT_NE(read_file(folder.file("a.layers.json")).find("[15,15]"),
+            std::string::npos);
+}
+
+TEST(Compile, CompensationIsInTheLayersAndInTheTable) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([10, 10, 1]); translate([20, 0]) cube(0.1);");
+  const auto result = run(folder, {"a.scad", "--layer", "0.05", "--compensate",
+                                   "0.05", "--report", "r.json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.errors.find("2 regions and 0 walls of 0.1 mm or less"),
+            std::string::npos)
+      << result.errors;
+  const auto json = nlohmann::json::parse(read_file(folder.file("r.json")));
+  EXPECT_EQ(json.at("vanished_regions"), 2);
+  slicer::SlcReader reader(folder.file("a.slc"));
+  EXPECT_EQ(reader.sampling().front().line_width_compensation, 0.05F);
+  EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 9.9 * 9.9, 1e-4);
+
+  ASSERT_EQ(run(folder, {"a.scad", "--compensate", "-0.05"}).status, 0);
+  slicer::SlcReader outwards(folder.file("a.slc"));
+  EXPECT_EQ(outwards.sampling().front().line_width_compensation, -0.05F);
+  EXPECT_NEAR((*outwards.header().extents)[0].x, -0.05, 1e-6);
+
+  const auto nothing = run(folder, {"a.scad", "--compensate", "6"});
+  EXPECT_EQ(nothing.status, 1);
+  EXPECT_NE(nothing.errors.find("Nothing is left of the design"),
+            std::string::npos)
+      << nothing.errors;
+
+  folder.write("flat.scad", "square(10);");
+  ASSERT_EQ(
+      run(folder, {"flat.scad", "--compensate", "1", "-o", "flat.layers.json"})
+          .status,
+      0);
+  EXPECT_NE(read_file(folder.file("flat.layers.json")).find("[9,9]"),
+            std::string::npos);
 }
 
 TEST(Compile, ReportHoldsTimesAndCounts) {

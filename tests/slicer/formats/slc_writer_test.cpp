@@ -103,6 +103,15 @@ TEST(SlcWriter, WritesEveryByteOfTheFormat) {
   EXPECT_EQ(bytes, expected);
 }
 
+TEST(SlcWriter, NotesTheCompensationInTheTable) {
+  Layer layer = layer_at(0, 1, {{{0, 0}, {4, 0}, {0, 4}}});
+  layer.compensation = -0.25;
+  const TemporaryFolder folder;
+  SlcReader reader(folder.write("a.slc", write_slc({layer})));
+  ASSERT_EQ(reader.sampling().size(), 1U);
+  EXPECT_EQ(reader.sampling()[0].line_width_compensation, -0.25F);
+}
+
 TEST(SlcWriter, HeaderEndsWithin2048BytesAndHolds1AOnlyThere) {
   const std::string bytes = write_slc(
       {layer_at(-1234.5678, -1234.5, {{{-9999, -1e-30}, {1e6, 0}, {0, 1e6}}})});
