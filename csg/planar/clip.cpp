@@ -142,11 +142,6 @@ Region from_contours(std::span<const Contour> contours, FillRule rule) {
                                                    : ClipperLib::pftNonZero));
 }
 
-Region from_windings(std::span<const Contour> contours) {
-  return to_region(clip(ClipperLib::ctUnion, to_paths(contours), {},
-                        ClipperLib::pftNonZero));
-}
-
 Region offset(const Region& region, double amount, Join join,
               double arc_tolerance) {
   ClipperLib::ClipperOffset offsetter(kMiterLimit, arc_tolerance * kGridPerMm);

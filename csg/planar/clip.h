@@ -27,12 +27,9 @@ Region intersect(std::span<const Region> regions);
 // they wind other than 0 times around it.
 enum class FillRule { kEvenOdd, kNonZero };
 
-// The region that contours in any order and direction enclose.
+// The region that contours in any order and direction enclose; they may cross.
 Region from_contours(std::span<const Contour> contours,
                      FillRule rule = FillRule::kEvenOdd);
-
-// The region where contours that may cross have a winding number other than 0.
-Region from_windings(std::span<const Contour> contours);
 
 enum class Join { kRound, kMiter, kBevel };
 

@@ -136,7 +136,7 @@ Region flat_at_zero(const Scene& scene) {
     add_shadow(scene.leaves[instance.leaf], instance.world_from_leaf, sum);
     for (Contour& contour : sum.take()) shadows.push_back(std::move(contour));
   }
-  return planar::from_windings(shadows);
+  return planar::from_contours(shadows, planar::FillRule::kNonZero);
 }
 
 }  // namespace
@@ -157,7 +157,8 @@ Region project(Scene scene) {
     add_if_upwards(flatten(face.contours), sum);
   }
   add(sum);
-  const Region region = planar::from_windings(shadows);
+  const Region region =
+      planar::from_contours(shadows, planar::FillRule::kNonZero);
   return was_cut ? close_cracks(region) : region;
 }
 
