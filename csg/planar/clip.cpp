@@ -1,9 +1,13 @@
 #include "csg/planar/clip.h"
 
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
+#include <vector>
 
 #include <clipper.hpp>
+
+#include "csg/planar/link_edges.h"
 
 namespace lamina::planar {
 namespace {
@@ -48,19 +52,34 @@ ClipperLib::Paths to_paths(std::span<const Contour> contours) {
   return paths;
 }
 
+// In grid units, as the corners of a path are whole numbers of them.
+std::vector<Contour> to_contours(const ClipperLib::Paths& paths) {
+  std::vector<Contour> contours;
+  for (const ClipperLib::Path& path : paths) {
+    Contour& contour = contours.emplace_back();
+    contour.reserve(path.size());
+    for (const ClipperLib::IntPoint& point : path) {
+      contour.emplace_back(point.X, point.Y);
+    }
+  }
+  return contours;
+}
+
 Region to_region(const ClipperLib::Paths& paths) {
   Region region;
-  for (const ClipperLib::Path& path : paths) {
-    ClipperLib::Path clean;
-    ClipperLib::CleanPolygon(path, clean, kCleanDistance);
-    if (clean.size() < 3) continue;
-    Contour contour;
-    contour.reserve(clean.size());
-    for (const ClipperLib::IntPoint& point : clean) {
+  for (const Contour& loop : link_edges(to_contours(paths), kCleanDistance)) {
+    ClipperLib::Path path;
+    path.reserve(loop.size());
+    for (const Vec2 point : loop)
+      path.emplace_back(std::llround(point.x), std::llround(point.y));
+    ClipperLib::CleanPolygon(path, kCleanDistance);
+    if (path.size() < 3) continue;
+    Contour& contour = region.contours.emplace_back();
+    contour.reserve(path.size());
+    for (const ClipperLib::IntPoint& point : path) {
       contour.push_back({static_cast<double>(point.X) / kGridPerMm,
                          static_cast<double>(point.Y) / kGridPerMm});
     }
-    region.contours.push_back(std::move(contour));
   }
   return region;
 }
@@ -69,8 +88,9 @@ ClipperLib::Paths clip(ClipperLib::ClipType type,
                        const ClipperLib::Paths& subject,
                        const ClipperLib::Paths& other,
                        ClipperLib::PolyFillType fill) {
+  // Keep points on straight edges: there contours may touch.
   ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
+  clipper.PreserveCollinear(true);
   clipper.AddPaths(subject, ClipperLib::ptSubject, true);
   clipper.AddPaths(other, ClipperLib::ptClip, true);
   ClipperLib::Paths result;

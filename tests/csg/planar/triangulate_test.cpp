@@ -1,5 +1,6 @@
 #include "csg/planar/triangulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "csg/planar/clip.h"
+#include "tests/csg/planar/lattice_walks.h"
 
 namespace lamina::planar {
 namespace {
@@ -113,6 +115,24 @@ TEST(Triangulate, RandomRegions) {
       }
     }
     expect_sound(from_contours(contours));
+  }
+}
+
+TEST(Triangulate, RegionsThatTouchInManyPoints) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_sound(from_contours(lattice_walks(seed)));
+  }
+}
+
+// A tip of the outline touches the middle of a hole's side, whichever of its
+// sides comes first.
+TEST(Triangulate, TipsThatTouchTheMiddleOfAnEdge) {
+  const Contour outline{{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 6}, {3, 5}, {0, 4}};
+  Contour hole{{3, 3}, {3, 7}, {7, 7}, {7, 3}};
+  for (int i = 0; i < 4; ++i) {
+    expect_sound({{outline, hole}});
+    std::rotate(hole.begin(), hole.begin() + 1, hole.end());
   }
 }
 
