@@ -176,7 +176,8 @@ INSTANTIATE_TEST_SUITE_P(All, Examples,
                                          Design{"hoop", 343.10, 3.6},
                                          Design{"pendant", 232.40, 4.2},
                                          Design{"filigree", 334.61, 7.0},
-                                         Design{"braid", 737.97, 5.1}),
+                                         Design{"braid", 737.97, 5.1},
+                                         Design{"medal", 414.48, 2.15}),
                          [](const testing::TestParamInfo<Design>& design) {
                            return std::string(design.param.name);
                          });
@@ -312,6 +313,20 @@ TEST(Hoop, HasTwoPartsAndAPinThroughTheirKnuckles) {
 TEST(Pendant, LetsLightToEveryStoneThroughItsBack) {
   // 17 small stones and the centre one.
   EXPECT_EQ(support::count_loops(slice_at("pendant", 0.3).contours).holes, 18U);
+}
+
+TEST(Medal, ShowsItsNameAndDate) {
+  // In the field: the rim with field and eye, the bezel, and the letter.
+  const auto field = [](const std::string& letter) {
+    const auto layer = slice_at(
+        "medal", 1.65, {"-D", "name=\"" + letter + "\"", "-D", "name_width=4"});
+    return support::count_loops(layer.contours);
+  };
+  EXPECT_EQ(field("T"), (LoopCounts{3, 3}));
+  EXPECT_EQ(field("O"), (LoopCounts{3, 4}));
+  // In the back: eye, culet hole, and the engraved line with an island.
+  const auto back = slice_at("medal", 0.2, {"-D", "date=\"O\""});
+  EXPECT_EQ(support::count_loops(back.contours), (LoopCounts{2, 3}));
 }
 
 TEST(Braid, ShowsACrestOfEachStrandInEveryPlait) {

@@ -190,8 +190,9 @@ INSTANTIATE_TEST_SUITE_P(
                       "bench/scenes/lattice.scad", "bench/scenes/thin_gap.scad",
                       "bench/scenes/ring_mesh.scad", "examples/braid.scad",
                       "examples/eternity.scad", "examples/filigree.scad",
-                      "examples/hoop.scad", "examples/pendant.scad",
-                      "examples/signet.scad", "examples/solitaire.scad"),
+                      "examples/hoop.scad", "examples/medal.scad",
+                      "examples/pendant.scad", "examples/signet.scad",
+                      "examples/solitaire.scad"),
     [](const auto& design) { return fs::path(design.param).stem().string(); });
 
 class NefScene : public Scene {};
