@@ -1,7 +1,6 @@
 // text, import, surface: modules whose shape comes from fonts and files.
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -182,22 +181,14 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
       find_file(file.is_undef() ? "" : to_text(file), code, frame);
   const Value layer = renamed(arguments[kLayer], arguments[kLayername],
                               "layername", "layer", frame);
-  const Value& origin = arguments[kOrigin];
-  const std::optional<Vec2> given = to_vec2(origin);
-  if (!origin.is_undef() &&
-      !(given && std::isfinite(given->x) && std::isfinite(given->y))) {
-    // The name is wrong in OpenSCAD, too.
-    frame.in.warn(code.range,
-                  fmt::format("linear_extrude(..., origin={}) could not be "
-                              "converted",
-                              to_echo(origin)));
-  }
   Interpreter& in = frame.in;
   ImportParams params;
   params.path = in.keep_text(path);
   params.format = import_format(code.name, path);
   params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
-  params.origin = given.value_or(Vec2(0.0));
+  // The name is wrong in OpenSCAD, too.
+  params.origin =
+      read_origin(arguments[kOrigin], "linear_extrude", code, frame);
   params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
   constexpr double kDefaultDpi = 72.0;
   const double dpi = number_or(arguments[kDpi], kDefaultDpi);
@@ -206,14 +197,7 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   params.scale = scale <= 0 ? 1 : scale;
   params.convexity = std::max(to_int(arguments[kConvexity]), 1);
   params.facets = current_facets(in);
-  std::string csg = "import(file = " + relative_quoted(path, frame);
-  csg += ", layer = ";
-  append_quoted(params.layer, csg);
-  csg += ", origin = [";
-  append_stream_number(params.origin.x, csg);
-  csg += ", ";
-  append_stream_number(params.origin.y, csg);
-  csg += "], ";
+  std::string csg = "import(" + drawing_text(params, frame);
   if (params.format == ImportFormat::kSvg) {
     csg += fmt::format("center = {}, ", params.center);
     append_number_field("dpi", params.dpi, csg);

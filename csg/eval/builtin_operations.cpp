@@ -376,23 +376,7 @@ void offset(const BuiltinModuleCode& code, Frame& frame) {
   frame.in.make_node(offset, code, mark);
 }
 
-// The deprecated origin=, scale= of extrusions.
-Vec2 read_origin(const Value& origin, const BuiltinModuleCode& code,
-                 Frame& frame) {
-  const std::optional<Vec2> given = to_vec2(origin);
-  const bool is_fine =
-      given && std::isfinite(given->x) && std::isfinite(given->y);
-  if (!origin.is_undef() && !is_fine) {
-    warn(code, frame,
-         fmt::format("{}(..., origin={}) could not be converted",
-                     code.name == "dxf_linear_extrude"   ? "linear_extrude"
-                     : code.name == "dxf_rotate_extrude" ? "rotate_extrude"
-                                                         : code.name,
-                     to_echo(origin)));
-  }
-  return given.value_or(Vec2(0.0));
-}
-
+// The deprecated scale= of extrusions.
 Vec2 read_extrusion_scale(const Value& scale, const Value& origin,
                           const BuiltinModuleCode& code, Frame& frame) {
   Vec2 factors(1.0);
@@ -427,18 +411,6 @@ ImportParams import_drawing(const Value& file, const Value& layer, Vec2 origin,
   params.scale = scale;
   params.facets = current_facets(in);
   return params;
-}
-
-void append_drawing(const ImportParams& drawing, Frame& frame,
-                    std::string& text) {
-  text += "file = " + relative_quoted(std::string(drawing.path), frame);
-  text += ", layer = ";
-  append_quoted(drawing.layer, text);
-  text += ", origin = [";
-  append_stream_number(drawing.origin.x, text);
-  text += ", ";
-  append_stream_number(drawing.origin.y, text);
-  text += "], ";
 }
 
 // Puts the drawing below the extrusion that comes next. What tells it from
@@ -483,7 +455,8 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
   if (params.height <= 0) params.height = 0;  // -0 is printed otherwise
   params.convexity = std::max(
       to_finite(arguments[kConvexity]) ? to_int(arguments[kConvexity]) : 1, 1);
-  const Vec2 origin = read_origin(arguments[kOrigin], code, frame);
+  const Vec2 origin =
+      read_origin(arguments[kOrigin], "linear_extrude", code, frame);
   params.scale =
       read_extrusion_scale(arguments[kScale], arguments[kOrigin], code, frame);
   params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
@@ -495,8 +468,7 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
   if (file.is_string() && !file.as_string().empty()) {
     const ImportParams drawing = import_drawing(file, arguments[kLayer], origin,
                                                 params.scale.x, code, frame);
-    std::string text = "linear_extrude(";
-    append_drawing(drawing, frame, text);
+    std::string text = "linear_extrude(" + drawing_text(drawing, frame);
     text += timestamp_text(std::string(drawing.path)) + ", ";
     append_linear_extrude(params, text);
     params.csg_text = in.keep_text(text + ")");
@@ -523,7 +495,8 @@ void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
   }
   extrude.convexity = to_int(arguments[kConvexity]);
   if (extrude.convexity <= 0) extrude.convexity = 2;
-  const Vec2 origin = read_origin(arguments[kOrigin], code, frame);
+  const Vec2 origin =
+      read_origin(arguments[kOrigin], "rotate_extrude", code, frame);
   extrude.angle_deg = to_finite(arguments[kAngle]).value_or(360.0);
   if (extrude.angle_deg <= -360 || extrude.angle_deg > 360) {
     extrude.angle_deg = 360;
@@ -533,8 +506,7 @@ void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
     const double scale = given <= 0 ? 1 : given;
     const ImportParams drawing =
         import_drawing(file, arguments[kLayer], origin, scale, code, frame);
-    std::string text = "rotate_extrude(";
-    append_drawing(drawing, frame, text);
+    std::string text = "rotate_extrude(" + drawing_text(drawing, frame);
     text += "scale = ";
     append_stream_number(scale, text);
     text += ", " + timestamp_text(std::string(drawing.path)) + ", ";

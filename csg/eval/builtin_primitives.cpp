@@ -63,6 +63,24 @@ Value radius(const Value& d, const Value& r, std::string_view d_name,
 
 bool is_positive(double x) { return x > 0 && std::isfinite(x); }
 
+// sphere() and circle().
+template <typename Ball>
+void ball(const BuiltinModuleCode& code, Frame& frame) {
+  enum { kR, kD };
+  refuse_children(code, frame);
+  const ModuleArguments arguments(code, frame);
+  Ball ball;
+  ball.facets = clamped_facets(code, frame);
+  const Value r = radius(arguments[kD], arguments[kR], "d", "r", code, frame);
+  if (r.is_number()) {
+    ball.r = r.as_number();
+    if (frame.in.options().check_ranges && !is_positive(ball.r)) {
+      warn(code, frame, fmt::format("{}(r={})", code.name, to_echo(r)));
+    }
+  }
+  make_leaf(ball, code, frame);
+}
+
 // --- 3D ---------------------------------------------------------------------
 
 void cube(const BuiltinModuleCode& code, Frame& frame) {
@@ -90,22 +108,6 @@ void cube(const BuiltinModuleCode& code, Frame& frame) {
   }
   cube.center = is_true(arguments[kCenter]);
   make_leaf(cube, code, frame);
-}
-
-void sphere(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kR, kD };
-  refuse_children(code, frame);
-  const ModuleArguments arguments(code, frame);
-  Sphere sphere;
-  sphere.facets = clamped_facets(code, frame);
-  const Value r = radius(arguments[kD], arguments[kR], "d", "r", code, frame);
-  if (r.is_number()) {
-    sphere.r = r.as_number();
-    if (frame.in.options().check_ranges && !is_positive(sphere.r)) {
-      warn(code, frame, fmt::format("sphere(r={})", to_echo(r)));
-    }
-  }
-  make_leaf(sphere, code, frame);
 }
 
 void check_cylinder(const Cylinder& cylinder, const Value& h, const Value& r1,
@@ -244,22 +246,6 @@ void square(const BuiltinModuleCode& code, Frame& frame) {
   make_leaf(square, code, frame);
 }
 
-void circle(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kR, kD };
-  refuse_children(code, frame);
-  const ModuleArguments arguments(code, frame);
-  Circle circle;
-  circle.facets = clamped_facets(code, frame);
-  const Value r = radius(arguments[kD], arguments[kR], "d", "r", code, frame);
-  if (r.is_number()) {
-    circle.r = r.as_number();
-    if (frame.in.options().check_ranges && !is_positive(circle.r)) {
-      warn(code, frame, fmt::format("circle(r={})", to_echo(r)));
-    }
-  }
-  make_leaf(circle, code, frame);
-}
-
 void polygon(const BuiltinModuleCode& code, Frame& frame) {
   enum { kPoints, kPaths, kConvexity };
   constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -295,7 +281,7 @@ void polygon(const BuiltinModuleCode& code, Frame& frame) {
 std::vector<BuiltinModuleRow> primitive_rows() {
   return {
       {"cube", cube, {"size", "center"}},
-      {"sphere", sphere, {"r"}, {"d"}},
+      {"sphere", ball<Sphere>, {"r"}, {"d"}},
       {"cylinder",
        cylinder,
        {"h", "r1", "r2", "center"},
@@ -305,7 +291,7 @@ std::vector<BuiltinModuleRow> primitive_rows() {
        {"points", "faces", "convexity"},
        {"triangles"}},
       {"square", square, {"size", "center"}},
-      {"circle", circle, {"r"}, {"d"}},
+      {"circle", ball<Circle>, {"r"}, {"d"}},
       {"polygon", polygon, {"points", "paths", "convexity"}},
   };
 }

@@ -1,10 +1,13 @@
 #include "csg/eval/files.h"
 
+#include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include "csg/eval/conversions.h"
 #include "csg/eval/resolver.h"
 #include "csg/eval/text.h"
 
@@ -46,6 +49,31 @@ std::string relative_quoted(const std::string& path, Frame& frame) {
   const std::string relative = file.lexically_relative(folder).generic_string();
   append_quoted(relative == "." ? "./" : relative, text);
   return text;
+}
+
+Vec2 read_origin(const Value& origin, std::string_view shown_name,
+                 const BuiltinModuleCode& code, Frame& frame) {
+  const std::optional<Vec2> given = to_vec2(origin);
+  const bool is_fine =
+      given && std::isfinite(given->x) && std::isfinite(given->y);
+  if (!origin.is_undef() && !is_fine) {
+    frame.in.warn(code.range,
+                  fmt::format("{}(..., origin={}) could not be converted",
+                              shown_name, to_echo(origin)));
+  }
+  return given.value_or(Vec2(0.0));
+}
+
+std::string drawing_text(const ImportParams& drawing, Frame& frame) {
+  std::string text =
+      "file = " + relative_quoted(std::string(drawing.path), frame);
+  text += ", layer = ";
+  append_quoted(drawing.layer, text);
+  text += ", origin = [";
+  append_stream_number(drawing.origin.x, text);
+  text += ", ";
+  append_stream_number(drawing.origin.y, text);
+  return text + "], ";
 }
 
 std::string timestamp_text(const std::string& path) {

@@ -6,6 +6,8 @@
 
 #include "csg/eval/code.h"
 #include "csg/eval/interpreter.h"
+#include "csg/tree.h"
+#include "csg/vec.h"
 
 namespace lamina::csg {
 
@@ -21,6 +23,13 @@ std::string find_file(std::string_view name, const std::string& from,
 
 // The path relative to the design's folder, quoted.
 std::string relative_quoted(const std::string& path, Frame& frame);
+
+// The deprecated `origin` of a drawing; messages call the module `shown_name`.
+Vec2 read_origin(const Value& origin, std::string_view shown_name,
+                 const BuiltinModuleCode& code, Frame& frame);
+
+// "file = …, layer = …, origin = […], ".
+std::string drawing_text(const ImportParams& drawing, Frame& frame);
 
 // "timestamp = " and the seconds of the last change, 0 if there is no file.
 std::string timestamp_text(const std::string& path);
