@@ -3,19 +3,18 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <sanitizer/asan_interface.h>
 
 #include "csg/eval/resolver.h"
 
 namespace lamina::csg {
 
 namespace {
-std::uintptr_t lowest_stack(std::size_t bytes) {
+std::uintptr_t lowest_stack(std::uintptr_t highest, std::size_t bytes) {
   // What building a message needs below the last frame that passed the check.
   constexpr std::size_t kReserve = 64 << 10;
-  const auto here =
-      reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   const std::size_t usable = bytes > 2 * kReserve ? bytes - kReserve : kReserve;
-  return here > usable ? here - usable : 0;
+  return highest > usable ? highest - usable : 0;
 }
 }  // namespace
 
@@ -27,7 +26,9 @@ Interpreter::Interpreter(Resolver& resolver, const EvaluateOptions& options,
       options_(options),
       diagnostics_(diagnostics),
       arena_(arena),
-      stack_limit_(lowest_stack(options.stack_bytes)) {}
+      stack_begin_(
+          reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0))),
+      stack_limit_(lowest_stack(stack_begin_, options.stack_bytes)) {}
 
 // Boxes in cycles die here: empty each, and the closures inside let go.
 Interpreter::~Interpreter() {
@@ -101,6 +102,12 @@ void Interpreter::fail(SourceRange range, std::string message,
 }
 
 void Interpreter::end_with(Diagnostic diagnostic) {
+  // AddressSanitizer does not see that an exception leaves the frames of a
+  // stack as large as that of the evaluation; else this does nothing.
+  const auto here =
+      reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(here),
+                              stack_begin_ - here);
   failure_ = std::make_unique<Diagnostic>(std::move(diagnostic));
   throw EvaluationFailure();
 }

@@ -194,6 +194,7 @@ class Interpreter {
   const EvaluateOptions& options_;
   Diagnostics& diagnostics_;
   std::pmr::monotonic_buffer_resource& arena_;
+  std::uintptr_t stack_begin_;  // the stack grows down from here
   std::uintptr_t stack_limit_;
   std::uint32_t depth_ = 0;
   std::unique_ptr<Diagnostic> failure_;  // while it makes its way out

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <new>
 
+#include <sanitizer/asan_interface.h>
 #include <sys/mman.h>
 
 namespace lamina::csg {
@@ -67,6 +68,9 @@ void unmap_block(void* block, std::size_t bytes) {
 
 // --- Small blocks -----------------------------------------------------------
 
+// AddressSanitizer is told which memory of a chunk no block uses; otherwise
+// the macros do nothing.
+
 std::size_t class_of(std::size_t bytes) { return (bytes + kStep - 1) / kStep; }
 
 void add_chunk() {
@@ -77,12 +81,14 @@ void add_chunk() {
   pool.chunk_size = size;
   pool.begin = static_cast<char*>(memory) + sizeof(Chunk);
   pool.end = static_cast<char*>(memory) + size;
+  ASAN_POISON_MEMORY_REGION(pool.begin, size - sizeof(Chunk));
 }
 
 [[gnu::noinline]] void* carve_block(std::size_t bytes) {
   if (static_cast<std::size_t>(pool.end - pool.begin) < bytes) add_chunk();
   void* block = pool.begin;
   pool.begin += bytes;
+  ASAN_UNPOISON_MEMORY_REGION(block, bytes);
   return block;
 }
 
@@ -90,6 +96,7 @@ void add_chunk() {
   while (pool.chunks != nullptr) {
     Chunk* chunk = pool.chunks;
     pool.chunks = chunk->next;
+    ASAN_UNPOISON_MEMORY_REGION(chunk, chunk->size);
     free_block(chunk, chunk->size);
   }
   pool = {};
@@ -130,6 +137,7 @@ void* allocate_block(std::size_t bytes) {
   ++pool.live;
   FreeBlock* block = pool.free[c];
   if (block == nullptr) return carve_block(c * kStep);
+  ASAN_UNPOISON_MEMORY_REGION(block, c * kStep);
   pool.free[c] = block->next;
   return block;
 }
@@ -155,6 +163,7 @@ void free_block(void* block, std::size_t bytes) noexcept {
   }
   const std::size_t c = class_of(bytes);
   pool.free[c] = new (block) FreeBlock{pool.free[c]};
+  ASAN_POISON_MEMORY_REGION(block, c * kStep);
   if (--pool.live == 0) give_back_chunks();
 }
 
