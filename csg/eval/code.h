@@ -64,7 +64,8 @@ struct Variable {
   bool is_statement_level = false;  // lives as long as its activation
   bool is_repeated = false;         // a loop gives it several values
   bool may_be_unset = false;        // at run time, even where is_set
-  struct Activation* activation = nullptr;
+  Scope* scope = nullptr;
+  Variable* outer = nullptr;  // the next of its name in the open scopes around
 };
 
 // Where an assignment goes: a slot, a `$` variable, or nowhere.

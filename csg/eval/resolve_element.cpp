@@ -40,9 +40,7 @@ struct ElementVisitor {
     return code;
   }
   const Element* operator()(const ast::LetElements& let) const {
-    const NestedScope nested(
-        self.scope_,
-        self.resolver_.open_scope(*self.scope_, *self.scope_->activation));
+    const NestedScope nested(self.resolver_, self.scope_);
     auto* code = make<LetElement>(emit_let);
     code->bindings = self.sequential_bindings(let.bindings, expr.range, false);
     code->body = self.element(*let.body);
@@ -72,8 +70,7 @@ const Element* ExpressionResolver::for_element(ast::Arguments bindings,
   code->binding.name = written.name;
   code->binding.range = range;
   code->binding.value = resolve(*written.value);
-  const NestedScope nested(scope_,
-                           resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope nested(resolver_, scope_);
   Variable* variable = nullptr;
   if (!is_dynamic_name(written.name)) {
     variable = declare(written.name, false);
@@ -87,8 +84,7 @@ const Element* ExpressionResolver::for_element(ast::Arguments bindings,
 
 const Element* ExpressionResolver::for_c_element(const ast::ForCElements& loop,
                                                  SourceRange range) {
-  const NestedScope nested(scope_,
-                           resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope nested(resolver_, scope_);
   auto* code = resolver_.make<ForCElement>();
   code->emit = emit_for_c;
   code->range = range;
@@ -106,8 +102,7 @@ const Element* ExpressionResolver::for_c_element(const ast::ForCElements& loop,
   code->condition = resolve(*loop.head->condition);
   code->body = element(*loop.body);
   Scope& loop_scope = *scope_;
-  const NestedScope update_scope(
-      scope_, resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope update_scope(resolver_, scope_);
   code->update = sequential_bindings(loop.head->update, range, false);
   std::vector<std::pair<Target, Target>> copies;
   for (const Binding& binding : code->update) {

@@ -227,8 +227,7 @@ const Expression* ExpressionResolver::binary(const ast::Binary& written,
 const Expression* ExpressionResolver::let(const ast::Let& let,
                                           SourceRange range,
                                           Position position) {
-  const NestedScope nested(scope_,
-                           resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope nested(resolver_, scope_);
   auto* code = resolver_.make<LetCode>();
   code->run = run_let;
   code->range = range;

@@ -35,7 +35,7 @@ Block StatementResolver::assignments_only(ast::Statements statements) {
 void StatementResolver::module(Module& module) {
   auto* children = resolver_.make<Variable>();
   children->slot = module.children_slot;
-  children->activation = scope_->activation;
+  children->scope = scope_;
   children->is_set = children->is_parameter = true;
   children->is_statement_level = true;
   scope_->variables["$children"] = children;
@@ -111,8 +111,7 @@ std::span<const InstantiationCode* const> StatementResolver::instantiations(
 }
 
 Block* StatementResolver::block(ast::Statements statements) {
-  const NestedScope open(scope_,
-                         resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(resolver_, scope_);
   auto* block = resolver_.make<Block>();
   block->assignments = assignments(statements, nullptr);
   block->statements = instantiations(statements);
@@ -157,8 +156,7 @@ InstantiationCode* StatementResolver::user_module(
     code->hops =
         scope_->activation->count_hops(*callee.module->scope->activation);
   }
-  const NestedScope open(scope_,
-                         resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(resolver_, scope_);
   code->block = resolver_.make<Block>();
   code->block->assignments = assignments(written.children, nullptr);
   code->arguments = expressions().arguments(written.arguments);
@@ -184,8 +182,7 @@ InstantiationCode* StatementResolver::loop(const ast::Instantiation& written,
                                            SourceRange range) {
   auto* code = make<ForCode>(run_for, range);
   code->is_intersection = written.name == "intersection_for";
-  const NestedScope open(scope_,
-                         resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(resolver_, scope_);
   std::vector<Binding> bindings;
   for (const ast::Argument& argument : written.arguments) {
     ExpressionResolver resolver = expressions();
@@ -209,8 +206,7 @@ InstantiationCode* StatementResolver::loop(const ast::Instantiation& written,
 InstantiationCode* StatementResolver::let(const ast::Instantiation& written,
                                           SourceRange range) {
   auto* code = make<LetModuleCode>(run_let_module, range);
-  const NestedScope open(scope_,
-                         resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(resolver_, scope_);
   code->bindings =
       expressions().sequential_bindings(written.arguments, range, true);
   code->block = block(written.children);
@@ -230,8 +226,7 @@ InstantiationCode* StatementResolver::assign(const ast::Instantiation& written,
     binding.value = expressions().resolve(*argument.value);
     bindings.push_back(binding);
   }
-  const NestedScope open(scope_,
-                         resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(resolver_, scope_);
   for (Binding& binding : bindings) {
     ExpressionResolver resolver = expressions();
     Variable* variable = nullptr;
@@ -273,8 +268,7 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
       entry->parameters, entry->positional_count, code->arguments));
   code->parameter_count = static_cast<std::uint32_t>(entry->parameters.size());
 
-  const NestedScope open(scope_,
-                         resolver_.open_scope(*scope_, *scope_->activation));
+  const NestedScope open(resolver_, scope_);
   code->block = resolver_.make<Block>();
   code->block->assignments = assignments(written.children, nullptr);
   if (entry->needs_late_argument && !written.arguments.empty() &&

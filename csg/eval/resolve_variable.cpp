@@ -14,8 +14,9 @@ Variable* ExpressionResolver::declare(std::string_view name,
   auto* variable = resolver_.make<Variable>();
   variable->slot = scope_->activation->new_slot();
   variable->is_statement_level = is_statement_level;
-  variable->activation = scope_->activation;
+  variable->scope = scope_;
   scope_->variables[name] = variable;
+  if (!scope_->is_home()) resolver_.open_variables.declare(name, *variable);
   return variable;
 }
 
@@ -30,24 +31,20 @@ Target ExpressionResolver::target(std::string_view name, Variable* variable) {
 // it and the variable's home pass it on.
 std::uint32_t ExpressionResolver::capture(Activation& literal,
                                           Variable& variable) {
+  const auto known = literal.captured.find(&variable);
+  if (known != literal.captured.end()) return known->second;
   FunctionLiteral::Capture source;
-  if (literal.lexical == variable.activation) {
+  if (literal.lexical == variable.scope->activation) {
     source.index = variable.slot;
   } else {
     source.from_closure = true;
     source.index = capture(*literal.lexical, variable);
   }
   auto& captures = literal.literal->captures;
-  for (std::size_t i = 0; i < captures.size(); ++i) {
-    if (captures[i].from_closure == source.from_closure &&
-        captures[i].index == source.index &&
-        literal.captured_variables[i] == &variable) {
-      return static_cast<std::uint32_t>(i);
-    }
-  }
+  const auto index = static_cast<std::uint32_t>(captures.size());
   captures.push_back(source);
-  literal.captured_variables.push_back(&variable);
-  return static_cast<std::uint32_t>(captures.size() - 1);
+  literal.captured.emplace(&variable, index);
+  return index;
 }
 
 namespace {
@@ -55,9 +52,11 @@ namespace {
 // The version of a literal, if any, through whose closures a variable comes.
 const Activation* version_between(const Activation& here,
                                   const Variable& variable) {
-  const Activation* a = &here;
-  while (a != variable.activation && !a->is_version) a = a->lexical;
-  return a == variable.activation ? nullptr : a;
+  const Activation* version = here.version;
+  return version != nullptr &&
+                 version->depth > variable.scope->activation->depth
+             ? version
+             : nullptr;
 }
 
 // Variables that a literal's closures have not captured are of no use to its
@@ -65,8 +64,7 @@ const Activation* version_between(const Activation& here,
 bool is_within_reach(const Activation& here, const Variable& variable) {
   if (variable.is_statement_level) return true;
   const Activation* version = version_between(here, variable);
-  return version == nullptr ||
-         std::ranges::count(version->captured_variables, &variable) != 0;
+  return version == nullptr || version->captured.contains(&variable);
 }
 
 }  // namespace
@@ -75,16 +73,17 @@ const Expression* ExpressionResolver::load(Variable& variable,
                                            SourceRange range,
                                            bool* is_certain) {
   Activation& here = *scope_->activation;
+  const Activation& home = *variable.scope->activation;
   auto* code = resolver_.make<VariableLoad>();
   code->range = range;
   *is_certain = variable.is_parameter;
-  if (variable.activation == &here) {
+  if (&home == &here) {
     *is_certain = !variable.may_be_unset;
     code->run = run_local;
     code->kind = Expression::Kind::kLocal;
     code->slot = variable.slot;
   } else if (variable.is_statement_level) {
-    code->hops = here.count_hops(*variable.activation);
+    code->hops = here.count_hops(home);
     code->slot = variable.slot;
     code->run = code->hops == 1 ? run_outer : run_far_outer;
     if (code->hops == 1) code->kind = Expression::Kind::kOuter;
@@ -113,17 +112,16 @@ const Expression* ExpressionResolver::variable(std::string_view name,
   // From the innermost scope outwards, until one certainly has the variable.
   std::vector<const Expression*> candidates;
   bool is_certain = false;
-  for (Scope* scope = scope_; scope != nullptr && !is_certain;
-       scope = scope->parent) {
-    const auto found = scope->variables.find(name);
-    if (found == scope->variables.end()) continue;
-    Variable& variable = *found->second;
-    const bool is_here = variable.activation == scope_->activation;
+  for (Variable* found = resolver_.open_variables.find(*scope_, name);
+       found != nullptr && !is_certain;
+       found = OpenVariables::next(*found, name)) {
+    Variable& variable = *found;
+    const bool is_here = variable.scope->activation == scope_->activation;
     if (is_here && !variable.is_set && !variable.may_be_unset) continue;
     if (!is_within_reach(*scope_->activation, variable)) continue;
     candidates.push_back(load(variable, range, &is_certain));
     if (!is_certain && !is_here && variable.is_statement_level) {
-      scope->resets.push_back(variable.slot);
+      variable.scope->resets.push_back(variable.slot);
     }
   }
   const Expression* otherwise = nullptr;

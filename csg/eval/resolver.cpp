@@ -41,10 +41,7 @@ Scope& Resolver::open_scope(Scope& parent, Activation& activation) {
   scopes_.emplace_back();
   Scope& scope = scopes_.back();
   scope.parent = &parent;
-  const bool has_definitions =
-      !parent.functions.empty() || !parent.modules.empty();
-  scope.definitions_outside =
-      has_definitions ? &parent : parent.definitions_outside;
+  scope.home = parent.home;
   scope.activation = &activation;
   scope.unit = parent.unit;
   return scope;
@@ -57,7 +54,65 @@ Activation& Resolver::open_activation(Activation::Kind kind,
   activation.kind = kind;
   activation.lexical = &around;
   activation.link = around.is_statement_level() ? &around : around.link;
+  activation.version = around.version;
+  activation.depth = around.depth + 1;
   return activation;
+}
+
+NestedScope::NestedScope(Resolver& resolver, Scope*& current)
+    : resolver_(resolver),
+      current_(current),
+      outer_(current),
+      first_slot_(current->activation->next_slot) {
+  current = &resolver.open_scope(*current, *current->activation);
+}
+
+NestedScope::~NestedScope() {
+  resolver_.open_variables.leave(*current_);
+  current_->activation->next_slot = first_slot_;
+  current_ = outer_;
+}
+
+// --- Variables in sight ------------------------------------------------------
+
+void OpenVariables::enter(Scope& scope) {
+  for (const auto& [name, variable] : scope.variables) declare(name, *variable);
+}
+
+void OpenVariables::leave(Scope& scope) {
+  for (const auto& [name, variable] : scope.variables) {
+    innermost_[name] = variable->outer;
+  }
+}
+
+void OpenVariables::declare(std::string_view name, Variable& variable) {
+  Variable*& inner = innermost_[name];
+  const bool is_again = inner != nullptr && inner->scope == variable.scope;
+  variable.outer = is_again ? inner->outer : inner;
+  inner = &variable;
+}
+
+namespace {
+Variable* find_from(const Scope* home, std::string_view name) {
+  for (; home != nullptr; home = home->next_home()) {
+    const auto found = home->variables.find(name);
+    if (found != home->variables.end()) return found->second;
+  }
+  return nullptr;
+}
+}  // namespace
+
+Variable* OpenVariables::find(const Scope& scope, std::string_view name) const {
+  const auto found = innermost_.find(name);
+  return found != innermost_.end() && found->second != nullptr
+             ? found->second
+             : find_from(scope.home, name);
+}
+
+Variable* OpenVariables::next(const Variable& variable, std::string_view name) {
+  if (variable.outer != nullptr) return variable.outer;
+  const Scope& scope = *variable.scope;
+  return find_from(scope.is_home() ? scope.next_home() : scope.home, name);
 }
 
 // --- `$` variables ----------------------------------------------------------
@@ -87,7 +142,7 @@ Unit& Resolver::unit_of(const ast::Program& program) {
   unit->scope = &scopes_.back();
   unit->scope->activation = &unit->activation;
   unit->scope->unit = unit;
-  unit->scope->is_definition_scope = true;
+  unit->scope->home = unit->scope;
   declare(*unit->scope, program.statements, *unit);
   for (const ast::Use& use : program.uses) unit->uses.push_back(&use);
   return *unit;
@@ -140,7 +195,7 @@ void Resolver::declare(Scope& scope, ast::Statements statements, Unit& unit) {
 
 Resolver::Callee Resolver::find_function(const Scope& scope,
                                          std::string_view name) {
-  for (const Scope* s = &scope; s != nullptr; s = s->definitions_outside) {
+  for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
     const auto found = s->functions.find(name);
     if (found != s->functions.end()) return {found->second, nullptr, false};
   }
@@ -157,7 +212,7 @@ Resolver::Callee Resolver::find_function(const Scope& scope,
 
 Resolver::Callee Resolver::find_module(const Scope& scope,
                                        std::string_view name) {
-  for (const Scope* s = &scope; s != nullptr; s = s->definitions_outside) {
+  for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
     const auto found = s->modules.find(name);
     if (found != s->modules.end()) return {nullptr, found->second, false};
   }
@@ -174,33 +229,6 @@ Resolver::Callee Resolver::find_module(const Scope& scope,
 
 // --- Parameters -------------------------------------------------------------
 
-std::span<Parameter> Resolver::make_parameters(ast::Arguments written,
-                                               std::uint32_t first_slot) {
-  std::vector<Parameter> parameters;
-  std::uint32_t slot = first_slot;
-  for (const ast::Argument& argument : written) {
-    Parameter parameter;
-    parameter.name = argument.name;
-    parameter.fallback_text = argument.value;
-    parameter.has_silent_fallback =
-        argument.value == nullptr || is_literal(*argument.value);
-    const auto earlier = std::find_if(
-        parameters.begin(), parameters.end(),
-        [&](const Parameter& p) { return p.name == argument.name; });
-    if (earlier != parameters.end()) {
-      parameter.target = earlier->target;  // a name is one variable
-    } else if (is_dynamic_name(argument.name)) {
-      parameter.target = {Target::Kind::kDynamic, dynamic_index(argument.name),
-                          nullptr};
-    } else {
-      parameter.target = {Target::Kind::kSlot, slot++, nullptr};
-    }
-    parameters.push_back(parameter);
-  }
-  const std::span<const Parameter> kept = keep(parameters);
-  return {const_cast<Parameter*>(kept.data()), kept.size()};
-}
-
 void Resolver::declare_parameters(std::span<const Parameter> parameters,
                                   Scope& scope) {
   for (const Parameter& parameter : parameters) {
@@ -208,7 +236,7 @@ void Resolver::declare_parameters(std::span<const Parameter> parameters,
     Activation& activation = *scope.activation;
     auto* variable = make<Variable>();
     variable->slot = parameter.target.index;
-    variable->activation = &activation;
+    variable->scope = &scope;
     variable->is_set = true;
     variable->is_parameter = true;
     variable->is_statement_level = activation.is_statement_level();
@@ -239,8 +267,10 @@ void Resolver::resolve_callable(Callable& callable, ast::Arguments parameters,
   }
   declare_parameters(callable.parameters, inside);
   resolve_fallbacks(callable.parameters, inside, outside);
+  open_variables.enter(inside);
   ExpressionResolver resolver(*this, inside);
   callable.body = resolver.resolve(body, ExpressionResolver::Position::kTail);
+  open_variables.leave(inside);
   callable.slot_count = inside.activation->slot_count;
 }
 
@@ -260,195 +290,10 @@ void Resolver::resolve(Module& module) {
   Activation& activation =
       open_activation(Activation::Kind::kModule, *module.scope->activation);
   Scope& scope = open_scope(*module.scope, activation);
-  scope.is_definition_scope = true;
+  scope.home = &scope;
   StatementResolver resolver(*this, scope);
   resolver.module(module);
   module.slot_count = activation.slot_count;
-}
-
-// --- Arguments --------------------------------------------------------------
-
-ArgumentPlan Resolver::plan(std::span<const Parameter> parameters,
-                            std::size_t positional,
-                            std::span<const WrittenArgument> arguments,
-                            Surplus surplus) {
-  ArgumentPlan plan;
-  const bool warns = surplus == Surplus::kWarn;
-  const auto find = [&](std::string_view name) {
-    return std::find_if(parameters.begin(), parameters.end(),
-                        [&](const Parameter& p) { return p.name == name; });
-  };
-  // OpenSCAD evaluates arguments in the order in which its hash table of names
-  // gives them back; the same table gives the same order.
-  std::unordered_map<std::string, std::uint32_t> resolved;
-  std::size_t position = 0;
-  bool has_too_many = false;
-  for (std::uint32_t i = 0; i < arguments.size(); ++i) {
-    const std::string_view name = arguments[i].name;
-    if (!name.empty()) {
-      const auto known = find(name);
-      if (warns && name[0] != '$' &&
-          (known == parameters.end() || known->is_extra)) {
-        plan.warnings.push_back("variable " + std::string(name) +
-                                " not specified as parameter");
-      }
-      if (resolved.contains(std::string(name))) {
-        plan.warnings.push_back("argument " + std::string(name) +
-                                " supplied more than once");
-      }
-      resolved[std::string(name)] = i;
-    } else if (position < positional) {
-      resolved[std::string(parameters[position++].name)] = i;
-    } else if (warns && !has_too_many) {
-      plan.warnings.emplace_back("Too many unnamed arguments supplied");
-      has_too_many = true;
-    }
-  }
-  for (const auto& [name, index] : resolved) {
-    BoundArgument bound;
-    bound.written = index;
-    const auto parameter = find(name);
-    if (parameter != parameters.end()) {
-      bound.target = parameter->target;
-    } else if (is_dynamic_name(name)) {
-      bound.target = {Target::Kind::kDynamic, dynamic_index(name), nullptr};
-    }
-    plan.bound.push_back(bound);
-  }
-  for (std::uint32_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].is_extra &&
-        (!resolved.contains(std::string(parameters[i].name)) ||
-         !parameters[i].has_silent_fallback)) {
-      plan.defaults.push_back(i);
-    }
-  }
-  return plan;
-}
-
-namespace {
-
-// The names among the arguments that are no parameters.
-std::vector<std::string_view> extra_names(
-    std::span<const Parameter> parameters,
-    std::span<const WrittenArgument> arguments) {
-  std::vector<std::string_view> names;
-  for (const WrittenArgument& argument : arguments) {
-    const std::string_view name = argument.name;
-    if (name.empty() || name[0] == '$') continue;
-    const bool is_known =
-        std::any_of(parameters.begin(), parameters.end(),
-                    [&](const Parameter& p) { return p.name == name; }) ||
-        std::find(names.begin(), names.end(), name) != names.end();
-    if (!is_known) names.push_back(name);
-  }
-  return names;
-}
-
-std::string joined(const std::vector<std::string_view>& names) {
-  std::string text;
-  for (const std::string_view name : names) {
-    text += name;
-    text += ',';
-  }
-  return text;
-}
-
-}  // namespace
-
-std::span<Parameter> Resolver::extended_parameters(
-    std::span<const Parameter> parameters,
-    const std::vector<std::string_view>& names, std::uint32_t first_slot) {
-  std::vector<Parameter> all(parameters.begin(), parameters.end());
-  std::uint32_t slot = first_slot;
-  for (const Parameter& parameter : all) {
-    if (parameter.target.kind == Target::Kind::kSlot) {
-      slot = std::max(slot, parameter.target.index + 1);
-    }
-  }
-  for (const std::string_view name : names) {
-    Parameter extra;
-    extra.name = name;
-    extra.is_extra = true;
-    extra.target = {Target::Kind::kSlot, slot++, nullptr};
-    all.push_back(extra);
-  }
-  const std::span<const Parameter> kept = keep(all);
-  return {const_cast<Parameter*>(kept.data()), kept.size()};
-}
-
-Function& Resolver::with_extras(Function& function,
-                                std::span<const WrittenArgument> arguments) {
-  const std::vector<std::string_view> names =
-      extra_names(function.parameters, arguments);
-  if (names.empty()) return function;
-  Function*& extended = extra_functions_[{&function, joined(names)}];
-  if (extended == nullptr) {
-    extended = &functions_.emplace_back();
-    extended->name = function.name;
-    extended->definition = function.definition;
-    extended->range = function.range;
-    extended->scope = function.scope;
-    extended->unit = function.unit;
-    extended->parameters = extended_parameters(function.parameters, names, 0);
-  }
-  return *extended;
-}
-
-Module& Resolver::with_extras(Module& module,
-                              std::span<const WrittenArgument> arguments) {
-  const std::vector<std::string_view> names =
-      extra_names(module.parameters, arguments);
-  if (names.empty()) return module;
-  Module*& extended = extra_modules_[{&module, joined(names)}];
-  if (extended == nullptr) {
-    extended = &modules_.emplace_back();
-    extended->name = module.name;
-    extended->definition = module.definition;
-    extended->range = module.range;
-    extended->scope = module.scope;
-    extended->unit = module.unit;
-    extended->children_slot = module.children_slot;
-    extended->parameters = extended_parameters(module.parameters, names, 1);
-  }
-  return *extended;
-}
-
-// The literal's closures are made: its versions know what these captured.
-const FunctionLiteral& Resolver::with_extras(
-    const FunctionLiteral& literal,
-    std::span<const WrittenArgument> arguments) {
-  const std::vector<std::string_view> names =
-      extra_names(literal.parameters, arguments);
-  if (names.empty()) return literal;
-  const FunctionLiteral*& known = extra_literals_[{&literal, joined(names)}];
-  if (known != nullptr) return *known;
-  FunctionLiteral& version = new_literal();
-  version = literal;
-  version.parameters = extended_parameters(literal.parameters, names, 0);
-  Activation& activation =
-      open_activation(Activation::Kind::kLiteral, *literal.scope->activation);
-  activation.callable = &version;
-  activation.literal = &version;
-  activation.captured_variables = literal.activation->captured_variables;
-  activation.is_version = true;
-  version.activation = &activation;
-  resolve_callable(version, literal.definition->parameters,
-                   *literal.definition->body,
-                   open_scope(*literal.scope, activation), *literal.scope);
-  known = &version;
-  return version;
-}
-
-const LiteralCall& Resolver::plan_for(const CallCode& call,
-                                      const FunctionLiteral& literal) {
-  const auto [entry, is_new] = literal_calls_.try_emplace({&call, &literal});
-  LiteralCall& planned = entry->second;
-  if (is_new) {
-    planned.literal = &with_extras(literal, call.arguments);
-    planned.plan = plan(planned.literal->parameters,
-                        literal.definition->parameters.size(), call.arguments);
-  }
-  return planned;
 }
 
 }  // namespace lamina::csg

@@ -39,9 +39,12 @@ struct Activation {
   Activation* lexical = nullptr;  // what is written directly around it
   Callable* callable = nullptr;   // of a function or function literal
   FunctionLiteral* literal = nullptr;
-  std::vector<Variable*> captured_variables;  // one per capture of `literal`
-  // A further version of a literal: its closures exist, captures are settled.
-  bool is_version = false;
+  // Their places among the captures of `literal`.
+  std::unordered_map<const Variable*, std::uint32_t> captured;
+  // The nearest activation, this one included, of a further version of a
+  // literal: its closures exist, captures are settled.
+  const Activation* version = nullptr;
+  std::uint32_t depth = 0;
   std::uint32_t next_slot = 0;
   std::uint32_t slot_count = 0;
 
@@ -55,39 +58,44 @@ struct Activation {
 
 struct Scope {
   Scope* parent = nullptr;
-  // The nearest scope outside that defines functions or modules: a look-up
-  // need not climb through a thousand nested blocks.
-  const Scope* definitions_outside = nullptr;
+  // The file or module that the scope is, or stands in: these alone define
+  // functions and modules.
+  Scope* home = nullptr;
   Activation* activation = nullptr;
   Unit* unit = nullptr;
-  bool is_definition_scope = false;  // of a file or module
   std::unordered_map<std::string_view, Variable*> variables;
   std::unordered_map<std::string_view, Function*> functions;
   std::unordered_map<std::string_view, Module*> modules;
   // Slots of a block that code of another activation may see unset.
   std::vector<std::uint32_t> resets;
+
+  bool is_home() const { return home == this; }
+  // The file or module around `home`; null for a file.
+  Scope* next_home() const {
+    return home->parent == nullptr ? nullptr : home->parent->home;
+  }
 };
 
-// Opens a scope; its slots are free again when it closes.
-class NestedScope {
+// The variables of the scopes that are being resolved, by name: nested a
+// thousand deep, they need not be climbed through. Those of files and modules
+// stay in their scopes, since most of the code that sees them is resolved
+// later.
+class OpenVariables {
  public:
-  NestedScope(Scope*& current, Scope& inner)
-      : current_(current),
-        outer_(current),
-        first_slot_(inner.activation->next_slot) {
-    current = &inner;
-  }
-  ~NestedScope() {
-    current_->activation->next_slot = first_slot_;
-    current_ = outer_;
-  }
-  NestedScope(const NestedScope&) = delete;
-  NestedScope& operator=(const NestedScope&) = delete;
+  // Scopes are left in the reverse order.
+  void enter(Scope& scope);
+  void leave(Scope& scope);
+  // A new variable of a scope; of a scope that is not a home, the last one
+  // entered.
+  void declare(std::string_view name, Variable& variable);
+
+  // The innermost variable of the name that `scope`, the last one entered,
+  // sees, and the next one outside of that; null where there is none.
+  Variable* find(const Scope& scope, std::string_view name) const;
+  static Variable* next(const Variable& variable, std::string_view name);
 
  private:
-  Scope*& current_;
-  Scope* outer_;
-  std::uint32_t first_slot_;
+  std::unordered_map<std::string_view, Variable*> innermost_;
 };
 
 // A file: the main program or one that is used.
@@ -165,6 +173,8 @@ class Resolver {
     return {copy, values.size()};
   }
 
+  OpenVariables open_variables;
+
   Scope& open_scope(Scope& parent, Activation& activation);
   Activation& open_activation(Activation::Kind kind, Activation& around);
   void resolve_callable(Callable& callable, ast::Arguments parameters,
@@ -238,6 +248,22 @@ class Resolver {
   std::deque<Unit> units_;
   std::unordered_map<const ast::Program*, Unit*> unit_of_;
   std::unordered_map<std::string, std::uint32_t> dynamic_index_;
+};
+
+// Opens a scope inside the current one, in the same activation; its slots are
+// free again when it closes.
+class NestedScope {
+ public:
+  NestedScope(Resolver& resolver, Scope*& current);
+  ~NestedScope();
+  NestedScope(const NestedScope&) = delete;
+  NestedScope& operator=(const NestedScope&) = delete;
+
+ private:
+  Resolver& resolver_;
+  Scope*& current_;
+  Scope* outer_;
+  std::uint32_t first_slot_;
 };
 
 }  // namespace lamina::csg

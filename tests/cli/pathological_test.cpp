@@ -94,6 +94,50 @@ TEST(Pathological, AMillionBracketsEnd) {
       << echo.substr(0, 300);
 }
 
+// `open` as often as there are levels, each time with the level for `{}`, then
+// `inner`, then `close` as often.
+std::string nested(std::size_t levels, const char* open, const char* inner,
+                   const char* close) {
+  std::string text;
+  for (std::size_t i = 0; i < levels; ++i) {
+    text += fmt::format(fmt::runtime(open), i);
+  }
+  text += inner;
+  for (std::size_t i = 0; i < levels; ++i) text += close;
+  return text;
+}
+
+// Climbing from scope to scope would take minutes.
+TEST(Pathological, NamesAreFoundAcrossManyScopes) {
+  const TemporaryFolder folder;
+  constexpr std::size_t kLevels = 40000;
+  const std::string x = "x = 1;";
+  EXPECT_EQ(
+      echo_of(folder, x + "y = " +
+                          nested(kLevels, "let(a{} = x + x + x + x + x + x) ",
+                                 "x + a0;", "") +
+                          "echo(y);"),
+      "ECHO: 7\n");
+  EXPECT_EQ(echo_of(folder,
+                    x + nested(kLevels, "union() {{ a{} = x + x + x + x + x; ",
+                               "echo(x + a0);", "}")),
+            "ECHO: 6\n");
+  EXPECT_EQ(echo_of(folder, x + nested(kLevels, "for (a{} = [x, ], b = [x]) ",
+                                       "echo(x + a0);", "")),
+            "ECHO: 2\n");
+}
+
+TEST(Pathological, ParameterListsMayBeLong) {
+  const TemporaryFolder folder;
+  constexpr std::size_t kParameters = 200000;
+  const std::string parameters = nested(kParameters, "a{} = 1, ", "z", "");
+  const std::string arguments = nested(kParameters, "a{} = 2, ", "z = 3", "");
+  EXPECT_EQ(
+      echo_of(folder, "function f(" + parameters +
+                          ") = a0 + a199999 + z; echo(f(" + arguments + "));"),
+      "ECHO: 7\n");
+}
+
 TEST(Pathological, StringsOfAHundredMegabytesAreStrings) {
   const TemporaryFolder folder;
   EXPECT_EQ(echo_of(folder,
