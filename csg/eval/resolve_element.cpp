@@ -88,16 +88,17 @@ const Element* ExpressionResolver::for_c_element(const ast::ForCElements& loop,
   auto* code = resolver_.make<ForCElement>();
   code->emit = emit_for_c;
   code->range = range;
-  code->init = sequential_bindings(loop.head->init, range, false);
-  // What only the update names is a variable from the second round on.
+  std::vector<Variable*> updated;
   for (const ast::Argument& update : loop.head->update) {
     if (update.name.empty() || is_dynamic_name(update.name)) continue;
-    Variable*& variable = scope_->variables[update.name];
-    if (variable == nullptr) {
-      variable = declare(update.name, false);
-      variable->may_be_unset = true;
-    }
-    variable->is_repeated = true;
+    if (scope_->variables.contains(update.name)) continue;
+    updated.push_back(declare(update.name, false));
+    updated.back()->is_repeated = true;
+  }
+  code->init = sequential_bindings(loop.head->init, range, false);
+  // What only the update names is a variable from the second round on.
+  for (Variable* variable : updated) {
+    if (!variable->is_set) variable->may_be_unset = true;
   }
   code->condition = resolve(*loop.head->condition);
   code->body = element(*loop.body);

@@ -251,7 +251,10 @@ Bindings ExpressionResolver::sequential_bindings(ast::Arguments written,
         !argument.name.empty() && !names.insert(argument.name).second;
     Variable* variable = nullptr;
     if (!argument.name.empty() && !binding.is_duplicate) {
-      if (!is_dynamic_name(argument.name)) {
+      const auto known = scope_->variables.find(argument.name);
+      if (known != scope_->variables.end()) {
+        variable = known->second;
+      } else if (!is_dynamic_name(argument.name)) {
         variable = declare(argument.name, is_statement_level);
       }
       binding.target = target(argument.name, variable);

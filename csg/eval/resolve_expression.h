@@ -32,7 +32,8 @@ class ExpressionResolver {
   const AssertCode* assertion(ast::Arguments written, const ast::Expr* body,
                               SourceRange range, Position position);
 
-  // Bindings that take effect one after the other, in the scope at hand.
+  // Bindings that take effect one after the other, in the scope at hand, to
+  // variables that it has or now gets.
   Bindings sequential_bindings(ast::Arguments written, SourceRange range,
                                bool is_statement_level);
   // Declares a variable of the scope at hand (a slot of its activation).

@@ -88,9 +88,13 @@ const Expression* ExpressionResolver::load(Variable& variable,
     code->run = code->hops == 1 ? run_outer : run_far_outer;
     if (code->hops == 1) code->kind = Expression::Kind::kOuter;
   } else {
-    *is_certain = variable.is_set && !variable.may_be_unset &&
-                  version_between(here, variable) == nullptr;
-    if (!variable.is_set || variable.is_repeated) variable.is_boxed = true;
+    // Code that boxes a variable, or does not, may have run by the time that a
+    // version is made.
+    const bool is_settled = version_between(here, variable) != nullptr;
+    *is_certain = variable.is_set && !variable.may_be_unset && !is_settled;
+    if (!is_settled && (!variable.is_set || variable.is_repeated)) {
+      variable.is_boxed = true;
+    }
     code->run = run_captured;
     code->slot = capture(here, variable);
   }
