@@ -1,6 +1,7 @@
 #include "csg/vertex_table.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -22,23 +23,59 @@ std::uint64_t hash(const Vec3& point) {
 
 }  // namespace
 
+VertexTable::VertexTable(std::size_t expected) {
+  if (expected > 0) make_room(expected);
+  points_.reserve(expected);
+}
+
 std::size_t VertexTable::slot_of(const Vec3& point) const {
+  return slot_from(hash(point) >> hash_shift_, point);
+}
+
+std::size_t VertexTable::slot_from(std::size_t first, const Vec3& point) const {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash(point) >> hash_shift_;
+  std::size_t slot = first;
   while (slots_[slot] != kFree && points_[slots_[slot]] != point) {
     slot = (slot + 1) & mask;
   }
   return slot;
 }
 
-std::uint32_t VertexTable::name(const Vec3& point) {
-  if (2 * points_.size() >= slots_.size()) grow();
-  std::uint32_t& name = slots_[slot_of(point)];
+std::uint32_t VertexTable::name_at(std::size_t slot, const Vec3& point) {
+  std::uint32_t& name = slots_[slot];
   if (name == kFree) {
     name = static_cast<std::uint32_t>(points_.size());
     points_.push_back(point);
   }
   return name;
+}
+
+std::uint32_t VertexTable::name(const Vec3& point) {
+  make_room(points_.size() + 1);
+  return name_at(slot_of(point), point);
+}
+
+void VertexTable::name(std::span<const Vec3> points,
+                       std::span<std::uint32_t> names) {
+  // As many as a processor has loads under way, and some more.
+  constexpr std::size_t kAtOnce = 32;
+  std::array<std::size_t, kAtOnce> firsts{};
+  for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, points.size() - begin);
+    make_room(points_.size() + count);
+    for (std::size_t i = 0; i < count; ++i) {
+      firsts[i] = hash(points[begin + i]) >> hash_shift_;
+      __builtin_prefetch(&slots_[firsts[i]]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t name = slots_[firsts[i]];
+      if (name != kFree) __builtin_prefetch(&points_[name]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3& point = points[begin + i];
+      names[begin + i] = name_at(slot_from(firsts[i], point), point);
+    }
+  }
 }
 
 std::optional<std::uint32_t> VertexTable::find(const Vec3& point) const {
@@ -48,10 +85,13 @@ std::optional<std::uint32_t> VertexTable::find(const Vec3& point) const {
   return name;
 }
 
-void VertexTable::grow() {
-  const std::size_t count = std::max(kFewestSlots, 2 * slots_.size());
-  slots_.assign(count, kFree);
-  hash_shift_ = 64 - std::countr_zero(count);
+// Never more than half of the slots are taken.
+void VertexTable::make_room(std::size_t count) {
+  if (2 * count <= slots_.size()) return;
+  const std::size_t slot_count =
+      std::max(kFewestSlots, std::bit_ceil(2 * count));
+  slots_.assign(slot_count, kFree);
+  hash_shift_ = 64 - std::countr_zero(slot_count);
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
     slots_[slot_of(points_[i])] = i;
   }

@@ -1,5 +1,6 @@
 #include "csg/import/mesh_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
@@ -83,6 +84,7 @@ bool is_finite(Vec3 p) {
 // Takes the faces out that have a corner nowhere.
 std::size_t drop_infinite(RawMesh& raw) {
   auto& vertices = raw.mesh.vertices;
+  if (std::all_of(vertices.begin(), vertices.end(), is_finite)) return 0;
   const auto is_bad = [&vertices](const auto& face) {
     for (const std::uint32_t corner : face) {
       if (!is_finite(vertices[corner])) return true;

@@ -1,7 +1,9 @@
 #include "csg/import/stl.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -34,21 +36,38 @@ bool is_binary(std::string_view bytes) {
 // they are most of what a large file needs of memory.
 class FacetJoiner {
  public:
-  explicit FacetJoiner(std::size_t count) { triangles_.reserve(count); }
+  // count  of facets; a guess
+  explicit FacetJoiner(std::size_t count) : vertices_(count / 2 + 3) {
+    triangles_.reserve(count);
+  }
 
   void add(const std::array<Vec3, 3>& corners) {
-    triangles_.push_back({vertices_.name(corners[0]),
-                          vertices_.name(corners[1]),
-                          vertices_.name(corners[2])});
+    std::copy(corners.begin(), corners.end(), corners_.begin() + waiting_);
+    waiting_ += 3;
+    if (waiting_ == kAtOnce) join();
   }
 
   RawMesh take() {
+    join();
     return {{vertices_.take_points(), std::move(triangles_)}, {}};
   }
 
  private:
+  void join() {
+    std::array<std::uint32_t, kAtOnce> names{};
+    vertices_.name(std::span(corners_).first(waiting_), names);
+    for (std::size_t i = 0; i < waiting_; i += 3) {
+      triangles_.push_back({names[i], names[i + 1], names[i + 2]});
+    }
+    waiting_ = 0;
+  }
+
+  static constexpr std::size_t kAtOnce = 96;  // corners
+
   VertexTable vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::array<Vec3, kAtOnce> corners_{};
+  std::size_t waiting_ = 0;
 };
 
 RawMesh parse_binary(std::string_view bytes) {

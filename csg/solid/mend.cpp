@@ -40,10 +40,10 @@ void rename_corners(Mesh& mesh, const std::vector<std::uint32_t>& new_names) {
 
 // Makes one vertex of equal ones.
 void merge_equal_vertices(Mesh& mesh) {
-  VertexTable table;
-  std::vector<std::uint32_t> names;
-  names.reserve(mesh.vertices.size());
-  for (const Vec3& vertex : mesh.vertices) names.push_back(table.name(vertex));
+  VertexTable table(mesh.vertices.size());
+  std::vector<std::uint32_t> names(mesh.vertices.size());
+  table.name(mesh.vertices, names);
+  if (table.size() == names.size()) return;
   mesh.vertices = table.take_points();
   rename_corners(mesh, names);
 }

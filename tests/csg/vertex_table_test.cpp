@@ -43,5 +43,25 @@ TEST(VertexTable, KeepsItsNamesAsItGrows) {
   EXPECT_EQ(table.name(point(7)), 0U);
 }
 
+// Points that repeat soon and late, from a table that guessed too few.
+TEST(VertexTable, NamesManyPointsAsOneByOne) {
+  std::vector<Vec3> points;
+  for (std::uint32_t i = 0; i < 10'000; ++i) {
+    points.emplace_back(i * 7919 % 1000, i % 10, -0.5);
+  }
+  VertexTable one_by_one;
+  std::vector<std::uint32_t> expected;
+  for (const Vec3& p : points) expected.push_back(one_by_one.name(p));
+
+  for (const std::size_t guess : {0U, 10U, 20'000U}) {
+    VertexTable table(guess);
+    std::vector<std::uint32_t> names(points.size());
+    table.name(points, names);
+    EXPECT_EQ(names, expected);
+    EXPECT_EQ(table.size(), one_by_one.size());
+    EXPECT_EQ(table.find(points.back()), expected.back());
+  }
+}
+
 }  // namespace
 }  // namespace lamina::csg
