@@ -33,20 +33,6 @@ std::string fixed_width(double value) {
   return fmt::format("{:.6e}", value).substr(0, kNumberWidth);
 }
 
-// Twice the area, exactly 0 for a loop that runs there and back again.
-bool has_no_area(std::span<const SlcPoint> loop) {
-  double doubled = 0;
-  SlcPoint previous = loop.back();
-  const double x0 = previous.x;
-  const double y0 = previous.y;
-  for (const SlcPoint& point : loop) {
-    doubled +=
-        (previous.x - x0) * (point.y - y0) - (point.x - x0) * (previous.y - y0);
-    previous = point;
-  }
-  return doubled == 0;
-}
-
 template <typename Value>
 void append(OutputFile& output, const Value& value) {
   output.write({reinterpret_cast<const char*>(&value), sizeof(value)});
@@ -99,53 +85,19 @@ void SlcWriter::take(const Layer& layer) {
   last_z_ = z;
   top_z_ = static_cast<float>(layer.top);
 
-  points_.clear();
-  ends_.clear();
-  for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
-    round_loop(layer.contours.loop(i));
-    if (loop_.size() < 3) continue;
-    extend_by_loop();
-    points_.insert(points_.end(), loop_.begin(), loop_.end());
-    ends_.push_back(static_cast<std::uint32_t>(points_.size()));
-  }
+  contours_ = layer.contours;
+  rounder_.round(contours_);
   append(output_, z);
-  append(output_, static_cast<std::uint32_t>(ends_.size()));
-  std::size_t begin = 0;
-  for (const std::uint32_t end : ends_) {
-    write_loop({points_.data() + begin, end - begin});
-    begin = end;
-  }
-}
-
-void SlcWriter::round_loop(std::span<const Vec2> loop) {
-  loop_.clear();
-  for (const Vec2& exact : loop) {
-    // Adding 0 turns -0 to 0: equal points shall have equal bytes.
-    const SlcPoint point{static_cast<float>(exact.x) + 0.0F,
-                         static_cast<float>(exact.y) + 0.0F};
-    if (!loop_.empty() && loop_.back() == point) continue;
-    if (loop_.size() >= 2 && loop_[loop_.size() - 2] == point) {
-      loop_.pop_back();  // a spike
-      continue;
+  append(output_, static_cast<std::uint32_t>(contours_.loop_count()));
+  for (std::size_t i = 0; i < contours_.loop_count(); ++i) {
+    loop_.clear();
+    for (const Vec2& point : contours_.loop(i)) {
+      loop_.push_back(
+          {static_cast<float>(point.x), static_cast<float>(point.y)});
     }
-    loop_.push_back(point);
+    extend_by_loop();
+    write_loop();
   }
-  // The same two rules where the end meets the beginning.
-  std::size_t begin = 0;
-  std::size_t end = loop_.size();
-  while (end - begin >= 3) {
-    if (loop_[end - 1] == loop_[begin] || loop_[end - 2] == loop_[begin]) {
-      --end;
-    } else if (loop_[end - 1] == loop_[begin + 1]) {
-      ++begin;
-    } else {
-      break;
-    }
-  }
-  loop_.erase(loop_.begin() + static_cast<std::ptrdiff_t>(end), loop_.end());
-  loop_.erase(loop_.begin(),
-              loop_.begin() + static_cast<std::ptrdiff_t>(begin));
-  if (loop_.size() < 3 || has_no_area(loop_)) loop_.clear();
 }
 
 void SlcWriter::extend_by_loop() {
@@ -162,12 +114,12 @@ void SlcWriter::extend_by_loop() {
   }
 }
 
-void SlcWriter::write_loop(std::span<const SlcPoint> loop) {
-  append(output_, static_cast<std::uint32_t>(loop.size() + 1));
+void SlcWriter::write_loop() {
+  append(output_, static_cast<std::uint32_t>(loop_.size() + 1));
   append(output_, std::uint32_t{0});  // gaps
-  output_.write(
-      {reinterpret_cast<const char*>(loop.data()), loop.size_bytes()});
-  append(output_, loop.front());
+  output_.write({reinterpret_cast<const char*>(loop_.data()),
+                 loop_.size() * sizeof(SlcPoint)});
+  append(output_, loop_.front());
 }
 
 void SlcWriter::finish() {

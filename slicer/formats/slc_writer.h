@@ -2,20 +2,18 @@
 // Writes SLC 2.0 (StereoLithography Contour), the format of wax and resin
 // machines (docs/formats.md).
 //
-// Coordinates are float32: near 100 mm two neighbours are 8e-6 mm apart. So
-// every point is rounded first and judged afterwards: points that fell on
-// their neighbour are dropped, spikes that lead back to where they came from
-// too, and loops that lost their area. Some readers take a repeat for a gap.
+// Coordinates are float32, to which the loops are rounded so that they stay
+// simple and disjoint (round_loops.h).
 //
 // The header tells the extents, which are known last, and no reader expects
 // blanks to fill a gap there. Their numbers therefore have a fixed width,
 // filled up with decimals ("10.0000000000"), and are patched at the end.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "slicer/formats/layer_writer.h"
+#include "slicer/round_loops.h"
 
 namespace lamina::slicer {
 
@@ -41,9 +39,8 @@ class SlcWriter : public LayerWriter {
   };
 
   void begin_file(const Layer& first);
-  void round_loop(std::span<const Vec2> loop);
   void extend_by_loop();
-  void write_loop(std::span<const SlcPoint> loop);
+  void write_loop();
   void write_header(const Extents& extents);
 
   OutputFile& output_;
@@ -52,10 +49,10 @@ class SlcWriter : public LayerWriter {
   float top_z_ = 0;
   bool has_extents_ = false;
   Extents extents_;
-  std::uint64_t row_offset_ = 0;     // of the sampling table
-  std::vector<SlcPoint> loop_;       // the loop in hand, rounded
-  std::vector<SlcPoint> points_;     // of the layer in hand
-  std::vector<std::uint32_t> ends_;  // of its loops
+  std::uint64_t row_offset_ = 0;  // of the sampling table
+  LoopRounder rounder_;
+  ldni::Contours contours_;     // of the layer in hand, rounded
+  std::vector<SlcPoint> loop_;  // the loop in hand
 };
 
 }  // namespace lamina::slicer

@@ -130,7 +130,7 @@ TEST(SlcWriter, DropsPointsThatFallOnTheirNeighbourInFloat32) {
   const auto layers = layers_of(write_slc({layer_at(
       0, 1, {{{100, 0}, {100 + 1e-7, 0}, {101, 0}, {101, 1}, {100, 1e-46}}})}));
   ASSERT_EQ(layers.at(0).boundaries.size(), 1U);
-  const std::vector<Vec2> expected = {{100, 0}, {101, 0}, {101, 1}, {100, 0}};
+  const std::vector<Vec2> expected = {{101, 1}, {100, 0}, {101, 0}, {101, 1}};
   EXPECT_EQ(layers.at(0).boundaries[0].points, expected);
 }
 

@@ -1,0 +1,198 @@
+#include "slicer/round_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "parser/check.h"
+
+namespace lamina::slicer {
+namespace {
+
+constexpr int kFloatDigits = 24;  // of a float32's binary fraction
+
+// Snapped coordinates are integers up to 2^24 times this: small numbers, among
+// which the ray's columns of 1e-9 are narrow.
+constexpr double kUnit = 0x1p-14;
+
+// Points nearer than this [mm] are one vertex to the moving ray.
+constexpr double kMergeDistance = 2e-9;
+
+// Rounds of snapping before it counts as endless; two do as a rule.
+constexpr int kMostRounds = 64;
+
+double to_float(double value) {
+  // Adding 0 turns -0 to 0: equal points shall have equal bytes. In float32:
+  // GCC 12 leaves out both conversions of a vector where nothing is between.
+  return static_cast<double>(static_cast<float>(value) + 0.0F);
+}
+Vec2 to_float(Vec2 point) { return {to_float(point.x), to_float(point.y)}; }
+
+double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+
+// Whether the segment meets the square around `middle`, its rim included.
+bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
+  const Vec2 low = middle - Vec2(half_width);
+  const Vec2 high = middle + Vec2(half_width);
+  if (std::max(from.x, to.x) < low.x || std::min(from.x, to.x) > high.x ||
+      std::max(from.y, to.y) < low.y || std::min(from.y, to.y) > high.y) {
+    return false;
+  }
+  // Corners on both sides of the line, or on it.
+  const Vec2 along = to - from;
+  const double reach = half_width * (std::abs(along.x) + std::abs(along.y));
+  return std::abs(cross(along, middle - from)) <= reach;
+}
+
+}  // namespace
+
+LoopRounder::LoopRounder() : resolver_(0, 0) {}
+
+void LoopRounder::round(ldni::Contours& contours) {
+  if (contours.is_empty()) return;
+  measure(contours);
+  if (is_safe(contours)) {
+    for (Vec2& point : contours.points) point = to_float(point);
+    return;
+  }
+  ++snapped_layers_;
+  snap(contours);
+}
+
+void LoopRounder::measure(const ldni::Contours& contours) {
+  double largest = 0;
+  for (const Vec2& point : contours.points) {
+    largest = std::max({largest, std::abs(point.x), std::abs(point.y)});
+  }
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  spacing_ = std::ldexp(1.0, exponent - kFloatDigits);
+}
+
+// --- Proof ------------------------------------------------------------------
+
+bool LoopRounder::is_safe(const ldni::Contours& contours) {
+  points_ = contours.points;
+  loop_of_.clear();
+  for (std::uint32_t l = 0; l < contours.loop_count(); ++l) {
+    loop_of_.resize(contours.ends[l], l);
+  }
+  members_.resize(points_.size());
+  std::iota(members_.begin(), members_.end(), 0U);
+  grid_.fill(points_, members_);
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : contours.ends) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (!is_edge_safe(i, i + 1 == end ? begin : i + 1)) return false;
+    }
+    begin = end;
+  }
+  return true;
+}
+
+bool LoopRounder::is_edge_safe(std::uint32_t from, std::uint32_t to) const {
+  return !grid_.has_near(
+      points_[from], points_[to], spacing_,
+      [&](std::uint32_t vertex) { return !keeps_apart(vertex, from, to); });
+}
+
+// Whether a vertex is too far from an edge for them to meet. Loops that touch
+// in a vertex of both go on doing so, if it is rounded to one.
+bool LoopRounder::keeps_apart(std::uint32_t vertex, std::uint32_t from,
+                              std::uint32_t to) const {
+  if (vertex == from || vertex == to) return true;
+  const Vec2& point = points_[vertex];
+  // Both move, by half the spacing each way.
+  if (!meets_square(points_[from], points_[to], point, spacing_)) return true;
+  if (loop_of_[vertex] == loop_of_[from]) return false;
+  for (const std::uint32_t end : {from, to}) {
+    const Vec2 step = point - points_[end];
+    if (std::abs(step.x) < kMergeDistance &&
+        std::abs(step.y) < kMergeDistance &&
+        to_float(point) == to_float(points_[end])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// --- Snapping ---------------------------------------------------------------
+
+// In units of the spacing, times kUnit.
+void LoopRounder::snap(ldni::Contours& contours) {
+  const double scale = kUnit / spacing_;
+  for (Vec2& point : contours.points) point *= scale;
+  int rounds = 0;
+  while (lead_through_cells(contours)) {
+    // Snapped for the first time, or edges met foreign cells.
+    LAMINA_CHECK_EQ(++rounds < kMostRounds, true);
+    resolver_.resolve(contours);
+  }
+  for (Vec2& point : contours.points) point = to_float(point / scale);
+}
+
+// Leads every edge through the cells of vertices that it meets. False where
+// all points are middles of cells and no edge had to bend: then edges meet in
+// vertices only, or in a vertex that lies on an edge exactly.
+bool LoopRounder::lead_through_cells(ldni::Contours& contours) {
+  // Find the cells.
+  cells_.clear();
+  bool is_changed = false;
+  for (const Vec2& point : contours.points) {
+    const Vec2 cell(std::nearbyint(point.x / kUnit) * kUnit + 0.0,
+                    std::nearbyint(point.y / kUnit) * kUnit + 0.0);
+    is_changed |= cell != point;
+    cells_.push_back(cell);
+  }
+  const std::vector<Vec2> cell_of = cells_;
+  std::sort(cells_.begin(), cells_.end(), [](const Vec2& a, const Vec2& b) {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  });
+  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+  members_.resize(cells_.size());
+  std::iota(members_.begin(), members_.end(), 0U);
+  grid_.fill(cells_, members_);
+
+  led_.clear();
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : contours.ends) {
+    for (std::uint32_t from = begin; from < end; ++from) {
+      const std::uint32_t to = from + 1 == end ? begin : from + 1;
+      led_.points.push_back(cell_of[from]);
+      is_changed |= bends_edge(contours.points[from], contours.points[to]);
+    }
+    led_.ends.push_back(static_cast<std::uint32_t>(led_.points.size()));
+    begin = end;
+  }
+  std::swap(contours, led_);
+  return is_changed;
+}
+
+// Adds the cells between the ends of an edge, in its order. Whether one is off
+// the edge.
+bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
+  passages_.clear();
+  const Vec2 along = to - from;
+  grid_.has_near(from, to, kUnit, [&](std::uint32_t i) {
+    const Vec2& cell = cells_[i];
+    const bool is_end = meets_square(from, from, cell, kUnit / 2) ||
+                        meets_square(to, to, cell, kUnit / 2);
+    if (!is_end && meets_square(from, to, cell, kUnit / 2)) {
+      passages_.push_back({dot(along, cell), cell});
+    }
+    return false;
+  });
+  std::sort(
+      passages_.begin(), passages_.end(),
+      [](const Passage& a, const Passage& b) { return a.place < b.place; });
+  bool bends = false;
+  for (const Passage& passage : passages_) {
+    led_.points.push_back(passage.cell);
+    bends |= cross(along, passage.cell - from) != 0;
+  }
+  return bends;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,70 @@
+#pragma once
+// Rounds loops to float32 coordinates so that they stay simple and disjoint.
+//
+// Near 100 mm two float32 numbers are 8e-6 mm apart. Rounding each point by
+// itself can make a thin wall touch itself, a gap close, a slender corner turn
+// inside out.
+//
+// 1. Proof. A point moves by half that spacing, in x and in y. Loops that are
+//    apart can only meet on the way if some vertex is nearer than two such
+//    moves to an edge that is not its own. A grid of the vertices tells; hardly
+//    ever there is one, and each point goes to its nearest float32.
+// 2. Else the layer's loops are snap-rounded (Greene and Yao 1986; Guibas and
+//    Marimont 1998) on a grid of equal spacing, the float32 one at the largest
+//    coordinate: an edge is led through the middle of every cell that holds a
+//    vertex and that it meets, so it never gets to the wrong side of one. Once
+//    more as long as an edge still meets a foreign vertex's cell (Halperin and
+//    Packer 2002), so that in the end edges meet in vertices only. What has
+//    fallen together then is left out by the moving ray: walls and gaps
+//    thinner than the grid vanish, what meets in a point is parted there.
+//    All that is on integers below 2^24, hence exact.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ldni/contours.h"
+#include "ldni/loop_resolver.h"
+#include "slicer/point_grid.h"
+
+namespace lamina::slicer {
+
+// One object per thread: it owns the scratch that layers share.
+class LoopRounder {
+ public:
+  LoopRounder();
+
+  // Simple, disjoint loops stay so; coordinates become float32 numbers. Loops
+  // narrower than their spacing may vanish or be parted.
+  void round(ldni::Contours& contours);
+
+  // Layers that needed more than rounding each point, since construction.
+  std::uint64_t snapped_layers() const { return snapped_layers_; }
+
+ private:
+  void measure(const ldni::Contours& contours);
+  bool is_safe(const ldni::Contours& contours);
+  bool is_edge_safe(std::uint32_t from, std::uint32_t to) const;
+  bool keeps_apart(std::uint32_t vertex, std::uint32_t from,
+                   std::uint32_t to) const;
+  void snap(ldni::Contours& contours);
+  bool lead_through_cells(ldni::Contours& contours);
+  bool bends_edge(Vec2 from, Vec2 to);
+
+  double spacing_ = 0;  // of float32 at the layer's largest coordinate [mm]
+  std::span<const Vec2> points_;
+  std::vector<std::uint32_t> loop_of_;  // a vertex
+  std::vector<std::uint32_t> members_;
+  PointGrid grid_;
+  std::vector<Vec2> cells_;  // middles of those that hold a vertex
+  ldni::Contours led_;
+  struct Passage {
+    double place = 0;  // along the edge
+    Vec2 cell = Vec2(0);
+  };
+  std::vector<Passage> passages_;
+  ldni::LoopResolver resolver_;
+  std::uint64_t snapped_layers_ = 0;
+};
+
+}  // namespace lamina::slicer
