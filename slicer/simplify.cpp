@@ -7,9 +7,10 @@
 namespace lamina::slicer {
 namespace {
 
-// Strips are widened by this [mm] across: what the file's 32-bit numbers can
-// move a vertex towards an edge, up to 100 mm from the origin.
-constexpr double kClearance = 2e-5;
+// Strips are widened across by this share of the greatest coordinate: as far as
+// rounding to the 32-bit numbers of a file can move a vertex and an edge
+// towards each other, 2 · √2 · 2⁻²⁴, and a little more.
+constexpr double kClearance = 2e-7;
 
 // And by this [mm] along, so that rounding hides nothing at their ends.
 constexpr double kEndMargin = 1e-9;
@@ -111,6 +112,11 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
     loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
                       2 * ldni::signed_area(loop)});
   }
+  double greatest = 0;
+  for (const Vec2& p : points_) {
+    greatest = std::max({greatest, std::abs(p.x), std::abs(p.y)});
+  }
+  clearance_ = kClearance * greatest;
 }
 
 // Chooses vertices as if the loop were alone.
@@ -278,7 +284,7 @@ bool Simplifier::is_safe(const Shortcut& shortcut) const {
   const Vec2 a = points_[shortcut.first];
   const Vec2 b = points_[shortcut.last];
   const double reach =
-      std::max(shortcut.highest, -shortcut.lowest) + kClearance;
+      std::max(shortcut.highest, -shortcut.lowest) + clearance_;
   return !grid_.has_near(a, b, reach, [&](std::uint32_t i) {
     if (kept_[i] == 0 || (i >= shortcut.first && i <= shortcut.last)) {
       return false;
@@ -292,8 +298,8 @@ bool Simplifier::is_safe(const Shortcut& shortcut) const {
 
 bool Simplifier::is_in_strip(const Shortcut& shortcut, Vec2 place) const {
   if (place.x < -kEndMargin || place.x > shortcut.length + kEndMargin ||
-      place.y < shortcut.lowest - kClearance ||
-      place.y > shortcut.highest + kClearance) {
+      place.y < shortcut.lowest - clearance_ ||
+      place.y > shortcut.highest + clearance_) {
     return false;
   }
   Vec2 from{0, 0};
@@ -309,8 +315,8 @@ bool Simplifier::is_in_strip(const Shortcut& shortcut, Vec2 place) const {
           right.x > left.x ? (right.y - left.y) / (right.x - left.x) : 0;
       const double y0 = left.y + slope * (begin - left.x);
       const double y1 = right.y - slope * (right.x - end);
-      if (place.y >= std::min({0.0, y0, y1}) - kClearance &&
-          place.y <= std::max({0.0, y0, y1}) + kClearance) {
+      if (place.y >= std::min({0.0, y0, y1}) - clearance_ &&
+          place.y <= std::max({0.0, y0, y1}) + clearance_) {
         return true;
       }
     }

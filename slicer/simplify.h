@@ -79,6 +79,7 @@ class Simplifier {
   bool is_in_strip(const Shortcut& shortcut, Vec2 place) const;
 
   double tolerance_;
+  double clearance_ = 0;  // kept between shortcuts and other vertices [mm]
   std::vector<Vec2> points_;
   std::vector<Loop> loops_;
   std::vector<std::uint8_t> kept_;      // of points_

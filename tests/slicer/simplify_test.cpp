@@ -238,6 +238,27 @@ TEST(Simplify, WallsAndGapsThinnerThanTheToleranceStayOpen) {
   }
 }
 
+TEST(Simplify, FilesOfDesignsFarFromTheOriginStaySound) {
+  for (const double far : {100.0, 1000.0, 8000.0}) {
+    const Vec2 center(far, -far);
+    for (const double gap : {0.003, 0.01, 0.05}) {
+      Contours ring;  // of waves that fit into each other
+      for (const bool is_hole : {false, true}) {
+        std::vector<Vec2> loop = circle({0, 0}, 1, 4'000, is_hole, 1e-4);
+        for (Vec2& p : loop) {
+          const double wave = std::sin(40 * std::atan2(p.y, p.x));
+          p = center + p * (5 + 0.03 * wave - (is_hole ? gap : 0));
+        }
+        add_loop(ring, loop);
+      }
+      for (const double tolerance : {0.001, 0.01, 0.05, 0.2}) {
+        expect_lawful(ring, tolerance,
+                      std::to_string(far) + " " + std::to_string(gap));
+      }
+    }
+  }
+}
+
 TEST(Simplify, LoopsSmallerThanTheToleranceStay) {
   Contours contours;
   add_loop(contours, circle({0, 0}, 5, 2000));
