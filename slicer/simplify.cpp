@@ -88,7 +88,8 @@ void Simplifier::simplify(ldni::Contours& contours) {
   kept_.assign(points_.size(), 0);
   for (const Loop& loop : loops_) choose(loop);
   // A vertex that mending brings back can lie in another strip: look again.
-  for (bool is_changed = has_left_out(); is_changed;) {
+  bool is_changed = true;
+  while (is_changed) {
     fill_grid();
     is_changed = false;
     for (const Loop& loop : loops_) is_changed |= mend(loop);
@@ -167,10 +168,6 @@ std::uint32_t Simplifier::farthest_reach(std::uint32_t anchor,
     if (cone.is_empty()) break;
   }
   return reach;
-}
-
-bool Simplifier::has_left_out() const {
-  return std::find(kept_.begin(), kept_.end(), 0) != kept_.end();
 }
 
 void Simplifier::fill_grid() {
@@ -285,13 +282,18 @@ bool Simplifier::is_safe(const Shortcut& shortcut) const {
   const Vec2 b = points_[shortcut.last];
   const double reach =
       std::max(shortcut.highest, -shortcut.lowest) + clearance_;
+  bool touches_a = false;
+  bool touches_b = false;
   return !grid_.has_near(a, b, reach, [&](std::uint32_t i) {
     if (kept_[i] == 0 || (i >= shortcut.first && i <= shortcut.last)) {
       return false;
     }
-    // Another loop may touch this one in a vertex.
+    // Another loop may touch this one in a vertex, but not in both: the same
+    // shortcut could be its own.
     const Vec2& point = points_[i];
-    if (point == a || point == b) return false;
+    touches_a |= point == a;
+    touches_b |= point == b;
+    if (point == a || point == b) return touches_a && touches_b;
     return is_in_strip(shortcut, shortcut.place_of(point));
   });
 }

@@ -25,8 +25,9 @@
 // Two straight segments that cross, cross once, and no motion that respects the
 // pricks could part them; so shortcuts do not cross. Hence loops stay simple,
 // disjoint and nested as they were, with vertices on the sides on which they
-// were. Vertices that do not stay need not be heeded: two walls closer than the
-// tolerance are thinned out together.
+// were. (Loops may touch in a vertex, and go on to do so; a shortcut from one
+// such vertex to another is not taken.) Vertices that do not stay need not be
+// heeded: two walls closer than the tolerance are thinned out together.
 //
 // A loop as small as the tolerance would dwindle to a sliver; so loops keep at
 // least half of their area and at most double it.
@@ -66,7 +67,6 @@ class Simplifier {
   void choose_within(const Loop& loop, double tolerance);
   std::uint32_t farthest_reach(std::uint32_t anchor, std::uint32_t end,
                                double tolerance) const;
-  bool has_left_out() const;
   void fill_grid();
   bool mend(const Loop& loop);
   void thin_out(const Loop& loop);

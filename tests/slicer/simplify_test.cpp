@@ -324,6 +324,25 @@ TEST(Simplify, LoopsThatTouchInAPointStillTouchOrPart) {
   EXPECT_NEAR(support::total_area(after), 2, 1e-12);
 }
 
+TEST(Simplify, LoopsThatTouchInTwoPointsDoNotShareTheWayBetween) {
+  // A square, and beside it an arc that starts and ends in its corners.
+  Contours contours;
+  add_loop(contours, {{0, 0}, {0.05, 0.5}, {0, 1}, {-1, 1}, {-1, 0}});
+  add_loop(contours, {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.06, 0.5}});
+  for (const double tolerance : {0.001, 0.055, 0.2}) {
+    expect_lawful(contours, tolerance, std::to_string(tolerance));
+  }
+}
+
+TEST(Simplify, AVertexThatAnotherSideForbidsStays) {
+  // A hook whose tip reaches under the side that could do without its corner.
+  Contours contours;
+  add_loop(
+      contours,
+      {{0, 0}, {0.5, 0.00017}, {0.5, -1}, {1, -1}, {1, 0.00008}, {0, 0.00032}});
+  expect_lawful(contours, 0.001, "hook");
+}
+
 TEST(Simplify, ThereAndBackAgainIsNotLost) {
   Contours contours;  // a needle 5e-4 wide with 1,000 vertices a side
   std::vector<Vec2> needle;
