@@ -101,7 +101,8 @@ TEST(ParseDxf, CountsWhatItDoesNotKnow) {
 TEST(ParseDxf, WarnsInOpenScadsWords) {
   EXPECT_EQ(parse(entities("0 LINE 10 1,5 20 0 11 1 21 1")).warnings,
             (Strings{"Illegal value '1,5'in `a.dxf'",
-                     "Not enough input values for ENDSEC. in 'a.dxf'"}));
+                     "Not enough input values for ENDSEC. in 'a.dxf'",
+                     "Not enough input values for EOF. in 'a.dxf'"}));
   EXPECT_EQ(parse("zero\nSECTION\n 2\n").warnings,
             (Strings{"Illegal ID 'zero' in `a.dxf'"}));
 }
