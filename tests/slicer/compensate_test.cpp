@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/slicer/simplify_laws.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
 #include "tests/support/random_scenes.h"
@@ -205,7 +206,7 @@ TEST(Compensate, GapsThatCloseAreCounted) {
   EXPECT_EQ(island.closed_gaps, 0U);
 }
 
-TEST(Compensate, LayersOfDesignsStaySound) {
+TEST(Compensate, LayersOfDesignsStaySoundAndCanBeSimplified) {
   for (int style = 0; style < support::kSceneStyleCount; ++style) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       const csg::Scene scene = support::random_scene(
@@ -216,9 +217,11 @@ TEST(Compensate, LayersOfDesignsStaySound) {
            support::slice_heights(scene, {scene.box.low.z + 0.3 * height,
                                           scene.box.low.z + 0.6 * height})) {
         for (const double amount : {0.01, 0.2, -0.01, -0.2}) {
-          EXPECT_TRUE(
-              support::are_sound(moved(layer.contours, amount).contours))
-              << fmt::format("style {}, seed {}, {}", style, seed, amount);
+          const std::string what =
+              fmt::format("style {}, seed {}, {}", style, seed, amount);
+          const Contours after = moved(layer.contours, amount).contours;
+          EXPECT_TRUE(support::are_sound(after)) << what;
+          expect_lawful(after, 0.005, what);
         }
       }
     }
