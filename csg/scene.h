@@ -70,8 +70,8 @@ struct Instance {
   std::uint32_t leaf = 0;    // index into Scene::leaves
   std::uint32_t parent = 0;  // index into Scene::program
   bool is_minuend = false;   // first operand of a difference
-  // The matrix is singular: no volume, but hulls, sums and shadows see it. Only
-  // in scenes lowered for these, as a child of a root that is a union.
+  // No volume, but seen by hulls, sums and shadows. Only in scenes lowered for
+  // these, as a child of a root that is a union.
   bool is_flat = false;
   Affine world_from_leaf{1.0};
   Box3 box;           // in the world, of the transformed vertices

@@ -33,18 +33,29 @@ std::vector<std::uint32_t> read_face(const Polyhedron& polyhedron,
   return loop;
 }
 
+void add_points(const std::vector<std::uint32_t>& loop, const Mesh& mesh,
+                Mesh& points) {
+  for (const std::uint32_t corner : loop) {
+    const auto name = static_cast<std::uint32_t>(points.vertices.size());
+    points.vertices.push_back(mesh.vertices[corner]);
+    points.triangles.push_back({name, name, name});
+  }
+}
+
 }  // namespace
 
-Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
-                     Diagnostics& diagnostics) {
+PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
+                                  SourceRange range, Diagnostics& diagnostics) {
   if (!check_points(polyhedron.points, "vec3", range, diagnostics)) return {};
-  Mesh mesh;
+  PolyhedronSurface surface;
+  Mesh& mesh = surface.mesh;
   mesh.vertices.assign(polyhedron.points.begin(), polyhedron.points.end());
   bool has_degenerate = false;
   for (std::size_t face = 0; face < polyhedron.faces.size(); ++face) {
     const auto loop = read_face(polyhedron, face, range, diagnostics);
     if (loop.size() < 3) {
       has_degenerate = true;
+      add_points(loop, mesh, surface.points);
       continue;
     }
     for (const auto& t : triangulate_face(mesh.vertices, loop)) {
@@ -55,7 +66,7 @@ Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
     diagnostics.warning(range, "PolySet has degenerate polygons");
   }
   mend_and_report(mesh, range, diagnostics);
-  return mesh;
+  return surface;
 }
 
 }  // namespace lamina::csg

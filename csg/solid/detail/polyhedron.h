@@ -9,10 +9,17 @@
 
 namespace lamina::csg {
 
+struct PolyhedronSurface {
+  Mesh mesh;  // closed
+  // Corners of faces of less than three, as triangles of one point each: no
+  // part of the solid, but of its hull.
+  Mesh points;
+};
+
 // Faces are clockwise from outside, as OpenSCAD has them; the mesh is
 // counter-clockwise. Defects are mended and reported, one warning for each
 // kind, with what was done as notes.
-Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
-                     Diagnostics& diagnostics);
+PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
+                                  SourceRange range, Diagnostics& diagnostics);
 
 }  // namespace lamina::csg

@@ -175,6 +175,19 @@ TEST_F(Hulls, TakeTheCornersOfFlattenedSolids) {
               kRounding);
 }
 
+// Points come as faces of less than three corners.
+TEST_F(Hulls, TakeThePointsOfAPolyhedron) {
+  EXPECT_NEAR(
+      run_volume({b.node(
+          Hull{}, {b.polyhedron({{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {0, 0, 6}},
+                                {{0}, {1, 2}, {3}})})}),
+      36, kRounding);
+  const Node* tip = b.polyhedron({{1, 1, 7}}, {{0}});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {b.cube({3, 3, 1}), tip})}),
+              9 + 6.0 / 3 * 9, kRounding);
+  EXPECT_NEAR(run_volume({b.cube({3, 3, 1}), tip}), 9, kRounding);
+}
+
 TEST_F(Hulls, InThePlaneTakeAllOutlines) {
   const planar::Region region = run_flat(
       {b.node(Hull{}, {b.node(Square{{1, 1}}),
