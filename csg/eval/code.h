@@ -378,6 +378,7 @@ struct ForCode : InstantiationCode {
 };
 struct LetModuleCode : InstantiationCode {
   Bindings bindings;
+  std::span<const std::uint32_t> resets;  // as for Block
 };
 struct AssertModuleCode : InstantiationCode {
   const AssertCode* assertion = nullptr;

@@ -210,6 +210,7 @@ InstantiationCode* StatementResolver::let(const ast::Instantiation& written,
   code->bindings =
       expressions().sequential_bindings(written.arguments, range, true);
   code->block = block(written.children);
+  code->resets = resolver_.keep(scope_->resets);
   return code;
 }
 

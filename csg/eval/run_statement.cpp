@@ -19,14 +19,16 @@ const T& as(const InstantiationCode& instantiation) {
   return static_cast<const T&>(instantiation);
 }
 
+void unset(std::span<const std::uint32_t> slots, Frame& frame) {
+  for (const std::uint32_t slot : slots) frame.slots[slot] = Value::unset();
+}
+
 }  // namespace
 
 // --- Blocks -----------------------------------------------------------------
 
 void run_assignments(const Block& block, Frame& frame) {
-  for (const std::uint32_t slot : block.resets) {
-    frame.slots[slot] = Value::unset();
-  }
+  unset(block.resets, frame);
   for (const Binding& binding : block.assignments) {
     frame.in.assign(binding.target, run(binding.value, frame), frame);
   }
@@ -220,6 +222,7 @@ void run_for(const InstantiationCode& instantiation, Frame& frame) {
 void run_let_module(const InstantiationCode& instantiation, Frame& frame) {
   const auto& code = as<LetModuleCode>(instantiation);
   const std::size_t mark = frame.in.node_mark();
+  unset(code.resets, frame);
   run_bindings(code.bindings, frame);
   run_block(*code.block, frame);
   frame.in.make_node(Group{}, code, mark);
