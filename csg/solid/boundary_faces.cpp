@@ -4,12 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "csg/planar/clip.h"
 #include "csg/program_state.h"
@@ -31,9 +33,28 @@ Box3 expand(const Box3& box) {
   return {box.low - kMargin, box.high + kMargin};
 }
 
+using IsWanted = std::function<bool(const Box3&)>;
+using Take = std::function<void(BoundaryFace)>;
+
+// By the distance of the middles of their boxes from the scene's.
+std::vector<std::uint32_t> outermost_first(const Scene& scene) {
+  const auto twice_middle = [](const Box3& box) { return box.low + box.high; };
+  const Vec3 middle = twice_middle(scene.box);
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Vec3 off = twice_middle(scene.instances[i].box) - middle;
+    order.emplace_back(-glm::length(off), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> instances;
+  for (const auto& [distance, i] : order) instances.push_back(i);
+  return instances;
+}
+
 class Finder {
  public:
-  explicit Finder(const Scene& scene) : scene_(scene), state_(scene) {
+  Finder(const Scene& scene, const IsWanted& is_wanted, const Take& take)
+      : scene_(scene), is_wanted_(is_wanted), take_(take), state_(scene) {
     std::vector<Box3> boxes;
     for (const Instance& instance : scene.instances) {
       leaves_.emplace_back(scene.leaves[instance.leaf],
@@ -41,7 +62,9 @@ class Finder {
       boxes.push_back(expand(instance.box));
     }
     const BoxTree tree(boxes);
-    for (self_ = 0; self_ < leaves_.size(); ++self_) {
+    for (const std::uint32_t instance : outermost_first(scene)) {
+      self_ = instance;
+      if (!is_wanted(boxes[self_])) continue;
       std::vector<std::uint32_t> near;
       tree.visit([&](const Box3& box) { return do_meet(box, boxes[self_]); },
                  [&](std::uint32_t other) {
@@ -50,8 +73,6 @@ class Finder {
       if (!leaf().tree.nodes().empty()) descend(0, near);
     }
   }
-
-  std::vector<BoundaryFace> take() { return std::move(result_); }
 
  private:
   const PlacedLeaf& leaf() const { return leaves_[self_]; }
@@ -62,6 +83,7 @@ class Finder {
   // unknown  instances of which it is not yet known
   void descend(std::uint32_t index, std::span<const std::uint32_t> unknown) {
     const BoxTree::Node& node = leaf().tree.nodes()[index];
+    if (!is_wanted_(node.box)) return;
     const Settled settled = settle(node.box, unknown);
     if (settled.unknown.empty() && is_embedded()) {
       take_all(node);
@@ -144,14 +166,15 @@ class Finder {
         std::reverse(contour.begin(), contour.end());
       }
     }
-    result_.push_back(std::move(result));
+    take_(std::move(result));
   }
 
   // One face, with the instances near it that its parent in the tree left.
   void judge(std::uint32_t face, std::span<const std::uint32_t> unknown) {
     const Vec3 normal = leaf().faces.normal_of(face);
-    if (normal == Vec3(0)) return;
-    const Settled settled = settle(leaf().faces.box_of(face), unknown);
+    const Box3 box = leaf().faces.box_of(face);
+    if (normal == Vec3(0) || !is_wanted_(box)) return;
+    const Settled settled = settle(box, unknown);
     if (settled.unknown.empty() && is_embedded()) {
       const Values values = values_at_surface();
       if (values.inside != values.outside) take_whole(face, values.outside);
@@ -253,20 +276,30 @@ class Finder {
       for (const Vec2 point : contour) lifted.push_back(plane.lift(point));
       if (is_reversed) std::reverse(lifted.begin(), lifted.end());
     }
-    result_.push_back(std::move(face));
+    take_(std::move(face));
   }
 
   const Scene& scene_;
+  const IsWanted& is_wanted_;
+  const Take& take_;
   ProgramState state_;
   std::vector<PlacedLeaf> leaves_;
   std::uint32_t self_ = 0;  // the instance whose faces are judged
-  std::vector<BoundaryFace> result_;
 };
 
 }  // namespace
 
+void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
+                          const Take& take) {
+  Finder(scene, is_wanted, take);
+}
+
 std::vector<BoundaryFace> boundary_faces(const Scene& scene) {
-  return Finder(scene).take();
+  std::vector<BoundaryFace> faces;
+  visit_boundary_faces(
+      scene, [](const Box3&) { return true; },
+      [&](BoundaryFace face) { faces.push_back(std::move(face)); });
+  return faces;
 }
 
 }  // namespace lamina::csg

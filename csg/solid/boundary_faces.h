@@ -9,6 +9,7 @@
 // Boolean is evaluated in that plane just inside and just outside of the face,
 // and the part of the face that separates the two is boundary.
 
+#include <functional>
 #include <vector>
 
 #include "csg/scene.h"
@@ -29,6 +30,16 @@ struct BoundaryFace {
 // touch keeps the leaf's vertices, bit by bit. Coplanar neighbours are not
 // merged. Cost: about n log n of the faces, plus the plane problems.
 std::vector<BoundaryFace> boundary_faces(const Scene& scene);
+
+// The same one by one, for those who need not all of them. Leaves come from the
+// outermost to the innermost.
+//
+// is_wanted  false where no face within the box is; asked often, and may change
+//            its mind from true to false as faces are taken
+// take       is called with each face that is wanted, and some others
+void visit_boundary_faces(const Scene& scene,
+                          const std::function<bool(const Box3&)>& is_wanted,
+                          const std::function<void(BoundaryFace)>& take);
 
 // Faces nearer than this to a plane lie in it [mm]: the tie distance of the
 // sweep (ldni/sample.h), so that both see the same coincidences.

@@ -1,6 +1,7 @@
 #include "csg/solid/detail/resize.h"
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "csg/solid/boundary_faces.h"
 
@@ -61,14 +62,18 @@ Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
 Box3 box_of_result(const Scene& scene) {
   if (only_unites(scene)) return scene.box;
   Box3 box;
-  for (const BoundaryFace& face : boundary_faces(scene)) {
+  const auto reaches_out = [&](const Box3& part) {
+    return glm::any(glm::lessThan(part.low, box.low)) ||
+           glm::any(glm::greaterThan(part.high, box.high));
+  };
+  visit_boundary_faces(scene, reaches_out, [&](const BoundaryFace& face) {
     for (const auto& contour : face.contours) {
       for (const Vec3 point : contour) {
         box.low = glm::min(box.low, point);
         box.high = glm::max(box.high, point);
       }
     }
-  }
+  });
   return box;
 }
 

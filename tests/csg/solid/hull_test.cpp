@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "csg/solid/boundary_faces.h"
 #include "csg/solid/detail/convex_hull.h"
 #include "tests/csg/solid/lower_fixture.h"
 #include "tests/csg/solid/mesh_checks.h"
@@ -154,6 +156,34 @@ TEST_F(Hulls, OfADifferenceTakeTheCornersOfTheResult) {
   EXPECT_NEAR(run_volume({b.node(Hull{}, {half})}), 4, kRounding);
   const Node* beside = b.translate({4, 0, 1}, {b.cube({1, 2, 1})});
   EXPECT_NEAR(run_volume({b.node(Hull{}, {half, beside})}), 10, kRounding);
+}
+
+// Faces inside of what is known of the hull are passed over.
+TEST_F(Hulls, OfADifferenceMissNoFaceOfTheResult) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(0, 4);
+  const auto place = [&](const Node* node) {
+    const double x = number(random);
+    const double y = number(random);
+    return b.translate({x, y, number(random)}, {node});
+  };
+  for (int round = 0; round < 20; ++round) {
+    SCOPED_TRACE(round);
+    std::vector<const Node*> solids;
+    for (int i = 0; i < 12; ++i) solids.push_back(place(b.sphere(2, 8)));
+    std::vector<const Node*> operands{b.node(Union{}, solids)};
+    for (int i = 0; i < 3; ++i) operands.push_back(place(b.cube({3, 3, 3})));
+    const Node* rest = b.node(Difference{}, operands);
+
+    std::vector<Vec3> corners;
+    for (const BoundaryFace& face : boundary_faces(run_solid({rest}))) {
+      for (const auto& contour : face.contours) {
+        corners.insert(corners.end(), contour.begin(), contour.end());
+      }
+    }
+    EXPECT_NEAR(run_volume({b.node(Hull{}, {rest})}),
+                signed_volume(convex_hull(corners)), 1e-6);
+  }
 }
 
 TEST_F(Hulls, OfABooleanOfNothingAreNothing) {
