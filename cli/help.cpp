@@ -7,7 +7,7 @@ const std::string_view kHelp =
 
 Usage:
   lamina DESIGN [-o FILE] [OPTION]...     slice a .scad or .csg design
-  lamina inspect FILE.slc [--all]         check a layer file and list it
+  lamina inspect FILE.slc [OPTION]...     check a layer file and list it
   lamina view FILE -o PICTURE.png         draw a layer file or a design
 
 Output:
@@ -52,9 +52,14 @@ For comparison, the method of Zeng et al. 2011:
   --boxes MODE        of paper: local or global depth images [local]
   --sampler KIND      of paper: scanline or gl [scanline]
 
+Checks:
+  --min-feature MM    tell of walls and gaps thinner than this, and of what
+                      made them
+  --report FILE       write times, counts, memory, the bound on what contours
+                      deviate by, and thin features, as JSON
+
 Messages:
   -q, --quiet         say nothing but errors
-  --report FILE       write times, counts and memory as JSON
   -h, --help          print this help
   -v, --version       print the version
 
@@ -69,13 +74,15 @@ Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 )";
 
 const std::string_view kInspectHelp =
-    R"(Usage: lamina inspect FILE.slc [--all]
+    R"(Usage: lamina inspect FILE.slc [OPTION]...
 
 Shows the header, the layers and the totals of a .slc file and checks its
 loops: closed, without repeats, crossings and empty loops, turned as their
 nesting asks for, layers rising. Ends with 1 if there is a defect.
 
   --all       list every layer of a long file
+  --min-feature MM
+              tell of walls and gaps thinner than this
   -h, --help  print this help
 )";
 

@@ -93,10 +93,10 @@ void write_text(Run& run, const std::string& path, std::string_view text) {
   output.commit();
 }
 
-std::size_t count_errors(const Diagnostics& diagnostics) {
+std::size_t count(const Diagnostics& diagnostics, Severity severity) {
   std::size_t count = 0;
   for (const Diagnostic& diagnostic : diagnostics.all()) {
-    if (diagnostic.severity == Severity::kError) ++count;
+    if (diagnostic.severity == severity) ++count;
   }
   return count;
 }
@@ -157,12 +157,12 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   options.check_ranges = run.options.checks_parameter_ranges;
   run.typesetter.add_fonts(run.loader.fonts());
   options.text_measurer = &run.typesetter;
-  const std::size_t errors = count_errors(run.diagnostics);
+  const std::size_t errors = count(run.diagnostics, Severity::kError);
   return timed(run.report.evaluate_seconds, [&]() -> Evaluated {
     try {
       csg::Tree tree =
           csg::evaluate(program, run.loader, options, run.diagnostics);
-      const bool has_failed = count_errors(run.diagnostics) > errors;
+      const bool has_failed = count(run.diagnostics, Severity::kError) > errors;
       return {std::move(tree), has_failed};
     } catch (const InternalError&) {
       throw;
@@ -215,14 +215,40 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   ProgressSink progress(sink, run.terminal, scene.box.low.z, scene.box.high.z);
   run.report.slice =
       slicer::slice(scene, run.options.settings, progress, run.diagnostics);
+  run.report.origins = origins_of(scene, run.report.slice.features);
+}
+
+// What the options and the format promise of the contours.
+std::optional<slicer::Deviation> promised_deviation(const Run& run) {
+  const slicer::Settings& settings = run.options.settings;
+  if (settings.contour == slicer::ContourMode::kPaper) return std::nullopt;
+  slicer::Deviation deviation;
+  deviation.simplification = settings.tolerance;
+  if (settings.compensation != 0) {
+    deviation.compensation = slicer::Compensator::kArcTolerance;
+  }
+  if (run.options.format == OutputFormat::kSlc) {
+    deviation.rounding =
+        slicer::float32_rounding(run.report.slice.greatest_coordinate);
+  }
+  if (run.options.chordal_error > 0) {
+    deviation.facets = run.options.chordal_error;
+  }
+  return deviation;
 }
 
 void finish_report(Run& run, std::uint64_t output_bytes) {
   run.report.wall_seconds = std::chrono::duration<double>(
                                 std::chrono::steady_clock::now() - run.begin)
                                 .count();
+  run.report.warnings = count(run.diagnostics, Severity::kWarning);
+  run.report.deviation = promised_deviation(run);
+  run.report.min_feature = run.options.settings.min_feature;
   if (!run.options.report.empty()) {
     write_text(run, run.options.report, report_json(run.report));
+  }
+  if (run.report.min_feature > 0) {
+    run.terminal.say(feature_lines(run.report));
   }
   run.terminal.say(summary_line(run.options.output, output_bytes, run.report));
 }
@@ -256,6 +282,7 @@ int compile(Run& run) {
   const auto writer = slicer::make_layer_writer(run.options.format, output);
   make_layers(run, evaluated.tree, *writer);
   writer->finish();
+  run.report.snapped_layers = writer->snapped_layers();
   output.commit();
   finish_report(run, output.size());
   return kDone;
@@ -303,8 +330,10 @@ int view(Run& run, const slicer::PictureOptions& options) {
 
 int inspect(const InspectOptions& options) {
   const slicer::Inspection inspection = slicer::inspect_slc(
-      options.file, options.lists_all_layers ? slicer::LayerList::kAll
-                                             : slicer::LayerList::kSummary);
+      options.file,
+      options.lists_all_layers ? slicer::LayerList::kAll
+                               : slicer::LayerList::kSummary,
+      options.min_feature);
   std::fwrite(inspection.text.data(), 1, inspection.text.size(), stdout);
   return inspection.defects == 0 ? kDone : kFault;
 }

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "cli/help.h"
+#include "slicer/thin_finder.h"
 #include "slicer/version.h"
 
 namespace lamina::cli {
@@ -67,6 +68,18 @@ std::vector<double> parse_heights(const std::string& option,
     if (comma == std::string_view::npos) return heights;
     text.remove_prefix(comma + 1);
   }
+}
+
+double require_thin_width(const std::string& option, std::string_view text) {
+  const double value = require_number(option, text);
+  if (!(value >= slicer::kLeastThinWidth &&
+        value <= slicer::kGreatestThinWidth)) {
+    throw CLI::ValidationError(
+        option,
+        fmt::format("must be {:.5f} to {} mm, not {}", slicer::kLeastThinWidth,
+                    slicer::kGreatestThinWidth, text));
+  }
+  return value;
 }
 
 // Finer facets than these are finer than samples that count as one.
@@ -129,6 +142,13 @@ void add_choice(CLI::App& app, const std::string& name,
                 const std::vector<std::string>& words,
                 std::function<void(const std::string&)> use) {
   add_text(app, name, "word", std::move(use))->check(CLI::IsMember(words));
+}
+
+// Of walls and gaps to be told of.
+void add_thin_width(CLI::App& app, double& width) {
+  add_text(app, "--min-feature", "length", [&width](const std::string& text) {
+    width = require_thin_width("--min-feature", text);
+  });
 }
 
 void add_slicing_options(CLI::App& app, DesignOptions& options) {
@@ -237,12 +257,14 @@ void add_options(CLI::App& app, Parsed& parsed) {
   app.add_option("-d", parsed.design.dependencies)->type_name("file");
   add_design_options(app, parsed.design, parsed.definitions);
   add_slicing_options(app, parsed.design);
+  add_thin_width(app, parsed.design.settings.min_feature);
 }
 
 CLI::App* add_inspect(CLI::App& app, InspectOptions& options) {
   CLI::App* inspect = app.add_subcommand("inspect");
   inspect->add_option("file", options.file)->required();
   inspect->add_flag("--all", options.lists_all_layers);
+  add_thin_width(*inspect, options.min_feature);
   return inspect;
 }
 
@@ -315,6 +337,10 @@ Command finish_design(Parsed& parsed) {
     return Exit{kFaultStatus, fmt::format("lamina: {}\n", choice.complaint)};
   }
   options.format = *choice.format;
+  if (options.settings.min_feature > 0 &&
+      options.settings.contour == slicer::ContourMode::kPaper) {
+    return usage_error("--min-feature needs --contour faithful");
+  }
   return options;
 }
 

@@ -24,7 +24,7 @@ struct DesignOptions {
   std::string parameter_set;      // -P
   Affine world_from_design{1.0};  // --axis
   double scale = 1;
-  double chordal_error = 0;       // [mm]; 0: $fa and $fs decide
+  double chordal_error = 0;  // [mm]; 0: $fa and $fs decide
   slicer::Settings settings;
   std::uint32_t seed = 0;
   bool checks_parameters = true;
@@ -42,6 +42,7 @@ struct DesignOptions {
 struct InspectOptions {
   std::string file;
   bool lists_all_layers = false;
+  double min_feature = 0;  // [mm]; 0: thin places are not looked for
 };
 
 struct ViewOptions {

@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "slicer/feature_table.h"
+
 namespace lamina::cli {
 namespace {
 
@@ -12,6 +14,25 @@ std::string memory_text(std::uint64_t bytes) {
     return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
   }
   return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+}
+
+// null where nothing is known.
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : "null";
+}
+
+// The certificate: how far contours can be from what the design says.
+std::string deviation_json(const std::optional<slicer::Deviation>& deviation) {
+  if (!deviation) return "null";
+  return fmt::format(
+      "{{\"from_section\": {}, \"from_curves\": {}, \"ties\": {}, "
+      "\"columns\": {}, \"compensation\": {}, \"simplification\": {}, "
+      "\"rounding\": {}, "
+      "\"facets\": {}}}",
+      deviation->from_section(), number(deviation->from_curves()),
+      deviation->ties, deviation->columns, deviation->compensation,
+      deviation->simplification, deviation->rounding,
+      number(deviation->facets));
 }
 
 }  // namespace
@@ -41,13 +62,17 @@ std::string report_json(const RunReport& report) {
   add("lower_seconds", report.lower_seconds);
   add("section_seconds", slice.section_seconds);
   add("sweep_seconds", slice.sweep_seconds);
+  add("feature_seconds", slice.feature_seconds);
   add("output_seconds", slice.output_seconds);
   add("total_seconds", process_seconds());
   add("wall_seconds", report.wall_seconds);
   add("peak_memory_bytes", peak_memory_bytes());
   add("layers", slice.layers);
   add("loops", slice.loops);
+  add("holes", slice.holes);
   add("points", slice.points);
+  add("volume_mm3", slice.volume);
+  add("greatest_area_mm2", slice.greatest_area);
   add("chains", slice.sweep.chains);
   add("chain_points", slice.sweep.points);
   add("slabs", slice.sweep.slabs);
@@ -61,8 +86,23 @@ std::string report_json(const RunReport& report) {
   add("open_paths", slice.open_paths);
   add("capped_columns", slice.sweep.capped_columns);
   add("repaired_columns", slice.sweep.repaired_columns);
+  add("snapped_layers", report.snapped_layers);
+  add("warnings", report.warnings);
+  add("deviation_mm", deviation_json(report.deviation));
+  if (report.min_feature > 0) {
+    add("min_feature_mm", report.min_feature);
+    add("features",
+        features_json(slice.features, report.min_feature, report.origins));
+  }
   json += "\n}\n";
   return json;
+}
+
+std::string feature_lines(const RunReport& report) {
+  std::string lines = slicer::feature_table(
+      report.slice.features, report.min_feature, origin_texts(report.origins));
+  lines.pop_back();
+  return lines;
 }
 
 std::string summary_line(const std::string& output, std::uint64_t bytes,

@@ -15,8 +15,8 @@ namespace {
 using planar::Contour;
 using planar::Region;
 
-// The clipper rounds the number of sides of an arc: one where 1.5 were asked for
-// is 1.5² times as far from it.
+// The clipper rounds the number of sides of an arc: one where 1.5 were asked
+// for is 1.5² times as far from it.
 constexpr double kArcExcess = 2.25;
 
 Region to_region(const ldni::Contours& contours) {

@@ -1,13 +1,20 @@
 #include "slicer/inspect.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "ldni/contours.h"
 #include "slicer/defects.h"
+#include "slicer/deviation.h"
+#include "slicer/feature_table.h"
 #include "slicer/formats/slc_reader.h"
+#include "slicer/thin_features.h"
+#include "slicer/thin_finder.h"
 
 namespace lamina::slicer {
 namespace {
@@ -24,6 +31,7 @@ struct LayerLine {
   std::size_t vertices = 0;  // without the closing ones
   double area = 0;           // holes count negative
   double perimeter = 0;
+  double greatest_coordinate = 0;  // |x| or |y|
 };
 
 LayerLine measure(const SlcLayer& layer) {
@@ -40,13 +48,23 @@ LayerLine measure(const SlcLayer& layer) {
     line.vertices += points.size();
     line.area += area;
     line.perimeter += ldni::perimeter(points);
+    for (const Vec2& point : points) {
+      line.greatest_coordinate = std::max(
+          {line.greatest_coordinate, std::abs(point.x), std::abs(point.y)});
+    }
   }
   return line;
 }
 
 class Inspector {
  public:
-  explicit Inspector(const std::string& path) : path_(path), reader_(path) {}
+  Inspector(const std::string& path, double min_feature)
+      : path_(path), reader_(path), min_feature_(min_feature) {
+    if (min_feature > 0) {
+      finder_.emplace(min_feature);
+      collector_.emplace(min_feature, std::vector<std::uint32_t>{});
+    }
+  }
 
   Inspection inspect(LayerList list) {
     print_header();
@@ -55,6 +73,7 @@ class Inspector {
     check_top();
     print_layers(list);
     print_totals();
+    print_features();
     return {std::move(text_), defects_};
   }
 
@@ -107,6 +126,19 @@ class Inspector {
                  layer.z, defect.boundary + 1, describe(defect.kind),
                  defect.place.x, defect.place.y);
     }
+    if (finder_) look_for_features(layer);
+  }
+
+  void look_for_features(const SlcLayer& slc_layer) {
+    const Layer layer = to_layer(slc_layer);
+    finder_->find(layer.contours, stretches_);
+    collector_->take(layer, stretches_);
+  }
+
+  void print_features() {
+    if (!collector_) return;
+    text_ += '\n';
+    text_ += feature_table(collector_->finish(), min_feature_, {});
   }
 
   void check_top() {
@@ -140,17 +172,22 @@ class Inspector {
     std::size_t holes = 0;
     std::size_t vertices = 0;
     std::size_t empty = 0;
+    double greatest_coordinate = 0;
     for (const LayerLine& line : lines_) {
       loops += line.loops;
       holes += line.holes;
       vertices += line.vertices;
       empty += line.loops == 0 ? 1 : 0;
+      greatest_coordinate =
+          std::max(greatest_coordinate, line.greatest_coordinate);
     }
     print("\nlayers    {}, {} of them empty; top of the part z {:.6g}\n",
           lines_.size(), empty, reader_.top());
     print("loops     {}, {} of them holes; {} vertices\n", loops, holes,
           vertices);
     print("volume    {:.6f} mm³\n", volume_);
+    print("rounding  points within {:.2g} mm of what was meant\n",
+          float32_rounding(greatest_coordinate));
     if (defects_ == 0) {
       print("defects   none\n");
       return;
@@ -168,12 +205,17 @@ class Inspector {
   std::uint64_t defects_ = 0;
   std::vector<LayerLine> lines_;
   double volume_ = 0;
+  double min_feature_;
+  std::optional<ThinFinder> finder_;
+  std::optional<FeatureCollector> collector_;
+  std::vector<ThinStretch> stretches_;
 };
 
 }  // namespace
 
-Inspection inspect_slc(const std::string& path, LayerList list) {
-  return Inspector(path).inspect(list);
+Inspection inspect_slc(const std::string& path, LayerList list,
+                       double min_feature) {
+  return Inspector(path, min_feature).inspect(list);
 }
 
 }  // namespace lamina::slicer

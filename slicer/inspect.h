@@ -15,6 +15,9 @@ struct Inspection {
 
 // Reads the file layer by layer. Throws FileError where it is no SLC file or
 // breaks off.
-Inspection inspect_slc(const std::string& path, LayerList list);
+//
+// min_feature  width below which walls and gaps are told [mm]; 0: none are
+Inspection inspect_slc(const std::string& path, LayerList list,
+                       double min_feature);
 
 }  // namespace lamina::slicer

@@ -18,6 +18,9 @@ struct Settings {
   double ray_pitch = 0;           // [mm]; 0 = auto
   double tolerance = 0.001;       // [mm]; 0 writes all vertices
   double compensation = 0;        // [mm] inwards; negative: outwards
+  // Walls and gaps thinner than this are looked for, in faithful contours only
+  // [mm]; 0: they are not.
+  double min_feature = 0;
   ContourMode contour = ContourMode::kFaithful;
   BoxMode boxes = BoxMode::kLocal;               // of the paper's samplers
   SamplerKind sampler = SamplerKind::kScanline;  // of the paper's contours

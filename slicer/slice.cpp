@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -17,8 +19,10 @@
 #include "ldni/grid.h"
 #include "ldni/leaf_section.h"
 #include "slicer/compensate.h"
+#include "slicer/leaf_search.h"
 #include "slicer/paper_slicer.h"
 #include "slicer/simplify.h"
+#include "slicer/thin_finder.h"
 
 namespace lamina::slicer {
 namespace {
@@ -39,6 +43,9 @@ class BlockSlicer {
                        std::uint32_t layer_count) = 0;
   // Replaces `contours` by the loops of layer `index` of the block.
   virtual void make_contours(std::uint32_t index, ldni::Contours& contours) = 0;
+  // Finds the leaves of thin places of that layer, if it can.
+  virtual void find_leaves(std::uint32_t /*index*/,
+                           std::span<ThinStretch> /*stretches*/) {}
   virtual ldni::SweepCounts counts() const = 0;
   virtual std::uint64_t open_paths() const { return 0; }
 };
@@ -57,6 +64,10 @@ class FaithfulSlicer : public BlockSlicer {
   void make_contours(std::uint32_t index, ldni::Contours& contours) override {
     ray_.sweep(chains_, index, contours);
   }
+  void find_leaves(std::uint32_t index,
+                   std::span<ThinStretch> stretches) override {
+    leaf_search_.find(chains_, index, stretches);
+  }
   ldni::SweepCounts counts() const override { return ray_.counts(); }
   std::uint64_t open_paths() const override { return open_paths_; }
 
@@ -64,6 +75,7 @@ class FaithfulSlicer : public BlockSlicer {
   const ldni::LeafSectioner& sectioner_;
   ldni::KineticRay ray_;
   ldni::ChainBlock chains_;
+  LeafSearch leaf_search_;
   std::uint64_t open_paths_ = 0;
 };
 
@@ -123,20 +135,46 @@ Plan plan_paper(const csg::Scene& scene, const Settings& settings,
   return {blocks, [plan] { return std::make_unique<PaperBlockSlicer>(*plan); }};
 }
 
+// A layer on its way, and what was found out about it.
+struct Draft {
+  ldni::Contours contours;
+  std::vector<ThinStretch> thin;
+  std::uint64_t holes = 0;
+  double area = 0;                 // [mm²]
+  double greatest_coordinate = 0;  // |x| or |y| [mm]
+
+  void measure() {
+    holes = 0;
+    area = 0;
+    greatest_coordinate = 0;
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const double loop_area = ldni::signed_area(contours.loop(i));
+      area += loop_area;
+      holes += loop_area < 0 ? 1 : 0;
+    }
+    for (const Vec2& point : contours.points) {
+      greatest_coordinate =
+          std::max({greatest_coordinate, std::abs(point.x), std::abs(point.y)});
+    }
+  }
+};
+
 // Consecutive layers on their way through the pipeline. Blocks are used again
 // and again, so that the steady state allocates nothing.
 struct Block {
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
-  std::vector<ldni::Contours> contours;  // one a layer
+  std::vector<Draft> layers;
   double section_seconds = 0;
   double sweep_seconds = 0;
+  double feature_seconds = 0;
   double finish_seconds = 0;  // compensation and simplification
 };
 
 // What one thread keeps from block to block.
 struct Worker {
   std::unique_ptr<BlockSlicer> slicer;
+  std::optional<ThinFinder> thin_finder;  // if thin places are looked for
   Compensator compensator;
   Simplifier simplifier;
 };
@@ -169,43 +207,56 @@ ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
 // another layer with a contour follows, unless each height is wanted.
 class OrderedOutput {
  public:
+  // features  gets the thin places of the layers; may be null
   OrderedOutput(const ldni::LayerGrid& grid, const Settings& settings,
-                LayerSink& sink, SliceReport& report)
+                LayerSink& sink, FeatureCollector* features,
+                SliceReport& report)
       : grid_(grid),
         keeps_empty_(!settings.heights.empty()),
         sink_(sink),
+        features_(features),
         report_(report) {
     layer_.compensation = settings.compensation;
   }
 
-  void take(std::uint32_t index, ldni::Contours& contours) {
-    if (contours.is_empty() && !keeps_empty_) {
+  void take(std::uint32_t index, Draft& draft) {
+    if (draft.contours.is_empty() && !keeps_empty_) {
       if (report_.layers > 0) ++held_back_;
       return;
     }
     for (; held_back_ > 0; --held_back_) emit(index - held_back_, empty_);
-    emit(index, contours);
+    emit(index, draft);
   }
 
  private:
-  void emit(std::uint32_t index, ldni::Contours& contours) {
+  void emit(std::uint32_t index, Draft& draft) {
     ++report_.layers;
-    report_.loops += contours.loop_count();
-    report_.points += contours.points.size();
+    report_.loops += draft.contours.loop_count();
+    report_.holes += draft.holes;
+    report_.points += draft.contours.points.size();
+    report_.greatest_area = std::max(report_.greatest_area, draft.area);
+    report_.greatest_coordinate =
+        std::max(report_.greatest_coordinate, draft.greatest_coordinate);
     layer_.section_z = grid_.section_z(index);
     layer_.bottom = grid_.layer_bottom(index);
     layer_.top = grid_.layer_top(index);
-    std::swap(layer_.contours, contours);
+    report_.volume += draft.area * (layer_.top - layer_.bottom);
+    std::swap(layer_.contours, draft.contours);
     sink_.take(layer_);
-    std::swap(layer_.contours, contours);
+    std::swap(layer_.contours, draft.contours);
+    if (features_ != nullptr) {
+      report_.feature_seconds +=
+          measure([&] { features_->take(layer_, draft.thin); });
+    }
   }
 
   const ldni::LayerGrid& grid_;
   bool keeps_empty_;
   LayerSink& sink_;
+  FeatureCollector* features_;
   SliceReport& report_;
   std::uint32_t held_back_ = 0;
-  ldni::Contours empty_;
+  Draft empty_;
   Layer layer_;
 };
 
@@ -216,7 +267,11 @@ class Job {
       unsigned threads)
       : layer_count_(layer_count),
         workers_([&plan, &settings] {
-          return Worker{plan.make_slicer(), Compensator(settings.compensation),
+          return Worker{plan.make_slicer(),
+                        settings.min_feature > 0
+                            ? std::optional<ThinFinder>(settings.min_feature)
+                            : std::nullopt,
+                        Compensator(settings.compensation),
                         Simplifier(settings.tolerance)};
         }),
         blocks_(kBlocksPerThread * threads) {
@@ -266,22 +321,33 @@ class Job {
 
   Block* make_contours(Block* block) {
     Worker& worker = workers_.local();
-    if (block->contours.size() < block->layer_count) {
-      block->contours.resize(block->layer_count);
+    if (block->layers.size() < block->layer_count) {
+      block->layers.resize(block->layer_count);
     }
+    const std::span<Draft> layers(block->layers.data(), block->layer_count);
     block->section_seconds = measure([&] {
       worker.slicer->section(block->first_layer, block->layer_count);
     });
     block->sweep_seconds = measure([&] {
       for (std::uint32_t i = 0; i < block->layer_count; ++i) {
-        worker.slicer->make_contours(i, block->contours[i]);
+        worker.slicer->make_contours(i, layers[i].contours);
       }
     });
+    // In the exact contours, before anything is moved or left out.
+    if (worker.thin_finder) {
+      block->feature_seconds = measure([&] {
+        for (std::uint32_t i = 0; i < block->layer_count; ++i) {
+          worker.thin_finder->find(layers[i].contours, layers[i].thin);
+          worker.slicer->find_leaves(i, layers[i].thin);
+        }
+      });
+    }
     // Simplification comes last, so that it thins out the arcs too.
     block->finish_seconds = measure([&] {
-      for (std::uint32_t i = 0; i < block->layer_count; ++i) {
-        worker.compensator.compensate(block->contours[i]);
-        worker.simplifier.simplify(block->contours[i]);
+      for (Draft& layer : layers) {
+        worker.compensator.compensate(layer.contours);
+        worker.simplifier.simplify(layer.contours);
+        layer.measure();
       }
     });
     return block;
@@ -291,12 +357,16 @@ class Job {
                       SliceReport& report) {
     report.section_seconds += block.section_seconds;
     report.sweep_seconds += block.sweep_seconds;
+    report.feature_seconds += block.feature_seconds;
+    const double before = report.feature_seconds;
+    const double seconds = measure([&] {
+      for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+        output.take(block.first_layer + i, block.layers[i]);
+      }
+    });
+    // Features are collected on the way.
     report.output_seconds +=
-        block.finish_seconds + measure([&] {
-          for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-            output.take(block.first_layer + i, block.contours[i]);
-          }
-        });
+        block.finish_seconds + seconds - (report.feature_seconds - before);
   }
 
   std::uint32_t layer_count_;
@@ -362,8 +432,14 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
                ? plan_paper(scene, settings, grid)
                : plan_faithful(scene, settings, grid);
   });
-  OrderedOutput output(grid, settings, sink, report);
+  std::optional<FeatureCollector> features;
+  if (settings.min_feature > 0) {
+    features.emplace(settings.min_feature, number_makers(scene));
+  }
+  OrderedOutput output(grid, settings, sink, features ? &*features : nullptr,
+                       report);
   Job(plan, grid.layer_count(), settings, threads).run(output, report);
+  if (features) report.features = features->finish();
   warn_of_broken_promises(report, diagnostics);
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (report.layers == 0) throw_empty(report);
@@ -380,9 +456,12 @@ SliceReport slice_outline(const planar::Region& outline,
     points.insert(points.end(), contour.begin(), contour.end());
     ends.push_back(static_cast<std::uint32_t>(points.size()));
   }
+  SliceReport report;
+  if (settings.min_feature > 0) {
+    report.features = find_thin_features(layer, settings.min_feature);
+  }
   Compensator compensator(settings.compensation);
   compensator.compensate(layer.contours);
-  SliceReport report;
   report.layers = 1;
   report.loops = layer.contours.loop_count();
   report.points = layer.contours.points.size();

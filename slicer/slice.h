@@ -2,6 +2,9 @@
 // From a scene to layers: blocks of layers stream through a pipeline (cut the
 // leaves, move the ray, build loops), in parallel, and leave it in order.
 
+#include <cstdint>
+#include <vector>
+
 #include "csg/planar/region.h"
 #include "csg/scene.h"
 #include "ldni/kinetic_ray.h"
@@ -9,6 +12,7 @@
 #include "slicer/compensate.h"
 #include "slicer/layer.h"
 #include "slicer/settings.h"
+#include "slicer/thin_features.h"
 
 namespace lamina::slicer {
 
@@ -20,11 +24,17 @@ struct SliceReport {
       0;                       // of leaves' sections, closed: 0 if all is well
   double section_seconds = 0;  // leaves to chains, or to samples
   double sweep_seconds = 0;    // Boolean and contours
+  double feature_seconds = 0;  // search for thin places
   double output_seconds = 0;   // compensation, simplification and writing
   std::uint32_t layers = 0;    // written
   std::uint64_t loops = 0;
-  std::uint64_t points = 0;  // written
+  std::uint64_t holes = 0;         // of the loops
+  std::uint64_t points = 0;        // written
+  double volume = 0;               // of the layers [mm³]; 0 for --heights
+  double greatest_area = 0;        // of a layer [mm²]
+  double greatest_coordinate = 0;  // |x| or |y| of a point [mm]
   CompensationCounts losses;
+  std::vector<ThinFeature> features;  // thinner than Settings::min_feature
 };
 
 // Same layers for any number of threads. Throws GeometryError if no layer has

@@ -1,6 +1,7 @@
 #pragma once
 // What all writers of layer files have in common.
 
+#include <cstdint>
 #include <memory>
 
 #include "slicer/formats/output_file.h"
@@ -14,6 +15,10 @@ class LayerWriter : public LayerSink {
   // To be called once, after the last layer; the caller then commits the
   // output.
   virtual void finish() = 0;
+
+  // Layers in which points had to move by more than rounding to the format's
+  // numbers, so that no two loops fell together.
+  virtual std::uint64_t snapped_layers() const { return 0; }
 };
 
 // A writer of `format`, which must be a format of layers. `output` must

@@ -31,6 +31,9 @@ class SlcWriter : public LayerWriter {
   // Throws FileError where two layers fall on the same float32 height.
   void take(const Layer& layer) override;
   void finish() override;
+  std::uint64_t snapped_layers() const override {
+    return rounder_.snapped_layers();
+  }
 
  private:
   struct Extents {
