@@ -84,8 +84,9 @@ std::string report_json(const RunReport& report) {
   add("broken_walls", slice.losses.broken_walls);
   add("closed_gaps", slice.losses.closed_gaps);
   add("open_paths", slice.open_paths);
-  add("capped_columns", slice.sweep.capped_columns);
+  add("unbalanced_columns", slice.sweep.unbalanced_columns);
   add("repaired_columns", slice.sweep.repaired_columns);
+  add("capped_columns", slice.sweep.capped_columns);
   add("snapped_layers", report.snapped_layers);
   add("warnings", report.warnings);
   add("deviation_mm", deviation_json(report.deviation));

@@ -1,7 +1,6 @@
 #include "ldni/kinetic_ray.h"
 
 #include <memory>
-#include <utility>
 
 #include "ldni/detail/ray_sweep.h"
 #include "ldni/loop_resolver.h"
@@ -16,19 +15,6 @@ namespace {
 constexpr double kResolvedMergeDistance = 1e-8;
 
 }  // namespace
-
-SweepCounts& SweepCounts::operator+=(const SweepCounts& other) {
-  layers += other.layers;
-  chains += other.chains;
-  points += other.points;
-  slabs += other.slabs;
-  stops += other.stops;
-  evaluations += other.evaluations;
-  resolved_layers += other.resolved_layers;
-  capped_columns += other.capped_columns;
-  repaired_columns += other.repaired_columns;
-  return *this;
-}
 
 struct KineticRay::State {
   State(const csg::Scene& scene, double pitch)
@@ -54,8 +40,14 @@ void KineticRay::sweep(const ChainBlock& block, std::uint32_t layer,
   ++sweep.counts().resolved_layers;
 }
 
-const SweepCounts& KineticRay::counts() const {
-  return std::as_const(state_->sweep).counts();
+SweepCounts KineticRay::counts() const {
+  SweepCounts counts = state_->sweep.counts();
+  // Of layers swept once more only what went wrong is told.
+  const SweepCounts& resolved = state_->resolver.counts();
+  counts.unbalanced_columns += resolved.unbalanced_columns;
+  counts.repaired_columns += resolved.repaired_columns;
+  counts.capped_columns += resolved.capped_columns;
+  return counts;
 }
 
 }  // namespace lamina::ldni

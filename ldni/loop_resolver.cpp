@@ -1,5 +1,7 @@
 #include "ldni/loop_resolver.h"
 
+#include <utility>
+
 #include "ldni/detail/chain_builder.h"
 #include "ldni/detail/ray_sweep.h"
 #include "ldni/leaf_section.h"
@@ -47,6 +49,10 @@ void LoopResolver::resolve(Contours& contours) {
   }
   builder.finish(state_->block);
   state_->sweep.sweep(state_->block, 0, contours);
+}
+
+const SweepCounts& LoopResolver::counts() const {
+  return std::as_const(state_->sweep).counts();
 }
 
 }  // namespace lamina::ldni

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "ldni/contours.h"
+#include "ldni/sweep_counts.h"
 
 namespace lamina::ldni {
 
@@ -24,6 +25,9 @@ class LoopResolver {
   // Replaces the loops by those of the solid: simple, outer ones
   // counter-clockwise, holes clockwise.
   void resolve(Contours& contours);
+
+  // Of all sweeps since construction.
+  const SweepCounts& counts() const;
 
  private:
   struct State;

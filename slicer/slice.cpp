@@ -386,8 +386,9 @@ void warn_of_broken_promises(const SliceReport& report,
                                         count, what));
   };
   warn(report.open_paths, "open paths in the sections of leaves were closed");
-  warn(report.sweep.capped_columns, "stops of the ray did not settle");
+  warn(report.sweep.unbalanced_columns, "stops of the ray left a leaf open");
   warn(report.sweep.repaired_columns, "ends of boundary found no partner");
+  warn(report.sweep.capped_columns, "stops of the ray did not settle");
 }
 
 // Too thin for the beam is no fault of the layers, but no part of the print.

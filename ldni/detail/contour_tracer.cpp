@@ -1,6 +1,7 @@
 #include "ldni/detail/contour_tracer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -105,6 +106,7 @@ void ContourTracer::link_stop() {
     }
     take_end(ends_[i]);
   }
+  assert(waiting_.empty());  // I4
   unlinked_ends_ += waiting_.size();
   waiting_.clear();
   linked_.clear();

@@ -27,6 +27,9 @@ void RaySweep::update_sets() {
       update_sets_from(entry);
     }
   }
+  // I1: no leaf contains what is above all chains.
+  const std::uint32_t last = status_[status_.sentinel()].below;
+  if (status_[last].set != LeafSets::kEmpty) ++counts_.unbalanced_columns;
 }
 
 // I2: the set above an entry is the set below it after the entry's step.
@@ -201,6 +204,7 @@ void RaySweep::end_piece(Entry& entry) {
   const Vec2& last = *cursor.last();
   Vec2 point(column_left_, y);
   if (is_in_column(last.x) && std::abs(last.y - y) < kColumnWidth) point = last;
+  assert(is_on_chain(cursor, point));
   tracer_.end_piece(entry.piece, point, y, cursor.left());
   entry.split_column = column_;
 }
@@ -212,12 +216,22 @@ void RaySweep::start_piece(Entry& entry) {
   if (is_in_column(first.x) && std::abs(first.y - y) < kColumnWidth) {
     point = first;
   }
+  assert(is_on_chain(entry.cursor, point));
   entry.piece =
       tracer_.start_piece(point, y, entry.cursor.left(), entry.survival);
   entry.split_column = column_;
 }
 
 // --- Invariants -------------------------------------------------------------
+
+// I5: the point is one of the chain, but for a tie, the column and what
+// rounding makes of a steep segment.
+bool RaySweep::is_on_chain(const ChainCursor& cursor, const Vec2& point) const {
+  const double rounding =
+      (kColumnWidth + 1e-15 * std::abs(point.x)) * std::abs(cursor.slope());
+  return std::abs(cursor.y_at(point.x) - point.y) <=
+         2 * tie_distance_ + 2 * kColumnWidth + rounding;
+}
 
 // I1 and I2: from the bottom up, the steps lead to the sets and back to the
 // empty one. I3: neighbours are apart or tied, as far as the rounding of steep

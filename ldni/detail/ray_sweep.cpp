@@ -139,6 +139,7 @@ void RaySweep::forget_old_sets() {
 
 void RaySweep::process_column(double x) {
   if (sets_.member_count() > most_members_) forget_old_sets();
+  assert(x > column_right_);  // I6
   ++counts_.stops;
   ++column_;
   column_left_ = x;

@@ -18,6 +18,8 @@
 // I1  Every leaf has an even number of entries between two columns. Chains come
 //     from closed loops (one threshold decides above and below for both faces
 //     of an edge), and the ends of a vertical edge have one x exactly.
+//     Where one has not, the set above the topmost entry is not empty: counted
+//     as an unbalanced column.
 // I2  The set above an entry is the set below it after the entry's step; above
 //     the topmost entry it is empty. Kept by update_sets_from.
 // I3  Between columns neighbours are apart or tied, so the order is constant,
@@ -26,10 +28,14 @@
 // I4  In every column as many ends arrive as depart: they bound the difference
 //     of the solid intervals left and right. The region is the union of the
 //     trapezoids between columns, and contours close whatever the rounding.
+//     An end that finds no partner is counted as a repaired column.
 // I5  Every point is a vertex of a leaf's section, a point on an edge of it at
 //     a stop, or a crossing of two such edges. Kept by end_piece, start_piece.
 // I6  Progress: a change lies strictly right of the column in which it was
 //     found. Swaps in a column are capped, and the cap is counted.
+//
+// All are checked by assertions where they hold, in debug builds. The counts
+// are kept in all builds, warned of and told by `--report`.
 
 #include <cstddef>
 #include <cstdint>
@@ -45,8 +51,8 @@
 #include "ldni/detail/outlook.h"
 #include "ldni/detail/status.h"
 #include "ldni/detail/turns.h"
-#include "ldni/kinetic_ray.h"
 #include "ldni/leaf_section.h"
+#include "ldni/sweep_counts.h"
 
 namespace lamina::ldni::detail {
 
@@ -110,6 +116,7 @@ class RaySweep {
   void end_piece(Entry& entry);
   void start_piece(Entry& entry);
   void check_entries();
+  bool is_on_chain(const ChainCursor& cursor, const Vec2& point) const;
 
   // The entry's segment and y where it meets the column from the left, and y
   // where it leaves it to the right.

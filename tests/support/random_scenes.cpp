@@ -17,6 +17,16 @@ namespace {
 
 using Outline = std::vector<Vec2>;
 
+Box3 box_of(const csg::Leaf& leaf, const Affine& placement) {
+  Box3 box;
+  for (const Vec3& vertex : csg::explicit_mesh(leaf).vertices) {
+    const Vec3 placed = placement * Vec4(vertex, 1);
+    box.low = glm::min(box.low, placed);
+    box.high = glm::max(box.high, placed);
+  }
+  return box;
+}
+
 class SceneMaker {
  public:
   SceneMaker(std::uint64_t seed, SceneStyle style)
@@ -209,13 +219,7 @@ class SceneMaker {
   void place(std::uint32_t leaf, const Affine& placement,
              std::uint32_t parent) {
     const std::uint32_t index = place_leaf(scene_, leaf, placement, parent);
-    Box3& box = scene_.instances[index].box;
-    for (const Vec3& vertex :
-         csg::explicit_mesh(scene_.leaves[leaf]).vertices) {
-      const Vec3 placed = placement * Vec4(vertex, 1);
-      box.low = glm::min(box.low, placed);
-      box.high = glm::max(box.high, placed);
-    }
+    scene_.instances[index].box = box_of(scene_.leaves[leaf], placement);
   }
 
   std::mt19937_64 random_;
@@ -227,6 +231,16 @@ class SceneMaker {
 
 csg::Scene random_scene(std::uint64_t seed, SceneStyle style, int leaf_count) {
   return SceneMaker(seed, style).make(leaf_count);
+}
+
+csg::Scene placed_scene(csg::Scene scene, const Affine& placement) {
+  for (csg::Instance& instance : scene.instances) {
+    instance.world_from_leaf = compose(placement, instance.world_from_leaf);
+    instance.box =
+        box_of(scene.leaves[instance.leaf], instance.world_from_leaf);
+  }
+  cover_instances(scene);
+  return scene;
 }
 
 }  // namespace lamina::support

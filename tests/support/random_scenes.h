@@ -22,4 +22,7 @@ constexpr int kSceneStyleCount = 6;
 // Same seed, same scene. Leaves stay within about 8 mm of the origin.
 csg::Scene random_scene(std::uint64_t seed, SceneStyle style, int leaf_count);
 
+// The scene as a whole in another place.
+csg::Scene placed_scene(csg::Scene scene, const Affine& placement);
+
 }  // namespace lamina::support
