@@ -281,7 +281,7 @@ int compile(Run& run) {
   slicer::OutputFile output(run.options.output, run.temporary_files);
   const auto writer = slicer::make_layer_writer(run.options.format, output);
   make_layers(run, evaluated.tree, *writer);
-  writer->finish();
+  writer->finish(run.diagnostics);
   run.report.snapped_layers = writer->snapped_layers();
   output.commit();
   finish_report(run, output.size());

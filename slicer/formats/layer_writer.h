@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "parser/diagnostic.h"
 #include "slicer/formats/output_file.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/layer.h"
@@ -13,8 +14,8 @@ namespace lamina::slicer {
 class LayerWriter : public LayerSink {
  public:
   // To be called once, after the last layer; the caller then commits the
-  // output.
-  virtual void finish() = 0;
+  // output. Warns of what the format cannot tell.
+  virtual void finish(Diagnostics& diagnostics) = 0;
 
   // Layers in which points had to move by more than rounding to the format's
   // numbers, so that no two loops fell together.

@@ -48,6 +48,8 @@ void LayersJsonWriter::take(const Layer& layer) {
   output_.write("]}");
 }
 
-void LayersJsonWriter::finish() { output_.write("\n]}\n"); }
+void LayersJsonWriter::finish(Diagnostics& /*diagnostics*/) {
+  output_.write("\n]}\n");
+}
 
 }  // namespace lamina::slicer

@@ -17,7 +17,7 @@ class LayersJsonWriter : public LayerWriter {
   explicit LayersJsonWriter(OutputFile& output);
 
   void take(const Layer& layer) override;
-  void finish() override;
+  void finish(Diagnostics& diagnostics) override;
 
  private:
   OutputFile& output_;

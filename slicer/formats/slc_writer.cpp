@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -20,6 +20,9 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
 
+// Neighbouring numbers of the file may be this far apart without a word [mm].
+constexpr double kCoarse = 1e-3;
+
 // Of each number of -EXTENTS: sign, four digits, point, seven decimals.
 constexpr std::size_t kNumberWidth = 13;
 
@@ -31,6 +34,19 @@ std::string fixed_width(double value) {
     if (text.size() == kNumberWidth) return text;
   }
   return fmt::format("{:.6e}", value).substr(0, kNumberWidth);
+}
+
+void warn_of_coarse_numbers(double reach, Diagnostics& diagnostics) {
+  const auto farthest = static_cast<float>(reach);
+  const double spacing =
+      std::nextafter(farthest, std::numeric_limits<float>::infinity()) -
+      farthest;
+  if (spacing < kCoarse) return;
+  diagnostics.warning(
+      {},
+      fmt::format("{:.6g} mm from the origin, the 32-bit numbers of SLC are "
+                  "{:.2g} mm apart: move the design nearer to the origin",
+                  reach, spacing));
 }
 
 template <typename Value>
@@ -85,6 +101,9 @@ void SlcWriter::take(const Layer& layer) {
   last_z_ = z;
   top_z_ = static_cast<float>(layer.top);
 
+  for (const Vec2& point : layer.contours.points) {
+    reach_ = std::max({reach_, std::abs(point.x), std::abs(point.y)});
+  }
   contours_ = layer.contours;
   rounder_.round(contours_);
   append(output_, z);
@@ -122,13 +141,14 @@ void SlcWriter::write_loop() {
   append(output_, loop_.front());
 }
 
-void SlcWriter::finish() {
+void SlcWriter::finish(Diagnostics& diagnostics) {
   // A file without layers is still a file: it has a table, and its top is 0.
   if (!has_layers_) begin_file(Layer{});
   append(output_, top_z_);
   append(output_, kEndOfLayers);
   extents_.high[2] = top_z_;
   write_header(extents_);
+  warn_of_coarse_numbers(reach_, diagnostics);
 }
 
 }  // namespace lamina::slicer

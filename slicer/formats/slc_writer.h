@@ -9,7 +9,6 @@
 // blanks to fill a gap there. Their numbers therefore have a fixed width,
 // filled up with decimals ("10.0000000000"), and are patched at the end.
 
-#include <cstdint>
 #include <vector>
 
 #include "slicer/formats/layer_writer.h"
@@ -30,7 +29,8 @@ class SlcWriter : public LayerWriter {
 
   // Throws FileError where two layers fall on the same float32 height.
   void take(const Layer& layer) override;
-  void finish() override;
+  // Warns where the numbers are too coarse for the design.
+  void finish(Diagnostics& diagnostics) override;
   std::uint64_t snapped_layers() const override {
     return rounder_.snapped_layers();
   }
@@ -51,8 +51,8 @@ class SlcWriter : public LayerWriter {
   float last_z_ = 0;
   float top_z_ = 0;
   bool has_extents_ = false;
+  double reach_ = 0;  // greatest coordinate before rounding
   Extents extents_;
-  std::uint64_t row_offset_ = 0;  // of the sampling table
   LoopRounder rounder_;
   ldni::Contours contours_;     // of the layer in hand, rounded
   std::vector<SlcPoint> loop_;  // the loop in hand

@@ -53,6 +53,22 @@ TEST(Compile, WithoutAnOutputTheSlcLiesBesideTheDesign) {
   EXPECT_EQ(folder.entry_count(), 2U);
 }
 
+// From 2^13 mm on, float32 numbers are 2^-10 mm apart; from 2^14 mm on, 2^-9.
+TEST(Compile, WarnsOfDesignsTooFarFromTheOriginForSlc) {
+  const TemporaryFolder folder;
+  folder.write("far.scad", "translate([0, 20000, 0]) cube(1);");
+  const auto far = run(folder, {"far.scad"});
+  EXPECT_EQ(far.status, 0);
+  EXPECT_TRUE(has(far.errors,
+                  "20001 mm from the origin, the 32-bit numbers of SLC are "
+                  "0.002 mm apart"))
+      << far.errors;
+  EXPECT_FALSE(
+      has(run(folder, {"far.scad", "-o", "a.layers.json"}).errors, "apart"));
+  folder.write("near.scad", "translate([-8000, 0, 0]) cube(1);");
+  EXPECT_FALSE(has(run(folder, {"near.scad"}).errors, "apart"));
+}
+
 TEST(Compile, QuietSaysNothing) {
   const TemporaryFolder folder;
   folder.write("a.scad", "echo(1); cube(1); foo();");

@@ -15,7 +15,8 @@ std::string write_json(const std::vector<Layer>& layers) {
   OutputFile output(folder.file("a.layers.json"), files);
   LayersJsonWriter writer(output);
   for (const Layer& layer : layers) writer.take(layer);
-  writer.finish();
+  Diagnostics diagnostics;
+  writer.finish(diagnostics);
   output.commit();
   return support::read_file(folder.file("a.layers.json"));
 }

@@ -38,7 +38,8 @@ std::string write_slc(const std::vector<Layer>& layers) {
   OutputFile output(folder.file("a.slc"), files);
   SlcWriter writer(output);
   for (const Layer& layer : layers) writer.take(layer);
-  writer.finish();
+  Diagnostics unheard;
+  writer.finish(unheard);
   output.commit();
   return read_file(folder.file("a.slc"));
 }
