@@ -218,22 +218,17 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   run.report.origins = origins_of(scene, run.report.slice.features);
 }
 
-// What the options and the format promise of the contours.
-std::optional<slicer::Deviation> promised_deviation(const Run& run) {
-  const slicer::Settings& settings = run.options.settings;
+// What the options promise of the contours.
+std::optional<slicer::Deviation> promised_deviation(
+    const DesignOptions& options) {
+  const slicer::Settings& settings = options.settings;
   if (settings.contour == slicer::ContourMode::kPaper) return std::nullopt;
   slicer::Deviation deviation;
   deviation.simplification = settings.tolerance;
   if (settings.compensation != 0) {
     deviation.compensation = slicer::Compensator::kArcTolerance;
   }
-  if (run.options.format == OutputFormat::kSlc) {
-    deviation.rounding =
-        slicer::float32_rounding(run.report.slice.greatest_coordinate);
-  }
-  if (run.options.chordal_error > 0) {
-    deviation.facets = run.options.chordal_error;
-  }
+  if (options.chordal_error > 0) deviation.facets = options.chordal_error;
   return deviation;
 }
 
@@ -242,7 +237,6 @@ void finish_report(Run& run, std::uint64_t output_bytes) {
                                 std::chrono::steady_clock::now() - run.begin)
                                 .count();
   run.report.warnings = count(run.diagnostics, Severity::kWarning);
-  run.report.deviation = promised_deviation(run);
   run.report.min_feature = run.options.settings.min_feature;
   if (!run.options.report.empty()) {
     write_text(run, run.options.report, report_json(run.report));
@@ -279,9 +273,14 @@ int compile(Run& run) {
   if (loaded.has_failed || evaluated.has_failed) return kFault;
 
   slicer::OutputFile output(run.options.output, run.temporary_files);
-  const auto writer = slicer::make_layer_writer(run.options.format, output);
+  auto deviation = promised_deviation(run.options);
+  const auto writer = slicer::make_layer_writer(
+      run.options.format, output,
+      deviation ? std::optional(deviation->from_section()) : std::nullopt);
   make_layers(run, evaluated.tree, *writer);
   writer->finish(run.diagnostics);
+  if (deviation) deviation->rounding = writer->greatest_rounding();
+  run.report.deviation = deviation;
   run.report.snapped_layers = writer->snapped_layers();
   output.commit();
   finish_report(run, output.size());

@@ -186,7 +186,11 @@ class Inspector {
     print("loops     {}, {} of them holes; {} vertices\n", loops, holes,
           vertices);
     print("volume    {:.6f} mm³\n", volume_);
-    print("rounding  points within {:.2g} mm of what was meant\n",
+    if (reader_.header().deviation) {
+      print("deviation at most {:.6g} mm from the design's sections\n",
+            *reader_.header().deviation);
+    }
+    print("rounding  at most {:.2g} mm of that, by 32-bit numbers\n",
           float32_rounding(greatest_coordinate));
     if (defects_ == 0) {
       print("defects   none\n");

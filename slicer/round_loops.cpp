@@ -128,6 +128,7 @@ void LoopRounder::snap(ldni::Contours& contours) {
   while (lead_through_cells(contours)) {
     // Snapped for the first time, or edges met foreign cells.
     LAMINA_CHECK_EQ(++rounds < kMostRounds, true);
+    most_moves_ = std::max(most_moves_, rounds);
     resolver_.resolve(contours);
   }
   for (Vec2& point : contours.points) point = to_float(point / scale);

@@ -41,6 +41,10 @@ class LoopRounder {
   // Layers that needed more than rounding each point, since construction.
   std::uint64_t snapped_layers() const { return snapped_layers_; }
 
+  // Most moves that any edge made, one after another, since construction. Each
+  // is by half a step at most, in x and in y.
+  int most_moves() const { return most_moves_; }
+
  private:
   void measure(const ldni::Contours& contours);
   bool is_safe(const ldni::Contours& contours);
@@ -65,6 +69,7 @@ class LoopRounder {
   std::vector<Passage> passages_;
   ldni::LoopResolver resolver_;
   std::uint64_t snapped_layers_ = 0;
+  int most_moves_ = 1;
 };
 
 }  // namespace lamina::slicer

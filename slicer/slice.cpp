@@ -140,21 +140,15 @@ struct Draft {
   ldni::Contours contours;
   std::vector<ThinStretch> thin;
   std::uint64_t holes = 0;
-  double area = 0;                 // [mm²]
-  double greatest_coordinate = 0;  // |x| or |y| [mm]
+  double area = 0;  // [mm²]
 
   void measure() {
     holes = 0;
     area = 0;
-    greatest_coordinate = 0;
     for (std::size_t i = 0; i < contours.loop_count(); ++i) {
       const double loop_area = ldni::signed_area(contours.loop(i));
       area += loop_area;
       holes += loop_area < 0 ? 1 : 0;
-    }
-    for (const Vec2& point : contours.points) {
-      greatest_coordinate =
-          std::max({greatest_coordinate, std::abs(point.x), std::abs(point.y)});
     }
   }
 };
@@ -235,8 +229,6 @@ class OrderedOutput {
     report_.holes += draft.holes;
     report_.points += draft.contours.points.size();
     report_.greatest_area = std::max(report_.greatest_area, draft.area);
-    report_.greatest_coordinate =
-        std::max(report_.greatest_coordinate, draft.greatest_coordinate);
     layer_.section_z = grid_.section_z(index);
     layer_.bottom = grid_.layer_bottom(index);
     layer_.top = grid_.layer_top(index);

@@ -32,7 +32,6 @@ struct SliceReport {
   std::uint64_t points = 0;        // written
   double volume = 0;               // of the layers [mm³]; 0 for --heights
   double greatest_area = 0;        // of a layer [mm²]
-  double greatest_coordinate = 0;  // |x| or |y| of a point [mm]
   CompensationCounts losses;
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
 };

@@ -6,9 +6,10 @@
 
 namespace lamina::slicer {
 
-std::unique_ptr<LayerWriter> make_layer_writer(OutputFormat format,
-                                               OutputFile& output) {
-  if (format == OutputFormat::kSlc) return std::make_unique<SlcWriter>(output);
+std::unique_ptr<LayerWriter> make_layer_writer(
+    OutputFormat format, OutputFile& output, std::optional<double> deviation) {
+  if (format == OutputFormat::kSlc)
+    return std::make_unique<SlcWriter>(output, deviation);
   LAMINA_CHECK_EQ(static_cast<int>(format),
                   static_cast<int>(OutputFormat::kLayersJson));
   return std::make_unique<LayersJsonWriter>(output);

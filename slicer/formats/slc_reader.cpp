@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,6 +60,24 @@ std::optional<std::array<Vec2, 3>> parse_extents(const std::string& text) {
     }
   }
   return extents;
+}
+
+// Takes the bound that lamina notes off the name of the package: "lamina 0.1.0
+// within 0.00100117000 mm".
+std::optional<double> split_deviation(std::string& package) {
+  constexpr std::string_view kBefore = " within ";
+  constexpr std::string_view kAfter = " mm";
+  const std::size_t at = package.find(kBefore);
+  if (at == std::string::npos || !package.ends_with(kAfter)) return {};
+  const char* const begin = package.data() + at + kBefore.size();
+  const char* const end = package.data() + package.size() - kAfter.size();
+  double deviation = 0;
+  const auto [rest, fault] = std::from_chars(begin, end, deviation);
+  if (fault != std::errc() || rest != end || !std::isfinite(deviation)) {
+    return {};
+  }
+  package.resize(at);
+  return deviation;
 }
 
 }  // namespace
@@ -136,6 +156,7 @@ void SlcReader::read_header() {
   header_.unit = value_of(text, "-UNIT");
   header_.type = value_of(text, "-TYPE");
   header_.package = value_of(text, "-PACKAGE");
+  header_.deviation = split_deviation(header_.package);
   header_.extents = parse_extents(value_of(text, "-EXTENTS"));
   if (header_.unit == "INCH") {
     mm_per_unit_ = kMillimetresPerInch;

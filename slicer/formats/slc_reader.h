@@ -28,6 +28,8 @@ struct SlcHeader {
   std::string unit;  // "MM" or "INCH"
   std::string type;
   std::string package;
+  // Bound on what contours deviate by, where lamina noted it [mm].
+  std::optional<double> deviation;
   // x, y, z as {low, high}, in the file's unit, where the header tells them.
   std::optional<std::array<Vec2, 3>> extents;
 };

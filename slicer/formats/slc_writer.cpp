@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "parser/diagnostic.h"
+#include "slicer/deviation.h"
 #include "slicer/version.h"
 
 namespace lamina::slicer {
@@ -56,14 +57,29 @@ void append(OutputFile& output, const Value& value) {
 
 }  // namespace
 
-SlcWriter::SlcWriter(OutputFile& output) : output_(output) {}
+SlcWriter::SlcWriter(OutputFile& output, std::optional<double> deviation)
+    : output_(output), deviation_(deviation) {}
+
+double SlcWriter::greatest_rounding() const {
+  return rounder_.most_moves() * float32_rounding(reach_);
+}
+
+// The program's name; "lamina 0.1.0 within 0.00100117000 mm".
+std::string SlcWriter::package() const {
+  std::string text = fmt::format("lamina {}", version());
+  if (deviation_) {
+    text += fmt::format(" within {} mm",
+                        fixed_width(*deviation_ + greatest_rounding()));
+  }
+  return text;
+}
 
 void SlcWriter::write_header(const Extents& extents) {
   const auto& [low, high] = extents;
   const std::string header = fmt::format(
-      "-SLCVER 2.0 -UNIT MM -TYPE PART -PACKAGE lamina {} -EXTENTS "
+      "-SLCVER 2.0 -UNIT MM -TYPE PART -PACKAGE {} -EXTENTS "
       "{},{} {},{} {},{}\r\n\x1A",
-      version(), fixed_width(low[0]), fixed_width(high[0]), fixed_width(low[1]),
+      package(), fixed_width(low[0]), fixed_width(high[0]), fixed_width(low[1]),
       fixed_width(high[1]), fixed_width(low[2]), fixed_width(high[2]));
   if (output_.size() == 0) {
     output_.write(header);

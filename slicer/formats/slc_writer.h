@@ -9,6 +9,8 @@
 // blanks to fill a gap there. Their numbers therefore have a fixed width,
 // filled up with decimals ("10.0000000000"), and are patched at the end.
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "slicer/formats/layer_writer.h"
@@ -25,7 +27,9 @@ struct SlcPoint {
 
 class SlcWriter : public LayerWriter {
  public:
-  explicit SlcWriter(OutputFile& output);
+  // deviation  as for make_layer_writer(); the header tells it, and what
+  //            rounding adds, behind the name of the program
+  SlcWriter(OutputFile& output, std::optional<double> deviation);
 
   // Throws FileError where two layers fall on the same float32 height.
   void take(const Layer& layer) override;
@@ -34,6 +38,7 @@ class SlcWriter : public LayerWriter {
   std::uint64_t snapped_layers() const override {
     return rounder_.snapped_layers();
   }
+  double greatest_rounding() const override;
 
  private:
   struct Extents {
@@ -45,8 +50,10 @@ class SlcWriter : public LayerWriter {
   void extend_by_loop();
   void write_loop();
   void write_header(const Extents& extents);
+  std::string package() const;
 
   OutputFile& output_;
+  const std::optional<double> deviation_;
   bool has_layers_ = false;
   float last_z_ = 0;
   float top_z_ = 0;

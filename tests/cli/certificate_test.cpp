@@ -194,7 +194,10 @@ TEST(Certificate, InspectTellsOfThinFeaturesAndRounding) {
       << result.output;
   EXPECT_TRUE(has(result.output, "0.0500")) << result.output;
   // Half a step of the numbers between 2 and 4, in x and in y.
-  EXPECT_TRUE(has(result.output, "within 1.7e-07 mm")) << result.output;
+  EXPECT_TRUE(has(result.output, "rounding  at most 1.7e-07 mm"))
+      << result.output;
+  EXPECT_TRUE(has(result.output, "deviation at most 0.00100117 mm"))
+      << result.output;
   EXPECT_FALSE(has(run(folder, {"inspect", "a.slc"}).output, "thinner"));
 }
 

@@ -3,6 +3,8 @@
 
 #include "slicer/formats/slc_writer.h"
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +34,12 @@ Layer layer_at(double bottom, double top,
   return layer;
 }
 
-std::string write_slc(const std::vector<Layer>& layers) {
+std::string write_slc(const std::vector<Layer>& layers,
+                      std::optional<double> deviation = {}) {
   const TemporaryFolder folder;
   TemporaryFiles files;
   OutputFile output(folder.file("a.slc"), files);
-  SlcWriter writer(output);
+  SlcWriter writer(output, deviation);
   for (const Layer& layer : layers) writer.take(layer);
   Diagnostics unheard;
   writer.finish(unheard);
@@ -102,6 +105,22 @@ TEST(SlcWriter, WritesEveryByteOfTheFormat) {
       // 5. end: top of the part
       two_and_half + "\xFF\xFF\xFF\xFF"s;
   EXPECT_EQ(bytes, expected);
+}
+
+TEST(SlcWriter, NotesInTheHeaderWhatContoursDeviateBy) {
+  const std::vector<Layer> layers = {
+      layer_at(0, 1, {{{0, 0}, {4, 0}, {0, 4.1}}})};
+  const std::string bytes = write_slc(layers, 0.001);
+  EXPECT_NE(bytes.find("lamina " + std::string(version()) +
+                       " within 0.00100033717 mm -EXTENTS"),
+            std::string::npos)
+      << bytes.substr(0, 100);
+  const TemporaryFolder folder;
+  const SlcReader reader(folder.write("a.slc", bytes));
+  EXPECT_EQ(reader.header().package, "lamina " + std::string(version()));
+  ASSERT_TRUE(reader.header().deviation);
+  EXPECT_NEAR(*reader.header().deviation, 0.001 + std::ldexp(std::sqrt(2), -22),
+              1e-11);
 }
 
 TEST(SlcWriter, NotesTheCompensationInTheTable) {
