@@ -118,6 +118,9 @@ struct Polyhedron {
   // "points = …, faces = …" as written, where that is not just the numbers
   // above (points of two numbers, undef, …); else empty.
   std::string_view csg_text = {};
+  // "points[3] = [0, \"a\"]", the first point of a face that is none; else
+  // empty. Such points may be [0, 0, 0], or not finite.
+  std::string_view wrong_point = {};
 };
 struct Square {
   Vec2 size = Vec2(1);
@@ -132,7 +135,8 @@ struct Polygon {
   // No value: one path through all points in order.
   std::optional<std::span<const std::span<const std::uint32_t>>> paths;
   int convexity = 1;
-  std::string_view csg_text = {};  // as for Polyhedron
+  std::string_view csg_text = {};     // as for Polyhedron
+  std::string_view wrong_point = {};  // likewise, of any point
 };
 // What comes from fonts and files keeps, beside its parameters, the text that
 // `.csg` prints for it (`text(text = "a", …)`), whole: paths and time stamps

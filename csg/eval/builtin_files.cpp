@@ -160,6 +160,20 @@ Value renamed(const Value& value, const Value& old, std::string_view old_name,
   return old;
 }
 
+double read_dpi(const Value& value, const Value& origin,
+                const BuiltinModuleCode& code, Frame& frame) {
+  constexpr double kDefaultDpi = 72.0;
+  const double dpi = number_or(value, kDefaultDpi);
+  if (!(dpi < 0.001)) return dpi;
+  // The origin and the second file are wrong in OpenSCAD, too.
+  const std::string file = relative_path(code.range.source->path(), frame);
+  frame.in.warn({}, fmt::format("Invalid dpi value giving, using default of {} "
+                                "dpi. Value must be positive and >= 0.001, "
+                                "file {}, import() at line {}",
+                                to_echo(origin), file, file));
+  return kDefaultDpi;
+}
+
 void import(const BuiltinModuleCode& code, Frame& frame) {
   enum {
     kFile,
@@ -190,9 +204,7 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   params.origin =
       read_origin(arguments[kOrigin], "linear_extrude", code, frame);
   params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
-  constexpr double kDefaultDpi = 72.0;
-  const double dpi = number_or(arguments[kDpi], kDefaultDpi);
-  params.dpi = dpi < 0.001 ? kDefaultDpi : dpi;
+  params.dpi = read_dpi(arguments[kDpi], arguments[kOrigin], code, frame);
   const double scale = arguments[kScale].number_or_zero();
   params.scale = scale <= 0 ? 1 : scale;
   params.convexity = std::max(to_int(arguments[kConvexity]), 1);

@@ -2,9 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "csg/eval/builtin_modules.h"
 #include "csg/eval/conversions.h"
@@ -151,13 +155,14 @@ void cylinder(const BuiltinModuleCode& code, Frame& frame) {
   make_leaf(cylinder, code, frame);
 }
 
-// An index as geometry uses it; whatever cannot be one is the largest number,
-// which is out of bounds everywhere.
+// An index as geometry uses it. Whatever cannot be one is out of bounds
+// everywhere: negative numbers count down from 2³², all others are -1.
 std::uint32_t to_index(const Value& value) {
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
   const double number = value.number_or_zero();
-  return number > -1 && number < kNone ? static_cast<std::uint32_t>(number)
-                                       : kNone;
+  const std::int32_t index =
+      std::abs(number) < kLimit ? static_cast<std::int32_t>(number) : -1;
+  return static_cast<std::uint32_t>(index);
 }
 bool is_plain_index(const Value& value) {
   return value.is_number() && value.as_number() == to_index(value) &&
@@ -183,11 +188,27 @@ IndexLists to_index_lists(const Value& value, Interpreter& in, bool& is_plain) {
   return in.keep_all<std::span<const std::uint32_t>>(lists);
 }
 
+// The first index in the lists that is one of these.
+std::optional<std::uint32_t> first_named(
+    IndexLists lists, const std::set<std::uint32_t>& indices) {
+  if (indices.empty()) return std::nullopt;
+  for (const auto& list : lists) {
+    for (const std::uint32_t index : list) {
+      if (indices.contains(index)) return index;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string describe_point(const Value& points, std::size_t index) {
+  return fmt::format("points[{}] = {}", index,
+                     to_echo(points.elements()[index]));
+}
+
 int at_least_one(int convexity) { return convexity < 1 ? 1 : convexity; }
 
 void polyhedron(const BuiltinModuleCode& code, Frame& frame) {
   enum { kPoints, kFaces, kConvexity, kTriangles };
-  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
   refuse_children(code, frame);
   Interpreter& in = frame.in;
   const ModuleArguments arguments(code, frame);
@@ -202,13 +223,22 @@ void polyhedron(const BuiltinModuleCode& code, Frame& frame) {
   Polyhedron polyhedron;
   bool is_plain = arguments[kPoints].is_vector();
   std::vector<Vec3> points;
+  std::set<std::uint32_t> wrong_points;
   for (const Value& point : arguments[kPoints].elements()) {
     const std::optional<Vec3> given = to_vec3(point, 0.0);
     if (point.elements().size() != 3 || !given) is_plain = false;
-    points.push_back(given ? *given : Vec3(kNoNumber));
+    // 0 · x is NaN where x is not finite.
+    if (!given || glm::dot(*given, Vec3(0)) != 0) {
+      wrong_points.insert(static_cast<std::uint32_t>(points.size()));
+    }
+    points.push_back(given.value_or(Vec3(0)));
   }
   polyhedron.points = in.keep_all<Vec3>(points);
   polyhedron.faces = to_index_lists(faces, in, is_plain);
+  if (const auto wrong = first_named(polyhedron.faces, wrong_points)) {
+    polyhedron.wrong_point =
+        in.keep_text(describe_point(arguments[kPoints], *wrong));
+  }
   polyhedron.convexity = at_least_one(to_int(arguments[kConvexity]));
   if (!is_plain) {
     polyhedron.csg_text =
@@ -248,7 +278,6 @@ void square(const BuiltinModuleCode& code, Frame& frame) {
 
 void polygon(const BuiltinModuleCode& code, Frame& frame) {
   enum { kPoints, kPaths, kConvexity };
-  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
   refuse_children(code, frame);
   Interpreter& in = frame.in;
   const ModuleArguments arguments(code, frame);
@@ -259,7 +288,13 @@ void polygon(const BuiltinModuleCode& code, Frame& frame) {
   for (const Value& point : arguments[kPoints].elements()) {
     const std::optional<Vec2> given = to_vec2(point);
     if (!given) is_plain = false;
-    points.push_back(given ? *given : Vec2(kNoNumber));
+    const bool is_wrong =
+        !given || std::isinf(given->x) || std::isinf(given->y);
+    if (is_wrong && polygon.wrong_point.empty()) {
+      polygon.wrong_point =
+          in.keep_text(describe_point(arguments[kPoints], points.size()));
+    }
+    points.push_back(given.value_or(Vec2(0)));
   }
   polygon.points = in.keep_all<Vec2>(points);
   const Value& paths = arguments[kPaths];

@@ -39,15 +39,19 @@ std::string find_file(std::string_view name, const std::string& from,
   return here.string();
 }
 
-std::string relative_quoted(const std::string& path, Frame& frame) {
-  std::string text;
+std::string relative_path(const std::string& path, Frame& frame) {
   std::error_code ignored;
   const fs::path folder =
       fs::weakly_canonical(frame.in.design_folder(), ignored);
   const fs::path file =
       fs::weakly_canonical(path.empty() ? folder : fs::path(path), ignored);
   const std::string relative = file.lexically_relative(folder).generic_string();
-  append_quoted(relative == "." ? "./" : relative, text);
+  return relative == "." ? "./" : relative;
+}
+
+std::string relative_quoted(const std::string& path, Frame& frame) {
+  std::string text;
+  append_quoted(relative_path(path, frame), text);
   return text;
 }
 

@@ -21,7 +21,8 @@ std::string find_file(std::string_view name, const BuiltinModuleCode& code,
 std::string find_file(std::string_view name, const std::string& from,
                       Interpreter& in);
 
-// The path relative to the design's folder, quoted.
+// The path relative to the design's folder, as it is and quoted.
+std::string relative_path(const std::string& path, Frame& frame);
 std::string relative_quoted(const std::string& path, Frame& frame);
 
 // The deprecated `origin` of a drawing; messages call the module `shown_name`.

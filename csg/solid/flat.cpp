@@ -32,14 +32,25 @@ std::vector<Contour> read_paths(const Polygon& polygon, SourceRange range,
       if (indices[i] < points.size()) {
         contours.back().push_back(points[indices[i]]);
       } else {
-        diagnostics.warning(range,
-                            fmt::format("Point index {} is out of bounds (from "
-                                        "paths[{}][{}])",
-                                        indices[i], path, i));
+        warn_of_index(indices[i], "paths", path, i, range, diagnostics);
       }
     }
   }
   return contours;
+}
+
+// Drops contours from the first one on that holds no numbers, as OpenSCAD does.
+void check_contours(std::vector<Contour>& contours, SourceRange range,
+                    Diagnostics& diagnostics) {
+  const auto is_wrong = [](const Contour& contour) {
+    return std::any_of(contour.begin(), contour.end(), [](Vec2 point) {
+      return std::isnan(point.x) || std::isnan(point.y);
+    });
+  };
+  const auto wrong = std::find_if(contours.begin(), contours.end(), is_wrong);
+  if (wrong == contours.end()) return;
+  diagnostics.warning(range, "Range check failed for polygon. skipping");
+  contours.erase(wrong, contours.end());
 }
 
 planar::Join join_of(const Offset& offset) {
@@ -51,8 +62,9 @@ planar::Join join_of(const Offset& offset) {
 
 Region make_polygon(const Polygon& polygon, SourceRange range,
                     Diagnostics& diagnostics) {
-  if (!check_points(polygon.points, "vec2", range, diagnostics)) return {};
-  const auto contours = read_paths(polygon, range, diagnostics);
+  if (!check_points(polygon.wrong_point, "vec2", range, diagnostics)) return {};
+  auto contours = read_paths(polygon, range, diagnostics);
+  check_contours(contours, range, diagnostics);
   return planar::from_contours(contours);
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "csg/solid/detail/face.h"
 #include "csg/solid/detail/mend.h"
@@ -20,10 +20,11 @@ std::vector<std::uint32_t> read_face(const Polyhedron& polyhedron,
   const auto& indices = polyhedron.faces[face];
   for (std::size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] >= polyhedron.points.size()) {
-      diagnostics.warning(range,
-                          fmt::format("Point index {} is out of bounds (from "
-                                      "faces[{}][{}])",
-                                      indices[i], face, i));
+      // OpenSCAD's indices are of 64 bits here, of 32 in a polygon.
+      const auto index =
+          static_cast<std::int64_t>(static_cast<std::int32_t>(indices[i]));
+      warn_of_index(static_cast<std::uint64_t>(index), "faces", face, i, range,
+                    diagnostics);
     } else if (loop.empty() || loop.back() != indices[i]) {
       loop.push_back(indices[i]);
     }
@@ -46,10 +47,16 @@ void add_points(const std::vector<std::uint32_t>& loop, const Mesh& mesh,
 
 PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
                                   SourceRange range, Diagnostics& diagnostics) {
-  if (!check_points(polyhedron.points, "vec3", range, diagnostics)) return {};
+  if (!check_points(polyhedron.wrong_point, "vec3", range, diagnostics)) {
+    return {};
+  }
   PolyhedronSurface surface;
   Mesh& mesh = surface.mesh;
-  mesh.vertices.assign(polyhedron.points.begin(), polyhedron.points.end());
+  for (const Vec3& point : polyhedron.points) {
+    // What is not finite stands in no face. 0 · x is NaN there.
+    const bool is_finite = glm::dot(point, Vec3(0)) == 0;
+    mesh.vertices.push_back(is_finite ? point : Vec3(0));
+  }
   bool has_degenerate = false;
   for (std::size_t face = 0; face < polyhedron.faces.size(); ++face) {
     const auto loop = read_face(polyhedron, face, range, diagnostics);
@@ -67,6 +74,23 @@ PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
   }
   mend_and_report(mesh, range, diagnostics);
   return surface;
+}
+
+Mesh make_corners(const Polyhedron& polyhedron, SourceRange range,
+                  Diagnostics& diagnostics) {
+  if (!check_points(polyhedron.wrong_point, "vec3", range, diagnostics)) {
+    return {};
+  }
+  Mesh mesh;
+  for (std::size_t face = 0; face < polyhedron.faces.size(); ++face) {
+    for (const std::uint32_t corner :
+         read_face(polyhedron, face, range, diagnostics)) {
+      const auto name = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(polyhedron.points[corner]);
+      mesh.triangles.push_back({name, name, name});
+    }
+  }
+  return mesh;
 }
 
 }  // namespace lamina::csg

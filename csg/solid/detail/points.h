@@ -1,34 +1,38 @@
 #pragma once
-// Points as the user gave them.
+// Points and indices as the user gave them.
 
 #include <cstddef>
-#include <span>
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "parser/diagnostic.h"
 
 namespace lamina::csg {
 
-// Reports the first point that is none: the evaluator leaves a NaN where the
-// user wrote no number.
+// Reports the first point that is none, if there is one.
 //
 // type  "vec2" or "vec3"
-template <typename Point>
-bool check_points(std::span<const Point> points, std::string_view type,
-                  SourceRange range, Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    // 0 · x is NaN where x is not finite.
-    if (glm::dot(points[i], Point(0)) == 0) continue;
-    diagnostics.error(range,
-                      fmt::format("Unable to convert points[{}] to a {} of "
-                                  "numbers",
-                                  i, type));
-    return false;
-  }
-  return true;
+inline bool check_points(std::string_view wrong_point, std::string_view type,
+                         SourceRange range, Diagnostics& diagnostics) {
+  if (wrong_point.empty()) return true;
+  diagnostics.error(
+      range, fmt::format("Unable to convert {} to a {} of numbers", wrong_point,
+                         type));
+  return false;
+}
+
+// index  as OpenSCAD shows it
+// list   "faces" or "paths"
+inline void warn_of_index(std::uint64_t index, std::string_view list,
+                          std::size_t i, std::size_t k, SourceRange range,
+                          Diagnostics& diagnostics) {
+  diagnostics.warning(range,
+                      fmt::format("Point index {} is out of bounds (from "
+                                  "{}[{}][{}])",
+                                  index, list, i, k));
 }
 
 }  // namespace lamina::csg

@@ -22,4 +22,9 @@ struct PolyhedronSurface {
 PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
                                   SourceRange range, Diagnostics& diagnostics);
 
+// For those who look at the corners of the faces only, a triangle of no area
+// for each. What is wrong with the faces does not matter.
+Mesh make_corners(const Polyhedron& polyhedron, SourceRange range,
+                  Diagnostics& diagnostics);
+
 }  // namespace lamina::csg

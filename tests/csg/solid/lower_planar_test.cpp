@@ -73,11 +73,25 @@ TEST_F(LowerPlanarTest, WithoutPathsAPolygonIsAllPoints) {
 }
 
 TEST_F(LowerPlanarTest, PointsThatAreNoneMakeAnEmptyPolygon) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(run({b.polygon({{0, 0}, {2, 0}, {nan, 2}})}).is_empty());
+  const std::vector<Vec2> points{{0, 0}, {2, 0}, {0, 2}};
+  Polygon polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
+  polygon.wrong_point = "points[2] = [0]";
+  EXPECT_TRUE(run({b.node(polygon)}).is_empty());
   EXPECT_EQ(messages(),
             (std::vector<std::string>{
-                "Unable to convert points[2] to a vec2 of numbers"}));
+                "Unable to convert points[2] = [0] to a vec2 of numbers"}));
+}
+
+// OpenSCAD gives the contours to its clipper until one has no place.
+TEST_F(LowerPlanarTest, ContoursWithoutNumbersAreLeftOut) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Vec2> points{{0, 0}, {2, 0}, {0, 2}, {nan, 5},
+                                 {9, 9}, {9, 8}, {8, 9}};
+  Polygon polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
+  polygon.paths = b.copy_lists({{0, 1, 2}, {0, 1, 3}, {4, 5, 6}});
+  EXPECT_EQ(planar::area(run_flat({b.node(polygon)})), 2);
+  EXPECT_EQ(messages(), std::vector<std::string>{
+                            "Range check failed for polygon. skipping"});
 }
 
 TEST_F(LowerPlanarTest, FillTakesHolesAway) {
