@@ -35,8 +35,10 @@ Lowerer Lowerer::make_inner(const Node& node, const Affine& world) {
   return {node.children.size(), options, diagnostics_};
 }
 
-Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world) {
+Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world,
+                                    bool takes_corners) {
   Lowerer inner = make_inner(node, world);
+  inner.takes_corners_ = takes_corners;
   Operands operands =
       inner.lower_operands(node, Affine(1.0), true, Dimension::kNone);
   report_strays(operands);
@@ -45,7 +47,7 @@ Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world) {
 }
 
 Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
-  Apart apart = lower_apart(node, world);
+  Apart apart = lower_apart(node, world, true);
   if (apart.dimension == Dimension::kFlat) {
     return {Dimension::kFlat, hull_of(apart.regions)};
   }

@@ -54,17 +54,12 @@ Shape Lowerer::lower_op(const Cylinder& c, const Node& node,
 
 Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
                         const Affine& world) {
-  PolyhedronSurface surface =
-      make_polyhedron(polyhedron, node.range, diagnostics_);
   Leaf leaf;
-  leaf.meshes.push_back(std::move(surface.mesh));
+  leaf.meshes.push_back(
+      takes_corners_ ? make_corners(polyhedron, node.range, diagnostics_)
+                     : make_polyhedron(polyhedron, node.range, diagnostics_));
   leaf.may_overlap_itself = true;
   place_leaf(std::move(leaf), node, world);
-  const std::size_t mark = builder_.mark();
-  Leaf points;
-  points.meshes.push_back(std::move(surface.points));
-  place_leaf(std::move(points), node, world);
-  builder_.flatten(mark);
   return {Dimension::kSolid};
 }
 

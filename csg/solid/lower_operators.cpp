@@ -150,8 +150,11 @@ void Lowerer::report_strays(const Operands& operands) {
 Shape Lowerer::lower_children(const Node& node, const Affine& world,
                               BooleanOp op) {
   const std::size_t mark = builder_.mark();
+  const bool took_corners = takes_corners_;
+  takes_corners_ = takes_corners_ && node.children.size() == 1;
   const Operands operands =
       lower_operands(node, world, op == BooleanOp::kUnion, Dimension::kNone);
+  takes_corners_ = took_corners;
   report_strays(operands);
   switch (operands.dimension) {
     case Dimension::kNone:

@@ -34,24 +34,14 @@ std::vector<std::uint32_t> read_face(const Polyhedron& polyhedron,
   return loop;
 }
 
-void add_points(const std::vector<std::uint32_t>& loop, const Mesh& mesh,
-                Mesh& points) {
-  for (const std::uint32_t corner : loop) {
-    const auto name = static_cast<std::uint32_t>(points.vertices.size());
-    points.vertices.push_back(mesh.vertices[corner]);
-    points.triangles.push_back({name, name, name});
-  }
-}
-
 }  // namespace
 
-PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
-                                  SourceRange range, Diagnostics& diagnostics) {
+Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
+                     Diagnostics& diagnostics) {
   if (!check_points(polyhedron.wrong_point, "vec3", range, diagnostics)) {
     return {};
   }
-  PolyhedronSurface surface;
-  Mesh& mesh = surface.mesh;
+  Mesh mesh;
   for (const Vec3& point : polyhedron.points) {
     // What is not finite stands in no face. 0 · x is NaN there.
     const bool is_finite = glm::dot(point, Vec3(0)) == 0;
@@ -62,7 +52,6 @@ PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
     const auto loop = read_face(polyhedron, face, range, diagnostics);
     if (loop.size() < 3) {
       has_degenerate = true;
-      add_points(loop, mesh, surface.points);
       continue;
     }
     for (const auto& t : triangulate_face(mesh.vertices, loop)) {
@@ -73,7 +62,7 @@ PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
     diagnostics.warning(range, "PolySet has degenerate polygons");
   }
   mend_and_report(mesh, range, diagnostics);
-  return surface;
+  return mesh;
 }
 
 Mesh make_corners(const Polyhedron& polyhedron, SourceRange range,

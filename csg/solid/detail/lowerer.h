@@ -151,7 +151,8 @@ class Lowerer {
     Scene scene;                          // their union
     bool is_boolean = false;              // as Shape's
   };
-  Apart lower_apart(const Node& node, const Affine& world);
+  Apart lower_apart(const Node& node, const Affine& world,
+                    bool takes_corners = false);
   // A lowerer for those children; nothing lowered yet.
   Lowerer make_inner(const Node& node, const Affine& world);
 
@@ -173,6 +174,9 @@ class Lowerer {
 
   LowerOptions options_;
   Diagnostics& diagnostics_;
+  // All that becomes of the next leaf are its corners: it is below a hull, and
+  // alone all the way. So it may be any heap of faces.
+  bool takes_corners_ = false;
   LeafStore leaves_;
   ProgramBuilder builder_;
   std::array<KeptBox, 64> kept_boxes_;

@@ -9,18 +9,11 @@
 
 namespace lamina::csg {
 
-struct PolyhedronSurface {
-  Mesh mesh;  // closed
-  // Corners of faces of less than three, as triangles of one point each: no
-  // part of the solid, but of its hull.
-  Mesh points;
-};
-
 // Faces are clockwise from outside, as OpenSCAD has them; the mesh is
 // counter-clockwise. Defects are mended and reported, one warning for each
 // kind, with what was done as notes.
-PolyhedronSurface make_polyhedron(const Polyhedron& polyhedron,
-                                  SourceRange range, Diagnostics& diagnostics);
+Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
+                     Diagnostics& diagnostics);
 
 // For those who look at the corners of the faces only, a triangle of no area
 // for each. What is wrong with the faces does not matter.

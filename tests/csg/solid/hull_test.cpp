@@ -131,6 +131,24 @@ TEST_F(Hulls, OfThousandsOfEqualLeavesIsThatOfTheOutermost) {
   EXPECT_NEAR(run_volume({b.node(Hull{}, leaves)}), 8000, kRounding);
 }
 
+// Points are given as faces of a polyhedron, whatever faces: BOSL2 does so.
+TEST_F(Hulls, TakeTheCornersOfAnyHeapOfFaces) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back(i & 1, 2 * (i >> 1 & 1), 3 * (i >> 2));
+  }
+  corners.emplace_back(99, 99, 99);  // of no face
+  const Node* heap =
+      b.polyhedron(corners, {{0, 1, 2, 3, 4}, {5, 6}, {7}, {7, 7, 0}});
+  const Node* moved = b.translate({1, 2, 3}, {b.node(Group{}, {heap})});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {moved})}), 6, kRounding);
+  EXPECT_TRUE(messages().empty());
+  // In a union it is a solid, and there the faces matter.
+  const Node* united = b.node(Union{}, {heap, b.cube({1, 2, 3})});
+  EXPECT_NEAR(run_volume({b.node(Hull{}, {united})}), 6, kRounding);
+  EXPECT_FALSE(messages().empty());
+}
+
 TEST_F(Hulls, OfNothingAreNothing) {
   EXPECT_TRUE(run({b.node(Hull{})}).is_empty());
   EXPECT_TRUE(run({b.node(Hull{}, {b.cube({0, 1, 1})})}).is_empty());
