@@ -204,7 +204,7 @@ void RaySweep::end_piece(Entry& entry) {
   const Vec2& last = *cursor.last();
   Vec2 point(column_left_, y);
   if (is_in_column(last.x) && std::abs(last.y - y) < kColumnWidth) point = last;
-  assert(is_on_chain(cursor, point));
+  if (crosses_here(entry)) note_moved_end(cursor, point);
   tracer_.end_piece(entry.piece, point, y, cursor.left());
   entry.split_column = column_;
 }
@@ -216,22 +216,23 @@ void RaySweep::start_piece(Entry& entry) {
   if (is_in_column(first.x) && std::abs(first.y - y) < kColumnWidth) {
     point = first;
   }
-  assert(is_on_chain(entry.cursor, point));
+  if (crosses_here(entry)) note_moved_end(entry.cursor, point);
   entry.piece =
       tracer_.start_piece(point, y, entry.cursor.left(), entry.survival);
   entry.split_column = column_;
 }
 
-// --- Invariants -------------------------------------------------------------
-
-// I5: the point is one of the chain, but for a tie, the column and what
-// rounding makes of a steep segment.
-bool RaySweep::is_on_chain(const ChainCursor& cursor, const Vec2& point) const {
-  const double rounding =
-      (kColumnWidth + 1e-15 * std::abs(point.x)) * std::abs(cursor.slope());
-  return std::abs(cursor.y_at(point.x) - point.y) <=
-         2 * tie_distance_ + 2 * kColumnWidth + rounding;
+// The point of a crossing may be off a steep chain by what the column's width
+// makes of it. More was a tie at the end of a segment.
+void RaySweep::note_moved_end(const ChainCursor& cursor, const Vec2& point) {
+  const double distance = std::abs(cursor.y_at(point.x) - point.y);
+  const double reach = 2 * kColumnWidth * (1 + std::abs(cursor.slope()));
+  // I5; several ties may be at work in one column.
+  assert(distance <= 4 * tie_distance_ + reach);
+  if (distance > reach) tracer_.note_jump();
 }
+
+// --- Invariants -------------------------------------------------------------
 
 // I1 and I2: from the bottom up, the steps lead to the sets and back to the
 // empty one. I3: neighbours are apart or tied, as far as the rounding of steep

@@ -29,9 +29,6 @@ constexpr std::size_t kGrowthOfMembers = 3;
 // endless: rounding could make the pairwise order of entries a circle.
 constexpr std::uint64_t kMostSwapsPerEntry = 64;
 
-// Relative error of the x of a crossing: a few roundings.
-constexpr double kRoundingOfX = 1e-15;
-
 }  // namespace
 
 // --- The layer --------------------------------------------------------------
@@ -313,21 +310,14 @@ void RaySweep::swap_with_above(std::uint32_t lower) {
 }
 
 // Where two chains cross they have one point, on the flatter one: a steep one's
-// y at the rounded x may be far off. What is farther off than rounding makes it
-// was a tie at the end of a segment.
+// y at the rounded x may be far off.
 void RaySweep::note_crossing(Entry& a, Entry& b) {
   const bool is_a_steeper =
       std::abs(a.cursor.slope()) > std::abs(b.cursor.slope());
   Entry& steeper = is_a_steeper ? a : b;
   const Entry& flatter = is_a_steeper ? b : a;
-  const double x = column_right_;
-  const double y = steeper.cursor.y_at(x);
-  steeper.crossing_y = flatter.cursor.y_at(x);
+  steeper.crossing_y = flatter.cursor.y_at(column_right_);
   steeper.crossing_column = column_;
-  const double rounding = kRoundingOfX * std::abs(x * steeper.cursor.slope());
-  if (std::abs(steeper.crossing_y - y) > kColumnWidth + rounding) {
-    tracer_.note_jump();
-  }
 }
 
 void RaySweep::set_tie(std::uint32_t entry, bool is_tied) {

@@ -115,8 +115,8 @@ class RaySweep {
   void note_disorder_after(std::uint32_t lower, std::uint32_t upper);
   void end_piece(Entry& entry);
   void start_piece(Entry& entry);
+  void note_moved_end(const ChainCursor& cursor, const Vec2& point);
   void check_entries();
-  bool is_on_chain(const ChainCursor& cursor, const Vec2& point) const;
 
   // The entry's segment and y where it meets the column from the left, and y
   // where it leaves it to the right.
