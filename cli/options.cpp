@@ -76,7 +76,7 @@ double require_thin_width(const std::string& option, std::string_view text) {
         value <= slicer::kGreatestThinWidth)) {
     throw CLI::ValidationError(
         option,
-        fmt::format("must be {:.5f} to {} mm, not {}", slicer::kLeastThinWidth,
+        fmt::format("must be {} to {} mm, not {}", slicer::kLeastThinWidth,
                     slicer::kGreatestThinWidth, text));
   }
   return value;

@@ -19,6 +19,10 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // which rounding decides, the lowest is taken.
 constexpr double kSameWidth = 1e-7;
 
+// Cells are no smaller than this share of the width, so that a search for the
+// largest disk visits no more than some hundred.
+constexpr double kLeastCell = 0.125;
+
 // Disks that touch overlap, whatever rounding says [mm].
 constexpr double kOverlapSlack = 1e-7;
 
@@ -27,14 +31,19 @@ bool lie_on_two_sides(Vec2 from, Vec2 to, Vec2 a, Vec2 b) {
   return (cross(along, a - from) > 0) != (cross(along, b - from) > 0);
 }
 
+// Whether the boxes of two lines are farther apart than this.
+bool are_farther(Vec2 a, Vec2 b, Vec2 c, Vec2 d, double distance) {
+  return std::min(c.x, d.x) - std::max(a.x, b.x) > distance ||
+         std::min(a.x, b.x) - std::max(c.x, d.x) > distance ||
+         std::min(c.y, d.y) - std::max(a.y, b.y) > distance ||
+         std::min(a.y, b.y) - std::max(c.y, d.y) > distance;
+}
+
 // Lines shorter than rounding have no sides; they do not cross what is not
 // there.
 bool cross_each_other(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  return std::max(a.x, b.x) >= std::min(c.x, d.x) &&
-         std::max(c.x, d.x) >= std::min(a.x, b.x) &&
-         std::max(a.y, b.y) >= std::min(c.y, d.y) &&
-         std::max(c.y, d.y) >= std::min(a.y, b.y) &&
-         lie_on_two_sides(a, b, c, d) && lie_on_two_sides(c, d, a, b);
+  return !are_farther(a, b, c, d, 0) && lie_on_two_sides(a, b, c, d) &&
+         lie_on_two_sides(c, d, a, b);
 }
 
 double distance_of_lines(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
@@ -46,11 +55,11 @@ double distance_of_lines(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 }  // namespace
 
 // --- Places ----------------------------------------------------------------
-// Lines are listed in the cells of points on them, a cell apart at most. Two
-// lines within a cell of each other have such points within two cells.
+// Lines are listed in the cells of points on them, a cell apart at most.
 
 void FeatureCollector::Places::clear(double cell, std::size_t count) {
   cell_ = cell;
+  greatest_reach_ = 0;
   placed_.clear();
   items_.clear();
   heads_.assign(std::bit_ceil(2 * count + 1), kNone);
@@ -71,14 +80,15 @@ void FeatureCollector::Places::visit_samples(Vec2 from, Vec2 to,
       static_cast<int>(std::ceil(std::sqrt(dot(along, along)) / cell_));
   for (int i = 0; i <= steps; ++i) {
     const Vec2 at = from + (steps > 0 ? double(i) / steps : 0.0) * along;
-    visit(static_cast<std::int64_t>(std::floor(at.x / (2 * cell_))),
-          static_cast<std::int64_t>(std::floor(at.y / (2 * cell_))));
+    visit(static_cast<std::int64_t>(std::floor(at.x / cell_)),
+          static_cast<std::int64_t>(std::floor(at.y / cell_)));
   }
 }
 
 void FeatureCollector::Places::add(const Placed& placed) {
   const auto number = static_cast<std::uint32_t>(placed_.size());
   placed_.push_back(placed);
+  greatest_reach_ = std::max(greatest_reach_, placed.reach);
   std::size_t last = heads_.size();
   visit_samples(
       placed.from, placed.to, [&](std::int64_t column, std::int64_t row) {
@@ -91,12 +101,15 @@ void FeatureCollector::Places::add(const Placed& placed) {
 }
 
 template <typename Visit>
-void FeatureCollector::Places::visit_near(Vec2 from, Vec2 to,
+void FeatureCollector::Places::visit_near(Vec2 from, Vec2 to, double distance,
                                           const Visit& visit) const {
   if (placed_.empty()) return;
+  // Of two lines within the distance, listed points are within a cell more.
+  const auto cells = 1 + static_cast<std::int64_t>(
+                             std::ceil((distance + greatest_reach_) / cell_));
   visit_samples(from, to, [&](std::int64_t column, std::int64_t row) {
-    for (std::int64_t i = column - 1; i <= column + 1; ++i) {
-      for (std::int64_t k = row - 1; k <= row + 1; ++k) {
+    for (std::int64_t i = column - cells; i <= column + cells; ++i) {
+      for (std::int64_t k = row - cells; k <= row + cells; ++k) {
         for (std::uint32_t item = heads_[bucket_of(i, k)]; item != kNone;
              item = items_[item].next) {
           visit(placed_[items_[item].placed]);
@@ -190,11 +203,15 @@ FeatureCollector::Placed FeatureCollector::place(
   const auto maker = [this](std::uint32_t instance) {
     return instance < makers_.size() ? makers_[instance] : kNone;
   };
-  std::array<std::uint32_t, 2> makers = {maker(stretch.instances[0]),
-                                         maker(stretch.instances[1])};
-  std::sort(makers.begin(), makers.end());
-  return {stretch.from, stretch.to, stretch.reach, stretch.kind,
-          makers,       kNone,      kNone};
+  const auto [low, high] =
+      std::minmax({maker(stretch.instances[0]), maker(stretch.instances[1])});
+  return {stretch.from,
+          stretch.to,
+          stretch.reach,
+          stretch.kind,
+          std::uint64_t{high} << 32 | low,
+          kNone,
+          kNone};
 }
 
 // Joins what the stretch overlaps, and the stretch to it.
@@ -202,20 +219,27 @@ FeatureCollector::Placed FeatureCollector::place(
 // gap  by which its disks may miss those of the layer below
 void FeatureCollector::find_neighbours(Placed& stretch, double gap) {
   const auto look = [&](const Places& places, double slack) {
-    places.visit_near(stretch.from, stretch.to, [&](const Placed& other) {
-      if (other.kind != stretch.kind) return;
-      const std::uint32_t whole = wholes_union_.root_of(other.whole);
-      const bool is_alike = other.makers == stretch.makers;
-      const std::uint32_t feature =
-          is_alike ? features_union_.root_of(other.feature) : stretch.feature;
-      if (whole == stretch.whole && feature == stretch.feature) return;
-      if (distance_of_lines(stretch.from, stretch.to, other.from, other.to) >
-          stretch.reach + other.reach + slack) {
-        return;
-      }
-      stretch.whole = join_wholes(stretch.whole, whole);
-      if (is_alike) stretch.feature = join_features(stretch.feature, feature);
-    });
+    const double distance = stretch.reach + slack;
+    places.visit_near(
+        stretch.from, stretch.to, distance, [&](const Placed& other) {
+          if (other.kind != stretch.kind) return;
+          const std::uint32_t whole = wholes_union_.root_of(other.whole);
+          const bool is_alike = other.makers == stretch.makers;
+          const std::uint32_t feature =
+              is_alike ? features_union_.root_of(other.feature)
+                       : stretch.feature;
+          if (whole == stretch.whole && feature == stretch.feature) return;
+          const double most = distance + other.reach;
+          if (are_farther(stretch.from, stretch.to, other.from, other.to,
+                          most) ||
+              distance_of_lines(stretch.from, stretch.to, other.from,
+                                other.to) > most) {
+            return;
+          }
+          stretch.whole = join_wholes(stretch.whole, whole);
+          if (is_alike)
+            stretch.feature = join_features(stretch.feature, feature);
+        });
   };
   look(here_, kOverlapSlack);
   look(below_, gap);
@@ -246,7 +270,11 @@ void FeatureCollector::take(const Layer& layer,
       std::clamp(layer.section_z - last_z_, kOverlapSlack, width_);
   last_z_ = layer.section_z;
   std::swap(here_, below_);
-  here_.clear(2 * width_, stretches.size());
+  double reach = 0;
+  for (const ThinStretch& stretch : stretches) {
+    reach = std::max(reach, stretch.reach);
+  }
+  here_.clear(std::max(2 * reach, kLeastCell * width_), stretches.size());
   for (const ThinStretch& stretch : stretches) {
     const ThinFeature one{stretch.kind,
                           layers_,

@@ -77,19 +77,22 @@ class FeatureCollector {
     Vec2 to;
     double reach;
     ThinKind kind;
-    std::array<std::uint32_t, 2> makers;  // ascending
+    std::uint64_t makers;  // both, whatever their order
     std::uint32_t feature;
     std::uint32_t whole;  // the thin place
   };
   // The stretches of a layer by where they are.
   class Places {
    public:
+    // cell   size of the grid: about the distance that will be asked for
+    // count  of stretches to come
     void clear(double cell, std::size_t count);
     void add(const Placed& placed);
-    // Calls visit(placed) for all that may be within a cell of the line, some
-    // of them more than once.
+    // Calls visit(placed) for all whose disks are within the distance of the
+    // line, and for some beyond; for some more than once.
     template <typename Visit>
-    void visit_near(Vec2 from, Vec2 to, const Visit& visit) const;
+    void visit_near(Vec2 from, Vec2 to, double distance,
+                    const Visit& visit) const;
 
    private:
     struct Item {
@@ -101,6 +104,7 @@ class FeatureCollector {
     std::size_t bucket_of(std::int64_t column, std::int64_t row) const;
 
     double cell_ = 1;
+    double greatest_reach_ = 0;
     std::vector<Placed> placed_;
     std::vector<std::uint32_t> heads_;
     std::vector<Item> items_;

@@ -59,9 +59,9 @@ struct ThinStretch {
   std::array<std::uint32_t, 2> instances = {kNoInstance, kNoInstance};
 };
 
-// Widths to be asked for [mm]: finer ones are lost in ties (ldni/sample.h), and
+// Widths to be asked for [mm]: finer ones are no matter of printing, and
 // the cost of much larger ones grows with their square.
-inline constexpr double kLeastThinWidth = 1e-5;
+inline constexpr double kLeastThinWidth = 1e-3;
 inline constexpr double kGreatestThinWidth = 10;
 
 // One object per thread: it owns the scratch that layers share.
