@@ -24,8 +24,8 @@
 // does so on an interval whose ends are roots of such polynomials. So widths
 // and places are exact up to rounding.
 //
-// The cost is that of a look at every edge, some 40 ns, and of 1 to 3 µs for an
-// edge of a thin place.
+// The cost is about 0.1 µs for an edge that nothing faces, and 1 to 7 µs for an
+// edge of a thin place, by how many edges there are within the width.
 
 #include <array>
 #include <cstdint>
