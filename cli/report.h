@@ -15,7 +15,7 @@ namespace lamina::cli {
 // Processor seconds of all threads since the program began.
 double process_seconds();
 
-// Greatest memory that the process held so far.
+// Greatest memory that this program held so far.
 std::uint64_t peak_memory_bytes();
 
 // Processor seconds by pass, what came of it, and how good it is.

@@ -264,6 +264,16 @@ TEST(Compile, ReportHoldsTimesAndCounts) {
   EXPECT_EQ(json.at("repaired_columns"), 0);
 }
 
+TEST(Compile, PeakMemoryOfAReportIsNotThatOfTheCaller) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  const std::vector<char> much(64'000'000, 'a');
+  ASSERT_EQ(run(folder, {"a.scad", "--report", "r.json"}).status, 0);
+  EXPECT_EQ(much.back(), 'a');
+  const auto json = nlohmann::json::parse(read_file(folder.file("r.json")));
+  EXPECT_LT(json.at("peak_memory_bytes").get<double>(), 64e6);
+}
+
 // --- What goes wrong ------------------------------------------------------
 
 TEST(Compile, FaultyDesignsEndWithOneAndMakeNothing) {
