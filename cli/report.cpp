@@ -93,6 +93,9 @@ std::string report_json(const RunReport& report) {
   add("stops", slice.sweep.stops);
   add("evaluations", slice.sweep.evaluations);
   add("resolved_layers", slice.sweep.resolved_layers);
+  add("image_pixels", slice.images.pixels);
+  add("image_samples", slice.images.samples);
+  add("image_bytes", slice.images.bytes());
   add("vanished_regions", slice.losses.vanished_regions);
   add("vanished_holes", slice.losses.vanished_holes);
   add("broken_walls", slice.losses.broken_walls);

@@ -59,6 +59,11 @@ PaperPlan::PaperPlan(const csg::Scene& scene_in,
       rays(make_rays(scene_in, settings)),
       layers_per_block(choose_layers_per_block(*this)) {}
 
+std::uint64_t ImageCounts::bytes() const {
+  return pixels * sizeof(ldni::LeafImages().ends[0]) +
+         samples * sizeof(ldni::Sample);
+}
+
 ImageCounts& ImageCounts::operator+=(const ImageCounts& other) {
   pixels += other.pixels;
   samples += other.samples;

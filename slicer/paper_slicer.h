@@ -40,6 +40,7 @@ struct ImageCounts {
   std::uint64_t samples = 0;    // of all leaves
   std::uint64_t intervals = 0;  // that the Boolean left
 
+  std::uint64_t bytes() const;  // of pixels and samples
   ImageCounts& operator+=(const ImageCounts& other);
 };
 

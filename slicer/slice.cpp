@@ -48,6 +48,7 @@ class BlockSlicer {
                            std::span<ThinStretch> /*stretches*/) {}
   virtual ldni::SweepCounts counts() const = 0;
   virtual std::uint64_t open_paths() const { return 0; }
+  virtual ImageCounts images() const { return {}; }
 };
 
 // Leaf sections and the kinetic ray.
@@ -92,6 +93,7 @@ class PaperBlockSlicer : public BlockSlicer {
     slicer_.build_layer(first_layer_ + index, contours);
   }
   ldni::SweepCounts counts() const override { return {}; }
+  ImageCounts images() const override { return slicer_.counts(); }
 
  private:
   PaperSlicer slicer_;
@@ -286,6 +288,7 @@ class Job {
     for (const Worker& worker : workers_) {
       report.sweep += worker.slicer->counts();
       report.open_paths += worker.slicer->open_paths();
+      report.images += worker.slicer->images();
       report.losses += worker.compensator.counts();
     }
   }

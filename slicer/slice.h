@@ -11,6 +11,7 @@
 #include "parser/diagnostic.h"
 #include "slicer/compensate.h"
 #include "slicer/layer.h"
+#include "slicer/paper_slicer.h"
 #include "slicer/settings.h"
 #include "slicer/thin_features.h"
 
@@ -20,6 +21,7 @@ namespace lamina::slicer {
 // threads.
 struct SliceReport {
   ldni::SweepCounts sweep;
+  ImageCounts images;  // of the paper's contours
   std::uint64_t open_paths =
       0;                       // of leaves' sections, closed: 0 if all is well
   double section_seconds = 0;  // leaves to chains, or to samples
@@ -28,10 +30,10 @@ struct SliceReport {
   double output_seconds = 0;   // compensation, simplification and writing
   std::uint32_t layers = 0;    // written
   std::uint64_t loops = 0;
-  std::uint64_t holes = 0;         // of the loops
-  std::uint64_t points = 0;        // written
-  double volume = 0;               // of the layers [mm³]; 0 for --heights
-  double greatest_area = 0;        // of a layer [mm²]
+  std::uint64_t holes = 0;   // of the loops
+  std::uint64_t points = 0;  // written
+  double volume = 0;         // of the layers [mm³]; 0 for --heights
+  double greatest_area = 0;  // of a layer [mm²]
   CompensationCounts losses;
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
 };

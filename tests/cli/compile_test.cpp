@@ -274,6 +274,27 @@ TEST(Compile, PeakMemoryOfAReportIsNotThatOfTheCaller) {
   EXPECT_LT(json.at("peak_memory_bytes").get<double>(), 64e6);
 }
 
+// Two cubes of 2 mm in a box of 10 mm: each is sampled in its own box, or in
+// the whole, where the rays beside it find nothing.
+TEST(Compile, ReportCountsTheDepthImages) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(2); translate([8, 0, 0]) cube(2);");
+  const auto images = [&](const std::string& boxes) {
+    EXPECT_EQ(run(folder, {"a.scad", "--contour", "paper", "--layer", "0.1",
+                           "--boxes", boxes, "--report", "r.json"})
+                  .status,
+              0);
+    return nlohmann::json::parse(read_file(folder.file("r.json")));
+  };
+  const auto local = images("local");
+  const auto global = images("global");
+  EXPECT_EQ(local.at("image_samples"), 2 * 2 * 20 * 20);
+  EXPECT_EQ(global.at("image_samples"), local.at("image_samples"));
+  EXPECT_NEAR(local.at("image_pixels").get<double>(), 2 * 20 * 20, 100);
+  EXPECT_NEAR(global.at("image_pixels").get<double>(), 2 * 100 * 20, 100);
+  EXPECT_GT(global.at("image_bytes"), local.at("image_bytes"));
+}
+
 // --- What goes wrong ------------------------------------------------------
 
 TEST(Compile, FaultyDesignsEndWithOneAndMakeNothing) {
