@@ -24,6 +24,10 @@ ModuleArguments::ModuleArguments(const BuiltinModuleCode& code, Frame& frame) {
   }
 }
 
+void warn(const BuiltinModuleCode& code, Frame& frame, std::string message) {
+  frame.in.warn(code.range, std::move(message));
+}
+
 void run_builtin_module(const InstantiationCode& instantiation, Frame& frame) {
   const auto& code = static_cast<const BuiltinModuleCode&>(instantiation);
   if (!code.deprecated_for.empty()) {
@@ -180,6 +184,7 @@ const Table& builtin_table() {
         made);
     add_rows(primitive_rows(), made);
     add_rows(operation_rows(), made);
+    add_rows(transform_rows(), made);
     add_rows(file_rows(), made);
     made["linear_extrude"].needs_late_argument = true;
     made["dxf_linear_extrude"].needs_late_argument = true;

@@ -35,6 +35,9 @@ class ModuleArguments {
   Value values_[kMost];
 };
 
+// A warning at the call.
+void warn(const BuiltinModuleCode& code, Frame& frame, std::string message);
+
 // Entries of one file: name, handler, positional parameters, further ones.
 struct BuiltinModuleRow {
   std::string_view name;
@@ -45,6 +48,7 @@ struct BuiltinModuleRow {
 };
 std::vector<BuiltinModuleRow> primitive_rows();
 std::vector<BuiltinModuleRow> operation_rows();
+std::vector<BuiltinModuleRow> transform_rows();
 std::vector<BuiltinModuleRow> file_rows();
 
 }  // namespace lamina::csg

@@ -11,8 +11,8 @@
 #include "csg/degrees.h"
 #include "csg/eval/builtin_call.h"
 #include "csg/eval/builtin_functions.h"
+#include "csg/eval/comparison.h"
 #include "csg/eval/interpreter.h"
-#include "csg/eval/operators.h"
 
 namespace lamina::csg {
 

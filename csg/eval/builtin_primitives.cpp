@@ -19,10 +19,6 @@ namespace lamina::csg {
 
 namespace {
 
-void warn(const BuiltinModuleCode& code, Frame& frame, std::string message) {
-  frame.in.warn(code.range, std::move(message));
-}
-
 void refuse_children(const BuiltinModuleCode& code, Frame& frame) {
   if (code.block->statements.empty()) return;
   warn(code, frame,

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "csg/eval/builtin_call.h"
+#include "csg/eval/comparison.h"
 #include "csg/eval/interpreter.h"
-#include "csg/eval/operators.h"
 #include "csg/eval/text.h"
 #include "csg/eval/utf8.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "csg/eval/code.h"
-#include "csg/eval/operators.h"
+#include "csg/eval/comparison.h"
 
 namespace lamina::csg {
 

@@ -2,159 +2,20 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "csg/eval/comparison.h"
 #include "csg/eval/object.h"
+#include "csg/eval/products.h"
+#include "csg/eval/undefined.h"
 
 namespace lamina::csg {
 
 namespace {
 
 using ast::BinaryOp;
-
-std::string_view symbol(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::kLess:
-      return "<";
-    case BinaryOp::kLessEqual:
-      return "<=";
-    case BinaryOp::kGreater:
-      return ">";
-    case BinaryOp::kGreaterEqual:
-      return ">=";
-    case BinaryOp::kBitOr:
-      return "|";
-    case BinaryOp::kBitAnd:
-      return "&";
-    case BinaryOp::kShiftLeft:
-      return "<<";
-    case BinaryOp::kShiftRight:
-      return ">>";
-    case BinaryOp::kAdd:
-      return "+";
-    case BinaryOp::kSubtract:
-      return "-";
-    case BinaryOp::kMultiply:
-      return "*";
-    case BinaryOp::kDivide:
-      return "/";
-    case BinaryOp::kModulo:
-      return "%";
-    case BinaryOp::kPower:
-      return "^";
-    default:
-      return "";
-  }
-}
-
-Value undefined(BinaryOp op, const Value& left, const Value& right,
-                std::string& reason) {
-  reason = fmt::format("undefined operation ({} {} {})", type_name(left.type()),
-                       symbol(op), type_name(right.type()));
-  return Value();
-}
-
-// --- Comparison -----------------------------------------------------------
-
-bool are_equal_ranges(const Range& a, const Range& b) {
-  const std::uint32_t n = a.count();
-  if (n == 0 || b.count() == 0) return n == b.count();
-  return a.begin == b.begin && a.step == b.step && n == b.count();
-}
-
-// a < b, or a <= b where equality is allowed.
-bool is_less_range(const Range& a, const Range& b, bool or_equal) {
-  const std::uint32_t n = a.count();
-  const std::uint32_t m = b.count();
-  if (n == 0) return or_equal || m > 0;
-  if (m == 0) return false;
-  if (a.begin != b.begin) return a.begin < b.begin;
-  if (a.step != b.step) return a.step < b.step;
-  return or_equal ? n <= m : n < m;
-}
-
-Value compare(BinaryOp op, const Value& left, const Value& right,
-              std::string& reason);
-
-// Lexicographic; nothing where elements cannot be compared.
-std::optional<bool> is_less_vector(std::span<const Value> a,
-                                   std::span<const Value> b,
-                                   std::string& reason) {
-  const std::size_t common = std::min(a.size(), b.size());
-  for (std::size_t i = 0; i < common; ++i) {
-    const Value less = compare(BinaryOp::kLess, a[i], b[i], reason);
-    if (less.is_undef()) {
-      reason += fmt::format("\n\tin vector comparison at index {}", i);
-      return std::nullopt;
-    }
-    if (less.is_true()) return true;
-    if (is_less(b[i], a[i])) return false;
-  }
-  return a.size() < b.size();
-}
-
-Value compare_vectors(BinaryOp op, const Value& left, const Value& right,
-                      std::string& reason) {
-  // a > b is b < a; a <= b is not (b < a).
-  const bool is_swapped =
-      op == BinaryOp::kGreater || op == BinaryOp::kLessEqual;
-  const bool is_negated =
-      op == BinaryOp::kLessEqual || op == BinaryOp::kGreaterEqual;
-  const std::optional<bool> less =
-      is_less_vector((is_swapped ? right : left).as_vector(),
-                     (is_swapped ? left : right).as_vector(), reason);
-  if (!less) return Value();
-  return Value(*less != is_negated);
-}
-
-template <typename T>
-bool compare_plain(BinaryOp op, const T& a, const T& b) {
-  switch (op) {
-    case BinaryOp::kLess:
-      return a < b;
-    case BinaryOp::kLessEqual:
-      return a <= b;
-    case BinaryOp::kGreater:
-      return a > b;
-    default:
-      return a >= b;
-  }
-}
-
-Value compare(BinaryOp op, const Value& left, const Value& right,
-              std::string& reason) {
-  const bool both_undef = left.is_undef() && right.is_undef();
-  if (left.type() != right.type() && !both_undef) {
-    return undefined(op, left, right, reason);
-  }
-  switch (left.type()) {
-    case Type::kBool:
-      return Value(compare_plain(op, left.as_bool(), right.as_bool()));
-    case Type::kNumber:
-      return Value(compare_plain(op, left.as_number(), right.as_number()));
-    case Type::kString:
-      return Value(compare_plain(op, left.as_string(), right.as_string()));
-    case Type::kVector:
-      return compare_vectors(op, left, right, reason);
-    case Type::kRange: {
-      const bool or_equal =
-          op == BinaryOp::kLessEqual || op == BinaryOp::kGreaterEqual;
-      const bool is_less_op =
-          op == BinaryOp::kLess || op == BinaryOp::kLessEqual;
-      const Range& a = (is_less_op ? left : right).as_range();
-      const Range& b = (is_less_op ? right : left).as_range();
-      return Value(is_less_range(a, b, or_equal));
-    }
-    default:
-      reason =
-          fmt::format("operation undefined ({} {} {})", type_name(left.type()),
-                      symbol(op), type_name(right.type()));
-      return Value();
-  }
-}
 
 // --- Arithmetic -----------------------------------------------------------
 
@@ -232,144 +93,6 @@ Value multiply_elements(Value&& vector, const Value& factor) {
       });
 }
 
-Value multiply_matrix_by_vector(std::span<const Value> matrix,
-                                std::span<const Value> vector,
-                                std::string& reason) {
-  VectorBuilder result(matrix.size());
-  for (std::size_t i = 0; i < matrix.size(); ++i) {
-    const std::span<const Value> row = matrix[i].elements();
-    if (!matrix[i].is_vector() || row.size() != vector.size()) {
-      reason = fmt::format("Matrix must be rectangular. Problem at row {}", i);
-      return Value();
-    }
-    double sum = 0;
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      if (!row[j].is_number()) {
-        reason = fmt::format(
-            "Matrix must contain only numbers. Problem at row {}, col {}", i,
-            j);
-        return Value();
-      }
-      if (!vector[j].is_number()) {
-        reason = fmt::format(
-            "Vector must contain only numbers. Problem at index {}", j);
-        return Value();
-      }
-      sum += row[j].as_number() * vector[j].as_number();
-    }
-    result.push(Value(sum));
-  }
-  return result.finish();
-}
-
-Value multiply_vector_by_matrix(std::span<const Value> vector,
-                                std::span<const Value> matrix,
-                                std::string& reason) {
-  const std::size_t columns = matrix[0].elements().size();
-  VectorBuilder result(columns);
-  for (std::size_t i = 0; i < columns; ++i) {
-    double sum = 0;
-    for (std::size_t j = 0; j < vector.size(); ++j) {
-      const std::span<const Value> row = matrix[j].elements();
-      if (!matrix[j].is_vector() || row.size() != columns) {
-        reason =
-            fmt::format("Matrix must be rectangular. Problem at row {}", j);
-        return Value();
-      }
-      if (!vector[j].is_number()) {
-        reason = fmt::format(
-            "Vector must contain only numbers. Problem at index {}", j);
-        return Value();
-      }
-      if (!row[i].is_number()) {
-        reason = fmt::format(
-            "Matrix must contain only numbers. Problem at row {}, col {}", j,
-            i);
-        return Value();
-      }
-      sum += vector[j].as_number() * row[i].as_number();
-    }
-    result.push(Value(sum));
-  }
-  return result.finish();
-}
-
-Value multiply_matrices(std::span<const Value> left,
-                        std::span<const Value> right, std::string& reason) {
-  VectorBuilder result(left.size());
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const std::span<const Value> row = left[i].elements();
-    if (row.size() != right.size()) {
-      reason = fmt::format(
-          "matrix*matrix left operand row length does not match right operand "
-          "row count ({} != {}) at row {}",
-          row.size(), right.size(), i);
-      return Value();
-    }
-    Value product = multiply_vector_by_matrix(row, right, reason);
-    if (product.is_undef()) {
-      reason += fmt::format("\n\twhile processing left operand at row {}", i);
-      return Value();
-    }
-    result.push(std::move(product));
-  }
-  return result.finish();
-}
-
-Value multiply_vectors(std::span<const Value> a, std::span<const Value> b,
-                       std::string& reason) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!a[i].is_number() || !b[i].is_number()) {
-      return undefined(BinaryOp::kMultiply, a[i], b[i], reason);
-    }
-    sum += a[i].as_number() * b[i].as_number();
-  }
-  return Value(sum);
-}
-
-// What a product of two vectors means depends on their first elements.
-Value multiply_any_vectors(std::span<const Value> a, std::span<const Value> b,
-                           std::string& reason) {
-  if (a.empty() || b.empty()) {
-    reason = "Multiplication is undefined on empty vectors";
-    return Value();
-  }
-  const Value& first = a[0];
-  const Value& second = b[0];
-  if (first.is_number() && second.is_number()) {
-    if (a.size() == b.size()) return multiply_vectors(a, b, reason);
-    reason = fmt::format("vector*vector requires matching lengths ({} != {})",
-                         a.size(), b.size());
-  } else if (first.is_number() && second.is_vector()) {
-    if (a.size() == b.size()) return multiply_vector_by_matrix(a, b, reason);
-    reason = fmt::format(
-        "vector*matrix requires vector length to match matrix row count ({} "
-        "!= {})",
-        a.size(), b.size());
-  } else if (first.is_vector() && second.is_number()) {
-    const std::size_t columns = first.as_vector().size();
-    if (columns == b.size()) return multiply_matrix_by_vector(a, b, reason);
-    reason = fmt::format(
-        "matrix*vector requires matrix column count to match vector length "
-        "({} != {})",
-        columns, b.size());
-  } else if (first.is_vector() && second.is_vector()) {
-    const std::size_t columns = first.as_vector().size();
-    if (columns == b.size()) return multiply_matrices(a, b, reason);
-    reason = fmt::format(
-        "matrix*matrix requires left operand column count to match right "
-        "operand row count ({} != {})",
-        columns, b.size());
-  } else {
-    reason = fmt::format(
-        "undefined vector*vector multiplication where first elements are "
-        "types {} and {}",
-        type_name(first.type()), type_name(second.type()));
-  }
-  return Value();
-}
-
 Value multiply_any(Value&& left, Value&& right, std::string& reason) {
   if (left.is_vector() && right.is_number()) {
     return multiply_elements(std::move(left), right);
@@ -378,7 +101,7 @@ Value multiply_any(Value&& left, Value&& right, std::string& reason) {
     return multiply_elements(std::move(right), left);
   }
   if (left.is_vector() && right.is_vector()) {
-    return multiply_any_vectors(left.as_vector(), right.as_vector(), reason);
+    return multiply_vectors(left.as_vector(), right.as_vector(), reason);
   }
   return undefined(BinaryOp::kMultiply, left, right, reason);
 }
@@ -446,44 +169,6 @@ Value invert(const Value& value, std::string& reason) {
 }
 
 }  // namespace
-
-bool are_equal(const Value& left, const Value& right) {
-  if (left.is_undef() && right.is_undef()) return true;
-  if (left.type() != right.type()) return false;
-  switch (left.type()) {
-    case Type::kBool:
-      return left.as_bool() == right.as_bool();
-    case Type::kNumber:
-      return left.as_number() == right.as_number();
-    case Type::kString:
-      return left.as_string() == right.as_string();
-    case Type::kVector: {
-      const std::span<const Value> a = left.as_vector();
-      const std::span<const Value> b = right.as_vector();
-      if (a.size() != b.size()) return false;
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        if (!are_equal(a[i], b[i])) return false;
-      }
-      return true;
-    }
-    case Type::kRange:
-      return are_equal_ranges(left.as_range(), right.as_range());
-    case Type::kFunction:
-      return are_equal_functions(left, right);
-    case Type::kObject:
-      return are_equal_objects(left, right);
-    default:
-      return left.is_same_object(right);
-  }
-}
-
-bool is_less(const Value& left, const Value& right) {
-  if (left.is_number() && right.is_number()) {
-    return left.as_number() < right.as_number();
-  }
-  std::string unused;
-  return compare(BinaryOp::kLess, left, right, unused).is_true();
-}
 
 Value apply_binary(BinaryOp op, Value left, Value right, std::string& reason) {
   switch (op) {

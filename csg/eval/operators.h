@@ -36,12 +36,6 @@ Value apply_binary(ast::BinaryOp op, Value left, Value right,
 Value apply_unary(ast::UnaryOp op, Value value, std::string& reason);
 Value negate(Value value, std::string& reason);
 
-// left == right; never undefined.
-bool are_equal(const Value& left, const Value& right);
-
-// left < right, false where that is undefined (min, max and search use it).
-bool is_less(const Value& left, const Value& right);
-
 // object[index], or object["name"] of an object; undef without a word where
 // there is no such element.
 Value index(const Value& object, const Value& index);

@@ -1,0 +1,19 @@
+#pragma once
+// What operators say where an operation has no meaning.
+
+#include <string>
+#include <string_view>
+
+#include "csg/eval/value.h"
+#include "parser/ast.h"
+
+namespace lamina::csg {
+
+// As it is written: "<=". Empty for operators that are never undefined.
+std::string_view symbol(ast::BinaryOp op);
+
+// undef; leaves "undefined operation (number + string)" in `reason`.
+Value undefined(ast::BinaryOp op, const Value& left, const Value& right,
+                std::string& reason);
+
+}  // namespace lamina::csg
