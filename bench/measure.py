@@ -1,0 +1,135 @@
+"""Runs of lamina for the benchmarks: what they cost, medians, and tables.
+
+Processor time is that of the whole process, from exec to its end, as the
+system counts it. Runs that are to be compared take turns, so that a busy
+machine slows all of them.
+"""
+import json
+import os
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LAMINA = Path(os.environ.get("LAMINA", ROOT / "build/release/lamina"))
+SCENES = ROOT / "bench/scenes"
+
+# So that processor time is what a user waits for; Mesa's OpenGL in software
+# draws in the calling thread too (LP_NUM_THREADS).
+ONE_THREAD = ["--threads", "1"]
+ENVIRONMENT = {"PATH": os.environ.get("PATH", ""), "LC_ALL": "C",
+               "HOME": os.environ.get("HOME", ""), "LP_NUM_THREADS": "0"}
+
+
+class Failure(Exception):
+    """A run that ended with an error, or was stopped."""
+
+
+def require_lamina():
+    if not LAMINA.exists():
+        sys.exit("build first: scripts/run --version")
+
+
+def processor_seconds(command, limit):
+    """Runs `command`; its processor seconds. Stopped after `limit` seconds."""
+    with tempfile.TemporaryFile() as words:
+        process = subprocess.Popen(command, env=ENVIRONMENT, stdout=words,
+                                   stderr=words, stdin=subprocess.DEVNULL)
+        alarm = threading.Timer(limit, os.kill, (process.pid, signal.SIGKILL))
+        alarm.start()
+        _, status, usage = os.wait4(process.pid, 0)
+        alarm.cancel()
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode == -signal.SIGKILL:
+            raise Failure(f"> {limit:g}")
+        if process.returncode != 0:
+            words.seek(0)
+            raise Failure(words.read().decode().strip())
+    return usage.ru_utime + usage.ru_stime
+
+
+def seconds_text(seconds):
+    return f"{seconds:.4f}" if seconds < 10 else f"{seconds:.1f}"
+
+
+def megabytes_text(count):
+    return f"{count / 1e6:.1f}"
+
+
+class Bench:
+    """Runs lamina into a scratch folder of its own."""
+
+    def __init__(self, runs, limit=120):
+        self.runs = runs
+        self.limit = limit  # seconds that a run may take
+        self.failures = []
+        self.folder = tempfile.TemporaryDirectory()
+        self.scratch = Path(self.folder.name)
+
+    def write(self, name, text):
+        """A file in the scratch folder."""
+        path = self.scratch / name
+        path.write_text(text)
+        return path
+
+    def run_once(self, arguments):
+        """The run's report, with its processor seconds as "process_seconds"."""
+        report = self.scratch / "report.json"
+        seconds = processor_seconds(
+            [LAMINA, *arguments, "-q", "-o", self.scratch / "out.slc",
+             "--report", report], self.limit)
+        return {**json.loads(report.read_text()), "process_seconds": seconds}
+
+    def measure(self, commands, times=1):
+        """The median report of each of `commands` (lists of arguments), field
+        by field; a Failure for one that fails. `times` as many runs."""
+        reports = [[] for _ in commands]
+        failed = {}
+        for _ in range(self.runs * times):
+            for i, arguments in enumerate(commands):
+                if i in failed:
+                    continue
+                try:
+                    reports[i].append(self.run_once(arguments))
+                except Failure as failure:
+                    failed[i] = failure
+                    self.failures.append(failure)
+        return [failed[i] if i in failed else median_report(reports[i])
+                for i in range(len(commands))]
+
+
+def median_report(reports):
+    return {key: statistics.median(report[key] for report in reports)
+            for key, value in reports[0].items()
+            if isinstance(value, (int, float))}
+
+
+def markdown(columns, rows):
+    """A table as text; all columns but the first are numbers."""
+    lines = [columns, ["---"] + ["--:"] * (len(columns) - 1), *rows]
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
+
+
+class Section:
+    """A part of a document between <!-- begin NAME --> and <!-- end NAME -->,
+    written by a benchmark."""
+
+    def __init__(self, document, name):
+        self.document = document
+        self.begin = f"<!-- begin {name} -->\n"
+        self.end = f"<!-- end {name} -->\n"
+
+    def read(self):
+        text = self.document.read_text()
+        return text[text.index(self.begin) + len(self.begin):
+                    text.index(self.end)]
+
+    def write(self, content):
+        text = self.document.read_text()
+        before = text[:text.index(self.begin) + len(self.begin)]
+        self.document.write_text(before + content +
+                                 text[text.index(self.end):])
