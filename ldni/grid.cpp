@@ -62,8 +62,7 @@ std::uint32_t LayerGrid::layers_below(double z) const {
     return static_cast<std::uint32_t>(it - heights_.begin());
   }
   // Divide for a guess, then let the thresholds decide.
-  const double guess =
-      std::ceil((z - (bottom_ + 0.5 * thickness_)) / thickness_);
+  const double guess = (z - bottom_) / thickness_ + 0.5;
   if (!(guess >= 0)) return 0;
   std::uint32_t layers =
       guess >= layer_count_ ? layer_count_ : static_cast<std::uint32_t>(guess);

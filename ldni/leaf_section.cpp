@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <mutex>
+#include <unordered_map>
 #include <utility>
 
 #include <glm/mat3x3.hpp>
@@ -9,6 +11,7 @@
 
 #include "ldni/detail/chain_builder.h"
 #include "ldni/detail/layer_index.h"
+#include "ldni/detail/mesh_index.h"
 #include "ldni/detail/mesh_section.h"
 #include "ldni/detail/sweep_section.h"
 
@@ -66,15 +69,29 @@ ChainBlock::ChainBlock(ChainBlock&&) noexcept = default;
 ChainBlock& ChainBlock::operator=(ChainBlock&&) noexcept = default;
 
 struct LeafSectioner::State {
+  // Made by the first block that reaches the instance.
+  struct IndexedMeshes {
+    std::once_flag is_made;
+    std::vector<detail::MeshIndex> indices;  // one a mesh
+  };
+
   State(const csg::Scene& s, const LayerGrid& g)
-      : scene(s), grid(g), index(layer_ranges(s, g), g.layer_count()) {}
+      : scene(s), grid(g), index(layer_ranges(s, g), g.layer_count()) {
+    for (std::uint32_t i = 0; i < s.instances.size(); ++i) {
+      if (!s.leaves[s.instances[i].leaf].meshes.empty()) meshes[i];
+    }
+  }
 
   void cut_instance(std::uint32_t number,
                     detail::SectionScratch& scratch) const;
+  const std::vector<detail::MeshIndex>& index_meshes(
+      std::uint32_t number) const;
 
   const csg::Scene& scene;
   const LayerGrid& grid;
   detail::LayerIndex index;
+  // Of the instances that have meshes.
+  mutable std::unordered_map<std::uint32_t, IndexedMeshes> meshes;
 };
 
 void LeafSectioner::State::cut_instance(std::uint32_t number,
@@ -89,10 +106,24 @@ void LeafSectioner::State::cut_instance(std::uint32_t number,
     scratch.sweeps.cut(leaf.sweeps[i], matrix, number, orientation,
                        scratch.layers, scratch.builder);
   }
-  for (const csg::Mesh& mesh : leaf.meshes) {
-    scratch.meshes.cut(mesh, matrix, number, mirror, scratch.layers,
-                       scratch.builder);
+  if (leaf.meshes.empty()) return;
+  const std::vector<detail::MeshIndex>& indices = index_meshes(number);
+  for (std::size_t i = 0; i < leaf.meshes.size(); ++i) {
+    scratch.meshes.cut(leaf.meshes[i], indices[i], matrix, number, mirror,
+                       scratch.layers, scratch.builder);
   }
+}
+
+const std::vector<detail::MeshIndex>& LeafSectioner::State::index_meshes(
+    std::uint32_t number) const {
+  IndexedMeshes& indexed = meshes.at(number);
+  std::call_once(indexed.is_made, [&] {
+    const csg::Instance& instance = scene.instances[number];
+    for (const csg::Mesh& mesh : scene.leaves[instance.leaf].meshes) {
+      indexed.indices.emplace_back(mesh, instance.world_from_leaf, grid);
+    }
+  });
+  return indexed.indices;
 }
 
 LeafSectioner::LeafSectioner(const csg::Scene& scene, const LayerGrid& grid)
@@ -112,6 +143,7 @@ void LeafSectioner::cut(std::uint32_t first_layer, std::uint32_t layer_count,
   // Tabulate the block's sections.
   const LayerGrid& grid = state_->grid;
   detail::BlockLayers& layers = scratch.layers;
+  layers.first = first_layer;
   layers.heights.clear();
   layers.thresholds.clear();
   for (std::uint32_t l = first_layer; l < first_layer + layer_count; ++l) {

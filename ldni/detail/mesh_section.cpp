@@ -3,50 +3,82 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <utility>
 
 namespace lamina::ldni::detail {
 
-void MeshSectioner::cut(const csg::Mesh& mesh, const Affine& world_from_leaf,
-                        std::uint32_t instance, std::int32_t orientation,
-                        const BlockLayers& layers, ChainBuilder& builder) {
+void MeshSectioner::cut(const csg::Mesh& mesh, const MeshIndex& index,
+                        const Affine& world_from_leaf, std::uint32_t instance,
+                        std::int32_t orientation, const BlockLayers& layers,
+                        ChainBuilder& builder) {
   world_from_leaf_ = world_from_leaf;
   layers_ = &layers;
   builder_ = &builder;
   instance_ = instance;
   orientation_ = orientation;
-  find_crossed(mesh);
+  count_layers_below(mesh, index);
+  find_crossed(mesh, index);
   if (crossed_.empty()) return;
   const bool is_closed = pair_edges(mesh);
   if (!is_closed) trace_all(mesh, true);
   trace_all(mesh, false);
 }
 
-void MeshSectioner::find_crossed(const csg::Mesh& mesh) {
+bool MeshSectioner::meets_block(LayerRange layers) const {
+  const auto count = static_cast<std::uint32_t>(layers_->heights.size());
+  return layers.first < layers.last && layers.last > layers_->first &&
+         layers.first < layers_->first + count;
+}
+
+void MeshSectioner::count_layers_below(const csg::Mesh& mesh,
+                                       const MeshIndex& index) {
   layers_below_.resize(mesh.vertices.size());
-  const Affine& m = world_from_leaf_;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    layers_below_[i] = layers_->layers_below((m * Vec4(mesh.vertices[i], 1)).z);
-  }
+  const std::uint32_t end_layer =
+      layers_->first + static_cast<std::uint32_t>(layers_->heights.size());
+  index.vertices.for_each([&](LayerRange layers, std::size_t begin,
+                              std::size_t end) {
+    if (!meets_block(layers)) {
+      const std::uint32_t below =
+          std::clamp(layers.first, layers_->first, end_layer) - layers_->first;
+      std::fill(&layers_below_[begin], &layers_below_[end], below);
+      return;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      layers_below_[i] =
+          layers_->layers_below(height_of(world_from_leaf_, mesh.vertices[i]));
+    }
+  });
+}
+
+void MeshSectioner::find_crossed(const csg::Mesh& mesh,
+                                 const MeshIndex& index) {
   crossed_.clear();
-  std::uint32_t flags = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& corners = mesh.triangles[t];
-    const std::uint32_t a = layers_below_[corners[0]];
-    const std::uint32_t b = layers_below_[corners[1]];
-    const std::uint32_t c = layers_below_[corners[2]];
-    if (a == b && b == c) continue;
-    const std::uint32_t low = std::min({a, b, c});
-    const std::uint32_t high = std::max({a, b, c});
-    crossed_.push_back({static_cast<std::uint32_t>(t), low, high, flags});
-    flags += high - low;
-  }
-  is_passed_.assign(flags, false);
+  flag_count_ = 0;
+  index.triangles.for_each(
+      [&](LayerRange layers, std::size_t begin, std::size_t end) {
+        if (!meets_block(layers)) return;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto& corners = mesh.triangles[i];
+          const std::uint32_t a = layers_below_[corners[0]];
+          const std::uint32_t b = layers_below_[corners[1]];
+          const std::uint32_t c = layers_below_[corners[2]];
+          if (a == b && b == c) continue;
+          const LayerRange crossing{std::min({a, b, c}), std::max({a, b, c})};
+          crossed_.push_back(
+              {static_cast<std::uint32_t>(i), crossing, flag_count_});
+          flag_count_ += crossing.last - crossing.first;
+        }
+      });
+  is_passed_.assign(flag_count_, false);
 }
 
 // Whether every half-edge found its partner.
 bool MeshSectioner::pair_edges(const csg::Mesh& mesh) {
-  slots_.assign(std::bit_ceil(3 * crossed_.size()), {});
+  // Of a triangle that one layer crosses two edges are crossed, each of them
+  // shared; of any triangle three at most. So a quarter of the slots is free.
+  slots_.assign(std::bit_ceil(2 * crossed_.size()), {});
   twins_.assign(3 * crossed_.size(), kNone);
+  waiting_count_ = 0;
   for (std::uint32_t i = 0; i < crossed_.size(); ++i) {
     const auto& corners = mesh.triangles[crossed_[i].triangle];
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -57,16 +89,13 @@ bool MeshSectioner::pair_edges(const csg::Mesh& mesh) {
       }
     }
   }
-  bool is_closed = true;
+  if (waiting_count_ == 0) return true;
   for (const EdgeSlot& slot : slots_) {
     for (std::uint32_t waiting = slot.waiting; waiting != kNone;) {
-      is_closed = false;
-      const std::uint32_t next = twins_[waiting];
-      twins_[waiting] = kNone;
-      waiting = next;
+      waiting = std::exchange(twins_[waiting], kNone);
     }
   }
-  return is_closed;
+  return false;
 }
 
 void MeshSectioner::pair_edge(std::uint32_t from, std::uint32_t to,
@@ -84,18 +113,20 @@ void MeshSectioner::pair_edge(std::uint32_t from, std::uint32_t to,
     slot.waiting = twins_[twin];
     twins_[twin] = half_edge;
     twins_[half_edge] = twin;
+    --waiting_count_;
   } else {
     twins_[half_edge] = slot.waiting;
     slot.waiting = half_edge;
     slot.waits_ascending = is_ascending;
+    ++waiting_count_;
   }
 }
 
 void MeshSectioner::trace_all(const csg::Mesh& mesh, bool only_open) {
   for (std::uint32_t i = 0; i < crossed_.size(); ++i) {
     const CrossedTriangle& crossed = crossed_[i];
-    for (std::uint32_t l = crossed.low; l < crossed.high; ++l) {
-      if (is_passed_[crossed.first_flag + l - crossed.low]) continue;
+    for (std::uint32_t l = crossed.layers.first; l < crossed.layers.last; ++l) {
+      if (is_passed_[crossed.first_flag + l - crossed.layers.first]) continue;
       if (only_open && !is_entered_openly(mesh, i, l)) continue;
       if (only_open) ++open_paths_;
       trace(mesh, i, l);
@@ -134,7 +165,7 @@ void MeshSectioner::trace(const csg::Mesh& mesh, std::uint32_t start,
   std::uint32_t current = start;
   do {
     const CrossedTriangle& crossed = crossed_[current];
-    is_passed_[crossed.first_flag + layer - crossed.low] = true;
+    is_passed_[crossed.first_flag + layer - crossed.layers.first] = true;
     const std::uint32_t corner = exit_corner(mesh, current, layer);
     const auto& corners = mesh.triangles[crossed.triangle];
     add_point(mesh, corners[corner], corners[corner == 2 ? 0 : corner + 1]);

@@ -2,16 +2,19 @@
 // Sections of a closed triangle mesh.
 //
 // Only triangles with vertices on both sides of some layer of the block take
-// part; in a fine mesh they are few. Their edges meet in a hash table keyed by
-// the two vertices, which pairs each directed edge with one of the opposite
-// direction; where an edge is used more often any such pairing gives closed
-// loops. A walk then goes from triangle to triangle, layer by layer.
+// part; in a fine mesh they are few, and its index tells where to look. Their
+// edges meet in a hash table keyed by the two vertices, which pairs each
+// directed edge with one of the opposite direction; where an edge is used more
+// often any such pairing gives closed loops. A walk then goes from triangle to
+// triangle, layer by layer.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "csg/scene.h"
 #include "ldni/detail/chain_builder.h"
+#include "ldni/detail/mesh_index.h"
 #include "ldni/detail/sweep_section.h"
 
 namespace lamina::ldni::detail {
@@ -20,19 +23,19 @@ class MeshSectioner {
  public:
   // Adds the chains of one mesh of one instance. orientation: -1 where the
   // instance's matrix mirrors.
-  void cut(const csg::Mesh& mesh, const Affine& world_from_leaf,
-           std::uint32_t instance, std::int32_t orientation,
-           const BlockLayers& layers, ChainBuilder& builder);
+  void cut(const csg::Mesh& mesh, const MeshIndex& index,
+           const Affine& world_from_leaf, std::uint32_t instance,
+           std::int32_t orientation, const BlockLayers& layers,
+           ChainBuilder& builder);
 
   // Open paths closed since construction.
   std::uint64_t open_paths() const { return open_paths_; }
 
  private:
-  // A triangle that layers [low, high) cross, and where its flags begin.
+  // A triangle that layers cross, and where its flags begin.
   struct CrossedTriangle {
     std::uint32_t triangle = 0;
-    std::uint32_t low = 0;
-    std::uint32_t high = 0;
+    LayerRange layers;
     std::uint32_t first_flag = 0;
   };
   // One hash slot an undirected edge; half-edges (3 · crossed + corner) that
@@ -45,7 +48,10 @@ class MeshSectioner {
   static constexpr std::uint64_t kFree = ~std::uint64_t{0};
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  void find_crossed(const csg::Mesh& mesh);
+  // Whether a layer of the block passes there.
+  bool meets_block(LayerRange layers) const;
+  void count_layers_below(const csg::Mesh& mesh, const MeshIndex& index);
+  void find_crossed(const csg::Mesh& mesh, const MeshIndex& index);
   bool pair_edges(const csg::Mesh& mesh);
   void pair_edge(std::uint32_t from, std::uint32_t to, std::uint32_t half_edge);
   bool is_entered_openly(const csg::Mesh& mesh, std::uint32_t crossed,
@@ -71,7 +77,9 @@ class MeshSectioner {
   std::vector<CrossedTriangle> crossed_;
   std::vector<std::uint32_t> twins_;  // a half-edge; kNone: open
   std::vector<EdgeSlot> slots_;
+  std::size_t waiting_count_ = 0;  // half-edges in slots_
   std::vector<bool> is_passed_;
+  std::uint32_t flag_count_ = 0;
 };
 
 }  // namespace lamina::ldni::detail

@@ -37,6 +37,7 @@ namespace lamina::ldni::detail {
 
 // The sections of one block, as every cut of a leaf sees them.
 struct BlockLayers {
+  std::uint32_t first = 0;         // of the job's layers
   std::vector<double> heights;     // section_z
   std::vector<double> thresholds;  // LayerGrid::threshold
   double layers_per_mm = 0;        // for a guess; 0 where uneven

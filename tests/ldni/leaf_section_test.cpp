@@ -1,8 +1,10 @@
 #include "ldni/leaf_section.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -233,13 +235,7 @@ TEST(LeafSection, EveryChainRunsToTheRightAndItsEndsMeetOthers) {
   }
 }
 
-TEST(LeafSection, ALayerIsTheSameInEveryBlock) {
-  SceneBuilder builder;
-  for (int i = 0; i < 40; ++i) {
-    builder.add(sphere_leaf(0.3 + 0.1 * i, 8 + i),
-                translated({0.3 * i, 0, 0.21 * i}));
-  }
-  const csg::Scene scene = builder.finish();
+void expect_the_same_in_every_block(const csg::Scene& scene) {
   const LayerGrid grid =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.1);
   const LeafSectioner sectioner(scene, grid);
@@ -260,6 +256,32 @@ TEST(LeafSection, ALayerIsTheSameInEveryBlock) {
                   whole.points[expected[i].first_point + k]);
       }
     }
+  }
+}
+
+TEST(LeafSection, ALayerIsTheSameInEveryBlock) {
+  SceneBuilder builder;
+  for (int i = 0; i < 40; ++i) {
+    builder.add(sphere_leaf(0.3 + 0.1 * i, 8 + i),
+                translated({0.3 * i, 0, 0.21 * i}));
+  }
+  expect_the_same_in_every_block(builder.finish());
+}
+
+// Whatever the order of its triangles and however its instances are turned.
+TEST(LeafSection, ALayerOfAMeshIsTheSameInEveryBlock) {
+  csg::Leaf leaf = as_mesh(torus_leaf(4, 1, 60, 40));
+  std::mt19937 random(1);
+  for (const bool is_shuffled : {false, true}) {
+    auto& triangles = leaf.meshes[0].triangles;
+    if (is_shuffled) std::shuffle(triangles.begin(), triangles.end(), random);
+    SceneBuilder builder;
+    builder.add(leaf);
+    for (const double angle : {33.0, 90.0, 180.0}) {
+      builder.add_instance(
+          0, translated({angle / 10, 0, 1}) * rotated(angle, {1, 0.4, 0.2}));
+    }
+    expect_the_same_in_every_block(builder.finish());
   }
 }
 

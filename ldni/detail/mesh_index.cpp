@@ -1,0 +1,35 @@
+#include "ldni/detail/mesh_index.h"
+
+#include <cstdint>
+
+namespace lamina::ldni::detail {
+namespace {
+
+std::vector<double> vertex_heights(const csg::Mesh& mesh,
+                                   const Affine& world_from_leaf) {
+  std::vector<double> heights;
+  heights.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) {
+    heights.push_back(height_of(world_from_leaf, vertex));
+  }
+  return heights;
+}
+
+}  // namespace
+
+MeshIndex::MeshIndex(const csg::Mesh& mesh, const Affine& world_from_leaf,
+                     const LayerGrid& grid)
+    : MeshIndex(mesh, vertex_heights(mesh, world_from_leaf), grid) {}
+
+MeshIndex::MeshIndex(const csg::Mesh& mesh, const std::vector<double>& heights,
+                     const LayerGrid& grid)
+    : vertices(mesh.vertices.size(), grid,
+               [&](std::size_t i, const auto& visit) { visit(heights[i]); }),
+      triangles(mesh.triangles.size(), grid,
+                [&](std::size_t i, const auto& visit) {
+                  for (const std::uint32_t corner : mesh.triangles[i]) {
+                    visit(heights[corner]);
+                  }
+                }) {}
+
+}  // namespace lamina::ldni::detail
