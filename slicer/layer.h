@@ -13,6 +13,9 @@ struct Layer {
   double bottom = 0;     // the layer's lower side [mm]
   double top = 0;        // its upper side; = bottom = section_z for --heights
   double compensation = 0;  // contours have been moved inwards by this [mm]
+  // No vertex is known to be nearer to a foreign edge than this, in x and in y
+  // [mm]; 0: not known.
+  double clearance = 0;
   ldni::Contours contours;
 };
 

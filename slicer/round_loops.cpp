@@ -19,6 +19,10 @@ constexpr double kUnit = 0x1p-14;
 // Points nearer than this [mm] are one vertex to the moving ray.
 constexpr double kMergeDistance = 2e-9;
 
+// Boxes and steps are measured with this times the spacing, so that rounding
+// hides nothing.
+constexpr double kTreeReach = 1.001;
+
 // Rounds of snapping before it counts as endless; two do as a rule.
 constexpr int kMostRounds = 64;
 
@@ -32,28 +36,14 @@ Vec2 to_float(Vec2 point) { return {to_float(point.x), to_float(point.y)}; }
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 
-// Whether the segment meets the square around `middle`, its rim included.
-bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
-  const Vec2 low = middle - Vec2(half_width);
-  const Vec2 high = middle + Vec2(half_width);
-  if (std::max(from.x, to.x) < low.x || std::min(from.x, to.x) > high.x ||
-      std::max(from.y, to.y) < low.y || std::min(from.y, to.y) > high.y) {
-    return false;
-  }
-  // Corners on both sides of the line, or on it.
-  const Vec2 along = to - from;
-  const double reach = half_width * (std::abs(along.x) + std::abs(along.y));
-  return std::abs(cross(along, middle - from)) <= reach;
-}
-
 }  // namespace
 
 LoopRounder::LoopRounder() : resolver_(0, 0) {}
 
-void LoopRounder::round(ldni::Contours& contours) {
+void LoopRounder::round(ldni::Contours& contours, double clearance) {
   if (contours.is_empty()) return;
   measure(contours);
-  if (is_safe(contours)) {
+  if (clearance >= kTreeReach * spacing_ || is_safe(contours)) {
     for (Vec2& point : contours.points) point = to_float(point);
     return;
   }
@@ -74,40 +64,37 @@ void LoopRounder::measure(const ldni::Contours& contours) {
 // --- Proof ------------------------------------------------------------------
 
 bool LoopRounder::is_safe(const ldni::Contours& contours) {
-  points_ = contours.points;
-  loop_of_.clear();
-  for (std::uint32_t l = 0; l < contours.loop_count(); ++l) {
-    loop_of_.resize(contours.ends[l], l);
+  points_.clear();
+  ends_.clear();
+  for (std::size_t l = 0; l < contours.loop_count(); ++l) {
+    const auto loop = contours.loop(l);
+    points_.insert(points_.end(), loop.begin(), loop.end());
+    points_.push_back(loop.front());
+    ends_.push_back(static_cast<std::uint32_t>(points_.size()));
   }
-  members_.resize(points_.size());
-  std::iota(members_.begin(), members_.end(), 0U);
-  grid_.fill(points_, members_);
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : contours.ends) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      if (!is_edge_safe(i, i + 1 == end ? begin : i + 1)) return false;
-    }
-    begin = end;
+  for (std::size_t i = vertices_.size(); i < points_.size(); ++i) {
+    vertices_.push_back(static_cast<std::uint32_t>(i));
   }
-  return true;
+  tree_.fill(points_, {vertices_.data(), points_.size()}, ends_);
+  // Both ends of a distance move, by half the spacing each way.
+  const double reach = kTreeReach * spacing_;
+  const auto visit = [&](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+    return tree_.visit_meetings(
+        a, b, reach, [&](std::uint32_t vertex, std::uint32_t edge) {
+          return a.loop == b.loop || !touch(vertex, edge);
+        });
+  };
+  return !tree_.visit_near(
+      reach, [&](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+        return visit(a, b) || (&a != &b && visit(b, a));
+      });
 }
 
-bool LoopRounder::is_edge_safe(std::uint32_t from, std::uint32_t to) const {
-  return !grid_.has_near(
-      points_[from], points_[to], spacing_,
-      [&](std::uint32_t vertex) { return !keeps_apart(vertex, from, to); });
-}
-
-// Whether a vertex is too far from an edge for them to meet. Loops that touch
-// in a vertex of both go on doing so, if it is rounded to one.
-bool LoopRounder::keeps_apart(std::uint32_t vertex, std::uint32_t from,
-                              std::uint32_t to) const {
-  if (vertex == from || vertex == to) return true;
+// Whether two loops touch in a vertex of both: they go on doing so, if it is
+// rounded to one.
+bool LoopRounder::touch(std::uint32_t vertex, std::uint32_t edge) const {
   const Vec2& point = points_[vertex];
-  // Both move, by half the spacing each way.
-  if (!meets_square(points_[from], points_[to], point, spacing_)) return true;
-  if (loop_of_[vertex] == loop_of_[from]) return false;
-  for (const std::uint32_t end : {from, to}) {
+  for (const std::uint32_t end : {edge, edge + 1}) {
     const Vec2 step = point - points_[end];
     if (std::abs(step.x) < kMergeDistance &&
         std::abs(step.y) < kMergeDistance &&

@@ -7,8 +7,9 @@
 //
 // 1. Proof. A point moves by half that spacing, in x and in y. Loops that are
 //    apart can only meet on the way if some vertex is nearer than two such
-//    moves to an edge that is not its own. A grid of the vertices tells; hardly
-//    ever there is one, and each point goes to its nearest float32.
+//    moves to an edge that is not its own. A tree of boxes tells (loop_tree.h);
+//    hardly ever there is one, and each point goes to its nearest float32.
+//    Where loops were simplified that is known already.
 // 2. Else the layer's loops are snap-rounded (Greene and Yao 1986; Guibas and
 //    Marimont 1998) on a grid of equal spacing, the float32 one at the largest
 //    coordinate: an edge is led through the middle of every cell that holds a
@@ -20,11 +21,11 @@
 //    All that is on integers below 2^24, hence exact.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "ldni/contours.h"
 #include "ldni/loop_resolver.h"
+#include "slicer/loop_tree.h"
 #include "slicer/point_grid.h"
 
 namespace lamina::slicer {
@@ -36,7 +37,10 @@ class LoopRounder {
 
   // Simple, disjoint loops stay so; coordinates become float32 numbers. Loops
   // narrower than their spacing may vanish or be parted.
-  void round(ldni::Contours& contours);
+  //
+  // clearance  no vertex is known to be nearer to a foreign edge than this, in
+  //            x and in y [mm]; 0: not known
+  void round(ldni::Contours& contours, double clearance = 0);
 
   // Layers that needed more than rounding each point, since construction.
   std::uint64_t snapped_layers() const { return snapped_layers_; }
@@ -48,16 +52,17 @@ class LoopRounder {
  private:
   void measure(const ldni::Contours& contours);
   bool is_safe(const ldni::Contours& contours);
-  bool is_edge_safe(std::uint32_t from, std::uint32_t to) const;
-  bool keeps_apart(std::uint32_t vertex, std::uint32_t from,
-                   std::uint32_t to) const;
+  bool touch(std::uint32_t vertex, std::uint32_t edge) const;
   void snap(ldni::Contours& contours);
   bool lead_through_cells(ldni::Contours& contours);
   bool bends_edge(Vec2 from, Vec2 to);
 
   double spacing_ = 0;  // of float32 at the layer's largest coordinate [mm]
-  std::span<const Vec2> points_;
-  std::vector<std::uint32_t> loop_of_;  // a vertex
+  // Of the loops, each closed by a copy of its first point.
+  std::vector<Vec2> points_;
+  std::vector<std::uint32_t> vertices_;  // all of them
+  std::vector<std::uint32_t> ends_;
+  LoopTree tree_;
   std::vector<std::uint32_t> members_;
   PointGrid grid_;
   std::vector<Vec2> cells_;  // middles of those that hold a vertex

@@ -36,23 +36,35 @@ class Cone {
  public:
   explicit Cone(double tolerance) : tolerance_(tolerance) {}
 
-  bool is_empty() const { return !is_open_ && cross(right_, left_) < 0; }
-  bool contains(Vec2 to) const {
-    return is_open_ || (cross(right_, to) >= 0 && cross(to, left_) >= 0);
+  // Takes another vertex, seen from the anchor, and the square of its distance.
+  // Whether the cone held it before.
+  bool narrow(Vec2 to, double squared) {
+    // Half the angle's sine and cosine, both times the distance. What is
+    // nearer than the tolerance asks for no more than not to lie behind the
+    // anchor.
+    const double cosine =
+        std::sqrt(std::max(0.0, squared - tolerance_ * tolerance_));
+    const Vec2 ahead = to * cosine;
+    const Vec2 aside = left_of(to) * tolerance_;
+    if (is_open_) {
+      if (squared == 0) return true;
+      right_ = ahead - aside;
+      left_ = ahead + aside;
+      is_open_ = false;
+      return true;
+    }
+    const double past_right = cross(right_, to);
+    const double past_left = cross(to, left_);
+    // By the same, the new sides beside the old ones.
+    if (cosine * past_right > tolerance_ * dot(right_, to)) {
+      right_ = ahead - aside;
+    }
+    if (cosine * past_left > tolerance_ * dot(left_, to)) {
+      left_ = ahead + aside;
+    }
+    return past_right >= 0 && past_left >= 0;
   }
-
-  // to  the vertex, seen from the anchor, and its distance
-  void narrow(Vec2 to, double distance) {
-    if (distance == 0) return;
-    // Half the angle's sine and cosine. What is nearer than the tolerance
-    // asks for no more than not to lie behind the anchor.
-    const double sine = std::min(1.0, tolerance_ / distance);
-    const Vec2 ahead = to * std::sqrt(1 - sine * sine);
-    const Vec2 aside = left_of(to) * sine;
-    if (is_open_ || cross(right_, ahead - aside) > 0) right_ = ahead - aside;
-    if (is_open_ || cross(ahead + aside, left_) > 0) left_ = ahead + aside;
-    is_open_ = false;
-  }
+  bool is_empty() const { return cross(right_, left_) < 0; }
 
  private:
   double tolerance_;
@@ -83,6 +95,7 @@ struct Simplifier::Shortcut {
 };
 
 void Simplifier::simplify(ldni::Contours& contours) {
+  is_apart_ = false;
   if (!(tolerance_ > 0) || contours.is_empty()) return;
   copy_loops(contours);
   kept_.assign(points_.size(), 0);
@@ -90,11 +103,15 @@ void Simplifier::simplify(ldni::Contours& contours) {
   // A vertex that mending brings back can lie in another strip: look again.
   bool is_changed = true;
   while (is_changed) {
-    fill_grid();
-    is_changed = false;
-    for (const Loop& loop : loops_) is_changed |= mend(loop);
+    fill_tree();
+    find_neighbours();
+    is_changed = mend();
   }
-  for (const Loop& loop : loops_) thin_out(loop);
+  // Clear shortcuts keep the distance as well.
+  is_apart_ = !has_meetings();
+  for (std::size_t l = 0; l < loops_.size(); ++l) {
+    thin_out(loops_[l], l == 0 ? 0 : ends_[l - 1]);
+  }
   write_kept(contours);
 }
 
@@ -155,73 +172,123 @@ std::uint32_t Simplifier::farthest_reach(std::uint32_t anchor,
   }
   Cone cone(tolerance);
   std::uint32_t reach = anchor + 1;
-  double farthest = 0;
+  double farthest = 0;  // squared
   for (std::uint32_t i = anchor + 1; i <= end; ++i) {
     const Vec2 to = points_[i] - points_[anchor];
-    const double distance = std::sqrt(dot(to, to));
+    const double squared = dot(to, to);
     // The end of a shortcut is its farthest vertex.
-    if (distance >= farthest && cone.contains(to)) reach = i;
-    if (distance < farthest - tolerance) break;  // it turns back
-    if (i - reach > kPatience + 2 * (reach - anchor)) break;
-    farthest = std::max(farthest, distance);
-    cone.narrow(to, distance);
+    const bool is_passed = cone.narrow(to, squared);
+    if (squared >= farthest) {
+      farthest = squared;
+      if (is_passed) reach = i;
+    } else if (std::sqrt(squared) < std::sqrt(farthest) - tolerance) {
+      break;  // it turns back
+    }
     if (cone.is_empty()) break;
+    if (i - reach > kPatience + 2 * (reach - anchor)) break;
   }
   return reach;
 }
 
-void Simplifier::fill_grid() {
-  members_.clear();
+void Simplifier::fill_tree() {
+  vertices_.clear();
+  ends_.clear();
   for (const Loop& loop : loops_) {
-    for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
-      if (kept_[i] != 0) members_.push_back(i);
+    for (std::uint32_t i = loop.begin; i <= loop.end; ++i) {
+      if (kept_[i] != 0) vertices_.push_back(i);
     }
+    ends_.push_back(static_cast<std::uint32_t>(vertices_.size()));
   }
-  grid_.fill(points_, members_);
+  tree_.fill(points_, vertices_, ends_);
 }
 
-// Splits runs until each is safe from what the grid holds. Returns whether a
-// vertex was brought back.
-bool Simplifier::mend(const Loop& loop) {
+// Leaves of the tree whose strips and vertices may meet: a strip lies within
+// the box of its run, widened by the clearance; and where runs follow each
+// other and advance along an axis, so do their strips.
+void Simplifier::find_neighbours() {
+  near_pairs_.clear();
+  tree_.visit_near(clearance_ + 2 * kEndMargin,
+                   [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+                     const std::uint32_t i = tree_.index_of(a);
+                     const std::uint32_t k = tree_.index_of(b);
+                     near_pairs_.push_back({i, k});
+                     if (i != k) near_pairs_.push_back({k, i});
+                     return false;
+                   });
+  // Sort by the first leaf: count, sum up, and deal out from the back.
+  near_begins_.assign(tree_.leaf_count() + 1, 0);
+  for (const auto& [leaf, other] : near_pairs_) ++near_begins_[leaf];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& begin : near_begins_) begin = sum += begin;
+  near_leaves_.resize(near_pairs_.size());
+  for (const auto& [leaf, other] : near_pairs_) {
+    near_leaves_[--near_begins_[leaf]] = other;
+  }
+}
+
+// Whether a vertex is within the clearance of a foreign edge.
+bool Simplifier::has_meetings() const {
+  const auto take = [](std::uint32_t, std::uint32_t) { return true; };
+  return std::any_of(
+      near_pairs_.begin(), near_pairs_.end(), [&](const auto& pair) {
+        return tree_.visit_meetings(tree_.leaf(pair.first),
+                                    tree_.leaf(pair.second), clearance_, take);
+      });
+}
+
+// Splits runs until each is safe. Returns whether a vertex was brought back.
+bool Simplifier::mend() {
   bool is_changed = false;
-  for (std::uint32_t first = loop.begin; first != loop.end;) {
-    pending_.assign(1, next_kept(first));
-    while (!pending_.empty()) {
-      const std::uint32_t last = pending_.back();
-      if (last > first + 1) {
-        const Shortcut shortcut = measure(first, last);
-        if (!is_safe(shortcut)) {
-          kept_[shortcut.farthest] = 1;
-          pending_.push_back(shortcut.farthest);
-          is_changed = true;
-          continue;
-        }
-      }
-      first = last;
-      pending_.pop_back();
-    }
+  for (std::uint32_t k = 0; k + 1 < vertices_.size(); ++k) {
+    // The last vertex of a loop is followed by the first one of the next.
+    if (vertices_[k + 1] > vertices_[k] + 1) is_changed |= mend_run(k);
   }
   return is_changed;
 }
 
-// Leaves out every vertex that can be spared, one after another.
-void Simplifier::thin_out(const Loop& loop) {
+bool Simplifier::mend_run(std::uint32_t k) {
+  bool is_changed = false;
+  std::uint32_t first = vertices_[k];
+  pending_.assign(1, vertices_[k + 1]);
+  while (!pending_.empty()) {
+    const std::uint32_t last = pending_.back();
+    if (last > first + 1) {
+      const Shortcut shortcut = measure(first, last);
+      if (!is_close(shortcut) || !is_clear(shortcut, k, k + 1)) {
+        kept_[shortcut.farthest] = 1;
+        pending_.push_back(shortcut.farthest);
+        is_changed = true;
+        continue;
+      }
+    }
+    first = last;
+    pending_.pop_back();
+  }
+  return is_changed;
+}
+
+// Leaves out every vertex that can be spared, one after another. The vertices
+// of the loop begin at `k` in the tree.
+void Simplifier::thin_out(const Loop& loop, std::uint32_t k) {
   double area = doubled_area_kept(loop);
-  std::uint32_t first = loop.begin;
-  for (std::uint32_t middle = next_kept(first); middle != loop.end;) {
-    const std::uint32_t last = next_kept(middle);
+  std::uint32_t first_k = k;
+  for (++k; vertices_[k] != loop.end; ++k) {
+    const std::uint32_t first = vertices_[first_k];
+    const std::uint32_t middle = vertices_[k];
+    const std::uint32_t last = vertices_[k + 1];
     const Vec2 to_middle = points_[middle] - points_[first];
     const Vec2 to_last = points_[last] - points_[first];
     const double corner = cross(to_middle, to_last);
     if (corner * corner <= tolerance_ * tolerance_ * dot(to_last, to_last) &&
-        keeps_area(loop.doubled_area, area - corner) &&
-        is_safe(measure(first, last))) {
-      kept_[middle] = 0;
-      area -= corner;
-    } else {
-      first = middle;
+        keeps_area(loop.doubled_area, area - corner)) {
+      const Shortcut shortcut = measure(first, last);
+      if (is_close(shortcut) && is_clear(shortcut, first_k, k + 1)) {
+        kept_[middle] = 0;
+        area -= corner;
+        continue;
+      }
     }
-    middle = last;
+    first_k = k;
   }
 }
 
@@ -271,20 +338,21 @@ Simplifier::Shortcut Simplifier::measure(std::uint32_t first,
   return shortcut;
 }
 
-// Whether the run keeps within the tolerance and no vertex of the grid that is
-// still kept lies in its strip.
-bool Simplifier::is_safe(const Shortcut& shortcut) const {
-  if (!shortcut.is_ahead || shortcut.highest > tolerance_ ||
-      -shortcut.lowest > tolerance_) {
-    return false;
-  }
+// Whether the run keeps within the tolerance.
+bool Simplifier::is_close(const Shortcut& shortcut) const {
+  return shortcut.is_ahead && shortcut.highest <= tolerance_ &&
+         -shortcut.lowest <= tolerance_;
+}
+
+// Whether no vertex of the tree that is still kept lies in the strip of a
+// shortcut from its vertex `k` to `last_k`.
+bool Simplifier::is_clear(const Shortcut& shortcut, std::uint32_t k,
+                          std::uint32_t last_k) const {
   const Vec2 a = points_[shortcut.first];
   const Vec2 b = points_[shortcut.last];
-  const double reach =
-      std::max(shortcut.highest, -shortcut.lowest) + clearance_;
   bool touches_a = false;
   bool touches_b = false;
-  return !grid_.has_near(a, b, reach, [&](std::uint32_t i) {
+  const auto is_hit = [&](std::uint32_t i) {
     if (kept_[i] == 0 || (i >= shortcut.first && i <= shortcut.last)) {
       return false;
     }
@@ -295,7 +363,20 @@ bool Simplifier::is_safe(const Shortcut& shortcut) const {
     touches_b |= point == b;
     if (point == a || point == b) return touches_a && touches_b;
     return is_in_strip(shortcut, shortcut.place_of(point));
-  });
+  };
+  const std::uint32_t leaf = tree_.leaf_of(k);
+  if (last_k > tree_.leaf(leaf).end) {
+    const double reach =
+        std::max(shortcut.highest, -shortcut.lowest) + clearance_;
+    return !tree_.has_near(a, b, reach, is_hit);
+  }
+  for (std::uint32_t i = near_begins_[leaf]; i < near_begins_[leaf + 1]; ++i) {
+    const LoopTree::Leaf& near = tree_.leaf(near_leaves_[i]);
+    for (std::uint32_t n = near.begin; n < near.end; ++n) {
+      if (is_hit(vertices_[n])) return false;
+    }
+  }
+  return true;
 }
 
 bool Simplifier::is_in_strip(const Shortcut& shortcut, Vec2 place) const {

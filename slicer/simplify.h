@@ -15,7 +15,8 @@
 //    in [0, length] × [-tolerance, tolerance]. The run crosses every abscissa
 //    of the shortcut, so each of the two is within the tolerance of the other.
 //    Moving every point of the run straight down to the shortcut sweeps the
-//    strip between them; no vertex that stays may lie in a strip.
+//    strip between them; no vertex that stays may lie in a strip. A tree of
+//    boxes tells nearly all strips apart at once (loop_tree.h).
 // 3. Mend. A run that fails is split at its farthest vertex, until none fails.
 // 4. Thin out. A vertex whose run and the next pass the proof as one is left
 //    out: what the splits no longer need.
@@ -35,10 +36,11 @@
 // The cost is linear in practice.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "ldni/contours.h"
-#include "slicer/point_grid.h"
+#include "slicer/loop_tree.h"
 
 namespace lamina::slicer {
 
@@ -52,6 +54,11 @@ class Simplifier {
   // Simple, disjoint loops stay so, in the same order and orientation; each
   // begins at its lowest of the leftmost points.
   void simplify(ldni::Contours& contours);
+
+  // No vertex that simplify() left is nearer to a foreign edge than this, in x
+  // and in y [mm]: more than rounding to 32-bit numbers can move them towards
+  // each other. 0: not known.
+  double clearance() const { return is_apart_ ? clearance_ : 0; }
 
  private:
   // Vertices [begin, end] of points_; the last is a copy of the first.
@@ -67,25 +74,38 @@ class Simplifier {
   void choose_within(const Loop& loop, double tolerance);
   std::uint32_t farthest_reach(std::uint32_t anchor, std::uint32_t end,
                                double tolerance) const;
-  void fill_grid();
-  bool mend(const Loop& loop);
-  void thin_out(const Loop& loop);
+  void fill_tree();
+  void find_neighbours();
+  bool has_meetings() const;
+  bool mend();
+  bool mend_run(std::uint32_t k);
+  void thin_out(const Loop& loop, std::uint32_t k);
   void write_kept(ldni::Contours& contours) const;
 
   std::uint32_t next_kept(std::uint32_t i) const;
   double doubled_area_kept(const Loop& loop) const;
   Shortcut measure(std::uint32_t first, std::uint32_t last) const;
-  bool is_safe(const Shortcut& shortcut) const;
+  bool is_close(const Shortcut& shortcut) const;
+  bool is_clear(const Shortcut& shortcut, std::uint32_t k,
+                std::uint32_t last_k) const;
   bool is_in_strip(const Shortcut& shortcut, Vec2 place) const;
 
   double tolerance_;
-  double clearance_ = 0;  // kept between shortcuts and other vertices [mm]
+  double clearance_ = 0;   // kept between shortcuts and other vertices [mm]
+  bool is_apart_ = false;  // by the clearance
   std::vector<Vec2> points_;
   std::vector<Loop> loops_;
   std::vector<std::uint8_t> kept_;      // of points_
   std::vector<std::uint32_t> pending_;  // of a run, the ends that split it
-  std::vector<std::uint32_t> members_;  // of the grid: what was kept
-  PointGrid grid_;
+  // What was kept, in the tree: loops, each with the copy of its first point.
+  std::vector<std::uint32_t> vertices_;
+  std::vector<std::uint32_t> ends_;
+  LoopTree tree_;
+  // Leaves of the tree that come near to leaf i: near_leaves_ from
+  // near_begins_[i] to near_begins_[i + 1].
+  std::vector<std::uint32_t> near_begins_;
+  std::vector<std::uint32_t> near_leaves_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs_;
 };
 
 }  // namespace lamina::slicer

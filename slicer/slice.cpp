@@ -142,7 +142,8 @@ struct Draft {
   ldni::Contours contours;
   std::vector<ThinStretch> thin;
   std::uint64_t holes = 0;
-  double area = 0;  // [mm²]
+  double area = 0;       // [mm²]
+  double clearance = 0;  // as of Layer
 
   void measure() {
     holes = 0;
@@ -234,6 +235,7 @@ class OrderedOutput {
     layer_.section_z = grid_.section_z(index);
     layer_.bottom = grid_.layer_bottom(index);
     layer_.top = grid_.layer_top(index);
+    layer_.clearance = draft.clearance;
     report_.volume += draft.area * (layer_.top - layer_.bottom);
     std::swap(layer_.contours, draft.contours);
     sink_.take(layer_);
@@ -342,6 +344,7 @@ class Job {
       for (Draft& layer : layers) {
         worker.compensator.compensate(layer.contours);
         worker.simplifier.simplify(layer.contours);
+        layer.clearance = worker.simplifier.clearance();
         layer.measure();
       }
     });

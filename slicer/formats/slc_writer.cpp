@@ -121,7 +121,7 @@ void SlcWriter::take(const Layer& layer) {
     reach_ = std::max({reach_, std::abs(point.x), std::abs(point.y)});
   }
   contours_ = layer.contours;
-  rounder_.round(contours_);
+  rounder_.round(contours_, layer.clearance);
   append(output_, z);
   append(output_, static_cast<std::uint32_t>(contours_.loop_count()));
   for (std::size_t i = 0; i < contours_.loop_count(); ++i) {
