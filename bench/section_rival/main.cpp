@@ -1,0 +1,83 @@
+// The rival of bench/rivals: cuts every leaf's mesh by each layer and evaluates
+// the Boolean program on the polygons with Clipper (libpolyclipping).
+//
+//   build/release/bench/section_rival design.scad -o out.slc [--layer 0.05]
+//       [-D name=value]…
+//
+// This is how hob3l works, and PrusaSlicer inside. The design is read and
+// lowered by lamina's own front end, so that both have the same leaves, layers
+// and Boolean program; each leaf then becomes triangles, and what follows is
+// the rival's own.
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "bench/section_rival/scene_sweep.h"
+#include "csg/eval/evaluator.h"
+#include "csg/solid/lower.h"
+#include "parser/loader.h"
+#include "slicer/formats/output_file.h"
+
+namespace lamina::rival {
+namespace {
+
+struct Options {
+  std::string design;
+  std::string output;
+  std::string definitions;
+  double thickness = 0.05;  // [mm]
+};
+
+Options parse_options(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view name = argv[i];
+    if (name.front() != '-') {
+      options.design = name;
+    } else if (i + 1 < argc) {
+      const std::string value = argv[++i];
+      if (name == "-o") options.output = value;
+      if (name == "-D") options.definitions += value + ";\n";
+      if (name == "--layer") options.thickness = std::stod(value);
+    }
+  }
+  return options;
+}
+
+void run(const Options& options) {
+  SourceStore sources;
+  Diagnostics diagnostics;
+  Loader loader(sources, diagnostics, {}, options.definitions);
+  const ast::Program program = loader.load(options.design);
+  const csg::Tree tree =
+      csg::evaluate(program, loader, csg::EvaluateOptions(), diagnostics);
+  const csg::Lowered lowered = csg::lower(tree, {}, diagnostics);
+
+  slicer::TemporaryFiles files;
+  slicer::OutputFile output(options.output, files);
+  slice_by_sections(*lowered.scene(), options.thickness, output);
+  output.commit();
+}
+
+}  // namespace
+}  // namespace lamina::rival
+
+int main(int argc, char** argv) {
+  using namespace lamina::rival;
+  const Options options = parse_options(argc, argv);
+  if (options.design.empty() || options.output.empty()) {
+    std::fputs(
+        "usage: section_rival design.scad -o out.slc [--layer 0.05] "
+        "[-D name=value]...\n",
+        stderr);
+    return 2;
+  }
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "section_rival: %s\n", error.what());
+    return 1;
+  }
+}
