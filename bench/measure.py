@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -34,8 +35,16 @@ def require_lamina():
         sys.exit("build first: scripts/run --version")
 
 
-def processor_seconds(command, limit):
-    """Runs `command`; its processor seconds. Stopped after `limit` seconds."""
+@dataclass
+class Cost:
+    """What a run took, and what it printed."""
+    seconds: float  # of processor time, of all its threads
+    peak_bytes: int  # counts some of the caller's too: good for large ones only
+    output: str
+
+
+def run_process(command, limit):
+    """The Cost of `command`, which is stopped after `limit` seconds."""
     with tempfile.TemporaryFile() as words:
         process = subprocess.Popen(command, env=ENVIRONMENT, stdout=words,
                                    stderr=words, stdin=subprocess.DEVNULL)
@@ -44,12 +53,13 @@ def processor_seconds(command, limit):
         _, status, usage = os.wait4(process.pid, 0)
         alarm.cancel()
         process.returncode = os.waitstatus_to_exitcode(status)
+        words.seek(0)
+        output = words.read().decode(errors="replace").strip()
         if process.returncode == -signal.SIGKILL:
             raise Failure(f"> {limit:g}")
         if process.returncode != 0:
-            words.seek(0)
-            raise Failure(words.read().decode().strip())
-    return usage.ru_utime + usage.ru_stime
+            raise Failure(output)
+    return Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024, output)
 
 
 def seconds_text(seconds):
@@ -79,10 +89,11 @@ class Bench:
     def run_once(self, arguments):
         """The run's report, with its processor seconds as "process_seconds"."""
         report = self.scratch / "report.json"
-        seconds = processor_seconds(
+        cost = run_process(
             [LAMINA, *arguments, "-q", "-o", self.scratch / "out.slc",
              "--report", report], self.limit)
-        return {**json.loads(report.read_text()), "process_seconds": seconds}
+        return {**json.loads(report.read_text()),
+                "process_seconds": cost.seconds}
 
     def measure(self, commands, times=1):
         """The median report of each of `commands` (lists of arguments), field

@@ -7,10 +7,11 @@
 // This is how hob3l works, and PrusaSlicer inside. The design is read and
 // lowered by lamina's own front end, so that both have the same leaves, layers
 // and Boolean program; each leaf then becomes triangles, and what follows is
-// the rival's own.
+// the rival's own. Prints the peak of its memory.
 
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -46,6 +47,15 @@ Options parse_options(int argc, char** argv) {
   return options;
 }
 
+// The most memory that the process held, as the system words it.
+std::string peak_memory() {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line) && !line.starts_with("VmHWM:")) {
+  }
+  return line;
+}
+
 void run(const Options& options) {
   SourceStore sources;
   Diagnostics diagnostics;
@@ -76,6 +86,7 @@ int main(int argc, char** argv) {
   }
   try {
     run(options);
+    std::puts(peak_memory().c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "section_rival: %s\n", error.what());
     return 1;

@@ -1,0 +1,2 @@
+// What a program takes to start.
+cube(1);
