@@ -11,14 +11,21 @@ namespace {
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::size_t kFewestSlots = 64;
 
+using Words = std::array<std::uint64_t, 3>;
+
+// Equal for equal points, and only for these.
+Words words_of(const Vec3& point) {
+  return {std::bit_cast<std::uint64_t>(point.x + 0.0),  // no -0
+          std::bit_cast<std::uint64_t>(point.y + 0.0),
+          std::bit_cast<std::uint64_t>(point.z + 0.0)};
+}
+
 // Its high bits are the good ones.
-std::uint64_t hash(const Vec3& point) {
-  std::uint64_t state = 0;
-  for (const double x : {point.x, point.y, point.z}) {
-    const auto word = std::bit_cast<std::uint64_t>(x + 0.0);  // no -0
-    state = (std::rotl(state, 23) ^ word) * 0x9e3779b97f4a7c15u;
-  }
-  return (state ^ (state >> 32)) * 0x9e3779b97f4a7c15u;
+std::uint64_t hash(const Words& words) {
+  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;
+  const std::uint64_t mixed =
+      (std::rotl(words[0] * kOdd, 23) ^ words[1]) * kOdd;
+  return (std::rotl(mixed, 23) ^ words[2] ^ mixed >> 32) * kOdd;
 }
 
 }  // namespace
@@ -28,20 +35,23 @@ VertexTable::VertexTable(std::size_t expected) {
   points_.reserve(expected);
 }
 
-std::size_t VertexTable::slot_of(const Vec3& point) const {
-  return slot_from(hash(point) >> hash_shift_, point);
-}
-
-std::size_t VertexTable::slot_from(std::size_t first, const Vec3& point) const {
+// Where the point's name stands, or would stand.
+inline std::size_t VertexTable::slot_from(std::size_t first,
+                                          const Vec3& point) const {
+  const Words words = words_of(point);
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = first;
-  while (slots_[slot] != kFree && points_[slots_[slot]] != point) {
+  while (slots_[slot] != kFree && words_of(points_[slots_[slot]]) != words) {
     slot = (slot + 1) & mask;
   }
   return slot;
 }
 
-std::uint32_t VertexTable::name_at(std::size_t slot, const Vec3& point) {
+std::size_t VertexTable::slot_of(const Vec3& point) const {
+  return slot_from(hash(words_of(point)) >> hash_shift_, point);
+}
+
+inline std::uint32_t VertexTable::name_at(std::size_t slot, const Vec3& point) {
   std::uint32_t& name = slots_[slot];
   if (name == kFree) {
     name = static_cast<std::uint32_t>(points_.size());
@@ -64,7 +74,7 @@ void VertexTable::name(std::span<const Vec3> points,
     const std::size_t count = std::min(kAtOnce, points.size() - begin);
     make_room(points_.size() + count);
     for (std::size_t i = 0; i < count; ++i) {
-      firsts[i] = hash(points[begin + i]) >> hash_shift_;
+      firsts[i] = hash(words_of(points[begin + i])) >> hash_shift_;
       __builtin_prefetch(&slots_[firsts[i]]);
     }
     for (std::size_t i = 0; i < count; ++i) {

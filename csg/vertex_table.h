@@ -22,8 +22,9 @@ class VertexTable {
   // expected  number of different points; a guess that saves time
   explicit VertexTable(std::size_t expected = 0);
 
-  // The number of the first point equal to this one (-0 equals 0), counted in
-  // the order in which points came; a point not seen before is added.
+  // The number of the first point equal to this one (-0 equals 0, and NaN
+  // itself), counted in the order in which points came; a point not seen before
+  // is added.
   std::uint32_t name(const Vec3& point);
 
   // The same for one point after the other, about three times as fast.
@@ -40,7 +41,6 @@ class VertexTable {
   std::vector<Vec3> take_points();
 
  private:
-  // Where the point's name stands, or would stand.
   std::size_t slot_of(const Vec3& point) const;
   std::size_t slot_from(std::size_t first, const Vec3& point) const;
   std::uint32_t name_at(std::size_t slot, const Vec3& point);

@@ -9,10 +9,13 @@
 namespace lamina::csg {
 
 // One body: nothing is turned or closed yet and equal vertices need not be one,
-// but every index names a vertex. Faces are counter-clockwise from outside, if the file keeps to that.
+// but every index names a vertex. Faces are counter-clockwise from outside, if
+// the file keeps to that.
 struct RawMesh {
   Mesh mesh;
   std::vector<std::vector<std::uint32_t>> polygons;  // faces of 4 corners up
+  // No two vertices are equal, and each is a corner of a triangle.
+  bool is_joined = false;
 };
 
 }  // namespace lamina::csg

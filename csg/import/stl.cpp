@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
 
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/format_error.h"
@@ -33,7 +38,8 @@ bool is_binary(std::string_view bytes) {
 }
 
 // Joins equal corners at once: there are six times as many as vertices, and
-// they are most of what a large file needs of memory.
+// they are most of what a large file needs of memory. Most facets share two
+// corners with the one before; only the others are looked up, many at a time.
 class FacetJoiner {
  public:
   // count  of facets; a guess
@@ -42,45 +48,190 @@ class FacetJoiner {
   }
 
   void add(const std::array<Vec3, 3>& corners) {
-    std::copy(corners.begin(), corners.end(), corners_.begin() + waiting_);
-    waiting_ += 3;
-    if (waiting_ == kAtOnce) join();
+    if (waiting_ + 3 > kAtOnce) join();
+    std::array<std::uint32_t, 3> places{};
+    for (int i = 0; i < 3; ++i) places[i] = place_of(corners[i]);
+    last_places_ = places;
+    last_corners_ = corners;
+    triangles_.push_back(places);
   }
 
   RawMesh take() {
     join();
-    return {{vertices_.take_points(), std::move(triangles_)}, {}};
+    return {{vertices_.take_points(), std::move(triangles_)}, {}, true};
   }
 
  private:
+  // Among the corners that wait.
+  std::uint32_t place_of(const Vec3& corner) {
+    for (int i = 0; i < 3; ++i) {
+      if (corner == last_corners_[i]) return last_places_[i];
+    }
+    corners_[waiting_] = corner;
+    return waiting_++;
+  }
+
+  // Names the corners that wait, in the triangles that have places for names.
   void join() {
     std::array<std::uint32_t, kAtOnce> names{};
     vertices_.name(std::span(corners_).first(waiting_), names);
-    for (std::size_t i = 0; i < waiting_; i += 3) {
-      triangles_.push_back({names[i], names[i + 1], names[i + 2]});
+    for (; joined_ < triangles_.size(); ++joined_) {
+      for (std::uint32_t& corner : triangles_[joined_]) corner = names[corner];
     }
     waiting_ = 0;
+    last_corners_.fill(kNowhere);
   }
 
   static constexpr std::size_t kAtOnce = 96;  // corners
+  static constexpr Vec3 kNowhere{std::numeric_limits<double>::quiet_NaN()};
 
   VertexTable vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::size_t joined_ = 0;  // of triangles_
   std::array<Vec3, kAtOnce> corners_{};
-  std::size_t waiting_ = 0;
+  std::uint32_t waiting_ = 0;
+  std::array<Vec3, 3> last_corners_{kNowhere, kNowhere, kNowhere};
+  std::array<std::uint32_t, 3> last_places_{};
 };
 
-RawMesh parse_binary(std::string_view bytes) {
-  const std::size_t count = facet_count(bytes);
-  FacetJoiner facets(count);
-  for (std::size_t i = 0; i < count; ++i) {
+// The facets of a binary file.
+class BinaryFacets {
+ public:
+  explicit BinaryFacets(std::string_view bytes)
+      : records_(bytes.data() + kHeader), count_(facet_count(bytes)) {}
+
+  std::uint32_t count() const { return count_; }
+
+  std::array<Vec3, 3> corners(std::uint32_t facet) const {
     std::array<float, 9> n{};
-    std::memcpy(n.data(), bytes.data() + kHeader + kRecord * i + kNormal,
-                sizeof n);
-    facets.add({Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]),
-                Vec3(n[6], n[7], n[8])});
+    std::memcpy(n.data(), record(facet) + kNormal, sizeof n);
+    return {Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]),
+            Vec3(n[6], n[7], n[8])};
   }
-  return facets.take();
+  glm::vec3 first_corner(std::uint32_t facet) const {
+    glm::vec3 corner;
+    std::memcpy(&corner, record(facet) + kNormal, sizeof corner);
+    return corner;
+  }
+  void prefetch(std::uint32_t facet) const {
+    __builtin_prefetch(record(facet));
+    __builtin_prefetch(record(facet) + kRecord - 1);
+  }
+
+ private:
+  const char* record(std::uint32_t facet) const {
+    return records_ + kRecord * facet;
+  }
+
+  const char* records_;
+  std::uint32_t count_;
+};
+
+// --- Order ------------------------------------------------------------------
+// Programs write facets in some order along the surface, and all that follows
+// profits: neighbours meet in the processor's caches, and layers meet runs of
+// facets. A file whose facets stand in no order is read in that of the cells of
+// a grid, which costs less than reading it at random.
+
+constexpr std::uint32_t kFewFacets = 1 << 14;  // fit into a cache anyway
+constexpr std::uint32_t kSamples = 1 << 10;
+
+float distance(glm::vec3 a, glm::vec3 b) {
+  return std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.z - b.z);
+}
+
+// Whether the next facet is hardly nearer than one anywhere.
+bool is_scattered(const BinaryFacets& facets) {
+  constexpr float kHardlyNearer = 0.25F;
+  const std::uint32_t count = facets.count();
+  if (count < kFewFacets) return false;
+  float to_next = 0;
+  float to_any = 0;
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    const std::uint32_t facet = i * (count / kSamples);
+    const glm::vec3 corner = facets.first_corner(facet);
+    to_next += distance(corner, facets.first_corner(facet + 1));
+    to_any +=
+        distance(corner, facets.first_corner((facet + count / 2) % count));
+  }
+  return to_next > kHardlyNearer * to_any;
+}
+
+// Cells of a grid over the facets, numbered so that neighbours have numbers
+// close to each other.
+class CellGrid {
+ public:
+  static constexpr std::uint32_t kCellCount = 1 << 18;
+
+  explicit CellGrid(const BinaryFacets& facets) {
+    glm::vec3 low(std::numeric_limits<float>::infinity());
+    glm::vec3 high = -low;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+      const auto corner = facets.first_corner(i * (facets.count() / kSamples));
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
+    }
+    low_ = low;
+    cells_per_mm_ = glm::vec3(kCellsASide) / (high - low);
+  }
+
+  std::uint32_t cell_of(glm::vec3 point) const {
+    const glm::vec3 place = (point - low_) * cells_per_mm_;
+    return spread(place.x) << 2 | spread(place.y) << 1 | spread(place.z);
+  }
+
+ private:
+  static constexpr std::uint32_t kCellsASide = 64;
+
+  // The bits of the cell's number along an axis, each with two free places.
+  static std::uint32_t spread(float place) {
+    const bool is_inside = place > 0;  // and a number
+    std::uint32_t bits = is_inside
+                             ? static_cast<std::uint32_t>(std::min(
+                                   place, static_cast<float>(kCellsASide - 1)))
+                             : 0;
+    bits = (bits | bits << 8) & 0x0000f00fU;
+    bits = (bits | bits << 4) & 0x000c30c3U;
+    return (bits | bits << 2) & 0x00249249U;
+  }
+
+  glm::vec3 low_;
+  glm::vec3 cells_per_mm_;
+};
+
+// All facets, those of a cell in the order of the file.
+std::vector<std::uint32_t> order_by_cells(const BinaryFacets& facets) {
+  const CellGrid grid(facets);
+  std::vector<std::uint32_t> cells(facets.count());
+  std::vector<std::uint32_t> places(CellGrid::kCellCount);
+  for (std::uint32_t i = 0; i < facets.count(); ++i) {
+    cells[i] = grid.cell_of(facets.first_corner(i));
+    ++places[cells[i]];
+  }
+  std::exclusive_scan(places.begin(), places.end(), places.begin(), 0U);
+  std::vector<std::uint32_t> order(facets.count());
+  for (std::uint32_t i = 0; i < facets.count(); ++i) {
+    order[places[cells[i]]++] = i;
+  }
+  return order;
+}
+
+RawMesh parse_binary(std::string_view bytes) {
+  const BinaryFacets facets(bytes);
+  FacetJoiner joiner(facets.count());
+  if (!is_scattered(facets)) {
+    for (std::uint32_t i = 0; i < facets.count(); ++i) {
+      joiner.add(facets.corners(i));
+    }
+    return joiner.take();
+  }
+  constexpr std::size_t kAhead = 16;
+  const std::vector<std::uint32_t> order = order_by_cells(facets);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + kAhead < order.size()) facets.prefetch(order[i + kAhead]);
+    joiner.add(facets.corners(order[i]));
+  }
+  return joiner.take();
 }
 
 bool holds(std::string_view line, std::string_view words) {

@@ -1,9 +1,15 @@
 #include "csg/import/stl.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/csg/import/byte_changes.h"
@@ -56,6 +62,78 @@ TEST(ParseStl, ReadsBinary) {
   ASSERT_EQ(raw.mesh.vertices.size(), 6U);
   EXPECT_EQ(raw.mesh.vertices[2], kCorners[2]);
   EXPECT_EQ(raw.mesh.vertices[5], Vec3(7, 8, 9));
+}
+
+using Corners = std::array<Vec3, 3>;
+
+std::vector<Corners> sorted_corners(const Mesh& mesh) {
+  const auto is_before = [](const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  std::vector<Corners> result;
+  for (const auto& t : mesh.triangles) {
+    result.push_back(
+        {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  }
+  std::sort(result.begin(), result.end(), [&](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        is_before);
+  });
+  return result;
+}
+
+// A bumpy sheet of 2 · side² facets, row by row.
+std::vector<std::vector<float>> sheet(int side) {
+  const auto append = [](std::vector<float>& facet, int x, int y) {
+    const auto u = static_cast<float>(x);
+    const auto v = static_cast<float>(y);
+    facet.insert(facet.end(), {u, v, std::sin(u) * std::cos(v)});
+  };
+  std::vector<std::vector<float>> facets;
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (const int other : {0, 1}) {
+        facets.emplace_back();
+        append(facets.back(), x, y);
+        append(facets.back(), x + 1, y + other);
+        append(facets.back(), x + other, y + 1);
+      }
+    }
+  }
+  return facets;
+}
+
+// As shuffled files are read in another order than the one they have.
+TEST(ParseStl, ReadsTheSameFacetsInWhateverOrder) {
+  constexpr int kSide = 150;
+  std::vector<std::vector<float>> facets = sheet(kSide);
+  const Mesh ordered = parse_stl(binary("x", facets)).mesh;
+  std::shuffle(facets.begin(), facets.end(), std::mt19937(1));
+  const Mesh shuffled = parse_stl(binary("x", facets)).mesh;
+  EXPECT_EQ(ordered.vertices.size(), (kSide + 1) * (kSide + 1));
+  EXPECT_EQ(shuffled.vertices.size(), ordered.vertices.size());
+  EXPECT_EQ(sorted_corners(shuffled), sorted_corners(ordered));
+}
+
+// Neighbours stand together afterwards: layers meet few runs of facets.
+TEST(ParseStl, PutsFacetsOfNoOrderInOne) {
+  constexpr int kSide = 150;
+  std::vector<std::vector<float>> facets = sheet(kSide);
+  std::shuffle(facets.begin(), facets.end(), std::mt19937(1));
+  const Mesh mesh = parse_stl(binary("x", facets)).mesh;
+  double to_next = 0;
+  for (std::size_t i = 1; i < mesh.triangles.size(); ++i) {
+    to_next += glm::distance(mesh.vertices[mesh.triangles[i - 1][0]],
+                             mesh.vertices[mesh.triangles[i][0]]);
+  }
+  EXPECT_LT(to_next / static_cast<double>(mesh.triangles.size()), kSide / 30);
+}
+
+TEST(ParseStl, ReadsFacetsThatAreAllTheSame) {
+  const std::vector<std::vector<float>> facets(20'000, kFacets[0]);
+  const Mesh mesh = parse_stl(binary("x", facets)).mesh;
+  EXPECT_EQ(mesh.vertices, kCorners);
+  EXPECT_EQ(mesh.triangles.size(), facets.size());
 }
 
 TEST(ParseStl, TrustsTheSizeMoreThanTheWordSolid) {
