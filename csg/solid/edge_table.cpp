@@ -42,15 +42,6 @@ EdgeTable::EdgeTable(const Mesh& mesh)
   }
 }
 
-bool EdgeTable::is_sound() const {
-  bool is_sound = true;
-  for_each_edge([&](std::uint32_t, std::span<const Side> sides) {
-    is_sound = is_sound && sides.size() == 2 &&
-               sides[0].is_rising() != sides[1].is_rising();
-  });
-  return is_sound;
-}
-
 bool EdgeTable::is_open() const {
   bool is_any_odd = false;
   for_each_edge([&](std::uint32_t, std::span<const Side> sides) {

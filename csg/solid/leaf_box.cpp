@@ -31,28 +31,32 @@ Range range_along(const Sweep& sweep, Vec3 row) {
   return range;
 }
 
-Range range_along(const Mesh& mesh, Vec3 row) {
-  Range range;
-  for (const Vec3 vertex : mesh.vertices) {
-    range.add(row.x * vertex.x + row.y * vertex.y + row.z * vertex.z);
+void extend(Box3& box, const Sweep& sweep, const Affine& linear) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 row(linear[0][axis], linear[1][axis], linear[2][axis]);
+    const Range range = range_along(sweep, row);
+    box.low[axis] = std::min(box.low[axis], range.low);
+    box.high[axis] = std::max(box.high[axis], range.high);
   }
-  return range;
+}
+
+void extend(Box3& box, const Mesh& mesh, const Affine& linear) {
+  Range x, y, z;
+  for (const Vec3 v : mesh.vertices) {
+    x.add(linear[0].x * v.x + linear[1].x * v.y + linear[2].x * v.z);
+    y.add(linear[0].y * v.x + linear[1].y * v.y + linear[2].y * v.z);
+    z.add(linear[0].z * v.x + linear[1].z * v.y + linear[2].z * v.z);
+  }
+  box.low = glm::min(box.low, Vec3(x.low, y.low, z.low));
+  box.high = glm::max(box.high, Vec3(x.high, y.high, z.high));
 }
 
 }  // namespace
 
 Box3 bound_leaf(const Leaf& leaf, const Affine& linear) {
   Box3 box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 row(linear[0][axis], linear[1][axis], linear[2][axis]);
-    const auto extend = [&](const auto& part) {
-      const Range range = range_along(part, row);
-      box.low[axis] = std::min(box.low[axis], range.low);
-      box.high[axis] = std::max(box.high[axis], range.high);
-    };
-    for (const Sweep& sweep : leaf.sweeps) extend(sweep);
-    for (const Mesh& mesh : leaf.meshes) extend(mesh);
-  }
+  for (const Sweep& sweep : leaf.sweeps) extend(box, sweep, linear);
+  for (const Mesh& mesh : leaf.meshes) extend(box, mesh, linear);
   return box;
 }
 

@@ -41,7 +41,8 @@ Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
       mesh.triangles.push_back(t);
     }
   }
-  mend_and_report(mesh, range, diagnostics);
+  mend_and_report(mesh, range, diagnostics,
+                  raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
   return mesh;
 }
 

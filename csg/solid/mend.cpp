@@ -5,8 +5,9 @@
 // what is missing from that sum; as the boundary of anything has no boundary,
 // the missing edges always fall into loops, and every loop can be capped.
 //
-// Nearly every file is sound once its equal vertices are one. Then one look at
-// the table tells, and nothing is repaired.
+// Nearly every file is closed once its equal vertices are one. That is found
+// out without the table, by a sum in which matched edges cancel, and nothing is
+// repaired.
 
 #include "csg/solid/detail/mend.h"
 
@@ -77,6 +78,31 @@ void merge_near_vertices(Mesh& mesh) {
     merged.push_back(name);
   }
   rename_corners(mesh, merged);
+}
+
+// A number drawn for the vertex, the same each time.
+std::uint64_t draw(std::uint32_t vertex) {
+  std::uint64_t x = (vertex + 1) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ x >> 32) * 0x94d049bb133111ebu;
+  return x ^ x >> 29;
+}
+
+// Whether every directed edge is matched by as many of the opposite direction.
+// To each edge from a to b belongs the cube of the difference of numbers drawn
+// for a and b, which changes its sign with the direction: over a closed mesh
+// these sum up to 0. Over any other the sum is a polynomial in the numbers with
+// a coefficient of 3 or more at a²b of each edge that is not matched, and so it
+// is 0 once in some 2^60 meshes.
+bool is_closed(const Mesh& mesh) {
+  std::uint64_t sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const std::uint64_t a = draw(t[0]);
+    const std::uint64_t b = draw(t[1]);
+    const std::uint64_t c = draw(t[2]);
+    const auto cube = [](std::uint64_t x) { return x * x * x; };
+    sum += cube(b - a) + cube(c - b) + cube(a - c);
+  }
+  return sum == 0;
 }
 
 std::size_t drop_degenerate(Mesh& mesh) {
@@ -247,7 +273,7 @@ void drop_unused_vertices(Mesh& mesh) {
   mesh.vertices = std::move(used);
 }
 
-// What is needed where the table of edges is not sound.
+// What is needed where a mesh is not closed.
 void repair(Mesh& mesh, Mending& mending) {
   if (EdgeTable(mesh).is_open()) {
     merge_near_vertices(mesh);
@@ -260,12 +286,15 @@ void repair(Mesh& mesh, Mending& mending) {
 
 }  // namespace
 
-Mending mend(Mesh& mesh) {
+Mending mend(Mesh& mesh, Vertices vertices) {
   Mending mending;
-  merge_equal_vertices(mesh);
+  if (vertices != Vertices::kJoined) merge_equal_vertices(mesh);
   mending.dropped_triangles = drop_degenerate(mesh);
-  if (!EdgeTable(mesh).is_sound()) repair(mesh, mending);
-  drop_unused_vertices(mesh);
+  const bool was_closed = is_closed(mesh);
+  if (!was_closed) repair(mesh, mending);
+  const bool is_joined = vertices == Vertices::kJoined && was_closed &&
+                         mending.dropped_triangles == 0;
+  if (!is_joined) drop_unused_vertices(mesh);
   if (signed_volume(mesh) < 0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }

@@ -49,9 +49,10 @@ void report(const Mending& mending, std::size_t triangle_count,
 
 }  // namespace
 
-void mend_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics) {
+void mend_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
+                     Vertices vertices) {
   const std::size_t triangle_count = mesh.triangles.size();
-  report(mend(mesh), triangle_count, range, diagnostics);
+  report(mend(mesh, vertices), triangle_count, range, diagnostics);
 }
 
 }  // namespace lamina::csg

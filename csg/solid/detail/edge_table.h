@@ -43,9 +43,6 @@ class EdgeTable {
     }
   }
 
-  // Every edge has two triangles, and they run against each other there.
-  bool is_sound() const;
-
   // Some edge has no partner, however the triangles are turned.
   bool is_open() const;
 

@@ -2,6 +2,7 @@
 // Makes any triangle soup a closed, consistently oriented mesh.
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "csg/scene.h"
@@ -23,17 +24,23 @@ struct Mending {
   std::vector<ClosedHole> closed_holes;
 };
 
+// What is known of a mesh's vertices. kJoined: no two are equal, and each is a
+// corner of a triangle.
+enum class Vertices : std::uint8_t { kAnyhow, kJoined };
+
 // Merges equal vertices (and where the mesh is open otherwise, those that are
 // no further apart than 1e-6 mm), turns triangles to agree with their
 // neighbours, and closes what is still open. Afterwards every directed edge is
-// matched by as many of the opposite direction, whatever came in; edges of more
-// than two triangles are kept, winding numbers have no trouble with them. Each
-// component keeps the direction of most of its triangles, and a mesh whose
-// volume comes out negative is turned as a whole.
-Mending mend(Mesh& mesh);
+// matched by as many of the opposite direction, whatever came in; a mesh that
+// has that keeps all its triangles, for winding numbers have no trouble with
+// edges of more than two. Otherwise each component keeps the direction of most
+// of its triangles. A mesh whose volume comes out negative is turned as a
+// whole.
+Mending mend(Mesh& mesh, Vertices vertices = Vertices::kAnyhow);
 
 // Mends, and warns of what was wrong: one warning for each kind of defect, with
 // what was done as notes.
-void mend_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics);
+void mend_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
+                     Vertices vertices = Vertices::kAnyhow);
 
 }  // namespace lamina::csg

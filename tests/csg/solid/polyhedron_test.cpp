@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/csg/solid/lower_fixture.h"
@@ -59,6 +61,24 @@ TEST_F(PolyhedronTest, AFaceGivenTwiceCountsOnce) {
   EXPECT_EQ(messages(), (std::vector<std::string>{
                             "The given mesh has faces more than once: dropped "
                             "2 of 14 triangles"}));
+}
+
+// Its surface winds round it twice, which is as much inside as once.
+TEST_F(PolyhedronTest, AClosedBoxKeepsAllItsFaces) {
+  Faces faces = kBoxFaces;
+  faces.insert(faces.end(), kBoxFaces.begin(), kBoxFaces.end());
+  EXPECT_DOUBLE_EQ(volume(kBoxPoints, faces), 48);
+  EXPECT_TRUE(diagnostics.all().empty());
+}
+
+// Each edge has two sides here, but not one in each direction.
+TEST_F(PolyhedronTest, AnyFaceTurnedIsFound) {
+  for (std::size_t i = 0; i < kBoxFaces.size(); ++i) {
+    Faces faces = kBoxFaces;
+    std::reverse(faces[i].begin(), faces[i].end());
+    EXPECT_DOUBLE_EQ(volume(kBoxPoints, faces), 24);
+    EXPECT_EQ(diagnostics.all().size(), i + 1);
+  }
 }
 
 TEST_F(PolyhedronTest, EveryFaceMayHaveItsOwnPoints) {
