@@ -14,9 +14,13 @@ Output:
   -o FILE             the output, by its extension; '-' is standard output;
                       without it, ring.slc beside ring.scad
                         .slc             layers for wax and resin printers
+                        .cli             Common Layer Interface
+                        .svg             a group of polygons per layer, or the
+                                         outline of a 2D design
                         .layers.json     layers with every digit
                         .csg .echo .ast  what the design makes, says, and is
   --export-format F   one of these formats, whatever the output's name
+  --cli ENCODING      of .cli: binary or ascii [binary]
 
 Design:
   -D NAME=VALUE       set a variable of the design; may be repeated

@@ -192,6 +192,11 @@ std::string csg_text(Run& run, const csg::Tree& tree) {
   throw GeometryError({Severity::kError, {}, words});
 }
 
+// The formats that show a 2D design; the others are printed.
+bool holds_outlines(OutputFormat format) {
+  return format == OutputFormat::kSvg || format == OutputFormat::kLayersJson;
+}
+
 // From the CSG tree to layers in `sink`.
 void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   // Lowering comes before slicing because transforms, 2D parts and hulls need
@@ -204,7 +209,7 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
   });
   if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
   if (const planar::Region* outline = lowered.outline()) {
-    if (run.options.format != OutputFormat::kLayersJson) {
+    if (!holds_outlines(run.options.format)) {
       refuse_geometry("Current top level object is not a 3D object.");
     }
     run.report.slice = slicer::slice_outline(*outline, run.options.settings,
@@ -275,8 +280,9 @@ int compile(Run& run) {
   slicer::OutputFile output(run.options.output, run.temporary_files);
   auto deviation = promised_deviation(run.options);
   const auto writer = slicer::make_layer_writer(
-      run.options.format, output,
-      deviation ? std::optional(deviation->from_section()) : std::nullopt);
+      {run.options.format, run.options.cli_encoding,
+       deviation ? std::optional(deviation->from_section()) : std::nullopt},
+      output);
   make_layers(run, evaluated.tree, *writer);
   writer->finish(run.diagnostics);
   if (deviation) deviation->rounding = writer->greatest_rounding();

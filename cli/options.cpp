@@ -253,6 +253,10 @@ void add_options(CLI::App& app, Parsed& parsed) {
   app.add_option("design", parsed.design.design);
   app.add_option("-o", parsed.design.output)->type_name("file");
   app.add_option("--export-format", parsed.export_format)->type_name("format");
+  add_choice(app, "--cli", {"binary", "ascii"}, [&](const std::string& word) {
+    parsed.design.cli_encoding = word == "ascii" ? slicer::CliEncoding::kAscii
+                                                 : slicer::CliEncoding::kBinary;
+  });
   app.add_option("--report", parsed.design.report)->type_name("file");
   app.add_option("-d", parsed.design.dependencies)->type_name("file");
   add_design_options(app, parsed.design, parsed.definitions);

@@ -19,6 +19,7 @@ struct DesignOptions {
   std::string design;
   std::string output;  // "-": standard output
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
+  slicer::CliEncoding cli_encoding = slicer::CliEncoding::kBinary;
   std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
   std::string parameter_file;     // -p; empty: none
   std::string parameter_set;      // -P

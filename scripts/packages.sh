@@ -15,7 +15,7 @@ LAMINA_TEST_PACKAGES=(
   libgtest-dev libbenchmark-dev libcgal-dev
   openscad openscad-testing-data openscad-mcad
   fonts-dejavu-core fonts-hosny-amiri
-  python3
+  slic3r python3
 )
 
 # install_missing <package>…: installs those that are not there; asks for

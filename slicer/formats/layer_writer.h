@@ -26,13 +26,16 @@ class LayerWriter : public LayerSink {
   virtual double greatest_rounding() const { return 0; }
 };
 
-// A writer of `format`, which must be a format of layers. `output` must
-// outlive it.
-//
-// deviation  bound on what the contours that it takes deviate by [mm], if there
-//            is one; noted where the format has a place for it
-std::unique_ptr<LayerWriter> make_layer_writer(OutputFormat format,
-                                               OutputFile& output,
-                                               std::optional<double> deviation);
+struct WriterOptions {
+  OutputFormat format = OutputFormat::kSlc;  // one of layers
+  CliEncoding cli = CliEncoding::kBinary;
+  // Bound on what the contours that the writer takes deviate by [mm], if there
+  // is one; noted where the format has a place for it.
+  std::optional<double> deviation;
+};
+
+// `output` must outlive the writer.
+std::unique_ptr<LayerWriter> make_layer_writer(const WriterOptions& options,
+                                               OutputFile& output);
 
 }  // namespace lamina::slicer

@@ -2,22 +2,10 @@
 
 #include <span>
 
-#include <fmt/compile.h>
-#include <fmt/format.h>
+#include "slicer/formats/text_output.h"
 
 namespace lamina::slicer {
 namespace {
-
-// Longest output of one formatting call below: three doubles of at most 24
-// characters and the words between them.
-constexpr std::size_t kLongestPiece = 160;
-
-template <typename Format, typename... Values>
-void print(OutputFile& output, const Format& format, const Values&... values) {
-  char* const begin = output.reserve(kLongestPiece);
-  const char* const end = fmt::format_to(begin, format, values...);
-  output.advance(static_cast<std::size_t>(end - begin));
-}
 
 void write_loop(OutputFile& output, std::span<const Vec2> loop) {
   const bool is_hole = ldni::signed_area(loop) < 0;

@@ -12,16 +12,18 @@ struct Written {
   std::string_view extension;
   OutputFormat format;
 };
-constexpr std::array<Written, 5> kWritten = {{
+constexpr std::array<Written, 7> kWritten = {{
     {"slc", OutputFormat::kSlc},
+    {"cli", OutputFormat::kCli},
+    {"svg", OutputFormat::kSvg},
     {"layers.json", OutputFormat::kLayersJson},
     {"ast", OutputFormat::kAst},
     {"echo", OutputFormat::kEcho},
     {"csg", OutputFormat::kCsg},
 }};
 
-constexpr std::array<std::string_view, 6> kNotYetWritten = {
-    "cli", "svg", "png", "sl1", "zip", "3mf"};
+constexpr std::array<std::string_view, 4> kNotYetWritten = {"png", "sl1", "zip",
+                                                            "3mf"};
 
 // What openscad writes and lamina has no mesh for, with what comes nearest.
 struct Refused {
@@ -32,7 +34,7 @@ constexpr std::array<Refused, 4> kRefused = {{
     {"stl", ".slc"},
     {"off", ".layers.json"},
     {"amf", ".slc"},
-    {"dxf", ".layers.json"},
+    {"dxf", ".svg"},
 }};
 
 bool has_extension(std::string_view name, std::string_view extension) {
@@ -74,8 +76,8 @@ FormatChoice choose_output_format(std::string_view name) {
     }
   }
   return {{},
-          fmt::format("'{}' has no extension that lamina knows (.slc "
-                      ".layers.json .csg .echo .ast)",
+          fmt::format("'{}' has no extension that lamina knows (.slc .cli "
+                      ".svg .layers.json .csg .echo .ast)",
                       name),
           false};
 }

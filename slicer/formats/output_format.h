@@ -9,11 +9,15 @@ namespace lamina::slicer {
 
 enum class OutputFormat {
   kSlc,
+  kCli,
+  kSvg,
   kLayersJson,
   kAst,   // the parser's product
   kEcho,  // what the design says
   kCsg,   // the evaluator's product
 };
+
+enum class CliEncoding { kBinary, kAscii };
 
 // A file name or an `--export-format` as far as it could be understood.
 struct FormatChoice {

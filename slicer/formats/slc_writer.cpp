@@ -1,15 +1,12 @@
 #include "slicer/formats/slc_writer.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "parser/diagnostic.h"
-#include "slicer/deviation.h"
+#include "slicer/formats/text_output.h"
 #include "slicer/version.h"
 
 namespace lamina::slicer {
@@ -21,35 +18,6 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
 
-// Neighbouring numbers of the file may be this far apart without a word [mm].
-constexpr double kCoarse = 1e-3;
-
-// Of each number of -EXTENTS: sign, four digits, point, seven decimals.
-constexpr std::size_t kNumberWidth = 13;
-
-// `value` with as many decimals as make it kNumberWidth characters long.
-std::string fixed_width(double value) {
-  value += 0.0;  // -0 prints as 0
-  for (int decimals = kNumberWidth - 2; decimals > 0; --decimals) {
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.size() == kNumberWidth) return text;
-  }
-  return fmt::format("{:.6e}", value).substr(0, kNumberWidth);
-}
-
-void warn_of_coarse_numbers(double reach, Diagnostics& diagnostics) {
-  const auto farthest = static_cast<float>(reach);
-  const double spacing =
-      std::nextafter(farthest, std::numeric_limits<float>::infinity()) -
-      farthest;
-  if (spacing < kCoarse) return;
-  diagnostics.warning(
-      {},
-      fmt::format("{:.6g} mm from the origin, the 32-bit numbers of SLC are "
-                  "{:.2g} mm apart: move the design nearer to the origin",
-                  reach, spacing));
-}
-
 template <typename Value>
 void append(OutputFile& output, const Value& value) {
   output.write({reinterpret_cast<const char*>(&value), sizeof(value)});
@@ -59,10 +27,6 @@ void append(OutputFile& output, const Value& value) {
 
 SlcWriter::SlcWriter(OutputFile& output, std::optional<double> deviation)
     : output_(output), deviation_(deviation) {}
-
-double SlcWriter::greatest_rounding() const {
-  return rounder_.most_moves() * float32_rounding(reach_);
-}
 
 // The program's name; "lamina 0.1.0 within 0.00100117000 mm".
 std::string SlcWriter::package() const {
@@ -74,13 +38,14 @@ std::string SlcWriter::package() const {
   return text;
 }
 
-void SlcWriter::write_header(const Extents& extents) {
-  const auto& [low, high] = extents;
+void SlcWriter::write_header() {
+  const FloatPoint low = contours_.low();
+  const FloatPoint high = contours_.high();
   const std::string header = fmt::format(
       "-SLCVER 2.0 -UNIT MM -TYPE PART -PACKAGE {} -EXTENTS "
       "{},{} {},{} {},{}\r\n\x1A",
-      package(), fixed_width(low[0]), fixed_width(high[0]), fixed_width(low[1]),
-      fixed_width(high[1]), fixed_width(low[2]), fixed_width(high[2]));
+      package(), fixed_width(low.x), fixed_width(high.x), fixed_width(low.y),
+      fixed_width(high.y), fixed_width(bottom_z_), fixed_width(top_z_));
   if (output_.size() == 0) {
     output_.write(header);
   } else {
@@ -89,7 +54,7 @@ void SlcWriter::write_header(const Extents& extents) {
 }
 
 void SlcWriter::begin_file(const Layer& first) {
-  write_header(extents_);
+  write_header();
   output_.write(std::string(kReservedSize, '\0'));
   // One row rules them all: layers are of equal thickness. Sections at given
   // heights have none.
@@ -104,7 +69,7 @@ void SlcWriter::take(const Layer& layer) {
   const auto z = static_cast<float>(layer.bottom);
   if (!has_layers_) {
     begin_file(layer);
-    extents_.low[2] = z;
+    bottom_z_ = z;
   } else if (!(z > last_z_)) {
     throw FileError({Severity::kError,
                      {},
@@ -117,44 +82,19 @@ void SlcWriter::take(const Layer& layer) {
   last_z_ = z;
   top_z_ = static_cast<float>(layer.top);
 
-  for (const Vec2& point : layer.contours.points) {
-    reach_ = std::max({reach_, std::abs(point.x), std::abs(point.y)});
-  }
-  contours_ = layer.contours;
-  rounder_.round(contours_, layer.clearance);
+  contours_.take(layer);
   append(output_, z);
   append(output_, static_cast<std::uint32_t>(contours_.loop_count()));
   for (std::size_t i = 0; i < contours_.loop_count(); ++i) {
-    loop_.clear();
-    for (const Vec2& point : contours_.loop(i)) {
-      loop_.push_back(
-          {static_cast<float>(point.x), static_cast<float>(point.y)});
-    }
-    extend_by_loop();
-    write_loop();
+    write_loop(contours_.loop(i));
   }
 }
 
-void SlcWriter::extend_by_loop() {
-  if (!has_extents_) {
-    extents_.low[0] = extents_.high[0] = loop_.front().x;
-    extents_.low[1] = extents_.high[1] = loop_.front().y;
-    has_extents_ = true;
-  }
-  for (const SlcPoint& point : loop_) {
-    extents_.low[0] = std::min(extents_.low[0], point.x);
-    extents_.high[0] = std::max(extents_.high[0], point.x);
-    extents_.low[1] = std::min(extents_.low[1], point.y);
-    extents_.high[1] = std::max(extents_.high[1], point.y);
-  }
-}
-
-void SlcWriter::write_loop() {
-  append(output_, static_cast<std::uint32_t>(loop_.size() + 1));
+void SlcWriter::write_loop(std::span<const FloatPoint> loop) {
+  append(output_, static_cast<std::uint32_t>(loop.size()));
   append(output_, std::uint32_t{0});  // gaps
-  output_.write({reinterpret_cast<const char*>(loop_.data()),
-                 loop_.size() * sizeof(SlcPoint)});
-  append(output_, loop_.front());
+  output_.write(
+      {reinterpret_cast<const char*>(loop.data()), loop.size_bytes()});
 }
 
 void SlcWriter::finish(Diagnostics& diagnostics) {
@@ -162,9 +102,8 @@ void SlcWriter::finish(Diagnostics& diagnostics) {
   if (!has_layers_) begin_file(Layer{});
   append(output_, top_z_);
   append(output_, kEndOfLayers);
-  extents_.high[2] = top_z_;
-  write_header(extents_);
-  warn_of_coarse_numbers(reach_, diagnostics);
+  write_header();
+  contours_.warn_of_coarse_numbers("SLC", diagnostics);
 }
 
 }  // namespace lamina::slicer

@@ -212,6 +212,9 @@ TEST(Compile, ScaleIsScaleOfTheDesignAndLeavesLayersAsTheyAre) {
             0);
   EXPECT_NE(read_file(folder.file("a.layers.json")).find("[15,15]"),
             std::string::npos);
+  ASSERT_EQ(run(folder, {"flat.scad", "-o", "a.svg"}).status, 0);
+  EXPECT_NE(read_file(folder.file("a.svg")).find(" 10,-10 "),
+            std::string::npos);
 }
 
 TEST(Compile, CompensationIsInTheLayersAndInTheTable) {

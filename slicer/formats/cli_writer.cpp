@@ -1,0 +1,128 @@
+#include "slicer/formats/cli_writer.h"
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "parser/diagnostic.h"
+#include "slicer/formats/text_output.h"
+
+namespace lamina::slicer {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "CLI is little-endian and is written as it lies in memory");
+
+// Commands of the binary body: those with long numbers.
+constexpr std::uint16_t kStartLayer = 127;
+constexpr std::uint16_t kStartPolyline = 130;
+
+constexpr std::int32_t kPart = 1;  // identifier of the only one
+constexpr std::int32_t kInner = 0;
+constexpr std::int32_t kOuter = 1;
+
+template <typename Value>
+void append(OutputFile& output, const Value& value) {
+  output.write({reinterpret_cast<const char*>(&value), sizeof(value)});
+}
+
+// The shortest digits that read back as the same number; readers want no
+// exponent.
+void print_number(OutputFile& output, float value) {
+  const float size = std::abs(value);
+  if (value == 0 || (size >= 1e-4F && size < 1e15F)) {
+    print(output, FMT_COMPILE("{}"), value + 0.0F);  // -0 prints as 0
+  } else {
+    print(output, FMT_COMPILE("{:.20f}"), value);
+  }
+}
+
+}  // namespace
+
+CliWriter::CliWriter(OutputFile& output, CliEncoding encoding)
+    : output_(output), encoding_(encoding) {
+  write_header();
+}
+
+void CliWriter::write_header() {
+  const bool is_ascii = encoding_ == CliEncoding::kAscii;
+  const FloatPoint low = contours_.low();
+  const FloatPoint high = contours_.high();
+  // In binary files the first command follows the last letter.
+  const std::string header = fmt::format(
+      "$$HEADERSTART\n{}\n$$UNITS/1\n$$VERSION/200\n$$LABEL/{},part\n"
+      "$$DIMENSION/{},{},{},{},{},{}\n$$LAYERS/{:010}\n$$HEADEREND{}",
+      is_ascii ? "$$ASCII" : "$$BINARY", kPart, fixed_width(low.x),
+      fixed_width(low.y), fixed_width(bottom_z_), fixed_width(high.x),
+      fixed_width(high.y), fixed_width(top_z_), layers_,
+      is_ascii ? "\n$$GEOMETRYSTART\n" : "");
+  if (output_.size() == 0) {
+    output_.write(header);
+  } else {
+    output_.patch(0, header);
+  }
+}
+
+void CliWriter::write_height(float z) {
+  if (encoding_ == CliEncoding::kAscii) {
+    output_.write("$$LAYER/");
+    print_number(output_, z);
+    output_.write("\n");
+  } else {
+    append(output_, kStartLayer);
+    append(output_, z);
+  }
+}
+
+void CliWriter::write_loop(std::span<const FloatPoint> loop) {
+  const auto count = static_cast<std::int32_t>(loop.size());
+  const std::int32_t direction = signed_area(loop) > 0 ? kOuter : kInner;
+  if (encoding_ == CliEncoding::kBinary) {
+    append(output_, kStartPolyline);
+    for (const std::int32_t value : {kPart, direction, count}) {
+      append(output_, value);
+    }
+    output_.write(
+        {reinterpret_cast<const char*>(loop.data()), loop.size_bytes()});
+    return;
+  }
+  print(output_, FMT_COMPILE("$$POLYLINE/{},{},{}"), kPart, direction, count);
+  for (const FloatPoint& point : loop) {
+    output_.write(",");
+    print_number(output_, point.x);
+    output_.write(",");
+    print_number(output_, point.y);
+  }
+  output_.write("\n");
+}
+
+void CliWriter::take(const Layer& layer) {
+  const auto z = static_cast<float>(layer.top);
+  if (layers_ == 0) {
+    bottom_z_ = static_cast<float>(layer.bottom);
+  } else if (!(z > top_z_)) {
+    throw FileError({Severity::kError,
+                     {},
+                     fmt::format("Can't write '{}': the layers at {} and {} mm "
+                                 "are one in CLI's 32-bit numbers",
+                                 output_.path(), top_z_, layer.top),
+                     {}});
+  }
+  ++layers_;
+  top_z_ = z;
+  contours_.take(layer);
+  write_height(z);
+  for (std::size_t i = 0; i < contours_.loop_count(); ++i) {
+    write_loop(contours_.loop(i));
+  }
+}
+
+void CliWriter::finish(Diagnostics& diagnostics) {
+  if (encoding_ == CliEncoding::kAscii) output_.write("$$GEOMETRYEND\n");
+  write_header();
+  contours_.warn_of_coarse_numbers("CLI", diagnostics);
+}
+
+}  // namespace lamina::slicer

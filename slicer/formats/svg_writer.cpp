@@ -1,0 +1,62 @@
+#include "slicer/formats/svg_writer.h"
+
+#include <fmt/format.h>
+
+#include "slicer/formats/text_output.h"
+#include "slicer/version.h"
+
+namespace lamina::slicer {
+
+SvgWriter::SvgWriter(OutputFile& output) : output_(output) { write_head(); }
+
+void SvgWriter::write_head() {
+  const FloatPoint low = contours_.low();
+  const FloatPoint high = contours_.high();
+  const std::string width = fixed_width(double{high.x} - low.x);
+  const std::string height = fixed_width(double{high.y} - low.y);
+  const std::string head = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg width=\"{}mm\" height=\"{}mm\" "
+      "viewBox=\"{} {} {} {}\" "
+      "xmlns=\"http://www.w3.org/2000/svg\" "
+      "xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\">\n"
+      "  <!-- lamina {} -->\n",
+      width, height, fixed_width(low.x), fixed_width(-high.y), width, height,
+      version());
+  if (output_.size() == 0) {
+    output_.write(head);
+  } else {
+    output_.patch(0, head);
+  }
+}
+
+void SvgWriter::take(const Layer& layer) {
+  print(output_, FMT_COMPILE("  <g id=\"layer{}\" slic3r:z=\"{}\">\n"), layers_,
+        layer.section_z);
+  ++layers_;
+  contours_.take(layer);
+  for (std::size_t i = 0; i < contours_.loop_count(); ++i) {
+    write_loop(contours_.loop(i));
+  }
+  output_.write("  </g>\n");
+}
+
+void SvgWriter::write_loop(std::span<const FloatPoint> closed_loop) {
+  const bool is_hole = signed_area(closed_loop) < 0;
+  print(output_, FMT_COMPILE("    <polygon slic3r:type=\"{}\" points=\""),
+        is_hole ? "hole" : "contour");
+  for (const FloatPoint& point : closed_loop.first(closed_loop.size() - 1)) {
+    // 0 is added because -0 has a sign in print.
+    print(output_, FMT_COMPILE("{},{} "), point.x + 0.0F, -point.y + 0.0F);
+  }
+  print(output_, FMT_COMPILE("\" style=\"fill: {}\" />\n"),
+        is_hole ? "black" : "white");
+}
+
+void SvgWriter::finish(Diagnostics& diagnostics) {
+  output_.write("</svg>\n");
+  write_head();
+  contours_.warn_of_coarse_numbers("SVG", diagnostics);
+}
+
+}  // namespace lamina::slicer

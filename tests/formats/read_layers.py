@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""Reads layer files as docs/formats.md describes them, and nothing else.
+
+    read_layers.py <file>…
+
+Written from the description of the formats alone, so that a misunderstanding
+of lamina's writers and readers shows. Prints one line a layer,
+
+    <height> <loops> <holes> <area> <perimeter>
+
+with millimetres; the height is that of the layer's upper side. Whatever
+breaks a rule of the format ends it with a message and status 1.
+"""
+import math
+import re
+import struct
+import sys
+import xml.etree.ElementTree
+
+
+def demand(condition, words):
+    if not condition:
+        raise SystemExit(f"read_layers: {words}")
+
+
+class Bytes:
+    """Little-endian numbers one after another."""
+
+    def __init__(self, data, place=0):
+        self.data = data
+        self.place = place
+
+    def take(self, layout):
+        size = struct.calcsize("<" + layout)
+        demand(self.place + size <= len(self.data), "the file ends too early")
+        values = struct.unpack_from("<" + layout, self.data, self.place)
+        self.place += size
+        return values if len(values) > 1 else values[0]
+
+    def points(self, count):
+        numbers = self.take(f"{2 * count}f")
+        return list(zip(numbers[::2], numbers[1::2]))
+
+    def at_end(self):
+        return self.place == len(self.data)
+
+
+def open_loop(points):
+    """A loop whose last point repeats the first, without that point."""
+    demand(len(points) >= 4, "a loop of fewer than four written points")
+    demand(points[0] == points[-1], "a loop does not close")
+    demand(all(a != b for a, b in zip(points, points[1:])), "a repeated point")
+    return points[:-1]
+
+
+def signed_area(loop):
+    """Positive where the loop runs counter-clockwise."""
+    x0, y0 = loop[0]
+    return 0.5 * sum((a[0] - x0) * (b[1] - y0) - (a[1] - y0) * (b[0] - x0)
+                     for a, b in zip(loop, loop[1:] + loop[:1]))
+
+
+def read_slc(data):
+    end = data.index(b"\r\n\x1a") + 3
+    demand(end <= 2048, "the header is too long")
+    header = data[:end - 3].decode("ascii")
+    demand(header.startswith("-SLCVER 2.0 -UNIT MM -TYPE PART -PACKAGE lamina"),
+           "the header does not begin as it should")
+    box = re.search(r"-EXTENTS (\S+),(\S+) (\S+),(\S+) (\S+),(\S+)$", header)
+    demand(box, "no extents")
+    body = Bytes(data, end + 256)
+    rows = [body.take("4f") for _ in range(body.take("B"))]
+    demand(rows, "no row in the sampling table")
+    layers = []
+    while True:
+        z, boundaries = body.take("fI")
+        if boundaries == 0xFFFFFFFF:
+            break
+        loops = []
+        for _ in range(boundaries):
+            vertices, gaps = body.take("II")
+            demand(gaps == 0, "a gap")
+            loops.append(open_loop(body.points(vertices)))
+        demand(not layers or z > layers[-1][0], "layers do not rise")
+        layers.append((z, loops))
+    demand(body.at_end(), "bytes behind the end")
+    thickness = rows[0][1]
+    demand(not layers or abs(layers[-1][0] + thickness - z) < 1e-5 * (1 + z),
+           "the top is not that of the last layer")
+    check_box(layers, [float(n) for n in box.groups()])
+    return [(low + thickness, loops) for low, loops in layers]
+
+
+def check_box(layers, box):
+    points = [p for _, loops in layers for loop in loops for p in loop]
+    if not points:
+        return
+    found = [min(x for x, _ in points), max(x for x, _ in points),
+             min(y for _, y in points), max(y for _, y in points)]
+    demand(all(math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-6)
+               for a, b in zip(found, box)), f"the box is {found}, not {box}")
+
+
+def read_cli(data):
+    lines, place = [], 0
+    while not data.startswith(b"$$HEADEREND", place):
+        end = data.index(b"\n", place)
+        lines.append(data[place:end].decode("ascii"))
+        place = end + 1
+    place += len("$$HEADEREND")
+    demand(lines[0] == "$$HEADERSTART", "no header")
+    keys = dict((line[2:].split("/", 1) + [""])[:2] for line in lines[1:])
+    demand(keys["VERSION"] == "200", "not version 2.0")
+    unit = float(keys["UNITS"])
+    read = read_cli_ascii if "ASCII" in keys else read_cli_binary
+    layers = [(z * unit, [[(x * unit, y * unit) for x, y in loop]
+                          for loop in loops])
+              for z, loops in read(data, place)]
+    demand(len(layers) == int(keys["LAYERS"]), "layers do not count up")
+    low_x, low_y, _, high_x, high_y, high_z = map(
+        float, keys["DIMENSION"].split(","))
+    demand(not layers or abs(layers[-1][0] - high_z) < 1e-5 * (1 + high_z),
+           "the top is not that of the last layer")
+    check_box(layers, [low_x, high_x, low_y, high_y])
+    return layers
+
+
+def turned(direction, points):
+    demand(direction in (0, 1), f"direction {direction}")
+    loop = open_loop(points)
+    demand((signed_area(loop) > 0) == (direction == 1),
+           "a loop does not run as its direction says")
+    return loop
+
+
+def read_cli_ascii(data, place):
+    lines = data[place:].decode("ascii").split("\n")
+    demand(lines[:2] == ["", "$$GEOMETRYSTART"], "no start of the geometry")
+    demand(lines[-2:] == ["$$GEOMETRYEND", ""], "no end of the geometry")
+    layers = []
+    for line in lines[2:-2]:
+        command, parameters = line.split("/")
+        if command == "$$LAYER":
+            layers.append((float(parameters), []))
+            continue
+        demand(command == "$$POLYLINE", f"command {command}")
+        fields = parameters.split(",")
+        numbers = [float(field) for field in fields[3:]]
+        demand(len(numbers) == 2 * int(fields[2]), "points do not count up")
+        layers[-1][1].append(
+            turned(int(fields[1]), list(zip(numbers[::2], numbers[1::2]))))
+    return layers
+
+
+def read_cli_binary(data, place):
+    body = Bytes(data, place)
+    layers = []
+    while not body.at_end():
+        command = body.take("H")
+        if command == 127:
+            layers.append((body.take("f"), []))
+            continue
+        demand(command == 130, f"command {command}")
+        _, direction, count = body.take("3i")
+        layers[-1][1].append(turned(direction, body.points(count)))
+    return layers
+
+
+def read_svg(data):
+    """Heights are those of the sections; slic3r 1.3 writes them in metres."""
+    name = "{http://slic3r.org/namespaces/slic3r}"
+    svg = "{http://www.w3.org/2000/svg}"
+    layers = []
+    for group in xml.etree.ElementTree.fromstring(data).iter(svg + "g"):
+        demand(group.get("id") == f"layer{len(layers)}", "groups do not count up")
+        loops = []
+        for polygon in group.iter(svg + "polygon"):
+            loop = [tuple(map(float, point.split(",")))
+                    for point in polygon.get("points").split()]
+            kind = polygon.get(name + "type")
+            demand(kind in ("contour", "hole"), f"type {kind}")
+            is_clockwise = signed_area(loop) < 0
+            loops.append(loop if is_clockwise == (kind == "hole")
+                         else loop[::-1])
+        layers.append((float(group.get(name + "z")), loops))
+    return layers
+
+
+READERS = {".slc": read_slc, ".cli": read_cli, ".svg": read_svg}
+
+
+def read(path):
+    suffix = path[path.rindex("."):]
+    demand(suffix in READERS, f"{path}: no format of this name")
+    with open(path, "rb") as file:
+        return READERS[suffix](file.read())
+
+
+def statistics(loops):
+    areas = [signed_area(loop) for loop in loops]
+    perimeter = sum(math.dist(a, b) for loop in loops
+                    for a, b in zip(loop, loop[1:] + loop[:1]))
+    return len(loops), sum(a < 0 for a in areas), sum(areas), perimeter
+
+
+def main():
+    for path in sys.argv[1:]:
+        for height, loops in read(path):
+            count, holes, area, perimeter = statistics(loops)
+            print(f"{height:.6f} {count} {holes} {area:.9g} {perimeter:.9g}")
+
+
+if __name__ == "__main__":
+    main()
