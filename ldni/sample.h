@@ -1,9 +1,14 @@
 #pragma once
 // A sample: where a ray crosses the surface of a leaf.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <glm/vec3.hpp>
+
+#include "csg/vec.h"
 
 namespace lamina::ldni {
 
@@ -24,5 +29,15 @@ struct Sample {
 
   bool is_entry() const { return normal.y < 0; }
 };
+
+// `normal` as that of an entry or an exit. Where a face is almost parallel to
+// the rays, rounding must not turn one into the other.
+inline glm::vec3 sample_normal(const Vec3& normal, bool is_entry) {
+  glm::vec3 result(normal);
+  const float y =
+      std::max(std::abs(result.y), std::numeric_limits<float>::min());
+  result.y = is_entry ? -y : y;
+  return result;
+}
 
 }  // namespace lamina::ldni

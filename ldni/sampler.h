@@ -57,6 +57,9 @@ class Sampler {
   virtual void sample(std::uint32_t instance, const GridBox& box,
                       LeafImages& out) = 0;
 
+  // Pixels so far that it had to sample another way to keep this contract.
+  virtual std::uint64_t repaired_pixels() const { return 0; }
+
  protected:
   Sampler() = default;
 };

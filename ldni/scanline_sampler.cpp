@@ -52,16 +52,6 @@ Vec3 polygon_normal(std::span<const Corner> corners) {
   return length > 0 ? sum / length : Vec3(0, 1, 0);
 }
 
-// `normal` as that of an entry or an exit. Where a face is almost parallel to
-// the rays, rounding must not turn one into the other.
-glm::vec3 sample_normal(const Vec3& normal, bool is_entry) {
-  glm::vec3 result(normal);
-  const float y =
-      std::max(std::abs(result.y), std::numeric_limits<float>::min());
-  result.y = is_entry ? -y : y;
-  return result;
-}
-
 // Levels that vertices between two heights can have: [low, high].
 struct LevelRange {
   std::uint32_t low = 0;

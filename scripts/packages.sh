@@ -8,6 +8,7 @@ LAMINA_BUILD_PACKAGES=(
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
   libqhull-dev libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
   libminizip-dev libpugixml-dev zlib1g-dev
+  libegl-dev libgl-dev libosmesa6-dev
 )
 
 # To build and run the tests: the oracles above all.

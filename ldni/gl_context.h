@@ -1,0 +1,94 @@
+#pragma once
+// Ways to draw with OpenGL, without a window: EGL on a graphics processor,
+// OSMesa on the processor.
+//
+// Both libraries are opened when they are first needed and stay open: to link
+// them would cost every start 14 ms and 50 MB. Whoever draws in software
+// (Mesa's llvmpipe) is asked for no threads of its own: the layers are parallel
+// already, and so processor time is counted where it is spent.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace lamina::ldni {
+
+struct GlFunctions;
+using GlSymbol = void (*)();
+
+// The least version that is of use.
+struct GlVersion {
+  int major = 3;
+  int minor = 3;
+};
+
+// A state machine of OpenGL's, with its objects. For one thread at a time,
+// while a GlScope of that thread lives.
+class GlContext {
+ public:
+  virtual ~GlContext() = default;
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  const GlFunctions& functions() const { return *functions_; }
+
+ protected:
+  GlContext() = default;
+
+ private:
+  friend class GlPlatform;
+  friend class GlScope;
+  virtual void make_current() = 0;
+  virtual void release() = 0;
+
+  std::shared_ptr<const GlFunctions> functions_;
+};
+
+// Makes a context current in the calling thread while it lives.
+class GlScope {
+ public:
+  explicit GlScope(GlContext& context);
+  ~GlScope();
+  GlScope(const GlScope&) = delete;
+  GlScope& operator=(const GlScope&) = delete;
+
+ private:
+  GlContext& context_;
+};
+
+// Where contexts come from. Any thread may ask for one.
+class GlPlatform {
+ public:
+  virtual ~GlPlatform() = default;
+  GlPlatform(const GlPlatform&) = delete;
+  GlPlatform& operator=(const GlPlatform&) = delete;
+
+  // Throws FileError where there is none of that version with what a sampler
+  // needs.
+  std::unique_ptr<GlContext> make_context(GlVersion least) const;
+
+ protected:
+  // Of a function of OpenGL's, null where there is none of that name.
+  using Finder = std::function<GlSymbol(const char* name)>;
+
+  GlPlatform() = default;
+
+ private:
+  virtual std::unique_ptr<GlContext> create(GlVersion least) const = 0;
+  virtual Finder finder() const = 0;
+};
+
+// What draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+std::string renderer_name(GlContext& context);
+
+// The best that there is: EGL on a graphics processor that has the version,
+// else OSMesa. Throws FileError, with the package that is missing, if there is
+// none. To be called before threads are started: it may set LP_NUM_THREADS.
+std::shared_ptr<const GlPlatform> open_gl(GlVersion least);
+
+// These throw FileError where there is no such thing.
+std::shared_ptr<const GlPlatform> open_osmesa();
+enum class EglDevice { kHardware, kAny };
+std::shared_ptr<const GlPlatform> open_egl(EglDevice device, GlVersion least);
+
+}  // namespace lamina::ldni
