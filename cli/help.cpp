@@ -54,7 +54,8 @@ Slicing (lengths in millimetres):
 For comparison, the method of Zeng et al. 2011:
   --contour MODE      faithful: exact contours; paper: linked rays [faithful]
   --boxes MODE        of paper: local or global depth images [local]
-  --sampler KIND      of paper: scanline or gl [scanline]
+  --sampler KIND      of paper: scanline, gl (drawn by OpenGL), or gl-peeling
+                      (by depth peeling, as published) [scanline]
 
 Checks:
   --min-feature MM    tell of walls and gaps thinner than this, and of what

@@ -237,12 +237,27 @@ std::optional<slicer::Deviation> promised_deviation(
   return deviation;
 }
 
+// Empty where contours are not made of samples.
+std::string sampler_name(const slicer::Settings& settings) {
+  if (settings.contour != slicer::ContourMode::kPaper) return {};
+  switch (settings.sampler) {
+    case slicer::SamplerKind::kScanline:
+      return "scanline";
+    case slicer::SamplerKind::kGl:
+      return "gl";
+    case slicer::SamplerKind::kGlPeeling:
+      return "gl-peeling";
+  }
+  return {};
+}
+
 void finish_report(Run& run, std::uint64_t output_bytes) {
   run.report.wall_seconds = std::chrono::duration<double>(
                                 std::chrono::steady_clock::now() - run.begin)
                                 .count();
   run.report.warnings = count(run.diagnostics, Severity::kWarning);
   run.report.min_feature = run.options.settings.min_feature;
+  run.report.sampler = sampler_name(run.options.settings);
   if (!run.options.report.empty()) {
     write_text(run, run.options.report, report_json(run.report));
   }

@@ -151,6 +151,12 @@ void add_thin_width(CLI::App& app, double& width) {
   });
 }
 
+slicer::SamplerKind sampler_kind(std::string_view word) {
+  if (word == "gl") return slicer::SamplerKind::kGl;
+  if (word == "gl-peeling") return slicer::SamplerKind::kGlPeeling;
+  return slicer::SamplerKind::kScanline;
+}
+
 void add_slicing_options(CLI::App& app, DesignOptions& options) {
   slicer::Settings& settings = options.settings;
   add_text(app, "--layer", "length", [&](const std::string& text) {
@@ -197,11 +203,9 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
     settings.boxes =
         mode == "global" ? slicer::BoxMode::kGlobal : slicer::BoxMode::kLocal;
   });
-  add_choice(app, "--sampler", {"scanline", "gl"},
-             [&](const std::string& kind) {
-               settings.sampler = kind == "gl" ? slicer::SamplerKind::kGl
-                                               : slicer::SamplerKind::kScanline;
-             });
+  add_choice(
+      app, "--sampler", {"scanline", "gl", "gl-peeling"},
+      [&](const std::string& kind) { settings.sampler = sampler_kind(kind); });
   app.add_option("--threads", settings.threads)
       ->check(CLI::Range(1U, 1024U))
       ->type_name("number");
@@ -313,6 +317,20 @@ std::string without_extension(const std::string& path) {
   return has_extension ? path.substr(0, dot) : path;
 }
 
+// Options that do not go together; null if all do.
+const char* find_contradiction(const slicer::Settings& settings) {
+  const bool is_paper = settings.contour == slicer::ContourMode::kPaper;
+  if (settings.min_feature > 0 && is_paper) {
+    return "--min-feature needs --contour faithful";
+  }
+  if (settings.sampler == slicer::SamplerKind::kScanline) return nullptr;
+  if (!is_paper) return "--sampler gl needs --contour paper";
+  if (!settings.heights.empty()) {
+    return "--sampler gl needs layers of one thickness, not --heights";
+  }
+  return nullptr;
+}
+
 Command finish_design(Parsed& parsed) {
   DesignOptions& options = parsed.design;
   if (options.design.empty()) return usage_error("no design was given");
@@ -323,9 +341,6 @@ Command finish_design(Parsed& parsed) {
                     options.design));
   }
   options.definitions = join_definitions(parsed.definitions);
-  if (options.settings.sampler == slicer::SamplerKind::kGl) {
-    return Exit{kFaultStatus, "lamina: --sampler gl is not supported yet\n"};
-  }
   if (options.output.empty()) {
     const std::string& format = parsed.export_format;
     options.output = without_extension(options.design) + "." +
@@ -341,9 +356,8 @@ Command finish_design(Parsed& parsed) {
     return Exit{kFaultStatus, fmt::format("lamina: {}\n", choice.complaint)};
   }
   options.format = *choice.format;
-  if (options.settings.min_feature > 0 &&
-      options.settings.contour == slicer::ContourMode::kPaper) {
-    return usage_error("--min-feature needs --contour faithful");
+  if (const char* contradiction = find_contradiction(options.settings)) {
+    return usage_error(contradiction);
   }
   return options;
 }
@@ -354,6 +368,9 @@ Command finish_view(Parsed& parsed) {
   if (!options.design.output.ends_with(".png")) {
     return usage_error(fmt::format("view draws .png pictures; '{}' is none",
                                    options.design.output));
+  }
+  if (const char* contradiction = find_contradiction(options.design.settings)) {
+    return usage_error(contradiction);
   }
   return options;
 }

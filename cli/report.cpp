@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <time.h>
 
@@ -46,6 +47,18 @@ std::uint64_t peak_of_address_space() {
     if (word == "VmHWM:" && status >> kib) return kib * 1024;
   }
   return 0;
+}
+
+// What only the paper's contours have.
+template <typename Add>
+void add_paper(const RunReport& report, const Add& add) {
+  const slicer::PaperCounts& paper = report.slice.paper;
+  add("sampler", nlohmann::json(report.sampler).dump());
+  add("renderer", nlohmann::json(report.slice.renderer).dump());
+  add("boolean_seconds", paper.boolean_seconds);
+  add("link_seconds", paper.link_seconds);
+  add("image_intervals", paper.intervals);
+  add("repaired_pixels", paper.repaired_pixels);
 }
 
 }  // namespace
@@ -93,9 +106,9 @@ std::string report_json(const RunReport& report) {
   add("stops", slice.sweep.stops);
   add("evaluations", slice.sweep.evaluations);
   add("resolved_layers", slice.sweep.resolved_layers);
-  add("image_pixels", slice.images.pixels);
-  add("image_samples", slice.images.samples);
-  add("image_bytes", slice.images.bytes());
+  add("image_pixels", slice.paper.pixels);
+  add("image_samples", slice.paper.samples);
+  add("image_bytes", slice.paper.image_bytes());
   add("vanished_regions", slice.losses.vanished_regions);
   add("vanished_holes", slice.losses.vanished_holes);
   add("broken_walls", slice.losses.broken_walls);
@@ -107,6 +120,7 @@ std::string report_json(const RunReport& report) {
   add("snapped_layers", report.snapped_layers);
   add("warnings", report.warnings);
   add("deviation_mm", deviation_json(report.deviation));
+  if (!report.sampler.empty()) add_paper(report, add);
   if (report.min_feature > 0) {
     add("min_feature_mm", report.min_feature);
     add("features",

@@ -32,6 +32,8 @@ struct RunReport {
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
   std::uint64_t warnings = 0;
   double wall_seconds = 0;  // of the whole run
+  // --sampler, where contours are the paper's; else empty.
+  std::string sampler;
 };
 
 // The whole as JSON, one key a line, ended by '\n'. Total and memory are those

@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "ldni/boolean.h"
+#include "ldni/face_raster.h"
+#include "ldni/gl_sampler.h"
 #include "ldni/interval.h"
-#include "ldni/sampler.h"
 #include "ldni/scanline_sampler.h"
 #include "slicer/loop_builder.h"
+#include "slicer/thread_clock.h"
 
 namespace lamina::slicer {
 namespace {
@@ -38,6 +40,11 @@ ldni::GridBox sample_box(const PaperPlan& plan, const csg::Instance& instance) {
   return ldni::global_box(plan.rays, plan.layers);
 }
 
+ldni::GlMethod gl_method(SamplerKind kind) {
+  return kind == SamplerKind::kGlPeeling ? ldni::GlMethod::kPeeling
+                                         : ldni::GlMethod::kList;
+}
+
 std::uint32_t choose_layers_per_block(const PaperPlan& plan) {
   std::uint64_t pixels = 0;  // of the whole job
   for (const csg::Instance& instance : plan.scene.instances) {
@@ -56,32 +63,34 @@ PaperPlan::PaperPlan(const csg::Scene& scene_in,
     : scene(scene_in),
       layers(layers_in),
       boxes(settings.boxes),
+      sampler(settings.sampler),
       rays(make_rays(scene_in, settings)),
-      layers_per_block(choose_layers_per_block(*this)) {}
-
-std::uint64_t ImageCounts::bytes() const {
-  return pixels * sizeof(ldni::LeafImages().ends[0]) +
-         samples * sizeof(ldni::Sample);
+      layers_per_block(choose_layers_per_block(*this)) {
+  if (sampler == SamplerKind::kScanline) return;
+  const ldni::GlVersion version = ldni::least_version(gl_method(sampler));
+  gl = ldni::open_gl(version);
+  renderer = ldni::renderer_name(*gl->make_context(version));
 }
 
-ImageCounts& ImageCounts::operator+=(const ImageCounts& other) {
-  pixels += other.pixels;
-  samples += other.samples;
-  intervals += other.intervals;
-  return *this;
+std::unique_ptr<ldni::Sampler> PaperPlan::make_sampler() const {
+  if (sampler == SamplerKind::kScanline) {
+    return std::make_unique<ldni::ScanlineSampler>(scene, rays, layers);
+  }
+  return std::make_unique<ldni::GlSampler>(
+      scene, rays, layers, ldni::make_face_raster(*gl, gl_method(sampler)));
 }
 
 struct PaperSlicer::State {
   explicit State(const PaperPlan& plan_in)
       : plan(plan_in),
-        sampler(plan_in.scene, plan_in.rays, plan_in.layers),
+        sampler(plan_in.make_sampler()),
         boolean(plan_in.scene) {}
 
   void gather_layer(std::uint32_t layer);
   void evaluate_layer();
 
   const PaperPlan& plan;
-  ldni::ScanlineSampler sampler;
+  std::unique_ptr<ldni::Sampler> sampler;
   ldni::RayBoolean boolean;
   LoopBuilder loop_builder;
   ldni::LeafImages images;  // of the block
@@ -91,7 +100,7 @@ struct PaperSlicer::State {
   std::vector<ldni::Sample> samples;
   ldni::LayerIntervals intervals;
 
-  ImageCounts counts;
+  PaperCounts counts;
 };
 
 PaperSlicer::PaperSlicer(const PaperPlan& plan)
@@ -99,7 +108,11 @@ PaperSlicer::PaperSlicer(const PaperPlan& plan)
 
 PaperSlicer::~PaperSlicer() = default;
 
-const ImageCounts& PaperSlicer::counts() const { return state_->counts; }
+PaperCounts PaperSlicer::counts() const {
+  PaperCounts counts = state_->counts;
+  counts.repaired_pixels = state_->sampler->repaired_pixels();
+  return counts;
+}
 
 void PaperSlicer::sample_block(std::uint32_t first_layer,
                                std::uint32_t layer_count) {
@@ -108,17 +121,22 @@ void PaperSlicer::sample_block(std::uint32_t first_layer,
   for (std::uint32_t i = 0; i < plan.scene.instances.size(); ++i) {
     const ldni::GridBox box = ldni::clip_to_layers(
         sample_box(plan, plan.scene.instances[i]), first_layer, layer_count);
-    if (!box.is_empty()) state_->sampler.sample(i, box, state_->images);
+    if (!box.is_empty()) state_->sampler->sample(i, box, state_->images);
   }
   state_->counts.pixels += state_->images.ends.size();
   state_->counts.samples += state_->images.samples.size();
 }
 
 void PaperSlicer::build_layer(std::uint32_t layer, ldni::Contours& contours) {
-  state_->gather_layer(layer);
-  state_->evaluate_layer();
-  state_->loop_builder.build(state_->plan.rays, state_->intervals, contours);
-  state_->counts.intervals += state_->intervals.intervals.size();
+  State& state = *state_;
+  state.counts.boolean_seconds += measure([&] {
+    state.gather_layer(layer);
+    state.evaluate_layer();
+  });
+  state.counts.link_seconds += measure([&] {
+    state.loop_builder.build(state.plan.rays, state.intervals, contours);
+  });
+  state.counts.intervals += state.intervals.intervals.size();
 }
 
 // Collects a layer's samples out of the images of all leaves: a counting sort

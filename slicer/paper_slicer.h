@@ -8,11 +8,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "csg/scene.h"
 #include "ldni/contours.h"
+#include "ldni/gl_context.h"
 #include "ldni/grid.h"
 #include "ldni/ray_grid.h"
+#include "ldni/sampler.h"
+#include "slicer/paper_counts.h"
 #include "slicer/settings.h"
 
 namespace lamina::slicer {
@@ -20,28 +24,24 @@ namespace lamina::slicer {
 // What all threads of a job share. Scene and grid must outlive it.
 struct PaperPlan {
   // The pitch is the layer's thickness where the settings leave it open, as in
-  // the paper.
+  // the paper. Throws FileError where OpenGL is asked for and missing.
   PaperPlan(const csg::Scene& scene, const ldni::LayerGrid& layers,
             const Settings& settings);
+
+  // For one thread.
+  std::unique_ptr<ldni::Sampler> make_sampler() const;
 
   const csg::Scene& scene;
   const ldni::LayerGrid& layers;
   ldni::BoxMode boxes;
+  SamplerKind sampler;
+  // Of the GL samplers: where contexts come from, and what draws.
+  std::shared_ptr<const ldni::GlPlatform> gl;
+  std::string renderer;
   ldni::RayGrid rays;
   // Layers that a block should hold: each block reads every leaf that it meets
   // whole, and keeps the depth images of all of them.
   std::uint32_t layers_per_block = 1;
-};
-
-// Size of the depth images met so far, as if all were kept at once (table 3 of
-// the paper).
-struct ImageCounts {
-  std::uint64_t pixels = 0;     // rays of all leaf images
-  std::uint64_t samples = 0;    // of all leaves
-  std::uint64_t intervals = 0;  // that the Boolean left
-
-  std::uint64_t bytes() const;  // of pixels and samples
-  ImageCounts& operator+=(const ImageCounts& other);
 };
 
 // Blocks of layers one after another; one object per thread.
@@ -60,7 +60,7 @@ class PaperSlicer {
   // sampled block holds: Boolean, then links.
   void build_layer(std::uint32_t layer, ldni::Contours& contours);
 
-  const ImageCounts& counts() const;
+  PaperCounts counts() const;
 
  private:
   struct State;

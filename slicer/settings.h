@@ -10,7 +10,9 @@ namespace lamina::slicer {
 
 enum class ContourMode { kFaithful, kPaper };
 using BoxMode = ldni::BoxMode;
-enum class SamplerKind { kScanline, kGl };
+// How the paper's contours get their samples: exactly, or drawn by OpenGL, by a
+// list of fragments or by the paper's depth peeling.
+enum class SamplerKind { kScanline, kGl, kGlPeeling };
 
 struct Settings {
   double layer_thickness = 0.05;  // [mm]

@@ -14,7 +14,6 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
-#include <time.h>
 
 #include "ldni/grid.h"
 #include "ldni/leaf_section.h"
@@ -23,6 +22,7 @@
 #include "slicer/paper_slicer.h"
 #include "slicer/simplify.h"
 #include "slicer/thin_finder.h"
+#include "slicer/thread_clock.h"
 
 namespace lamina::slicer {
 namespace {
@@ -46,9 +46,8 @@ class BlockSlicer {
   // Finds the leaves of thin places of that layer, if it can.
   virtual void find_leaves(std::uint32_t /*index*/,
                            std::span<ThinStretch> /*stretches*/) {}
-  virtual ldni::SweepCounts counts() const = 0;
-  virtual std::uint64_t open_paths() const { return 0; }
-  virtual ImageCounts images() const { return {}; }
+  // Adds what was counted.
+  virtual void report_to(SliceReport& report) const = 0;
 };
 
 // Leaf sections and the kinetic ray.
@@ -69,8 +68,10 @@ class FaithfulSlicer : public BlockSlicer {
                    std::span<ThinStretch> stretches) override {
     leaf_search_.find(chains_, index, stretches);
   }
-  ldni::SweepCounts counts() const override { return ray_.counts(); }
-  std::uint64_t open_paths() const override { return open_paths_; }
+  void report_to(SliceReport& report) const override {
+    report.sweep += ray_.counts();
+    report.open_paths += open_paths_;
+  }
 
  private:
   const ldni::LeafSectioner& sectioner_;
@@ -92,8 +93,9 @@ class PaperBlockSlicer : public BlockSlicer {
   void make_contours(std::uint32_t index, ldni::Contours& contours) override {
     slicer_.build_layer(first_layer_ + index, contours);
   }
-  ldni::SweepCounts counts() const override { return {}; }
-  ImageCounts images() const override { return slicer_.counts(); }
+  void report_to(SliceReport& report) const override {
+    report.paper += slicer_.counts();
+  }
 
  private:
   PaperSlicer slicer_;
@@ -119,14 +121,17 @@ constexpr BlockSizes kPaperBlocks = {16, 64, 4};
 struct Plan {
   BlockSizes blocks = kFaithfulBlocks;
   std::function<std::unique_ptr<BlockSlicer>()> make_slicer;
+  std::string renderer;  // SliceReport
 };
 
 Plan plan_faithful(const csg::Scene& scene, const Settings& settings,
                    const ldni::LayerGrid& grid) {
   auto sectioner = std::make_shared<ldni::LeafSectioner>(scene, grid);
-  return {kFaithfulBlocks, [&scene, sectioner, pitch = settings.ray_pitch] {
+  return {kFaithfulBlocks,
+          [&scene, sectioner, pitch = settings.ray_pitch] {
             return std::make_unique<FaithfulSlicer>(scene, *sectioner, pitch);
-          }};
+          },
+          {}};
 }
 
 Plan plan_paper(const csg::Scene& scene, const Settings& settings,
@@ -134,7 +139,8 @@ Plan plan_paper(const csg::Scene& scene, const Settings& settings,
   auto plan = std::make_shared<PaperPlan>(scene, grid, settings);
   BlockSizes blocks = kPaperBlocks;
   blocks.largest = std::min(blocks.largest, plan->layers_per_block);
-  return {blocks, [plan] { return std::make_unique<PaperBlockSlicer>(*plan); }};
+  return {blocks, [plan] { return std::make_unique<PaperBlockSlicer>(*plan); },
+          plan->renderer};
 }
 
 // A layer on its way, and what was found out about it.
@@ -175,22 +181,6 @@ struct Worker {
   Compensator compensator;
   Simplifier simplifier;
 };
-
-// Processor time of the calling thread.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-// Runs `work` and returns the processor seconds that it took.
-template <typename Work>
-double measure(const Work& work) {
-  const double begin = thread_seconds();
-  work();
-  return thread_seconds() - begin;
-}
 
 ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
   if (!settings.heights.empty()) {
@@ -288,9 +278,7 @@ class Job {
                 tbb::filter_mode::serial_in_order,
                 [&](Block* block) { hand_on(*block, output, report); }));
     for (const Worker& worker : workers_) {
-      report.sweep += worker.slicer->counts();
-      report.open_paths += worker.slicer->open_paths();
-      report.images += worker.slicer->images();
+      worker.slicer->report_to(report);
       report.losses += worker.compensator.counts();
     }
   }
@@ -317,14 +305,17 @@ class Job {
   }
 
   Block* make_contours(Block* block) {
-    Worker& worker = workers_.local();
     if (block->layers.size() < block->layer_count) {
       block->layers.resize(block->layer_count);
     }
     const std::span<Draft> layers(block->layers.data(), block->layer_count);
+    // A thread's first block makes its slicer, which may open OpenGL.
+    Worker* local = nullptr;
     block->section_seconds = measure([&] {
-      worker.slicer->section(block->first_layer, block->layer_count);
+      local = &workers_.local();
+      local->slicer->section(block->first_layer, block->layer_count);
     });
+    Worker& worker = *local;
     block->sweep_seconds = measure([&] {
       for (std::uint32_t i = 0; i < block->layer_count; ++i) {
         worker.slicer->make_contours(i, layers[i].contours);
@@ -389,6 +380,16 @@ void warn_of_broken_promises(const SliceReport& report,
   warn(report.sweep.capped_columns, "stops of the ray did not settle");
 }
 
+// No fault of the layers either, but of what drew them.
+void warn_of_repairs(const SliceReport& report, Diagnostics& diagnostics) {
+  if (report.paper.repaired_pixels == 0) return;
+  diagnostics.warning(
+      {},
+      fmt::format("{} pixels that OpenGL ({}) drew more often from one side "
+                  "than from the other were sampled exactly instead",
+                  report.paper.repaired_pixels, report.renderer));
+}
+
 // Too thin for the beam is no fault of the layers, but no part of the print.
 void warn_of_losses(const CompensationCounts& losses, double compensation,
                     Diagnostics& diagnostics) {
@@ -431,6 +432,7 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
                ? plan_paper(scene, settings, grid)
                : plan_faithful(scene, settings, grid);
   });
+  report.renderer = plan.renderer;
   std::optional<FeatureCollector> features;
   if (settings.min_feature > 0) {
     features.emplace(settings.min_feature, number_makers(scene));
@@ -440,6 +442,7 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   Job(plan, grid.layer_count(), settings, threads).run(output, report);
   if (features) report.features = features->finish();
   warn_of_broken_promises(report, diagnostics);
+  warn_of_repairs(report, diagnostics);
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (report.layers == 0) throw_empty(report);
   return report;

@@ -3,6 +3,7 @@
 // leaves, move the ray, build loops), in parallel, and leave it in order.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "csg/planar/region.h"
@@ -11,7 +12,7 @@
 #include "parser/diagnostic.h"
 #include "slicer/compensate.h"
 #include "slicer/layer.h"
-#include "slicer/paper_slicer.h"
+#include "slicer/paper_counts.h"
 #include "slicer/settings.h"
 #include "slicer/thin_features.h"
 
@@ -21,7 +22,8 @@ namespace lamina::slicer {
 // threads.
 struct SliceReport {
   ldni::SweepCounts sweep;
-  ImageCounts images;  // of the paper's contours
+  PaperCounts paper;     // all 0 but for the paper's contours
+  std::string renderer;  // what drew, if OpenGL did
   std::uint64_t open_paths =
       0;                       // of leaves' sections, closed: 0 if all is well
   double section_seconds = 0;  // leaves to chains, or to samples

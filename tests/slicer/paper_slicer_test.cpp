@@ -1,6 +1,7 @@
 #include "slicer/paper_slicer.h"
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/contour_checks.h"
+#include "tests/support/design.h"
 #include "tests/support/leaf_scenes.h"
 #include "tests/support/random_scenes.h"
 
@@ -205,7 +207,7 @@ TEST(PaperSlicer, CountsTheImagesThatBoxesNeed) {
   const LayerGrid layers =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.1);
   Settings settings;
-  ImageCounts counts[2];
+  PaperCounts counts[2];
   for (const BoxMode boxes : {BoxMode::kLocal, BoxMode::kGlobal}) {
     settings.boxes = boxes;
     const PaperPlan plan(scene, layers, settings);
@@ -235,6 +237,67 @@ TEST(PaperSlicer, RaysStandAtTheLayersThicknessWhereThePitchIsLeftOpen) {
 TEST(PaperSlicer, AnEmptySceneHasEmptyLayers) {
   const Scene scene = support::scene_of(BooleanOp::kUnion);
   EXPECT_TRUE(slice_at(scene, 0, 0.1).is_empty());
+}
+
+// All layers, for a choice of sampler and boxes.
+std::vector<Contours> slice_by(SamplerKind sampler, BoxMode boxes,
+                               const Scene& scene, PaperCounts& counts) {
+  const LayerGrid layers =
+      LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.05);
+  Settings settings;
+  settings.sampler = sampler;
+  settings.boxes = boxes;
+  const PaperPlan plan(scene, layers, settings);
+  EXPECT_EQ(plan.renderer.empty(), sampler == SamplerKind::kScanline);
+  PaperSlicer slicer(plan);
+  std::vector<Contours> result(layers.layer_count());
+  for (std::uint32_t first = 0; first < result.size(); first += 16) {
+    const auto count =
+        std::min(16U, static_cast<std::uint32_t>(result.size()) - first);
+    slicer.sample_block(first, count);
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      slicer.build_layer(i, result[i]);
+    }
+  }
+  counts = slicer.counts();
+  return result;
+}
+
+TEST(PaperSlicer, LayersDrawnByOpenGlAreThoseOfTheExactSampler) {
+  for (const char* const name : {"ring55.scad", "submarine74.scad"}) {
+    const auto design = support::Design::from_file(
+        std::filesystem::path(LAMINA_BENCH_SCENES) / name);
+    PaperCounts counts;
+    const auto expected = slice_by(SamplerKind::kScanline, BoxMode::kLocal,
+                                   design.scene(), counts);
+    EXPECT_EQ(counts.repaired_pixels, 0U);
+    std::vector<std::vector<Contours>> drawn;
+    for (const SamplerKind kind : {SamplerKind::kGl, SamplerKind::kGlPeeling}) {
+      for (const BoxMode boxes : {BoxMode::kLocal, BoxMode::kGlobal}) {
+        drawn.push_back(slice_by(kind, boxes, design.scene(), counts));
+        EXPECT_EQ(counts.repaired_pixels, 0U);
+      }
+    }
+    // A wall moves by 1/256 of pitch and thickness, and by its slope; and a ray
+    // that runs along a wall can see it or not.
+    const double height = design.scene().box.high.y - design.scene().box.low.y;
+    double sum = 0;
+    double expected_sum = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_TRUE(support::are_sound(drawn[0][i])) << name << " layer " << i;
+      const double area = support::total_area(drawn[0][i]);
+      const double expected_area = support::total_area(expected[i]);
+      EXPECT_NEAR(area, expected_area, 1e-3 * expected_area + 0.05 * height)
+          << name << " layer " << i;
+      sum += area;
+      expected_sum += expected_area;
+      for (const auto& other : drawn) {
+        EXPECT_EQ(other[i].points, drawn[0][i].points);
+        EXPECT_EQ(other[i].ends, drawn[0][i].ends);
+      }
+    }
+    EXPECT_NEAR(sum, expected_sum, 2e-4 * expected_sum) << name;
+  }
 }
 
 }  // namespace
