@@ -109,12 +109,14 @@ struct BlockSizes {
   std::uint32_t largest;
   std::uint32_t wanted_blocks;
 
-  // Depends on the job alone, not on the number of threads.
-  std::uint32_t choose(std::uint32_t layer_count) const {
-    return std::min(largest, std::max(layer_count / wanted_blocks, smallest));
+  // Of blocks; depends on the job alone, not on the number of threads.
+  std::uint32_t count(std::uint32_t layer_count) const {
+    const std::uint32_t size =
+        std::min(largest, std::max(layer_count / wanted_blocks, smallest));
+    return (layer_count + size - 1) / size;
   }
 };
-constexpr BlockSizes kFaithfulBlocks = {8, 32, 12};
+constexpr BlockSizes kFaithfulBlocks = {8, 32, 32};
 constexpr BlockSizes kPaperBlocks = {16, 64, 4};
 
 // What a job's threads share, and how they get what is their own.
@@ -260,10 +262,8 @@ class Job {
                         Compensator(settings.compensation),
                         Simplifier(settings.tolerance)};
         }),
-        blocks_(kBlocksPerThread * threads) {
-    const std::uint32_t size = plan.blocks.choose(layer_count);
-    block_count_ = (layer_count + size - 1) / size;
-  }
+        blocks_(kBlocksPerThread * threads),
+        block_count_(plan.blocks.count(layer_count)) {}
 
   void run(OrderedOutput& output, SliceReport& report) {
     tbb::parallel_pipeline(
@@ -361,9 +361,17 @@ class Job {
   std::uint32_t layer_count_;
   tbb::enumerable_thread_specific<Worker> workers_;
   std::vector<Block> blocks_;
-  std::uint32_t block_count_ = 0;
+  std::uint32_t block_count_;
   std::uint32_t started_ = 0;
 };
+
+// None that would have no block.
+unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
+  const unsigned wanted = settings.threads != 0
+                              ? settings.threads
+                              : std::thread::hardware_concurrency();
+  return std::max(1U, std::min(wanted, block_count));
+}
 
 // What must not happen, and would be a fault of ours, is never silent.
 void warn_of_broken_promises(const SliceReport& report,
@@ -420,11 +428,6 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
                   LayerSink& sink, Diagnostics& diagnostics) {
   SliceReport report;
   if (scene.box.is_empty() && settings.heights.empty()) throw_empty(report);
-  const unsigned threads =
-      settings.threads != 0 ? settings.threads
-                            : std::max(1U, std::thread::hardware_concurrency());
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  threads);
   const ldni::LayerGrid grid = make_grid(scene, settings);
   Plan plan;
   report.section_seconds = measure([&] {
@@ -439,6 +442,10 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   }
   OrderedOutput output(grid, settings, sink, features ? &*features : nullptr,
                        report);
+  const unsigned threads =
+      choose_threads(settings, plan.blocks.count(grid.layer_count()));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  threads);
   Job(plan, grid.layer_count(), settings, threads).run(output, report);
   if (features) report.features = features->finish();
   warn_of_broken_promises(report, diagnostics);

@@ -16,9 +16,6 @@
 namespace lamina::slicer {
 namespace {
 
-// Large enough that system calls do not show, small beside a program's 12 MB.
-constexpr std::size_t kBufferSize = 1 << 18;
-
 // Writes all bytes at the file's position, or, with an offset ≥ 0, there.
 // Returns 0 or the error number.
 int write_all(int file, std::string_view bytes, off_t offset) {
@@ -73,7 +70,7 @@ void TemporaryFiles::discard_all() {
 OutputFile::OutputFile(std::string path, TemporaryFiles& temporary_files)
     : path_(std::move(path)),
       temporary_files_(temporary_files),
-      buffer_(kBufferSize) {
+      buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
   struct stat status {};
   const bool exists = path_ != "-" && ::stat(path_.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
@@ -113,7 +110,7 @@ void OutputFile::write(std::string_view bytes) {
 }
 
 void OutputFile::flush() {
-  const int error = write_all(file_, {buffer_.data(), used_}, -1);
+  const int error = write_all(file_, {buffer_.get(), used_}, -1);
   if (error != 0) fail(error);
   flushed_ += used_;
   used_ = 0;
@@ -149,12 +146,12 @@ void OutputFile::commit() {
 void OutputFile::copy_to(int target) {
   std::uint64_t offset = 0;
   while (offset < flushed_) {
-    const ssize_t count = ::pread(file_, buffer_.data(), buffer_.size(),
-                                  static_cast<off_t>(offset));
+    const ssize_t count =
+        ::pread(file_, buffer_.get(), kBufferSize, static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) fail(count < 0 ? errno : EIO);
-    const int error = write_all(
-        target, {buffer_.data(), static_cast<std::size_t>(count)}, -1);
+    const int error =
+        write_all(target, {buffer_.get(), static_cast<std::size_t>(count)}, -1);
     if (error != 0) fail(error);
     offset += static_cast<std::uint64_t>(count);
   }

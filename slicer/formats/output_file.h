@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -45,8 +46,8 @@ class OutputFile {
   // Room for `size` bytes (at most kLargestPiece) at the end of the output;
   // `advance` then says how many of them were written.
   char* reserve(std::size_t size) {
-    if (buffer_.size() - used_ < size) flush();
-    return buffer_.data() + used_;
+    if (kBufferSize - used_ < size) flush();
+    return buffer_.get() + used_;
   }
   void advance(std::size_t size) { used_ += size; }
   static constexpr std::size_t kLargestPiece = 1 << 16;
@@ -64,6 +65,9 @@ class OutputFile {
   std::uint64_t size() const { return flushed_ + used_; }
 
  private:
+  // Large enough that system calls do not show, small beside a program's 12 MB.
+  static constexpr std::size_t kBufferSize = 1 << 18;
+
   void flush();
   void copy_to(int target);
   void close_file();
@@ -74,7 +78,7 @@ class OutputFile {
   std::string temporary_path_;  // empty: unnamed
   TemporaryFiles& temporary_files_;
   int file_ = -1;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;  // kBufferSize bytes
   std::size_t used_ = 0;
   std::uint64_t flushed_ = 0;
 };
