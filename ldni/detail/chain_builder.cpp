@@ -11,8 +11,22 @@ namespace {
 // edges could all count as vertical.
 constexpr double kLeastWidth = 1e-8;
 
-int direction_of(const Vec2& from, const Vec2& to) {
-  return (from.x < to.x) - (to.x < from.x);
+// Which way an edge goes in x; 0 where it is no wider than that.
+int direction_of(const Vec2& from, const Vec2& to, double vertical_width) {
+  const double width = to.x - from.x;
+  return (width > vertical_width) - (width < -vertical_width);
+}
+
+// The end of the run of edges that go right or left, from `point` on.
+const Vec2* end_of_run(const Vec2* point, const Vec2* last, int direction,
+                       double vertical_width) {
+  ++point;
+  if (direction > 0) {
+    while (point != last && point[1].x - point[0].x > vertical_width) ++point;
+  } else {
+    while (point != last && point[0].x - point[1].x > vertical_width) ++point;
+  }
+  return point;
 }
 
 }  // namespace
@@ -25,18 +39,20 @@ void ChainBuilder::begin(ChainBlock& block) {
   loop_.clear();
 }
 
-// Copies loop_ to snapped_ with one x for the ends of every vertical edge and
-// without repeated points. False where nothing worth a chain is left.
-bool ChainBuilder::snap_verticals() {
-  snapped_.clear();
-  const std::size_t count = loop_.size();
-  if (count < 3) return false;
-  // Begin behind an edge that stays wide enough whatever is snapped before
-  // it, so that closing the loop meets no vertical edge.
+bool ChainBuilder::is_wide() const {
   const auto [low, high] = std::minmax_element(
       loop_.begin(), loop_.end(),
       [](const Vec2& a, const Vec2& b) { return a.x < b.x; });
-  if (high->x - low->x < kLeastWidth) return false;
+  return high->x - low->x >= kLeastWidth;
+}
+
+// Copies loop_ to snapped_ with one x for the ends of every vertical edge and
+// without repeated points.
+void ChainBuilder::snap_verticals() {
+  snapped_.clear();
+  const std::size_t count = loop_.size();
+  // Begin behind an edge that stays wide enough whatever is snapped before
+  // it, so that closing the loop meets no vertical edge.
   std::size_t start = 0;
   double widest = 0;
   for (std::size_t i = 0; i < count && widest < 2 * kColumnWidth; ++i) {
@@ -59,60 +75,84 @@ bool ChainBuilder::snap_verticals() {
   };
   for (std::size_t i = start; i < count; ++i) take(loop_[i]);
   for (std::size_t i = 0; i < start; ++i) take(loop_[i]);
-  return snapped_.size() >= 3;
 }
 
 void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t instance,
                               std::int32_t orientation) {
-  const bool is_worth_it = snap_verticals();
-  loop_.clear();
-  if (!is_worth_it) return;
-
-  // Find a vertex where the direction changes, and begin there.
-  const std::size_t count = snapped_.size();
-  const int first_direction = direction_of(snapped_[0], snapped_[1]);
-  std::size_t start = 1;
-  while (direction_of(snapped_[start],
-                      snapped_[start + 1 == count ? 0 : start + 1]) ==
-         first_direction) {
-    ++start;
-  }
-  std::rotate(snapped_.begin(),
-              snapped_.begin() + static_cast<std::ptrdiff_t>(start),
-              snapped_.end());
-  snapped_.push_back(snapped_.front());
-
-  // Every maximal run of one direction is a chain.
   Chain chain;
   chain.instance = instance;
-  for (std::size_t first = 0; first < count;) {
-    const int direction = direction_of(snapped_[first], snapped_[first + 1]);
-    std::size_t last = first + 1;
-    while (last < count &&
-           direction_of(snapped_[last], snapped_[last + 1]) == direction) {
-      ++last;
+  const std::size_t size = loop_.size();
+  // Most loops have no vertical edge.
+  if (size >= 3 && !cut(loop_, kColumnWidth, layer, chain, orientation)) {
+    loop_.resize(size);
+    if (is_wide()) {
+      snap_verticals();
+      if (snapped_.size() >= 3) {
+        cut(snapped_, 0, layer, chain, orientation);
+      }
     }
-    if (direction != 0) {
-      chain.winding = direction * orientation;
-      add_chain(first, last, direction > 0, chain, layer);
-    }
-    first = last;
   }
+  loop_.clear();
 }
 
-void ChainBuilder::add_chain(std::size_t first, std::size_t last,
-                             bool is_forward, Chain chain,
-                             std::uint32_t layer) {
+// Makes a chain of every maximal run of one direction; extends the loop. Edges
+// no wider than `vertical_width` belong to no chain; where that is not 0, one
+// such edge, or a loop that may be too narrow, ends the work with nothing done:
+// false.
+bool ChainBuilder::cut(std::vector<Vec2>& loop, double vertical_width,
+                       std::uint32_t layer, Chain chain,
+                       std::int32_t orientation) {
+  // Find a vertex where the direction changes, begin there, and repeat what
+  // stands before it at the end.
+  loop.push_back(loop.front());
+  const Vec2* first = loop.data();
+  const Vec2* last = &loop.back();
+  const int first_direction = direction_of(first[0], first[1], vertical_width);
+  while (++first != last &&
+         direction_of(first[0], first[1], vertical_width) == first_direction) {
+  }
+  const auto start = static_cast<std::size_t>(first - loop.data());
+  const std::size_t count = loop.size();
+  loop.resize(count + start);
+  std::copy_n(loop.begin() + 1, start,
+              loop.begin() + static_cast<std::ptrdiff_t>(count));
+
+  const std::size_t points_before = block_->points.size();
+  const std::size_t chains_before = chains_.size();
+  double widest = 0;  // of the chains
+  last = &loop.back();
+  for (const Vec2* point = &loop[start]; point != last;) {
+    const int direction = direction_of(point[0], point[1], vertical_width);
+    if (direction == 0) {
+      if (vertical_width > 0) {
+        widest = 0;
+        break;
+      }
+      ++point;
+      continue;
+    }
+    const Vec2* end = end_of_run(point, last, direction, vertical_width);
+    chain.winding = direction * orientation;
+    add_chain({point, end + 1}, direction > 0, chain, layer);
+    widest = std::max(widest, std::abs(end->x - point->x));
+    point = end;
+  }
+  if (vertical_width == 0 || widest >= kLeastWidth) return true;
+  block_->points.resize(points_before);
+  chains_.resize(chains_before);
+  layers_.resize(chains_before);
+  return false;
+}
+
+void ChainBuilder::add_chain(std::span<const Vec2> run, bool is_forward,
+                             Chain chain, std::uint32_t layer) {
   std::vector<Vec2>& points = block_->points;
   chain.first_point = static_cast<std::uint32_t>(points.size());
-  chain.point_count = static_cast<std::uint32_t>(last - first + 1);
-  const auto begin = snapped_.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto end = snapped_.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+  chain.point_count = static_cast<std::uint32_t>(run.size());
   if (is_forward) {
-    points.insert(points.end(), begin, end);
+    points.insert(points.end(), run.begin(), run.end());
   } else {
-    points.insert(points.end(), std::make_reverse_iterator(end),
-                  std::make_reverse_iterator(begin));
+    points.insert(points.end(), run.rbegin(), run.rend());
   }
   chains_.push_back(chain);
   layers_.push_back(layer);

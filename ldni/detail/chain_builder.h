@@ -7,8 +7,8 @@
 // exactly, so that the chain before and the chain after it meet in one column
 // of the kinetic ray whatever else stops there (invariant I1).
 
-#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "csg/vec.h"
@@ -34,9 +34,12 @@ class ChainBuilder {
   void finish(ChainBlock& block);
 
  private:
-  bool snap_verticals();
-  void add_chain(std::size_t first, std::size_t last, bool is_forward,
-                 Chain chain, std::uint32_t layer);
+  bool is_wide() const;
+  void snap_verticals();
+  bool cut(std::vector<Vec2>& loop, double vertical_width, std::uint32_t layer,
+           Chain chain, std::int32_t orientation);
+  void add_chain(std::span<const Vec2> run, bool is_forward, Chain chain,
+                 std::uint32_t layer);
 
   ChainBlock* block_ = nullptr;
   std::vector<Vec2> loop_;

@@ -4,6 +4,16 @@
 #include <cstddef>
 
 namespace lamina::ldni::detail {
+namespace {
+
+Vec2 crossing(const Vec3& from, const Vec3& to, double height) {
+  // A vertex within kOnPlaneDistance of the section is on it: clamp.
+  const double t =
+      std::min(std::max((height - from.z) / (to.z - from.z), 0.0), 1.0);
+  return {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
+}
+
+}  // namespace
 
 std::uint32_t BlockLayers::layers_below(double z) const {
   if (thresholds.empty() || !(z > thresholds.front())) return 0;
@@ -111,14 +121,32 @@ void SweepSectioner::cut_strip(std::uint32_t ring, std::uint32_t upper) {
   // The profile rises through the layer: the loop runs with the outline.
   for (std::uint32_t l = ranges_[ring].high; l < ranges_[upper].low; ++l) {
     begin(l);
-    for (std::uint32_t j = 0; j < spoke_count_; ++j) add_spoke_point(ring, j);
+    add_strip_points(ring, upper);
     close(l);
   }
   // It falls through the layer: against the outline.
   for (std::uint32_t l = ranges_[upper].high; l < ranges_[ring].low; ++l) {
     begin(l);
-    for (std::uint32_t j = spoke_count_; j-- > 0;) add_spoke_point(ring, j);
+    add_strip_points(ring, upper);
+    std::reverse(builder_->loop().begin(), builder_->loop().end());
     close(l);
+  }
+}
+
+// Where the section crosses each spoke between the two rings.
+void SweepSectioner::add_strip_points(std::uint32_t ring, std::uint32_t upper) {
+  std::vector<Vec2>& loop = builder_->loop();
+  loop.resize(spoke_count_);
+  const double scale = scales_[ring];
+  const double upper_scale = scales_[upper];
+  const Vec3 centre = centres_[ring];
+  const Vec3 upper_centre = centres_[upper];
+  const double height = height_;
+  const Vec3* spokes = spokes_.data();
+  Vec2* points = loop.data();
+  for (std::uint32_t j = 0; j < spoke_count_; ++j) {
+    points[j] = crossing(scale * spokes[j] + centre,
+                         upper_scale * spokes[j] + upper_centre, height);
   }
 }
 
@@ -331,10 +359,7 @@ void SweepSectioner::add_spoke_point(std::uint32_t ring, std::uint32_t spoke) {
 }
 
 void SweepSectioner::add_crossing(const Vec3& from, const Vec3& to) {
-  // A vertex within kOnPlaneDistance of the section is on it: clamp.
-  const double t = std::clamp((height_ - from.z) / (to.z - from.z), 0.0, 1.0);
-  builder_->loop().push_back(
-      {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)});
+  builder_->loop().push_back(crossing(from, to, height_));
 }
 
 }  // namespace lamina::ldni::detail

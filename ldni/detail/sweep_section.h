@@ -78,6 +78,7 @@ class SweepSectioner {
   void find_ranges();
   void cut_strips();
   void cut_strip(std::uint32_t ring, std::uint32_t next_ring);
+  void add_strip_points(std::uint32_t ring, std::uint32_t upper);
   void cut_runs();
   void cut_all_crossings();
   void find_crossed_edges();
