@@ -8,8 +8,8 @@ namespace lamina::ldni::detail {
 namespace {
 
 // Slabs of a layer where the pitch is left to us: one for so many points of
-// its chains, within limits. From 24 to 200 points make no more than 10 %.
-constexpr double kPointsPerSlab = 64;
+// its chains, within limits. From 48 to 512 points make no more than 10 %.
+constexpr double kPointsPerSlab = 128;
 constexpr double kLeastSlabs = 4;
 constexpr double kMostSlabs = 4096;
 constexpr double kMostSlabsOfPitch = 1 << 16;
@@ -256,6 +256,7 @@ bool RaySweep::take_changes(double gather_end) {
     if (!status_.is_alive(pair.entry)) continue;
     if (status_[pair.entry].outlook != pair.outlook) continue;
     column_right_ = std::max(column_right_, x);
+    ++status_[pair.entry].outlook;
     to_check_.push_back(pair.entry);
     touches_.push_back(pair.entry);
     is_any = true;
@@ -270,6 +271,7 @@ void RaySweep::settle_order() {
     to_check_.pop_back();
     const std::uint32_t sentinel = status_.sentinel();
     if (lower == sentinel || !status_.is_alive(lower)) continue;
+    if (status_[lower].settled == status_[lower].outlook) continue;
     const std::uint32_t upper = status_[lower].above;
     if (upper == sentinel) {
       set_tie(lower, false);
@@ -287,6 +289,7 @@ void RaySweep::settle_order() {
     }
     set_tie(lower, outlook.relation == 0);
     note_outlook(lower, outlook);
+    status_[lower].settled = status_[lower].outlook;
   }
 }
 
@@ -329,38 +332,58 @@ void RaySweep::set_tie(std::uint32_t entry, bool is_tied) {
 
 // Looks at a pair from x to the end of the slab, in the last one to the end of
 // a chain, but past the column of x in any case, so that none is left before
-// all of it is known. Chains whose ranges are apart need no look at their
-// points.
+// all of it is known. Where the bands of the chains are apart there is no need
+// to look at their points.
 Outlook RaySweep::look(std::uint32_t lower, std::uint32_t upper, double x) {
   Entry& a = status_[lower];
   Entry& b = status_[upper];
   a.cursor.advance(x);
   b.cursor.advance(x);
   const double limit = std::max(agenda_.slab_end(), x + kColumnWidth);
-  find_range(a, limit);
-  find_range(b, limit);
-  const double range_end = std::min(a.range_end, b.range_end);
-  if (a.high + tie_distance_ < b.low && range_end > x + kColumnWidth) {
-    Outlook outlook;
-    outlook.horizon = range_end;
-    return outlook;
+  find_band(a, limit);
+  find_band(b, limit);
+  // From where the segments in hand are both there.
+  const double left = std::max(a.cursor.left_x(), b.cursor.left_x());
+  const Stretch apart = apart_stretch(a.band, b.band, left, tie_distance_);
+  if (apart.end <= std::max(x + kColumnWidth, apart.begin)) {
+    return look_ahead(a.cursor, b.cursor, x, limit, tie_distance_);
   }
-  return look_ahead(a.cursor, b.cursor, x, limit, tie_distance_);
+  return look_outside(a, b, apart, x, limit);
 }
 
-void RaySweep::find_range(Entry& entry, double limit) {
-  if (entry.range_slab == agenda_.slab()) return;
-  entry.range_slab = agenda_.slab();
-  const Vec2* point = entry.cursor.left();
-  const Vec2* last = entry.cursor.last();
-  entry.low = point->y;
-  entry.high = point->y;
-  do {
-    ++point;
-    entry.low = std::min(entry.low, point->y);
-    entry.high = std::max(entry.high, point->y);
-  } while (point->x < limit && point != last);
-  entry.range_end = point == last ? kNever : point->x;
+// Looks at a pair from x on where it is not known to be apart: before that
+// stretch, or behind it, hence at one of the two.
+Outlook RaySweep::look_outside(const Entry& a, const Entry& b,
+                               const Stretch& apart, double x, double limit) {
+  const Band& shorter = a.band.right <= b.band.right ? a.band : b.band;
+  if (apart.end < shorter.right) {
+    ChainCursor lower = a.cursor;
+    ChainCursor upper = b.cursor;
+    lower.advance(apart.end);
+    upper.advance(apart.end);
+    return look_ahead(lower, upper, apart.end, limit, tie_distance_);
+  }
+  Outlook outlook;
+  outlook.horizon = x;
+  if (apart.begin > x) {
+    outlook = look_ahead(a.cursor, b.cursor, x, std::min(limit, apart.begin),
+                         tie_distance_);
+  }
+  if (outlook.relation > 0 && outlook.change == kNever &&
+      outlook.horizon < shorter.right) {
+    outlook.horizon = shorter.right;
+  }
+  if (outlook.horizon == shorter.right && shorter.ends_chain) {
+    outlook.horizon = kNever;
+  }
+  return outlook;
+}
+
+void RaySweep::find_band(Entry& entry, double limit) {
+  if (entry.band_slab == agenda_.slab()) return;
+  entry.band_slab = agenda_.slab();
+  const ChainCursor& cursor = entry.cursor;
+  entry.band = Band(cursor.left(), cursor.slope(), cursor.last(), limit);
 }
 
 void RaySweep::note_outlook(std::uint32_t lower, const Outlook& outlook) {

@@ -98,7 +98,9 @@ class RaySweep {
   void note_crossing(Entry& a, Entry& b);
   void set_tie(std::uint32_t entry, bool is_tied);
   Outlook look(std::uint32_t lower, std::uint32_t upper, double x);
-  void find_range(Entry& entry, double limit);
+  Outlook look_outside(const Entry& a, const Entry& b, const Stretch& apart,
+                       double x, double limit);
+  void find_band(Entry& entry, double limit);
   void note_outlook(std::uint32_t lower, const Outlook& outlook);
 
   // The boundary in a column (ray_boundary.cpp).

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "csg/vec.h"
+#include "ldni/detail/band.h"
 #include "ldni/detail/leaf_sets.h"
 #include "ldni/leaf_section.h"
 
@@ -80,20 +81,18 @@ struct Entry {
   bool is_fresh = false;     // `set` is to be computed anew
   std::int8_t survival = 0;  // +1: the solid's boundary, solid above; -1: below
 
-  std::uint32_t piece = kNone;  // of the contour, where it survives
-  std::uint32_t outlook = 0;    // stamp of the present look at the pair above
-  std::uint32_t column = 0;     // the last one that judged its tie group
+  std::uint32_t piece = kNone;    // of the contour, where it survives
+  std::uint32_t outlook = 0;      // stamp of the present look at the pair above
+  std::uint32_t settled = kNone;  // the stamp of a look that put it in order
+  std::uint32_t column = 0;       // the last one that judged its tie group
   std::uint32_t split_column = 0;  // the last one that ended or began a piece
   std::uint32_t touch_column = 0;  // the last one that looked for touches
 
   double crossing_y = 0;  // where it crosses a flatter chain in that column
   std::uint32_t crossing_column = 0;
 
-  // Least and greatest y up to range_end, as seen in slab range_slab.
-  double low = 0;
-  double high = 0;
-  double range_end = 0;  // infinite where the chain ends before
-  std::uint32_t range_slab = kNone;
+  Band band;  // that the chain keeps to, as seen in slab band_slab
+  std::uint32_t band_slab = kNone;
 };
 
 class Status {
