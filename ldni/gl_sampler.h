@@ -9,7 +9,7 @@
 // (detail/face_projector.h), so a ray sees what the exact sampler sees, but for
 // rays with an edge within 1/256 of pitch and thickness. There
 //   - another face can be seen, and so another number of samples;
-//   - depths differ by no more than twice what the steepest of the faces so near
+//   - depths differ by no more than twice what the steepest of faces so near
 //     rises over that distance.
 //
 // Every pixel of a closed leaf is drawn as often from the front as from the

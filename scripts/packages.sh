@@ -14,7 +14,7 @@ LAMINA_BUILD_PACKAGES=(
 # To build and run the tests: the oracles above all.
 LAMINA_TEST_PACKAGES=(
   libgtest-dev libbenchmark-dev libcgal-dev
-  openscad openscad-testing-data openscad-mcad
+  openscad openscad-testing-data openscad-mcad libgl1-mesa-dri
   fonts-dejavu-core fonts-hosny-amiri
   slic3r python3
 )

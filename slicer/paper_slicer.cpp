@@ -15,14 +15,12 @@
 namespace lamina::slicer {
 namespace {
 
-// Layers of a block where its images are small: enough that reading the leaves
-// once more for every block costs little.
-constexpr std::uint32_t kLayersPerBlock = 64;
-
 // Pixels that the images of a block may have together, some 50 bytes each with
 // their samples. A jewel in local boxes needs far less; fine rays and global
-// boxes of many leaves are what this is for.
+// boxes of many leaves are what this is for. Drawn blocks may be larger, up to
+// 100 MB: each makes triangles of whole leaves.
 constexpr std::uint64_t kPixelsPerBlock = 1 << 18;
+constexpr std::uint64_t kDrawnPixelsPerBlock = 1 << 21;
 
 ldni::RayGrid make_rays(const csg::Scene& scene, const Settings& settings) {
   if (scene.box.is_empty()) return {};
@@ -50,10 +48,13 @@ std::uint32_t choose_layers_per_block(const PaperPlan& plan) {
   for (const csg::Instance& instance : plan.scene.instances) {
     pixels += sample_box(plan, instance).pixel_count();
   }
-  const std::uint64_t layers = kPixelsPerBlock * plan.layers.layer_count() /
-                               std::max<std::uint64_t>(pixels, 1);
-  return static_cast<std::uint32_t>(
-      std::clamp<std::uint64_t>(layers, 1, kLayersPerBlock));
+  const std::uint64_t most = plan.sampler == SamplerKind::kScanline
+                                 ? kPixelsPerBlock
+                                 : kDrawnPixelsPerBlock;
+  const std::uint64_t layers =
+      most * plan.layers.layer_count() / std::max<std::uint64_t>(pixels, 1);
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+      layers, 1, std::max(plan.layers.layer_count(), 1U)));
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ struct PaperPlan {
   std::shared_ptr<const ldni::GlPlatform> gl;
   std::string renderer;
   ldni::RayGrid rays;
-  // Layers that a block should hold: each block reads every leaf that it meets
-  // whole, and keeps the depth images of all of them.
+  // Layers that a block should hold at most: it keeps the depth images of all
+  // leaves that it meets.
   std::uint32_t layers_per_block = 1;
 };
 

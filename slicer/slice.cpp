@@ -118,6 +118,7 @@ struct BlockSizes {
 };
 constexpr BlockSizes kFaithfulBlocks = {8, 32, 32};
 constexpr BlockSizes kPaperBlocks = {16, 64, 4};
+constexpr BlockSizes kDrawnBlocks = {64, 256, 4};  // each draws leaves anew
 
 // What a job's threads share, and how they get what is their own.
 struct Plan {
@@ -139,7 +140,8 @@ Plan plan_faithful(const csg::Scene& scene, const Settings& settings,
 Plan plan_paper(const csg::Scene& scene, const Settings& settings,
                 const ldni::LayerGrid& grid) {
   auto plan = std::make_shared<PaperPlan>(scene, grid, settings);
-  BlockSizes blocks = kPaperBlocks;
+  BlockSizes blocks =
+      settings.sampler == SamplerKind::kScanline ? kPaperBlocks : kDrawnBlocks;
   blocks.largest = std::min(blocks.largest, plan->layers_per_block);
   return {blocks, [plan] { return std::make_unique<PaperBlockSlicer>(*plan); },
           plan->renderer};
