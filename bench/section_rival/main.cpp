@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -64,6 +65,8 @@ void run(const Options& options) {
   const csg::Tree tree =
       csg::evaluate(program, loader, csg::EvaluateOptions(), diagnostics);
   const csg::Lowered lowered = csg::lower(tree, {}, diagnostics);
+
+  if (lowered.scene() == nullptr) throw std::runtime_error("not a solid");
 
   slicer::TemporaryFiles files;
   slicer::OutputFile output(options.output, files);
