@@ -184,25 +184,9 @@ void LayerBoolean::clip(ClipperLib::ClipType type, Operand& left,
 
 // Sorts the loops into groups whose boxes hang together.
 void LayerBoolean::sort_into_groups(std::vector<Loop>& loops) {
+  join_neighbours(loops);
   const auto size = static_cast<std::uint32_t>(loops.size());
   groups_.clear();
-  leader_.resize(size);
-  std::iota(leader_.begin(), leader_.end(), 0U);
-  std::sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) {
-    return a.box.low.X < b.box.low.X;
-  });
-  reach_.clear();
-  for (std::uint32_t i = 0; i < size; ++i) {
-    std::erase_if(reach_, [&](std::uint32_t other) {
-      return loops[other].box.high.X < loops[i].box.low.X;
-    });
-    for (const std::uint32_t other : reach_) {
-      if (loops[other].box.meets(loops[i].box)) {
-        leader_[group_of(other)] = group_of(i);
-      }
-    }
-    reach_.push_back(i);
-  }
   rank_.assign(size, size);
   for (std::uint32_t i = 0; i < size; ++i) {
     std::uint32_t& rank = rank_[group_of(i)];
@@ -224,6 +208,27 @@ void LayerBoolean::sort_into_groups(std::vector<Loop>& loops) {
     sorted_[groups_[rank_[group_of(i)]].end++] = loops[i];
   }
   std::swap(loops, sorted_);
+}
+
+// Gives loops whose boxes meet one leader; a sweep along x finds them.
+void LayerBoolean::join_neighbours(std::vector<Loop>& loops) {
+  std::sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) {
+    return a.box.low.X < b.box.low.X;
+  });
+  leader_.resize(loops.size());
+  std::iota(leader_.begin(), leader_.end(), 0U);
+  reach_.clear();
+  for (std::uint32_t i = 0; i < loops.size(); ++i) {
+    std::erase_if(reach_, [&](std::uint32_t other) {
+      return loops[other].box.high.X < loops[i].box.low.X;
+    });
+    for (const std::uint32_t other : reach_) {
+      if (loops[other].box.meets(loops[i].box)) {
+        leader_[group_of(other)] = group_of(i);
+      }
+    }
+    reach_.push_back(i);
+  }
 }
 
 std::uint32_t LayerBoolean::group_of(std::uint32_t loop) {

@@ -66,6 +66,7 @@ class LayerBoolean {
   Operand& intersect(Node& node);
   void clip(ClipperLib::ClipType type, Operand& left, Operand& right);
   void sort_into_groups(std::vector<Loop>& loops);
+  void join_neighbours(std::vector<Loop>& loops);
   std::uint32_t group_of(std::uint32_t loop);
   void clip_together(ClipperLib::ClipType type, std::span<const Loop> left,
                      std::span<const Loop> right);
