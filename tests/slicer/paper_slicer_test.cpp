@@ -300,5 +300,50 @@ TEST(PaperSlicer, LayersDrawnByOpenGlAreThoseOfTheExactSampler) {
   }
 }
 
+TEST(PaperSlicer, CoplanarFacesLeaveNoWallAndNoSkinWhenDrawn) {
+  // A block out of two that meet at y1, less a third that is flush with all
+  // sides of what is beyond y2: the block up to y2. Depths rounded to the 32
+  // bits of a depth buffer, by each leaf's own scale, would leave walls and
+  // skins here.
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> part(0.2, 0.8);
+  for (int round = 0; round < 10; ++round) {
+    const double length = 100 * part(random);
+    const double y1 = length * part(random);
+    const double y2 = length * part(random);
+    Scene scene = support::scene_of(BooleanOp::kDifference);
+    const std::uint32_t joined =
+        support::add_operator(scene, BooleanOp::kUnion, 0);
+    // Each leaf has a part above the layers too, so that its depths begin
+    // somewhere else.
+    const auto place = [&](double low, double high, std::uint32_t parent) {
+      csg::Mesh mesh = support::box_mesh(Vec3(0, low, 0), Vec3(20, high, 2));
+      const csg::Mesh above =
+          support::box_mesh(Vec3(0, -length * part(random), 5), Vec3(20, 0, 6));
+      for (const auto& [i, j, k] : above.triangles) {
+        mesh.triangles.push_back({i + 8, j + 8, k + 8});
+      }
+      mesh.vertices.insert(mesh.vertices.end(), above.vertices.begin(),
+                           above.vertices.end());
+      scene.leaves.push_back(support::mesh_leaf(std::move(mesh)));
+      const auto leaf = static_cast<std::uint32_t>(scene.leaves.size() - 1);
+      support::place_leaf(scene, leaf, Affine(1.0), parent);
+    };
+    place(0, y1, joined);
+    place(y1, length, joined);
+    place(y2, length, 0);
+    support::cover_instances(scene);
+    const LayerGrid layers = LayerGrid::uniform(0, 2, 0.5);
+    Settings settings;
+    settings.ray_pitch = 0.3;
+    settings.sampler = SamplerKind::kGl;
+    for (const Contours& contours : slice_all(scene, layers, settings, 4)) {
+      ASSERT_EQ(contours.loop_count(), 1U);
+      EXPECT_EQ(contours.loop(0).size(), 4U);
+      EXPECT_NEAR(support::total_area(contours), 20 * y2, 0.6 * y2);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lamina::slicer
