@@ -12,10 +12,10 @@
 namespace lamina::ldni {
 namespace {
 
-// Hits of a picture, at most: with the counter before them 128 MiB, the largest
-// buffer that Mesa lets a shader write.
-constexpr std::uint32_t kMostHits = (1U << 24) - 1;
-constexpr std::uint32_t kFirstHits = 1U << 16;
+// Fragments of a picture, at most: with the counter before them 128 MiB, the
+// largest buffer that Mesa lets a shader write.
+constexpr std::uint32_t kMostFragments = (1U << 24) - 1;
+constexpr std::uint32_t kFirstFragments = 1U << 16;
 
 // From pixels to the viewport, which begins a margin before the picture. All
 // factors are powers of two: corners arrive as they were sent.
@@ -31,9 +31,9 @@ void main() {{
 }
 
 constexpr const char* kListShader = R"(#version 430 core
-layout(std430, binding = 0) buffer Hits {
+layout(std430, binding = 0) buffer Fragments {
   uint count;
-  uvec2 hits[];
+  uvec2 fragments[];
 };
 uniform uint capacity;
 uniform uint width;
@@ -42,11 +42,11 @@ void main() {
   if (place >= capacity) return;
   uint pixel = uint(gl_FragCoord.y) * width + uint(gl_FragCoord.x);
   uint side = gl_FrontFacing ? 1u : 0u;
-  hits[place] = uvec2(pixel, uint(gl_PrimitiveID) << 1 | side);
+  fragments[place] = uvec2(pixel, uint(gl_PrimitiveID) << 1 | side);
 }
 )";
 
-// Colours are depth and hit: the order of peeling. A pixel of which nothing is
+// Colours are depth and face: the order of peeling. A pixel of which nothing is
 // left keeps the greatest colour, behind which there is nothing. The depth is
 // written, not left to OpenGL, so that it is compared as it is read back.
 constexpr GLuint kNothing = 0xFFFFFFFF;
@@ -56,10 +56,10 @@ out uvec2 nearest;
 void main() {
   uint depth = floatBitsToUint(gl_FragCoord.z);
   uint side = gl_FrontFacing ? 1u : 0u;
-  uint hit = uint(gl_PrimitiveID) << 1 | side;
+  uint face = uint(gl_PrimitiveID) << 1 | side;
   uvec2 last = texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).xy;
-  if (depth < last.x || (depth == last.x && hit <= last.y)) discard;
-  nearest = uvec2(depth, hit);
+  if (depth < last.x || (depth == last.x && face <= last.y)) discard;
+  nearest = uvec2(depth, face);
   gl_FragDepth = gl_FragCoord.z;
 }
 )";
@@ -126,7 +126,7 @@ class ListRaster final : public FaceRaster {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.name());
     gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, list_.name());
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, list_.name());
-    reserve(kFirstHits);
+    reserve(kFirstFragments);
     check_gl(gl_);
   }
   ~ListRaster() override {
@@ -137,7 +137,7 @@ class ListRaster final : public FaceRaster {
   }
 
   bool draw(std::span<const RasterCorner> corners, int width, int height,
-            std::vector<Hit>& hits) override {
+            std::vector<Fragment>& fragments) override {
     const GlScope scope(drawer_.context());
     gl_.FramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH,
                               width);
@@ -145,30 +145,31 @@ class ListRaster final : public FaceRaster {
                               height);
     gl_.Uniform1ui(drawer_.uniform("width"), static_cast<GLuint>(width));
     drawer_.upload(corners);
-    std::uint32_t count = count_hits();
+    std::uint32_t count = count_fragments();
     if (count > capacity_) {
-      if (count > kMostHits) return false;
-      reserve(std::min(count + count / 4, kMostHits));
-      count = count_hits();
+      if (count > kMostFragments) return false;
+      reserve(std::min(count + count / 4, kMostFragments));
+      count = count_fragments();
     }
-    fetch(count, hits);
+    fetch(count, fragments);
     return true;
   }
 
  private:
   // The counter, padded to the alignment of what follows it.
-  static constexpr GLintptr kHeader = sizeof(Hit);
+  static constexpr GLintptr kHeader = sizeof(Fragment);
 
   void reserve(std::uint32_t capacity) {
     capacity_ = capacity;
-    gl_.BufferData(GL_SHADER_STORAGE_BUFFER,
-                   kHeader + GLsizeiptr{capacity} * GLsizeiptr{sizeof(Hit)},
-                   nullptr, GL_STREAM_READ);
+    gl_.BufferData(
+        GL_SHADER_STORAGE_BUFFER,
+        kHeader + GLsizeiptr{capacity} * GLsizeiptr{sizeof(Fragment)}, nullptr,
+        GL_STREAM_READ);
     gl_.Uniform1ui(drawer_.uniform("capacity"), capacity);
   }
 
   // Draws; what goes beyond the capacity is counted only.
-  std::uint32_t count_hits() {
+  std::uint32_t count_fragments() {
     std::uint32_t count = 0;
     gl_.BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof(count), &count);
     drawer_.draw();
@@ -178,13 +179,13 @@ class ListRaster final : public FaceRaster {
     return count;
   }
 
-  void fetch(std::uint32_t count, std::vector<Hit>& hits) {
+  void fetch(std::uint32_t count, std::vector<Fragment>& fragments) {
     if (count == 0) return;
-    const std::size_t begin = hits.size();
-    hits.resize(begin + count);
+    const std::size_t begin = fragments.size();
+    fragments.resize(begin + count);
     gl_.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, kHeader,
-                         GLsizeiptr{count} * GLsizeiptr{sizeof(Hit)},
-                         hits.data() + begin);
+                         GLsizeiptr{count} * GLsizeiptr{sizeof(Fragment)},
+                         fragments.data() + begin);
   }
 
   Drawer drawer_;
@@ -216,19 +217,19 @@ class PeelingRaster final : public FaceRaster {
   }
 
   bool draw(std::span<const RasterCorner> corners, int width, int height,
-            std::vector<Hit>& hits) override {
+            std::vector<Fragment>& fragments) override {
     const GlScope scope(drawer_.context());
     resize(width, height);
     drawer_.upload(corners);
     clear(peels_[1], 0);
-    const std::size_t begin = hits.size();
+    const std::size_t begin = fragments.size();
     for (std::size_t pass = 0;; ++pass) {
-      const std::size_t before = hits.size();
+      const std::size_t before = fragments.size();
       draw_peel(peels_[(pass + 1) % 2], peels_[pass % 2]);
-      fetch(hits);
-      if (hits.size() == before) return true;
-      if (hits.size() - begin > kMostHits) {
-        hits.resize(begin);
+      fetch(fragments);
+      if (fragments.size() == before) return true;
+      if (fragments.size() - begin > kMostFragments) {
+        fragments.resize(begin);
         return false;
       }
     }
@@ -236,12 +237,12 @@ class PeelingRaster final : public FaceRaster {
 
  private:
   struct Peel {
-    GlObject pixels;  // depth and hit
+    GlObject pixels;  // Pixel
     GlObject framebuffer;
   };
   struct Pixel {
     std::uint32_t depth;
-    std::uint32_t hit;
+    std::uint32_t face_and_side;
   };
 
   void resize(int width, int height) {
@@ -289,12 +290,13 @@ class PeelingRaster final : public FaceRaster {
     check_gl(gl_);
   }
 
-  void fetch(std::vector<Hit>& hits) {
+  void fetch(std::vector<Fragment>& fragments) {
     gl_.ReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT,
                    image_.data());
     for (std::uint32_t pixel = 0; pixel < image_.size(); ++pixel) {
-      const std::uint32_t hit = image_[pixel].hit;
-      if (hit != kNothing) hits.push_back({pixel, hit});
+      const std::uint32_t face_and_side = image_[pixel].face_and_side;
+      if (face_and_side != kNothing)
+        fragments.push_back({pixel, face_and_side});
     }
   }
 

@@ -53,7 +53,7 @@ struct RasterCorner {
 };
 
 // A fragment: a face over the centre of a pixel.
-struct Hit {
+struct Fragment {
   std::uint32_t pixel;  // row · width + column
   std::uint32_t face_and_side;
 
@@ -68,15 +68,16 @@ class FaceRaster {
   FaceRaster(const FaceRaster&) = delete;
   FaceRaster& operator=(const FaceRaster&) = delete;
 
-  // Appends the hits of all triangles in a picture of width × height pixels, in
-  // any order. Entries are faces whose corners run counter-clockwise.
+  // Appends the fragments of all triangles in a picture of width × height
+  // pixels, in any order. Entries are faces whose corners run
+  // counter-clockwise.
   //
   // corners  three for each triangle
-  // returns  false if there are more hits than memory is meant for (16
+  // returns  false if there are more fragments than memory is meant for (16
   // million);
-  //          then `hits` is as it was
+  //          then `fragments` is as it was
   virtual bool draw(std::span<const RasterCorner> corners, int width,
-                    int height, std::vector<Hit>& hits) = 0;
+                    int height, std::vector<Fragment>& fragments) = 0;
 
  protected:
   FaceRaster() = default;

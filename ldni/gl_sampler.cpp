@@ -72,7 +72,7 @@ struct GlSampler::State {
   void sort_by_pixel();
   void append_pixel(std::uint32_t pixel, std::span<std::uint32_t> found,
                     LeafImages& out);
-  Sample make_sample(const Hit& hit) const;
+  Sample make_sample(const Fragment& fragment) const;
   void repair_pixel(std::uint32_t pixel, LeafImages& out);
 
   const csg::Scene& scene;
@@ -89,9 +89,9 @@ struct GlSampler::State {
   // The image at hand.
   std::uint32_t instance = 0;
   GridBox box;
-  std::vector<Hit> hits;  // pixels of the box, faces of the mesh
+  std::vector<Fragment> fragments;  // pixels of the box, faces of the mesh
   std::vector<std::uint32_t> ends;
-  std::vector<std::uint32_t> faces_and_sides;  // of the hits, by pixel
+  std::vector<std::uint32_t> faces_and_sides;  // of the fragments, by pixel
 
   ScanlineSampler exact_sampler;
   LeafImages exact;  // the same image, once a pixel was found wrong
@@ -114,7 +114,7 @@ void GlSampler::sample(std::uint32_t instance, const GridBox& box,
   const csg::Instance& placed = state.scene.instances[instance];
   state.instance = instance;
   state.box = box;
-  state.hits.clear();
+  state.fragments.clear();
   state.exact.clear();
   state.projector.place(state.mesh_of(placed.leaf), placed.world_from_leaf);
   state.draw(box);
@@ -155,20 +155,20 @@ bool GlSampler::State::try_draw(const GridBox& picture) {
   projector.project(picture);
   if (projector.corners().empty()) return true;
   if (projector.corners().size() > 3 * kPictureTriangles) return false;
-  const std::size_t begin = hits.size();
+  const std::size_t begin = fragments.size();
   if (!raster->draw(projector.corners(), static_cast<int>(picture.ray_count),
-                    static_cast<int>(picture.layer_count), hits)) {
+                    static_cast<int>(picture.layer_count), fragments)) {
     return false;
   }
   // From the picture's pixels and triangles to those of box and mesh.
-  for (Hit& hit : std::span(hits).subspan(begin)) {
-    const std::uint32_t row =
-        hit.pixel / picture.ray_count + picture.layer_start - box.layer_start;
+  for (Fragment& fragment : std::span(fragments).subspan(begin)) {
+    const std::uint32_t row = fragment.pixel / picture.ray_count +
+                              picture.layer_start - box.layer_start;
     const std::uint32_t column =
-        hit.pixel % picture.ray_count + picture.ray_start - box.ray_start;
-    hit.pixel = row * box.ray_count + column;
-    hit.face_and_side =
-        projector.face_of(hit.face()) << 1 | (hit.is_entry() ? 1U : 0U);
+        fragment.pixel % picture.ray_count + picture.ray_start - box.ray_start;
+    fragment.pixel = row * box.ray_count + column;
+    fragment.face_and_side = projector.face_of(fragment.face()) << 1 |
+                             (fragment.is_entry() ? 1U : 0U);
   }
   return true;
 }
@@ -176,11 +176,11 @@ bool GlSampler::State::try_draw(const GridBox& picture) {
 // Counting sort.
 void GlSampler::State::sort_by_pixel() {
   ends.assign(box.pixel_count(), 0);
-  for (const Hit& hit : hits) ++ends[hit.pixel];
+  for (const Fragment& fragment : fragments) ++ends[fragment.pixel];
   std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
-  faces_and_sides.resize(hits.size());
-  for (const Hit& hit : hits) {
-    faces_and_sides[ends[hit.pixel]++] = hit.face_and_side;
+  faces_and_sides.resize(fragments.size());
+  for (const Fragment& fragment : fragments) {
+    faces_and_sides[ends[fragment.pixel]++] = fragment.face_and_side;
   }
 }
 
@@ -199,16 +199,17 @@ void GlSampler::State::append_pixel(std::uint32_t pixel,
   out.ends.push_back(static_cast<std::uint32_t>(out.samples.size()));
 }
 
-Sample GlSampler::State::make_sample(const Hit& hit) const {
-  const std::array<Vec3, 3> face = projector.corners_of(hit.face());
+Sample GlSampler::State::make_sample(const Fragment& fragment) const {
+  const std::array<Vec3, 3> face = projector.corners_of(fragment.face());
   const Vec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
-  const double x = rays.ray_x(box.ray_start + hit.pixel % box.ray_count);
+  const double x = rays.ray_x(box.ray_start + fragment.pixel % box.ray_count);
   const double z =
-      layers.section_z(box.layer_start + hit.pixel / box.ray_count);
+      layers.section_z(box.layer_start + fragment.pixel / box.ray_count);
   const double length = glm::length(normal);
-  return {depth_on(face, normal, x, z),
-          sample_normal(length > 0 ? normal / length : normal, hit.is_entry()),
-          instance};
+  return {
+      depth_on(face, normal, x, z),
+      sample_normal(length > 0 ? normal / length : normal, fragment.is_entry()),
+      instance};
 }
 
 void GlSampler::State::repair_pixel(std::uint32_t pixel, LeafImages& out) {

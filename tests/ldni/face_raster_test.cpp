@@ -83,13 +83,14 @@ TEST_P(FaceRasters, AreExactOnTheirGrid) {
     const Triangle triangle = {random_corner(random, size),
                                random_corner(random, size),
                                random_corner(random, size)};
-    std::vector<Hit> hits;
-    ASSERT_TRUE(raster->draw(raster_corners(triangle), size, size, hits));
+    std::vector<Fragment> fragments;
+    ASSERT_TRUE(raster->draw(raster_corners(triangle), size, size, fragments));
     std::vector<Cover> found(static_cast<std::size_t>(size) * size,
                              Cover::kOutside);
-    for (const Hit& hit : hits) {
-      ASSERT_EQ(found[hit.pixel], Cover::kOutside);
-      found[hit.pixel] = hit.is_entry() ? Cover::kEntry : Cover::kExit;
+    for (const Fragment& fragment : fragments) {
+      ASSERT_EQ(found[fragment.pixel], Cover::kOutside);
+      found[fragment.pixel] =
+          fragment.is_entry() ? Cover::kEntry : Cover::kExit;
     }
     std::size_t wrong = 0;
     for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
@@ -101,17 +102,19 @@ TEST_P(FaceRasters, AreExactOnTheirGrid) {
   }
 }
 
-std::vector<std::uint64_t> sorted_hits(const GlPlatform& platform,
-                                       GlMethod method) {
+std::vector<std::uint64_t> sorted_fragments(const GlPlatform& platform,
+                                            GlMethod method) {
   const std::vector<RasterCorner> corners = {
       {-900, -50, 0.3F},     {1000, 20.5F, 0.3F},  {10.25F, 900, 0.7F},
       {5, 5, 0.5F},          {80, 90, 0.4F},       {70.75F, 2, 0.6F},
       {-1000, 50.25F, 0.5F}, {1000, 50.75F, 0.5F}, {1000, 60, 0.5F}};
-  std::vector<Hit> hits;
-  EXPECT_TRUE(make_face_raster(platform, method)->draw(corners, 100, 80, hits));
+  std::vector<Fragment> fragments;
+  EXPECT_TRUE(
+      make_face_raster(platform, method)->draw(corners, 100, 80, fragments));
   std::vector<std::uint64_t> result;
-  for (const Hit& hit : hits) {
-    result.push_back(std::uint64_t{hit.pixel} << 32 | hit.face_and_side);
+  for (const Fragment& fragment : fragments) {
+    result.push_back(std::uint64_t{fragment.pixel} << 32 |
+                     fragment.face_and_side);
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -120,24 +123,24 @@ std::vector<std::uint64_t> sorted_hits(const GlPlatform& platform,
 TEST(GlPlatform, OsMesaAndEglDrawTheSame) {
   const auto osmesa = open_osmesa();
   const auto egl = open_egl(EglDevice::kAny, least_version(GlMethod::kList));
-  const auto expected = sorted_hits(*osmesa, GlMethod::kList);
+  const auto expected = sorted_fragments(*osmesa, GlMethod::kList);
   EXPECT_GT(expected.size(), 5000U);
-  EXPECT_EQ(sorted_hits(*osmesa, GlMethod::kPeeling), expected);
-  EXPECT_EQ(sorted_hits(*egl, GlMethod::kList), expected);
-  EXPECT_EQ(sorted_hits(*egl, GlMethod::kPeeling), expected);
+  EXPECT_EQ(sorted_fragments(*osmesa, GlMethod::kPeeling), expected);
+  EXPECT_EQ(sorted_fragments(*egl, GlMethod::kList), expected);
+  EXPECT_EQ(sorted_fragments(*egl, GlMethod::kPeeling), expected);
 }
 
 TEST(GlPlatform, DrawsInSeveralThreadsAtOnce) {
   const auto platform = open_gl(least_version(GlMethod::kList));
-  const auto expected = sorted_hits(*platform, GlMethod::kList);
+  const auto expected = sorted_fragments(*platform, GlMethod::kList);
   std::vector<std::vector<std::uint64_t>> found(4);
   std::vector<std::thread> threads;
-  for (auto& hits : found) {
+  for (auto& fragments : found) {
     threads.emplace_back(
-        [&] { hits = sorted_hits(*platform, GlMethod::kList); });
+        [&] { fragments = sorted_fragments(*platform, GlMethod::kList); });
   }
   for (std::thread& thread : threads) thread.join();
-  for (const auto& hits : found) EXPECT_EQ(hits, expected);
+  for (const auto& fragments : found) EXPECT_EQ(fragments, expected);
 }
 
 TEST(GlPlatform, SaysWhatDraws) {

@@ -218,7 +218,7 @@ Scene scene_of_mesh(csg::Mesh mesh, const Affine& placement) {
 }
 
 TEST_P(GlSamplers, AgreeWithTheExactOneWherePicturesAreLargeAndFull) {
-  // Half a million hits, in pictures of at most 2048 pixels either way.
+  // Half a million fragments, in pictures of at most 2048 pixels either way.
   const Scene scene = scene_of_mesh(support::torus_mesh(48, 2, 0.6),
                                     support::turn_about({1, 0.2, 0.1}, 1.2));
   const Agreement agreement =
@@ -291,26 +291,27 @@ TEST(GlSampler, BothMethodsGiveTheSameSamples) {
   }
 }
 
-// Loses some hits, and has no room for large pictures.
+// Loses some fragments, and has no room for large pictures.
 class FaultyRaster : public FaceRaster {
  public:
-  FaultyRaster(std::size_t lost_hit, int greatest_size)
-      : lost_hit_(lost_hit), greatest_size_(greatest_size) {}
+  FaultyRaster(std::size_t lost_fragment, int greatest_size)
+      : lost_fragment_(lost_fragment), greatest_size_(greatest_size) {}
 
   bool draw(std::span<const RasterCorner> corners, int width, int height,
-            std::vector<Hit>& hits) override {
+            std::vector<Fragment>& fragments) override {
     if (std::max(width, height) > greatest_size_) return false;
-    const std::size_t begin = hits.size();
-    const bool is_done = raster_->draw(corners, width, height, hits);
-    if (lost_hit_ != 0 && hits.size() > begin + lost_hit_) {
-      hits.erase(hits.begin() + static_cast<std::ptrdiff_t>(begin + lost_hit_));
+    const std::size_t begin = fragments.size();
+    const bool is_done = raster_->draw(corners, width, height, fragments);
+    if (lost_fragment_ != 0 && fragments.size() > begin + lost_fragment_) {
+      fragments.erase(fragments.begin() +
+                      static_cast<std::ptrdiff_t>(begin + lost_fragment_));
     }
     return is_done;
   }
 
  private:
   std::unique_ptr<FaceRaster> raster_ = shared_raster(GlMethod::kList);
-  std::size_t lost_hit_;  // of each picture; 0: none
+  std::size_t lost_fragment_;  // of each picture; 0: none
   int greatest_size_;
 };
 
@@ -326,7 +327,7 @@ TEST(GlSampler, SamplesExactlyWhatWasNotDrawnAsOftenFromBothSides) {
   GlSampler sound_sampler(scene, rays, layers, shared_raster(GlMethod::kList));
   const LeafImages images = sample_all(sampler, scene, rays, layers);
   const LeafImages sound = sample_all(sound_sampler, scene, rays, layers);
-  // One pixel of each leaf that has so many hits.
+  // One pixel of each leaf that has so many fragments.
   EXPECT_GT(sampler.repaired_pixels(), 3U);
   EXPECT_LE(sampler.repaired_pixels(), images.images.size());
   EXPECT_EQ(images.ends, sound.ends);

@@ -18,8 +18,8 @@ class SharedRaster : public FaceRaster {
   explicit SharedRaster(FaceRaster& raster) : raster_(raster) {}
 
   bool draw(std::span<const RasterCorner> corners, int width, int height,
-            std::vector<Hit>& hits) override {
-    return raster_.draw(corners, width, height, hits);
+            std::vector<Fragment>& fragments) override {
+    return raster_.draw(corners, width, height, fragments);
   }
 
  private:
