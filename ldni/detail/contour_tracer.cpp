@@ -181,6 +181,47 @@ void ContourTracer::split_pinches() {
   }
 }
 
+// Whether a point, come to by one step and left by another, lies on the line
+// between its neighbours or is the tip of a spike without width.
+inline bool ContourTracer::is_straight(const Vec2& in, const Vec2& out) const {
+  const double cross = in.x * out.y - in.y * out.x;
+  const double dot = in.x * out.x + in.y * out.y;
+  const double in_squared = in.x * in.x + in.y * in.y;
+  const double out_squared = out.x * out.x + out.y * out.y;
+  // Distance from the line: from the base's, or from the longer side's for a
+  // spike, whose base may be short.
+  const double line_squared = dot < 0 ? std::max(in_squared, out_squared)
+                                      : in_squared + out_squared + 2 * dot;
+  return cross * cross <= merge_distance_ * merge_distance_ * line_squared;
+}
+
+// Whether leaving out `point` changes nothing: it repeats a neighbour, or what
+// is_straight() says.
+bool ContourTracer::is_redundant(const Vec2& before, const Vec2& point,
+                                 const Vec2& after) const {
+  return are_near(before, point, merge_distance_) ||
+         is_straight(point - before, after - point);
+}
+
+// Successive points of loop_ are never near each other.
+inline void ContourTracer::add_point(const Vec2& point) {
+  Vec2 step(0);
+  while (!loop_.empty()) {
+    step = point - loop_.back();
+    if (loop_.size() == 1 || !is_straight(last_step_, step)) {
+      if (std::abs(step.x) < merge_distance_ &&
+          std::abs(step.y) < merge_distance_) {
+        return;
+      }
+      break;
+    }
+    loop_.pop_back();
+    if (loop_.size() > 1) last_step_ = loop_.back() - loop_[loop_.size() - 2];
+  }
+  loop_.push_back(point);
+  last_step_ = step;
+}
+
 void ContourTracer::walk(std::uint32_t start) {
   for (std::uint32_t i = start; i != kNoPiece;) {
     Piece& piece = pieces_[i];
@@ -201,34 +242,6 @@ void ContourTracer::walk(std::uint32_t start) {
     }
     i = piece.next;
   }
-}
-
-// Whether leaving out `point` changes nothing: it repeats a neighbour, lies on
-// the line between them, or is the tip of a spike without width.
-bool ContourTracer::is_redundant(const Vec2& before, const Vec2& point,
-                                 const Vec2& after) const {
-  if (are_near(before, point, merge_distance_)) return true;
-  const Vec2 in = point - before;
-  const Vec2 out = after - point;
-  const double cross = in.x * out.y - in.y * out.x;
-  const double longer =
-      std::max(in.x * in.x + in.y * in.y, out.x * out.x + out.y * out.y);
-  const Vec2 base = after - before;
-  const double base_squared = base.x * base.x + base.y * base.y;
-  const bool is_spike = in.x * out.x + in.y * out.y < 0;
-  // Distance from the line: from the base's, or from the longer side's for a
-  // spike, whose base may be short.
-  const double line_squared = is_spike ? longer : base_squared;
-  return cross * cross <= merge_distance_ * merge_distance_ * line_squared;
-}
-
-void ContourTracer::add_point(const Vec2& point) {
-  while (loop_.size() >= 2 &&
-         is_redundant(loop_[loop_.size() - 2], loop_.back(), point)) {
-    loop_.pop_back();
-  }
-  if (!loop_.empty() && are_near(loop_.back(), point, merge_distance_)) return;
-  loop_.push_back(point);
 }
 
 // Cleans the seam between the last and the first point, then keeps the loop if

@@ -101,6 +101,7 @@ class ContourTracer {
   void walk(std::uint32_t start);
   bool is_redundant(const Vec2& before, const Vec2& point,
                     const Vec2& after) const;
+  bool is_straight(const Vec2& in, const Vec2& out) const;
   void add_point(const Vec2& point);
   void close_loop(Contours& contours);
 
@@ -113,6 +114,7 @@ class ContourTracer {
   std::vector<End> linked_;   // upper ends of the pairs of the stop
   std::vector<Pinch> pinches_;
   std::vector<Vec2> loop_;
+  Vec2 last_step_ = Vec2(0);  // between the last two points of loop_
   std::uint32_t loop_count_ = 0;
   std::uint64_t unlinked_ends_ = 0;
 };
