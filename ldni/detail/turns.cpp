@@ -8,16 +8,40 @@
 namespace lamina::ldni::detail {
 namespace {
 
-constexpr int kDigitBits = 11;  // three digits make a key
-constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr double kLargestKey = 4294967040.0;  // safely below 2^32
-constexpr std::size_t kSmall = 64;            // below, comparing is faster
+// Up to so many turns comparing is faster; up to so many, four digits of 8 bits
+// are faster than three of 11, whose counts outnumber the turns.
+constexpr std::size_t kSmall = 128;
+constexpr std::size_t kMedium = 4096;
 
 bool precedes(const Turn& a, const Turn& b) {
   return a.x < b.x || (a.x == b.x && a.chain_and_end < b.chain_and_end);
 }
 
 }  // namespace
+
+// Digit by digit, the lowest first.
+template <int kDigitBits>
+void TurnSorter::sort_keys() {
+  constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+  other_keys_.resize(keys_.size());
+  for (int shift = 0; shift < 32; shift += kDigitBits) {
+    std::array<std::uint32_t, kDigits> begins{};
+    for (const Key& key : keys_) {
+      ++begins[key.rounded >> shift & (kDigits - 1)];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& begin : begins) {
+      const std::uint32_t size = begin;
+      begin = sum;
+      sum += size;
+    }
+    for (const Key& key : keys_) {
+      other_keys_[begins[key.rounded >> shift & (kDigits - 1)]++] = key;
+    }
+    std::swap(keys_, other_keys_);
+  }
+}
 
 std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
                                        std::span<const Vec2> points) {
@@ -46,7 +70,11 @@ std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
         static_cast<std::uint32_t>((unsorted_[i].x - low) * scale);
     keys_[i].turn = i;
   }
-  sort_keys();
+  if (keys_.size() <= kMedium) {
+    sort_keys<8>();
+  } else {
+    sort_keys<11>();
+  }
   sorted_.resize(unsorted_.size());
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     sorted_[i] = unsorted_[keys_[i].turn];
@@ -61,26 +89,6 @@ std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
     sorted_[k] = turn;
   }
   return sorted_;
-}
-
-void TurnSorter::sort_keys() {
-  other_keys_.resize(keys_.size());
-  for (int shift = 0; shift < 32; shift += kDigitBits) {
-    std::array<std::uint32_t, kDigits> begins{};
-    for (const Key& key : keys_) {
-      ++begins[key.rounded >> shift & (kDigits - 1)];
-    }
-    std::uint32_t sum = 0;
-    for (std::uint32_t& begin : begins) {
-      const std::uint32_t size = begin;
-      begin = sum;
-      sum += size;
-    }
-    for (const Key& key : keys_) {
-      other_keys_[begins[key.rounded >> shift & (kDigits - 1)]++] = key;
-    }
-    std::swap(keys_, other_keys_);
-  }
 }
 
 }  // namespace lamina::ldni::detail

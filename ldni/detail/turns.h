@@ -33,6 +33,7 @@ class TurnSorter {
     std::uint32_t turn = 0;
   };
 
+  template <int kDigitBits>
   void sort_keys();
 
   std::vector<Turn> unsorted_;
