@@ -9,6 +9,14 @@ namespace {
 
 constexpr std::size_t kFirstCapacity = 1024;  // of the tables; a power of 2
 
+// splitmix64.
+std::uint64_t mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ x >> 27) * 0x94d049bb133111ebU;
+  return x ^ x >> 31;
+}
+
 }  // namespace
 
 LeafSets::LeafSets(const csg::Scene& scene, Rule rule)
@@ -18,11 +26,13 @@ LeafSets::LeafSets(const csg::Scene& scene, Rule rule)
     is_counted_.push_back(scene.leaves[instance.leaf].may_overlap_itself);
   }
   marks_.assign(scene.instances.size(), 0);
+  counts_.assign(scene.instances.size(), 0);
   clear();
 }
 
 void LeafSets::clear() {
-  sets_.assign(1, {});  // the empty set
+  sets_.assign(1, {});  // the empty set, for which no program holds
+  sets_[kEmpty].is_evaluated = true;
   members_.clear();
   index_.assign(std::max(index_.size(), kFirstCapacity), kNone);
   index_[0] = kEmpty;  // hash 0
@@ -31,21 +41,8 @@ void LeafSets::clear() {
   step_count_ = 0;
 }
 
-std::uint64_t LeafSets::hash_of(const Member& member) {
-  // splitmix64.
-  std::uint64_t x = std::uint64_t{member.instance} << 32 |
-                    static_cast<std::uint32_t>(member.count);
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebU;
-  return x ^ x >> 31;
-}
-
 LeafSets::Id LeafSets::make_step(Id set, Step step) {
-  write_members(set, step);
-  std::uint64_t hash = 0;
-  for (const Member& member : scratch_) hash += hash_of(member);
-  const Id result = find_or_add(hash);
+  const Id result = find_or_add(hash_after(set, step), set, step);
   // The way back is known too.
   const Step back = is_counted_[step >> 1] ? step ^ 1 : step;
   insert_step(set, step, result);
@@ -53,48 +50,34 @@ LeafSets::Id LeafSets::make_step(Id set, Step step) {
   return result;
 }
 
-// Writes the members of the set after a step to scratch_.
-void LeafSets::write_members(Id set, Step step) {
-  const auto begin =
-      members_.begin() + static_cast<std::ptrdiff_t>(sets_[set].first_member);
-  scratch_.assign(begin, begin + sets_[set].size);
+LeafSets::Hash LeafSets::hash_after(Id set, Step step) const {
+  Hash hash = sets_[set].hash;
   const std::uint32_t instance = step >> 1;
-  const auto it =
-      std::lower_bound(scratch_.begin(), scratch_.end(), instance,
-                       [](const Member& member, std::uint32_t wanted) {
-                         return member.instance < wanted;
-                       });
-  const bool is_member = it != scratch_.end() && it->instance == instance;
-  const std::int32_t before = is_member ? it->count : 0;
-  std::int32_t after = 1 - before;
-  if (is_counted_[instance]) after = before + ((step & 1) != 0 ? -1 : 1);
-  if (!is_member) {
-    scratch_.insert(it, {instance, after});
-  } else if (after == 0) {
-    scratch_.erase(it);
-  } else {
-    it->count = after;
+  for (std::uint64_t i = 0; i < 2; ++i) {
+    const std::uint64_t key = mix(i << 32 | instance);
+    if (!is_counted_[instance]) {
+      hash.toggled[i] ^= key;
+    } else if ((step & 1) == 0) {
+      hash.counted[i] += key;
+    } else {
+      hash.counted[i] -= key;
+    }
   }
+  return hash;
 }
 
-LeafSets::Id LeafSets::find_or_add(std::uint64_t hash) {
+LeafSets::Id LeafSets::find_or_add(const Hash& hash, Id base, Step step) {
   const std::size_t mask = index_.size() - 1;
-  std::size_t i = hash & mask;
+  std::size_t i = hash.slot() & mask;
   for (; index_[i] != kNone; i = (i + 1) & mask) {
-    const Set& known = sets_[index_[i]];
-    if (known.hash != hash || known.size != scratch_.size()) continue;
-    const auto begin =
-        members_.begin() + static_cast<std::ptrdiff_t>(known.first_member);
-    if (std::equal(scratch_.begin(), scratch_.end(), begin)) return index_[i];
+    if (sets_[index_[i]].hash == hash) return index_[i];
   }
   const Id id = static_cast<Id>(sets_.size());
   index_[i] = id;
   Set set;
   set.hash = hash;
-  set.first_member = members_.size();
-  set.size = static_cast<std::uint32_t>(scratch_.size());
-  members_.insert(members_.end(), scratch_.begin(), scratch_.end());
-  set.value = evaluate(set);
+  set.base = base;
+  set.step = step;
   sets_.push_back(set);
   if (2 * sets_.size() > index_.size()) grow_index();
   return id;
@@ -102,23 +85,68 @@ LeafSets::Id LeafSets::find_or_add(std::uint64_t hash) {
 
 // Turns the program's present set into this one; neighbours on the ray differ
 // by a leaf, so that is mostly a flip or two.
-bool LeafSets::evaluate(const Set& set) {
+void LeafSets::evaluate(Id id) {
   ++evaluations_;
+  write_members(id);
+  Set& set = sets_[id];
   const Member* begin = members_.data() + set.first_member;
   const Member* end = begin + set.size;
-  for (const Member* member = begin; member != end; ++member) {
-    if (is_inside(*member)) marks_[member->instance] = evaluations_;
-  }
   for (std::size_t i = program_.inside().size(); i-- > 0;) {
     const std::uint32_t instance = program_.inside()[i];
-    if (marks_[instance] != evaluations_) program_.flip(instance, false);
+    const bool stays = marks_[instance] == evaluations_ &&
+                       is_inside({instance, counts_[instance]});
+    if (!stays) program_.flip(instance, false);
   }
   for (const Member* member = begin; member != end; ++member) {
     if (is_inside(*member) && !program_.is_inside(member->instance)) {
       program_.flip(member->instance, true);
     }
   }
-  return program_.value();
+  set.value = program_.value();
+  set.is_evaluated = true;
+}
+
+// Goes back to a set whose members are written, then counts the steps on the
+// way, in any order.
+void LeafSets::write_members(Id id) {
+  met_.clear();
+  Id known = id;
+  for (; !sets_[known].is_evaluated; known = sets_[known].base) {
+    const Step step = sets_[known].step;
+    std::int32_t& count = count_of(step >> 1);
+    if (is_counted_[step >> 1]) {
+      count += (step & 1) != 0 ? -1 : 1;
+    } else {
+      count ^= 1;
+    }
+  }
+  const std::size_t first = sets_[known].first_member;
+  for (std::size_t i = first; i < first + sets_[known].size; ++i) {
+    const Member& member = members_[i];
+    std::int32_t& count = count_of(member.instance);
+    if (is_counted_[member.instance]) {
+      count += member.count;
+    } else {
+      count ^= 1;
+    }
+  }
+  Set& set = sets_[id];
+  set.first_member = members_.size();
+  for (const std::uint32_t instance : met_) {
+    if (counts_[instance] != 0) {
+      members_.push_back({instance, counts_[instance]});
+    }
+  }
+  set.size = static_cast<std::uint32_t>(members_.size() - set.first_member);
+}
+
+std::int32_t& LeafSets::count_of(std::uint32_t instance) {
+  if (marks_[instance] != evaluations_) {
+    marks_[instance] = evaluations_;
+    counts_[instance] = 0;
+    met_.push_back(instance);
+  }
+  return counts_[instance];
 }
 
 void LeafSets::insert_step(Id set, Step step, Id result) {
@@ -153,12 +181,13 @@ void LeafSets::grow_index() {
 
 void LeafSets::add_to_index(Id id) {
   const std::size_t mask = index_.size() - 1;
-  std::size_t i = sets_[id].hash & mask;
+  std::size_t i = sets_[id].hash.slot() & mask;
   while (index_[i] != kNone) i = (i + 1) & mask;
   index_[i] = id;
 }
 
 void LeafSets::keep_only(std::vector<Id>& live) {
+  for (const Id id : live) value(id);
   const std::vector<Set> old_sets = std::move(sets_);
   const std::vector<Member> old_members = std::move(members_);
   std::vector<Id> new_ids(old_sets.size(), kNone);

@@ -8,10 +8,15 @@
 // chain is one look into a table of known steps. Entries of the ray hold a
 // number, however many leaves overlap there.
 //
+// A set is told by a hash that a step changes in O(1), and remembers the step
+// that it was first met by. Its members are written down when its value is
+// asked for, which is never for the many sets between chains that tie.
+//
 // A step passes a chain upwards. It toggles the leaf; for a leaf that may
 // overlap itself it adds the chain's winding to the leaf's count, and the leaf
 // contains the interval where the count is not 0, or, on demand, positive.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -46,14 +51,20 @@ class LeafSets {
     }
   }
 
-  bool value(Id set) const { return sets_[set].value; }
+  // Whether the solid fills what lies in this set.
+  bool value(Id set) {
+    if (!sets_[set].is_evaluated) evaluate(set);
+    return sets_[set].value;
+  }
 
   std::size_t size() const { return sets_.size(); }
   // Evaluations of the program since construction.
   std::uint64_t evaluations() const { return evaluations_; }
 
-  // Leaves summed over the known sets: what they cost in memory.
-  std::size_t member_count() const { return members_.size(); }
+  // What the known sets cost in memory, in leaves written down (8 bytes each).
+  std::size_t cost() const {
+    return members_.size() + sizeof(Set) / sizeof(Member) * sets_.size();
+  }
 
   // Forgets every set but the empty one.
   void clear();
@@ -65,14 +76,24 @@ class LeafSets {
   struct Member {
     std::uint32_t instance = 0;
     std::int32_t count = 1;
+  };
+  // Of the members that toggle, and of those that are counted. 128 bits of
+  // each: no two of a billion sets will ever be taken for one.
+  struct Hash {
+    std::array<std::uint64_t, 2> toggled{};
+    std::array<std::uint64_t, 2> counted{};
 
-    bool operator==(const Member&) const = default;
+    bool operator==(const Hash&) const = default;
+    std::size_t slot() const { return toggled[0] ^ counted[0]; }
   };
   struct Set {
-    std::uint64_t hash = 0;  // sum over the members
-    std::size_t first_member = 0;
+    Hash hash;
+    Id base = kEmpty;  // the set and the step that led here first
+    Step step = 0;
     std::uint32_t size = 0;
+    bool is_evaluated = false;  // and its members written
     bool value = false;
+    std::size_t first_member = 0;
   };
   struct KnownStep {
     std::uint64_t key = kFree;  // set and step
@@ -84,15 +105,15 @@ class LeafSets {
   std::size_t slot_of(std::uint64_t key) const {
     return (key * 0x9e3779b97f4a7c15U) >> shift_;
   }
-  static std::uint64_t hash_of(const Member& member);
-
   Id make_step(Id set, Step step);
-  void write_members(Id set, Step step);
-  Id find_or_add(std::uint64_t hash);
+  Hash hash_after(Id set, Step step) const;
+  Id find_or_add(const Hash& hash, Id base, Step step);
   void add_to_index(Id id);
-  bool evaluate(const Set& set);
+  void evaluate(Id id);
+  void write_members(Id id);
+  std::int32_t& count_of(std::uint32_t instance);
   bool is_inside(const Member& member) const {
-    return rule_ == Rule::kNonZero || member.count > 0;
+    return rule_ == Rule::kNonZero ? member.count != 0 : member.count > 0;
   }
   void insert_step(Id set, Step step, Id result);
   void grow_steps();
@@ -102,13 +123,16 @@ class LeafSets {
   csg::ProgramState program_;
   std::vector<bool> is_counted_;  // an instance
   std::vector<Set> sets_;
-  std::vector<Member> members_;  // of all sets, each by instance
-  std::vector<Member> scratch_;  // members of the set in the making
-  std::vector<Id> index_;        // open hash of sets_ by Set::hash
+  std::vector<Member> members_;  // of all evaluated sets
+  std::vector<Id> index_;        // open hash of sets_
   std::vector<KnownStep> steps_;
   std::size_t step_count_ = 0;
   int shift_ = 0;
-  std::vector<std::uint64_t> marks_;  // an instance: evaluation that wants it
+  // Of the set in evaluation: for each instance the evaluation that last met
+  // it, and its count there; and the instances met.
+  std::vector<std::uint64_t> marks_;
+  std::vector<std::int32_t> counts_;
+  std::vector<std::uint32_t> met_;
   std::uint64_t evaluations_ = 0;
 };
 

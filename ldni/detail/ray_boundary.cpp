@@ -47,7 +47,6 @@ void RaySweep::update_sets_from(std::uint32_t entry) {
     if (!e.is_fresh && e.set == set) return;
     e.is_fresh = false;
     e.set = set;
-    e.value = sets_.value(set);
     touched_.push_back(entry);
   }
 }
@@ -70,8 +69,8 @@ void RaySweep::update_group(std::uint32_t member) {
   }
   std::uint32_t last = first;
   while (status_[last].is_tied) last = status_[last].above;
-  const bool below = status_[status_[first].below].value;
-  const bool above = status_[last].value;
+  const bool below = sets_.value(status_[status_[first].below].set);
+  const bool above = sets_.value(status_[last].set);
   const auto survival = static_cast<std::int8_t>(above - below);
 
   // Whoever stood for it before goes on.
@@ -126,6 +125,8 @@ void RaySweep::split_at_touches() {
       note_disorder_after(number, entry.above);
       if (std::abs(y_before(entry) - y) >= kColumnWidth) split_piece(entry);
     }
+    // One cut is enough for all that is in one point.
+    if (entry.near_column == column_ && entry.near_y == y) continue;
     if (tracer_.has_end_near(y) || meets_boundary(number, y)) {
       split_all_near(number, y);
     }
@@ -149,16 +150,19 @@ bool RaySweep::meets_boundary(std::uint32_t number, double y) {
 // Cuts all boundary through a point of the column. `number` is an entry there;
 // others may lie between it and the boundary.
 void RaySweep::split_all_near(std::uint32_t number, double y) {
-  for (std::uint32_t e = number; e != status_.sentinel();
-       e = status_[e].below) {
-    if (std::abs(y_after(status_[e]) - y) >= kColumnWidth) break;
-    if (status_[e].survival != 0) split_piece(status_[e]);
-  }
-  for (std::uint32_t e = status_[number].above; e != status_.sentinel();
-       e = status_[e].above) {
-    if (std::abs(y_after(status_[e]) - y) >= kColumnWidth) break;
-    if (status_[e].survival != 0) split_piece(status_[e]);
-  }
+  const auto split = [&](std::uint32_t e) {
+    Entry& entry = status_[e];
+    if (std::abs(y_after(entry) - y) >= kColumnWidth) return false;
+    entry.near_column = column_;
+    entry.near_y = y;
+    if (entry.survival != 0) split_piece(entry);
+    return true;
+  };
+  const std::uint32_t sentinel = status_.sentinel();
+  std::uint32_t e = number;
+  while (e != sentinel && split(e)) e = status_[e].below;
+  e = status_[number].above;
+  while (e != sentinel && split(e)) e = status_[e].above;
 }
 
 void RaySweep::split_piece(Entry& entry) {

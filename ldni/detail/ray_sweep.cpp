@@ -20,10 +20,10 @@ constexpr double kMostSlabsOfPitch = 1 << 16;
 constexpr std::size_t kFewSets = 4096;
 constexpr std::size_t kLayersOfSets = 4;
 
-// Within a layer, sets that no entry has any more are forgotten when all have
-// more than this many members (8 bytes each), or so many times what is left.
-constexpr std::size_t kMostMembers = std::size_t{1} << 21;
-constexpr std::size_t kGrowthOfMembers = 3;
+// Within a layer, sets that no entry has any more are forgotten when all cost
+// more than this (8 bytes each), or so many times what is left.
+constexpr std::size_t kMostCost = std::size_t{1} << 21;
+constexpr std::size_t kGrowthOfCost = 3;
 
 // Swaps in one column, for each chain of the layer, before it counts as
 // endless: rounding could make the pairwise order of entries a circle.
@@ -70,11 +70,11 @@ void RaySweep::begin_layer(const ChainBlock& block,
   tracer_.begin();
   if (first_layer_sets_ == 0) first_layer_sets_ = sets_.size();
   if (sets_.size() > std::max(kFewSets, kLayersOfSets * first_layer_sets_) ||
-      sets_.member_count() > kMostMembers) {
+      sets_.cost() > kMostCost) {
     sets_.clear();
     first_layer_sets_ = 0;
   }
-  most_members_ = kMostMembers;
+  most_cost_ = kMostCost;
   ++counts_.layers;
   counts_.chains += chains_.size();
   for (const Chain& chain : chains_) counts_.points += chain.point_count;
@@ -128,14 +128,13 @@ void RaySweep::forget_old_sets() {
        e = status_[e].above) {
     status_[e].set = *id++;
   }
-  most_members_ =
-      std::max(kMostMembers, kGrowthOfMembers * sets_.member_count());
+  most_cost_ = std::max(kMostCost, kGrowthOfCost * sets_.cost());
 }
 
 // --- The order in a column --------------------------------------------------
 
 void RaySweep::process_column(double x) {
-  if (sets_.member_count() > most_members_) forget_old_sets();
+  if (sets_.cost() > most_cost_) forget_old_sets();
   assert(x > column_right_);  // I6
   ++counts_.stops;
   ++column_;

@@ -151,7 +151,7 @@ class RaySweep {
   SweepCounts counts_;
   LeafSets sets_;
   std::size_t first_layer_sets_ = 0;  // known after the first layer; 0: not yet
-  std::size_t most_members_ = 0;      // of sets, before old ones are forgotten
+  std::size_t most_cost_ = 0;         // of sets, before old ones are forgotten
   Status status_;
   Agenda agenda_;
   TurnSorter sorter_;

@@ -76,7 +76,6 @@ struct Entry {
 
   LeafSets::Id set = LeafSets::kEmpty;  // leaves that contain the interval
   LeafSets::Step step = 0;              // of passing the chain upwards
-  bool value = false;                   // whether the interval is solid
   bool is_tied = false;      // with the entry above: the interval is none
   bool is_fresh = false;     // `set` is to be computed anew
   std::int8_t survival = 0;  // +1: the solid's boundary, solid above; -1: below
@@ -87,6 +86,8 @@ struct Entry {
   std::uint32_t column = 0;       // the last one that judged its tie group
   std::uint32_t split_column = 0;  // the last one that ended or began a piece
   std::uint32_t touch_column = 0;  // the last one that looked for touches
+  std::uint32_t near_column = 0;   // the last one that cut all near near_y
+  double near_y = 0;
 
   double crossing_y = 0;  // where it crosses a flatter chain in that column
   std::uint32_t crossing_column = 0;
@@ -100,7 +101,7 @@ class Status {
   // Empties the ray for a layer with this many chains.
   void begin(std::size_t chain_count);
 
-  // Stands below the first and above the last entry: set empty, value false.
+  // Stands below the first and above the last entry: set empty.
   std::uint32_t sentinel() const { return sentinel_; }
   Entry& operator[](std::uint32_t entry) { return entries_[entry]; }
   const Entry& operator[](std::uint32_t entry) const { return entries_[entry]; }

@@ -272,6 +272,31 @@ TEST(KineticRay, ThousandsOfCrossingsUnderHundredsOfLeavesKeepTheOutline) {
               1e-9);
 }
 
+// Sets between chains that tie do not matter and are not evaluated: n leaves
+// with two faces in common make n² of them.
+TEST(KineticRay, HundredsOfLeavesWithCommonFacesCostAFewEvaluationsEach) {
+  constexpr std::uint32_t kCount = 400;
+  for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kIntersection}) {
+    SceneBuilder builder(op);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      builder.add(cube_leaf({1, 1, 1}), translated({i * 1e-4, 0, 0}));
+    }
+    const csg::Scene scene = builder.finish();
+    const LayerGrid grid = LayerGrid::at_heights({0.5});
+    const LeafSectioner sectioner(scene, grid);
+    ChainBlock block;
+    sectioner.cut(0, 1, block);
+    KineticRay ray(scene, 0);
+    Contours contours;
+    ray.sweep(block, 0, contours);
+    ASSERT_EQ(contours.loop_count(), 1U);
+    const double overhang = (kCount - 1) * 1e-4;
+    EXPECT_NEAR(signed_area(contours.loop(0)),
+                op == BooleanOp::kUnion ? 1 + overhang : 1 - overhang, 1e-9);
+    EXPECT_LE(ray.counts().evaluations, 6 * kCount);
+  }
+}
+
 TEST(KineticRay, StackedCubesUniteInEveryLayer) {
   // The upper cube stands on the lower one: at its foot the section is the
   // upper one, for a solid fills [bottom, top).
