@@ -198,7 +198,7 @@ bool holds_outlines(OutputFormat format) {
 }
 
 // From the CSG tree to layers in `sink`.
-void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
+void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
   // Lowering comes before slicing because transforms, 2D parts and hulls need
   // the whole tree, layers only the leaves.
   const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
@@ -207,6 +207,7 @@ void make_layers(Run& run, const csg::Tree& tree, slicer::LayerSink& sink) {
                        &run.typesetter, run.options.scale},
                       run.diagnostics);
   });
+  tree.drop_nodes();
   if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
   if (const planar::Region* outline = lowered.outline()) {
     if (!holds_outlines(run.options.format)) {
@@ -276,7 +277,7 @@ int compile(Run& run) {
     write_text(run, run.options.output, ast::print(loaded.program));
     return kDone;
   }
-  const Evaluated evaluated = evaluate(run, loaded.program);
+  Evaluated evaluated = evaluate(run, loaded.program);
   // A run that hard warnings cut short does not know them all.
   if (evaluated.tree.root != nullptr) write_dependencies(run, &evaluated.tree);
   // Texts end well even where the design failed, as openscad's do.
@@ -298,7 +299,7 @@ int compile(Run& run) {
       {run.options.format, run.options.cli_encoding,
        deviation ? std::optional(deviation->from_section()) : std::nullopt},
       output);
-  make_layers(run, evaluated.tree, *writer);
+  make_layers(run, std::move(evaluated.tree), *writer);
   writer->finish(run.diagnostics);
   if (deviation) deviation->rounding = writer->greatest_rounding();
   run.report.deviation = deviation;
@@ -324,9 +325,9 @@ std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
     return std::move(list.layers);
   }
   const Loaded loaded = load(run);
-  const Evaluated evaluated = evaluate(run, loaded.program);
+  Evaluated evaluated = evaluate(run, loaded.program);
   if (loaded.has_failed || evaluated.has_failed) return std::nullopt;
-  make_layers(run, evaluated.tree, list);
+  make_layers(run, std::move(evaluated.tree), list);
   return std::move(list.layers);
 }
 

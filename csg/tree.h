@@ -111,7 +111,7 @@ struct Cylinder {
   bool center = false;
   Facets facets = {};
 };
-struct Polyhedron {
+struct PolyhedronParams {
   std::span<const Vec3> points;
   std::span<const std::span<const std::uint32_t>> faces;
   int convexity = 1;
@@ -122,6 +122,9 @@ struct Polyhedron {
   // empty. Such points may be [0, 0, 0], or not finite.
   std::string_view wrong_point = {};
 };
+struct Polyhedron {
+  const PolyhedronParams* params;
+};
 struct Square {
   Vec2 size = Vec2(1);
   bool center = false;
@@ -130,13 +133,16 @@ struct Circle {
   double r = 1;
   Facets facets = {};
 };
-struct Polygon {
+struct PolygonParams {
   std::span<const Vec2> points;
   // No value: one path through all points in order.
   std::optional<std::span<const std::span<const std::uint32_t>>> paths;
   int convexity = 1;
   std::string_view csg_text = {};     // as for Polyhedron
   std::string_view wrong_point = {};  // likewise, of any point
+};
+struct Polygon {
+  const PolygonParams* params;
 };
 // What comes from fonts and files keeps, beside its parameters, the text that
 // `.csg` prints for it (`text(text = "a", …)`), whole: paths and time stamps
@@ -210,10 +216,18 @@ struct Node {
 // Owns its nodes. The root is a Group ("group", the implicit top level).
 struct Tree {
   std::shared_ptr<std::pmr::monotonic_buffer_resource> arena;
+  // Has the call frames: a scene goes on pointing at them.
+  std::shared_ptr<std::pmr::monotonic_buffer_resource> calls;
   const Node* root = nullptr;
   // Paths that modules and functions named as files to read, whether they are
   // there or not; in the order of evaluation, each once.
   std::vector<std::string> files;
+
+  // Gives the memory of all nodes back; call chains stay.
+  void drop_nodes() {
+    root = nullptr;
+    arena.reset();
+  }
 };
 
 }  // namespace lamina::csg

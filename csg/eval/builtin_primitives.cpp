@@ -216,7 +216,7 @@ void polyhedron(const BuiltinModuleCode& code, Frame& frame) {
                  "polyhedron(triangles=[]) will be removed in future "
                  "releases. Use polyhedron(faces=[]) instead.");
   }
-  Polyhedron polyhedron;
+  PolyhedronParams polyhedron;
   bool is_plain = arguments[kPoints].is_vector();
   std::vector<Vec3> points;
   std::set<std::uint32_t> wrong_points;
@@ -241,7 +241,7 @@ void polyhedron(const BuiltinModuleCode& code, Frame& frame) {
         in.keep_text("points = " + to_echo(arguments[kPoints]) +
                      ", faces = " + to_echo(faces));
   }
-  make_leaf(polyhedron, code, frame);
+  make_leaf(Polyhedron{in.keep(polyhedron)}, code, frame);
 }
 
 // --- 2D ---------------------------------------------------------------------
@@ -278,7 +278,7 @@ void polygon(const BuiltinModuleCode& code, Frame& frame) {
   Interpreter& in = frame.in;
   const ModuleArguments arguments(code, frame);
   clamped_facets(code, frame);
-  Polygon polygon;
+  PolygonParams polygon;
   bool is_plain = arguments[kPoints].is_vector();
   std::vector<Vec2> points;
   for (const Value& point : arguments[kPoints].elements()) {
@@ -304,7 +304,7 @@ void polygon(const BuiltinModuleCode& code, Frame& frame) {
     polygon.csg_text = in.keep_text("points = " + to_echo(arguments[kPoints]) +
                                     ", paths = " + to_echo(paths));
   }
-  make_leaf(polygon, code, frame);
+  make_leaf(Polygon{in.keep(polygon)}, code, frame);
 }
 
 }  // namespace

@@ -236,7 +236,7 @@ void transform(const BuiltinModuleCode& code, Frame& frame) {
       break;
   }
   run_statements(*code.block, frame);
-  in.make_node(Transform{in.keep(matrix)}, code, mark);
+  in.make_node(Transform{in.keep_matrix(matrix)}, code, mark);
 }
 
 }  // namespace

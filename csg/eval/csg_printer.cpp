@@ -145,7 +145,8 @@ struct OpPrinter {
     out << "cylinder(" << op.facets << ", h = " << op.h << ", r1 = " << op.r1
         << ", r2 = " << op.r2 << ", center = " << op.center << ")";
   }
-  void operator()(const Polyhedron& op) {
+  void operator()(const Polyhedron& polyhedron) {
+    const PolyhedronParams& op = *polyhedron.params;
     out << "polyhedron(";
     if (!op.csg_text.empty()) {
       out << op.csg_text;
@@ -164,7 +165,8 @@ struct OpPrinter {
   void operator()(const Circle& op) {
     out << "circle(" << op.facets << ", r = " << op.r << ")";
   }
-  void operator()(const Polygon& op) {
+  void operator()(const Polygon& polygon) {
+    const PolygonParams& op = *polygon.params;
     out << "polygon(";
     if (!op.csg_text.empty()) {
       out << op.csg_text;

@@ -75,9 +75,10 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
               const EvaluateOptions& options, Diagnostics& diagnostics) {
   Tree tree;
   tree.arena = std::make_shared<std::pmr::monotonic_buffer_resource>(1 << 16);
+  tree.calls = std::make_shared<std::pmr::monotonic_buffer_resource>();
   Resolver resolver(loader, options);
   Unit& unit = resolver.unit_of(program);
-  Interpreter in(resolver, options, diagnostics, *tree.arena);
+  Interpreter in(resolver, options, diagnostics, *tree.arena, *tree.calls);
   in.set_design_folder(
       std::filesystem::absolute(program.source->path()).parent_path().string());
   resolver.resolve(unit);

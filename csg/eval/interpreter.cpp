@@ -1,6 +1,8 @@
 #include "csg/eval/interpreter.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <sanitizer/asan_interface.h>
@@ -20,12 +22,14 @@ std::uintptr_t lowest_stack(std::uintptr_t highest, std::size_t bytes) {
 
 Interpreter::Interpreter(Resolver& resolver, const EvaluateOptions& options,
                          Diagnostics& diagnostics,
-                         std::pmr::monotonic_buffer_resource& arena)
+                         std::pmr::monotonic_buffer_resource& arena,
+                         std::pmr::monotonic_buffer_resource& calls)
     : random(options.seed),
       resolver_(resolver),
       options_(options),
       diagnostics_(diagnostics),
       arena_(arena),
+      calls_(calls),
       stack_begin_(
           reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0))),
       stack_limit_(lowest_stack(stack_begin_, options.stack_bytes)) {}
@@ -229,6 +233,19 @@ std::string_view Interpreter::keep_text(std::string_view text) {
   char* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
   std::copy(text.begin(), text.end(), copy);
   return {copy, text.size()};
+}
+
+const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
+  const double mix = matrix[0].x + 3 * matrix[0].y + 5 * matrix[1].z +
+                     7 * matrix[3].x + 11 * matrix[3].y + 13 * matrix[3].z;
+  const std::size_t slot =
+      (std::bit_cast<std::uint64_t>(mix) * 0x9e3779b97f4a7c15u) >> 58;
+  const Mat4*& kept = recent_matrices_[slot];
+  // The same bits: -0 is not 0 in `.csg`.
+  if (kept == nullptr || std::memcmp(kept, &matrix, sizeof matrix) != 0) {
+    kept = keep(matrix);
+  }
+  return kept;
 }
 
 void Interpreter::make_node(decltype(Node::op) op,

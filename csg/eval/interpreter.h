@@ -1,6 +1,7 @@
 #pragma once
 // The state of one evaluation, and the services that running code needs.
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -35,7 +36,8 @@ class Interpreter {
  public:
   Interpreter(Resolver& resolver, const EvaluateOptions& options,
               Diagnostics& diagnostics,
-              std::pmr::monotonic_buffer_resource& arena);
+              std::pmr::monotonic_buffer_resource& arena,
+              std::pmr::monotonic_buffer_resource& calls);
   ~Interpreter();
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
@@ -153,6 +155,8 @@ class Interpreter {
     return {copy, values.size()};
   }
   std::string_view keep_text(std::string_view text);
+  // Designs turn many parts alike: recent matrices are kept once.
+  const Mat4* keep_matrix(const Mat4& matrix);
 
   // --- Files
   // Remembers a path that a module or function names.
@@ -163,6 +167,10 @@ class Interpreter {
   std::vector<std::string_view>
       module_names;  // of user modules, innermost last
   const CallFrame* current_call = nullptr;
+  const CallFrame* keep_call(const CallFrame& call) {
+    return new (calls_.allocate(sizeof call, alignof(CallFrame)))
+        CallFrame(call);
+  }
 
   // For rands() and everything else that is not a function of its arguments.
   MersenneTwister random;
@@ -194,6 +202,7 @@ class Interpreter {
   const EvaluateOptions& options_;
   Diagnostics& diagnostics_;
   std::pmr::monotonic_buffer_resource& arena_;
+  std::pmr::monotonic_buffer_resource& calls_;
   std::uintptr_t stack_begin_;  // the stack grows down from here
   std::uintptr_t stack_limit_;
   std::uint32_t depth_ = 0;
@@ -205,6 +214,7 @@ class Interpreter {
   // messages, reads of `$` variables, random numbers.
   std::uint64_t effects_ = 0;
   std::vector<const Node*> nodes_;
+  std::array<const Mat4*, 64> recent_matrices_{};  // by hash
   std::set<std::pair<std::string, std::string>> deprecations_;
   std::vector<std::string> files_;
   std::set<std::string> known_files_;

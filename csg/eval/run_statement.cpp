@@ -65,7 +65,7 @@ class ModuleCall {
     call.name = code.name;
     call.range = code.range;
     in.module_names.push_back(code.name);
-    in.current_call = in.keep(call);
+    in.current_call = in.keep_call(call);
   }
   ~ModuleCall() {
     in_.module_names.pop_back();

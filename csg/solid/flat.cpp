@@ -18,7 +18,7 @@ namespace {
 using planar::Contour;
 using planar::Region;
 
-std::vector<Contour> read_paths(const Polygon& polygon, SourceRange range,
+std::vector<Contour> read_paths(const PolygonParams& polygon, SourceRange range,
                                 Diagnostics& diagnostics) {
   const auto points = polygon.points;
   if (!polygon.paths || polygon.paths->empty()) {
@@ -60,7 +60,7 @@ planar::Join join_of(const Offset& offset) {
 
 }  // namespace
 
-Region make_polygon(const Polygon& polygon, SourceRange range,
+Region make_polygon(const PolygonParams& polygon, SourceRange range,
                     Diagnostics& diagnostics) {
   if (!check_points(polygon.wrong_point, "vec2", range, diagnostics)) return {};
   auto contours = read_paths(polygon, range, diagnostics);

@@ -51,7 +51,7 @@ struct Lowered {
 // throws  GeometryError where the solid, or a polygon or face that has to be
 //         clipped on the way, reaches beyond 1e9 mm
 //
-// The scene keeps pointers to the tree's call frames.
+// The scene keeps pointers to the tree's call frames, to nothing else in it.
 Lowered lower(const Tree& tree, const LowerOptions& options,
               Diagnostics& diagnostics);
 

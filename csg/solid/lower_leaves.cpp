@@ -56,8 +56,9 @@ Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
                         const Affine& world) {
   Leaf leaf;
   leaf.meshes.push_back(
-      takes_corners_ ? make_corners(polyhedron, node.range, diagnostics_)
-                     : make_polyhedron(polyhedron, node.range, diagnostics_));
+      takes_corners_
+          ? make_corners(*polyhedron.params, node.range, diagnostics_)
+          : make_polyhedron(*polyhedron.params, node.range, diagnostics_));
   leaf.may_overlap_itself = true;
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};

@@ -16,7 +16,8 @@ Shape Lowerer::lower_op(const Circle& circle, const Node&,
 
 Shape Lowerer::lower_op(const Polygon& polygon, const Node& node,
                         const Affine&) {
-  return {Dimension::kFlat, make_polygon(polygon, node.range, diagnostics_)};
+  return {Dimension::kFlat,
+          make_polygon(*polygon.params, node.range, diagnostics_)};
 }
 
 Shape Lowerer::lower_op(const Offset& op, const Node& node,

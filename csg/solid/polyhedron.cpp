@@ -13,7 +13,7 @@ namespace {
 
 // The face's vertices counter-clockwise, without those that do not exist and
 // without repeats.
-std::vector<std::uint32_t> read_face(const Polyhedron& polyhedron,
+std::vector<std::uint32_t> read_face(const PolyhedronParams& polyhedron,
                                      std::size_t face, SourceRange range,
                                      Diagnostics& diagnostics) {
   std::vector<std::uint32_t> loop;
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> read_face(const Polyhedron& polyhedron,
 
 }  // namespace
 
-Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
+Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
                      Diagnostics& diagnostics) {
   if (!check_points(polyhedron.wrong_point, "vec3", range, diagnostics)) {
     return {};
@@ -65,7 +65,7 @@ Mesh make_polyhedron(const Polyhedron& polyhedron, SourceRange range,
   return mesh;
 }
 
-Mesh make_corners(const Polyhedron& polyhedron, SourceRange range,
+Mesh make_corners(const PolyhedronParams& polyhedron, SourceRange range,
                   Diagnostics& diagnostics) {
   if (!check_points(polyhedron.wrong_point, "vec3", range, diagnostics)) {
     return {};

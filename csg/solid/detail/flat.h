@@ -15,7 +15,7 @@
 
 namespace lamina::csg {
 
-planar::Region make_polygon(const Polygon& polygon, SourceRange range,
+planar::Region make_polygon(const PolygonParams& polygon, SourceRange range,
                             Diagnostics& diagnostics);
 
 planar::Region make_text(const TextParams& params, const Fineness& fineness,

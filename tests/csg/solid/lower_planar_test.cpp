@@ -59,9 +59,9 @@ TEST_F(LowerPlanarTest, ZeroScaleRemovesWithAWarning) {
 TEST_F(LowerPlanarTest, PolygonsTakePathsWithHoles) {
   const std::vector<Vec2> points{{0, 0}, {4, 0}, {4, 4}, {0, 4},
                                  {1, 1}, {2, 1}, {2, 2}, {1, 2}};
-  Polygon polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
+  PolygonParams polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
   polygon.paths = b.copy_lists({{0, 1, 2, 3}, {4, 5, 6, 7, 9}});
-  EXPECT_EQ(planar::area(run_flat({b.node(polygon)})), 15);
+  EXPECT_EQ(planar::area(run_flat({b.polygon(polygon)})), 15);
   EXPECT_EQ(messages(),
             (std::vector<std::string>{
                 "Point index 9 is out of bounds (from paths[1][4])"}));
@@ -74,9 +74,9 @@ TEST_F(LowerPlanarTest, WithoutPathsAPolygonIsAllPoints) {
 
 TEST_F(LowerPlanarTest, PointsThatAreNoneMakeAnEmptyPolygon) {
   const std::vector<Vec2> points{{0, 0}, {2, 0}, {0, 2}};
-  Polygon polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
+  PolygonParams polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
   polygon.wrong_point = "points[2] = [0]";
-  EXPECT_TRUE(run({b.node(polygon)}).is_empty());
+  EXPECT_TRUE(run({b.polygon(polygon)}).is_empty());
   EXPECT_EQ(messages(),
             (std::vector<std::string>{
                 "Unable to convert points[2] = [0] to a vec2 of numbers"}));
@@ -87,9 +87,9 @@ TEST_F(LowerPlanarTest, ContoursWithoutNumbersAreLeftOut) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Vec2> points{{0, 0}, {2, 0}, {0, 2}, {nan, 5},
                                  {9, 9}, {9, 8}, {8, 9}};
-  Polygon polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
+  PolygonParams polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
   polygon.paths = b.copy_lists({{0, 1, 2}, {0, 1, 3}, {4, 5, 6}});
-  EXPECT_EQ(planar::area(run_flat({b.node(polygon)})), 2);
+  EXPECT_EQ(planar::area(run_flat({b.polygon(polygon)})), 2);
   EXPECT_EQ(messages(), std::vector<std::string>{
                             "Range check failed for polygon. skipping"});
 }

@@ -51,12 +51,15 @@ class TreeBuilder {
     return node(LinearExtrude{make<LinearExtrudeParams>(params)}, children);
   }
   Node* polygon(const std::vector<Vec2>& points) {
-    return node(Polygon{copy(std::span<const Vec2>(points)), {}, 1});
+    return polygon(PolygonParams{copy(std::span<const Vec2>(points)), {}, 1});
+  }
+  Node* polygon(const PolygonParams& params) {
+    return node(Polygon{make<PolygonParams>(params)});
   }
   Node* polyhedron(const std::vector<Vec3>& points,
                    const std::vector<std::vector<std::uint32_t>>& faces) {
-    return node(
-        Polyhedron{copy(std::span<const Vec3>(points)), copy_lists(faces), 1});
+    return node(Polyhedron{make<PolyhedronParams>(PolyhedronParams{
+        copy(std::span<const Vec3>(points)), copy_lists(faces), 1})});
   }
   std::span<const std::span<const std::uint32_t>> copy_lists(
       const std::vector<std::vector<std::uint32_t>>& lists) {
@@ -69,7 +72,7 @@ class TreeBuilder {
 
   // The tree with these at the top level.
   Tree tree(const Children& children) {
-    return {arena_, node(Group{}, children), {}};
+    return {arena_, nullptr, node(Group{}, children), {}};
   }
 
   template <typename T>
