@@ -34,43 +34,48 @@ bool keeps_area(double before, double after) {
 // the tolerance.
 class Cone {
  public:
-  explicit Cone(double tolerance) : tolerance_(tolerance) {}
+  // The first vertex, seen from the anchor, and the square of its distance.
+  Cone(double tolerance, Vec2 to, double squared)
+      : tolerance_(tolerance), tolerance_squared_(tolerance * tolerance) {
+    const double cosine = cosine_of(squared);
+    right_ = right_side(to, cosine);
+    left_ = left_side(to, cosine);
+  }
 
-  // Takes another vertex, seen from the anchor, and the square of its distance.
-  // Whether the cone held it before.
+  // Takes another vertex. Whether the cone held it before.
   bool narrow(Vec2 to, double squared) {
-    // Half the angle's sine and cosine, both times the distance. What is
-    // nearer than the tolerance asks for no more than not to lie behind the
-    // anchor.
-    const double cosine =
-        std::sqrt(std::max(0.0, squared - tolerance_ * tolerance_));
-    const Vec2 ahead = to * cosine;
-    const Vec2 aside = left_of(to) * tolerance_;
-    if (is_open_) {
-      if (squared == 0) return true;
-      right_ = ahead - aside;
-      left_ = ahead + aside;
-      is_open_ = false;
-      return true;
-    }
+    const double cosine = cosine_of(squared);
     const double past_right = cross(right_, to);
     const double past_left = cross(to, left_);
-    // By the same, the new sides beside the old ones.
+    // The new sides beside the old ones, multiplied out.
     if (cosine * past_right > tolerance_ * dot(right_, to)) {
-      right_ = ahead - aside;
+      right_ = right_side(to, cosine);
     }
     if (cosine * past_left > tolerance_ * dot(left_, to)) {
-      left_ = ahead + aside;
+      left_ = left_side(to, cosine);
     }
     return past_right >= 0 && past_left >= 0;
   }
   bool is_empty() const { return cross(right_, left_) < 0; }
 
  private:
+  // Of half the angle, times the distance; its sine is the tolerance. What is
+  // nearer than the tolerance asks for no more than not to lie behind the
+  // anchor.
+  double cosine_of(double squared) const {
+    return std::sqrt(std::max(0.0, squared - tolerance_squared_));
+  }
+  Vec2 right_side(Vec2 to, double cosine) const {
+    return to * cosine - left_of(to) * tolerance_;
+  }
+  Vec2 left_side(Vec2 to, double cosine) const {
+    return to * cosine + left_of(to) * tolerance_;
+  }
+
   double tolerance_;
-  bool is_open_ = true;  // all directions
-  Vec2 right_{0, 0};
-  Vec2 left_{0, 0};
+  double tolerance_squared_;
+  Vec2 right_;
+  Vec2 left_;
 };
 
 }  // namespace
@@ -98,19 +103,21 @@ void Simplifier::simplify(ldni::Contours& contours) {
   is_apart_ = false;
   if (!(tolerance_ > 0) || contours.is_empty()) return;
   copy_loops(contours);
-  kept_.assign(points_.size(), 0);
+  vertices_.clear();
+  ends_.clear();
   for (const Loop& loop : loops_) choose(loop);
+  kept_.assign(points_.size(), 0);
+  for (const std::uint32_t i : vertices_) kept_[i] = 1;
+  find_neighbours();
   // A vertex that mending brings back can lie in another strip: look again.
-  bool is_changed = true;
-  while (is_changed) {
-    fill_tree();
+  while (mend()) {
+    list_kept();
     find_neighbours();
-    is_changed = mend();
   }
   // Clear shortcuts keep the distance as well.
   is_apart_ = !has_meetings();
   for (std::size_t l = 0; l < loops_.size(); ++l) {
-    thin_out(loops_[l], l == 0 ? 0 : ends_[l - 1]);
+    thin_out(loops_[l], l == 0 ? 0 : ends_[l - 1], ends_[l]);
   }
   write_kept(contours);
 }
@@ -139,20 +146,30 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
 
 // Chooses vertices as if the loop were alone.
 void Simplifier::choose(const Loop& loop) {
-  for (double tolerance = tolerance_; tolerance > kEndMargin; tolerance /= 2) {
+  const std::size_t begin = vertices_.size();
+  bool is_chosen = false;
+  for (double tolerance = tolerance_; tolerance > kEndMargin && !is_chosen;
+       tolerance /= 2) {
+    vertices_.resize(begin);
     choose_within(loop, tolerance);
-    if (keeps_area(loop.doubled_area, doubled_area_kept(loop))) return;
+    is_chosen = keeps_area(loop.doubled_area,
+                           doubled_area_kept(begin, vertices_.size()));
   }
-  std::fill(kept_.begin() + loop.begin, kept_.begin() + loop.end + 1, 1);
+  if (!is_chosen) {
+    vertices_.resize(begin);
+    for (std::uint32_t i = loop.begin; i <= loop.end; ++i) {
+      vertices_.push_back(i);
+    }
+  }
+  ends_.push_back(static_cast<std::uint32_t>(vertices_.size()));
 }
 
 void Simplifier::choose_within(const Loop& loop, double tolerance) {
-  std::fill(kept_.begin() + loop.begin, kept_.begin() + loop.end, 0);
   for (std::uint32_t anchor = loop.begin; anchor != loop.end;) {
-    kept_[anchor] = 1;
+    vertices_.push_back(anchor);
     anchor = farthest_reach(anchor, loop.end, tolerance);
   }
-  kept_[loop.end] = 1;
+  vertices_.push_back(loop.end);
 }
 
 // Last vertex, at most `end`, for which a straight line from the anchor passes
@@ -170,14 +187,15 @@ std::uint32_t Simplifier::farthest_reach(std::uint32_t anchor,
       2 * tolerance * tolerance * (dot(first, first) + dot(second, second))) {
     return anchor + 1;
   }
-  Cone cone(tolerance);
   std::uint32_t reach = anchor + 1;
-  double farthest = 0;  // squared
-  for (std::uint32_t i = anchor + 1; i <= end; ++i) {
+  double farthest = dot(first, first);  // squared
+  if (farthest == 0) return anchor + 1;
+  Cone cone(tolerance, first, farthest);
+  for (std::uint32_t i = anchor + 2; i <= end; ++i) {
     const Vec2 to = points_[i] - points_[anchor];
     const double squared = dot(to, to);
-    // The end of a shortcut is its farthest vertex.
     const bool is_passed = cone.narrow(to, squared);
+    // The end of a shortcut is its farthest vertex.
     if (squared >= farthest) {
       farthest = squared;
       if (is_passed) reach = i;
@@ -190,7 +208,8 @@ std::uint32_t Simplifier::farthest_reach(std::uint32_t anchor,
   return reach;
 }
 
-void Simplifier::fill_tree() {
+// Writes down the vertices that are kept.
+void Simplifier::list_kept() {
   vertices_.clear();
   ends_.clear();
   for (const Loop& loop : loops_) {
@@ -199,13 +218,14 @@ void Simplifier::fill_tree() {
     }
     ends_.push_back(static_cast<std::uint32_t>(vertices_.size()));
   }
-  tree_.fill(points_, vertices_, ends_);
 }
 
-// Leaves of the tree whose strips and vertices may meet: a strip lies within
+// Fills the tree, and finds the leaves whose strips and vertices may meet: a
+// strip lies within
 // the box of its run, widened by the clearance; and where runs follow each
 // other and advance along an axis, so do their strips.
 void Simplifier::find_neighbours() {
+  tree_.fill(points_, vertices_, ends_);
   near_pairs_.clear();
   tree_.visit_near(clearance_ + 2 * kEndMargin,
                    [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
@@ -267,12 +287,13 @@ bool Simplifier::mend_run(std::uint32_t k) {
   return is_changed;
 }
 
-// Leaves out every vertex that can be spared, one after another. The vertices
-// of the loop begin at `k` in the tree.
-void Simplifier::thin_out(const Loop& loop, std::uint32_t k) {
-  double area = doubled_area_kept(loop);
+// Leaves out every vertex of the loop that can be spared, one after another.
+// It stands at [k, end) in vertices_.
+void Simplifier::thin_out(const Loop& loop, std::uint32_t k,
+                          std::uint32_t end) {
+  double area = doubled_area_kept(k, end);
   std::uint32_t first_k = k;
-  for (++k; vertices_[k] != loop.end; ++k) {
+  for (++k; k + 1 < end; ++k) {
     const std::uint32_t first = vertices_[first_k];
     const std::uint32_t middle = vertices_[k];
     const std::uint32_t last = vertices_[k + 1];
@@ -294,28 +315,26 @@ void Simplifier::thin_out(const Loop& loop, std::uint32_t k) {
 
 void Simplifier::write_kept(ldni::Contours& contours) const {
   contours.clear();
-  for (const Loop& loop : loops_) {
-    for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
+  std::size_t k = 0;
+  for (const std::uint32_t end : ends_) {
+    for (; k + 1 < end; ++k) {
+      const std::uint32_t i = vertices_[k];
       if (kept_[i] != 0) contours.points.push_back(points_[i]);
     }
+    ++k;  // the copy of the first
     contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
   }
 }
 
-std::uint32_t Simplifier::next_kept(std::uint32_t i) const {
-  do {
-    ++i;
-  } while (kept_[i] == 0);
-  return i;
-}
-
-double Simplifier::doubled_area_kept(const Loop& loop) const {
-  const Vec2 origin = points_[loop.begin];
+// Of the loop that stands at [begin, end) in vertices_.
+double Simplifier::doubled_area_kept(std::size_t begin, std::size_t end) const {
+  const Vec2 origin = points_[vertices_[begin]];
   double sum = 0;
-  for (std::uint32_t i = loop.begin; i != loop.end;) {
-    const std::uint32_t next = next_kept(i);
-    sum += cross(points_[i] - origin, points_[next] - origin);
-    i = next;
+  Vec2 before(0);
+  for (std::size_t k = begin + 1; k < end; ++k) {
+    const Vec2 here = points_[vertices_[k]] - origin;
+    sum += cross(before, here);
+    before = here;
   }
   return sum;
 }

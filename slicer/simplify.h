@@ -35,6 +35,7 @@
 //
 // The cost is linear in practice.
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -74,16 +75,15 @@ class Simplifier {
   void choose_within(const Loop& loop, double tolerance);
   std::uint32_t farthest_reach(std::uint32_t anchor, std::uint32_t end,
                                double tolerance) const;
-  void fill_tree();
+  void list_kept();
   void find_neighbours();
   bool has_meetings() const;
   bool mend();
   bool mend_run(std::uint32_t k);
-  void thin_out(const Loop& loop, std::uint32_t k);
+  void thin_out(const Loop& loop, std::uint32_t k, std::uint32_t end);
   void write_kept(ldni::Contours& contours) const;
 
-  std::uint32_t next_kept(std::uint32_t i) const;
-  double doubled_area_kept(const Loop& loop) const;
+  double doubled_area_kept(std::size_t begin, std::size_t end) const;
   Shortcut measure(std::uint32_t first, std::uint32_t last) const;
   bool is_close(const Shortcut& shortcut) const;
   bool is_clear(const Shortcut& shortcut, std::uint32_t k,
@@ -97,7 +97,7 @@ class Simplifier {
   std::vector<Loop> loops_;
   std::vector<std::uint8_t> kept_;      // of points_
   std::vector<std::uint32_t> pending_;  // of a run, the ends that split it
-  // What was kept, in the tree: loops, each with the copy of its first point.
+  // What was kept, of points_, as the tree takes it.
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> ends_;
   LoopTree tree_;
