@@ -3,8 +3,12 @@
 namespace lamina::ldni::detail {
 
 void Band::enclose(const Vec2* first, const Vec2* last, double limit) {
-  const Vec2* end = first + 1;
-  while (end != last && end->x < limit) ++end;
+  const Vec2* end = last;
+  if (last->x >= limit) {
+    end = std::lower_bound(
+        first + 1, last, limit,
+        [](const Vec2& point, double x) { return point.x < x; });
+  }
   right = end->x;
   ends_chain = end == last;
   const double steepness = (end->y - first->y) / (right - left);

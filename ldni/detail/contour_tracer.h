@@ -45,6 +45,7 @@ class ContourTracer {
   void end_piece(std::uint32_t piece, Vec2 point, double key,
                  const Vec2* segment);
 
+  bool has_ends() const { return !ends_.empty(); }
   // Whether an end of this stop is as near to y as makes no difference.
   bool has_end_near(double y) const;
 

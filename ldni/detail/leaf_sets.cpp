@@ -32,7 +32,7 @@ LeafSets::LeafSets(const csg::Scene& scene, Rule rule)
 
 void LeafSets::clear() {
   sets_.assign(1, {});  // the empty set, for which no program holds
-  sets_[kEmpty].is_evaluated = true;
+  values_.assign(1, Value::kEmpty);
   members_.clear();
   index_.assign(std::max(index_.size(), kFirstCapacity), kNone);
   index_[0] = kEmpty;  // hash 0
@@ -79,6 +79,7 @@ LeafSets::Id LeafSets::find_or_add(const Hash& hash, Id base, Step step) {
   set.base = base;
   set.step = step;
   sets_.push_back(set);
+  values_.push_back(Value::kUnknown);
   if (2 * sets_.size() > index_.size()) grow_index();
   return id;
 }
@@ -88,7 +89,7 @@ LeafSets::Id LeafSets::find_or_add(const Hash& hash, Id base, Step step) {
 void LeafSets::evaluate(Id id) {
   ++evaluations_;
   write_members(id);
-  Set& set = sets_[id];
+  const Set& set = sets_[id];
   const Member* begin = members_.data() + set.first_member;
   const Member* end = begin + set.size;
   for (std::size_t i = program_.inside().size(); i-- > 0;) {
@@ -102,8 +103,7 @@ void LeafSets::evaluate(Id id) {
       program_.flip(member->instance, true);
     }
   }
-  set.value = program_.value();
-  set.is_evaluated = true;
+  values_[id] = program_.value() ? Value::kSolid : Value::kEmpty;
 }
 
 // Goes back to a set whose members are written, then counts the steps on the
@@ -111,7 +111,7 @@ void LeafSets::evaluate(Id id) {
 void LeafSets::write_members(Id id) {
   met_.clear();
   Id known = id;
-  for (; !sets_[known].is_evaluated; known = sets_[known].base) {
+  for (; values_[known] == Value::kUnknown; known = sets_[known].base) {
     const Step step = sets_[known].step;
     std::int32_t& count = count_of(step >> 1);
     if (is_counted_[step >> 1]) {
@@ -189,6 +189,7 @@ void LeafSets::add_to_index(Id id) {
 void LeafSets::keep_only(std::vector<Id>& live) {
   for (const Id id : live) value(id);
   const std::vector<Set> old_sets = std::move(sets_);
+  const std::vector<Value> old_values = std::move(values_);
   const std::vector<Member> old_members = std::move(members_);
   std::vector<Id> new_ids(old_sets.size(), kNone);
   new_ids[kEmpty] = kEmpty;
@@ -202,6 +203,7 @@ void LeafSets::keep_only(std::vector<Id>& live) {
       set.first_member = members_.size();
       members_.insert(members_.end(), begin, begin + set.size);
       sets_.push_back(set);
+      values_.push_back(old_values[id]);
       if (2 * sets_.size() > index_.size()) {
         grow_index();
       } else {

@@ -53,8 +53,8 @@ class LeafSets {
 
   // Whether the solid fills what lies in this set.
   bool value(Id set) {
-    if (!sets_[set].is_evaluated) evaluate(set);
-    return sets_[set].value;
+    if (values_[set] == Value::kUnknown) evaluate(set);
+    return values_[set] == Value::kSolid;
   }
 
   std::size_t size() const { return sets_.size(); }
@@ -90,11 +90,11 @@ class LeafSets {
     Hash hash;
     Id base = kEmpty;  // the set and the step that led here first
     Step step = 0;
-    std::uint32_t size = 0;
-    bool is_evaluated = false;  // and its members written
-    bool value = false;
+    std::uint32_t size = 0;  // of its members, once they are written
     std::size_t first_member = 0;
   };
+  // Known from when the members are written.
+  enum class Value : std::uint8_t { kUnknown, kEmpty, kSolid };
   struct KnownStep {
     std::uint64_t key = kFree;  // set and step
     Id result = 0;
@@ -123,6 +123,7 @@ class LeafSets {
   csg::ProgramState program_;
   std::vector<bool> is_counted_;  // an instance
   std::vector<Set> sets_;
+  std::vector<Value> values_;    // of sets_
   std::vector<Member> members_;  // of all evaluated sets
   std::vector<Id> index_;        // open hash of sets_
   std::vector<KnownStep> steps_;

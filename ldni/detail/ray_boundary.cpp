@@ -61,17 +61,18 @@ void RaySweep::update_survival() {
 // Tied entries are one curve: the solid below the lowest against that above
 // the highest decides, and one member stands for all.
 void RaySweep::update_group(std::uint32_t member) {
-  const std::uint32_t sentinel = status_.sentinel();
   std::uint32_t first = member;
-  while (status_[first].below != sentinel &&
-         status_[status_[first].below].is_tied) {
-    first = status_[first].below;
-  }
-  std::uint32_t last = first;
+  while (status_[status_[first].below].is_tied) first = status_[first].below;
+  std::uint32_t last = member;
   while (status_[last].is_tied) last = status_[last].above;
   const bool below = sets_.value(status_[status_[first].below].set);
   const bool above = sets_.value(status_[last].set);
   const auto survival = static_cast<std::int8_t>(above - below);
+  if (first == last) {
+    status_[first].column = column_;
+    change_survival(status_[first], survival);
+    return;
+  }
 
   // Whoever stood for it before goes on.
   std::uint32_t chosen = first;
@@ -119,6 +120,7 @@ void RaySweep::split_at_touches() {
     Entry& entry = status_[number];
     if (entry.touch_column == column_) continue;
     entry.touch_column = column_;
+    if (entry.survival == 0 && !tracer_.has_ends()) continue;
     const double y = y_after(entry);
     if (entry.survival != 0) {
       note_disorder_after(entry.below, number);
