@@ -68,32 +68,32 @@ class ChainCursor {
 
 // A sample of the moving ray, numbered as the layer's chains are. What it says
 // of an interval is said of the one above it, up to the next entry.
-struct Entry {
+//
+// What every stop looks at stands in front, in one line of the cache.
+struct alignas(64) Entry {
   ChainCursor cursor;
-  const Vec2* first = nullptr;  // the chain's first point
   std::uint32_t below = 0;
   std::uint32_t above = 0;
-
   LeafSets::Id set = LeafSets::kEmpty;  // leaves that contain the interval
   LeafSets::Step step = 0;              // of passing the chain upwards
-  bool is_tied = false;      // with the entry above: the interval is none
-  bool is_fresh = false;     // `set` is to be computed anew
-  std::int8_t survival = 0;  // +1: the solid's boundary, solid above; -1: below
-
-  std::uint32_t piece = kNone;    // of the contour, where it survives
   std::uint32_t outlook = 0;      // stamp of the present look at the pair above
   std::uint32_t settled = kNone;  // the stamp of a look that put it in order
   std::uint32_t column = 0;       // the last one that judged its tie group
-  std::uint32_t split_column = 0;  // the last one that ended or began a piece
   std::uint32_t touch_column = 0;  // the last one that looked for touches
-  std::uint32_t near_column = 0;   // the last one that cut all near near_y
-  double near_y = 0;
-
-  double crossing_y = 0;  // where it crosses a flatter chain in that column
-  std::uint32_t crossing_column = 0;
+  std::uint32_t piece = kNone;     // of the contour, where it survives
+  bool is_tied = false;            // with the entry above: the interval is none
+  bool is_fresh = false;           // `set` is to be computed anew
+  std::int8_t survival = 0;  // +1: the solid's boundary, solid above; -1: below
 
   Band band;  // that the chain keeps to, as seen in slab band_slab
   std::uint32_t band_slab = kNone;
+
+  const Vec2* first = nullptr;     // the chain's first point
+  std::uint32_t split_column = 0;  // the last one that ended or began a piece
+  std::uint32_t near_column = 0;   // the last one that cut all near near_y
+  double near_y = 0;
+  double crossing_y = 0;  // where it crosses a flatter chain in that column
+  std::uint32_t crossing_column = 0;
 };
 
 class Status {
