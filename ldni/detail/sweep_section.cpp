@@ -66,11 +66,9 @@ void SweepSectioner::place(const csg::Sweep& sweep,
     const Vec2& point = (*sweep.outline)[j];
     spokes_[j] = x_axis * point.x + y_axis * point.y;
   }
-  scales_.resize(ring_count_);
-  centres_.resize(ring_count_);
+  rings_.resize(ring_count_);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
-    scales_[i] = sweep.profile[i].x;
-    centres_[i] = z_axis * sweep.profile[i].y + origin;
+    rings_[i] = {sweep.profile[i].x, z_axis * sweep.profile[i].y + origin};
   }
   const auto [lowest, highest] = std::minmax_element(
       spokes_.begin(), spokes_.end(),
@@ -93,11 +91,9 @@ bool SweepSectioner::rises_and_falls_once() const {
 void SweepSectioner::find_ranges() {
   ranges_.resize(ring_count_);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
-    const double scale = scales_[i];
-    const double centre = centres_[i].z;
-    ranges_[i].low = layers_->layers_below(scale * spokes_[lowest_].z + centre);
-    ranges_[i].high =
-        layers_->layers_below(scale * spokes_[highest_].z + centre);
+    const Ring& ring = rings_[i];
+    ranges_[i].low = layers_->layers_below(ring.vertex(spokes_[lowest_]).z);
+    ranges_[i].high = layers_->layers_below(ring.vertex(spokes_[highest_]).z);
   }
 }
 
@@ -108,6 +104,13 @@ void SweepSectioner::begin(std::uint32_t layer) {
 
 void SweepSectioner::close(std::uint32_t layer) {
   builder_->close_loop(layer, instance_, orientation_);
+}
+
+inline void SweepSectioner::add_ring_point(RingEdge edge) {
+  const Ring& ring = rings_[edge.ring];
+  builder_->loop().push_back(
+      crossing(ring.vertex(spokes_[edge.spoke]),
+               ring.vertex(spokes_[next_spoke(edge.spoke)]), height_));
 }
 
 // --- Loops round a strip ----------------------------------------------------
@@ -137,16 +140,14 @@ void SweepSectioner::cut_strip(std::uint32_t ring, std::uint32_t upper) {
 void SweepSectioner::add_strip_points(std::uint32_t ring, std::uint32_t upper) {
   std::vector<Vec2>& loop = builder_->loop();
   loop.resize(spoke_count_);
-  const double scale = scales_[ring];
-  const double upper_scale = scales_[upper];
-  const Vec3 centre = centres_[ring];
-  const Vec3 upper_centre = centres_[upper];
+  const Ring lower_ring = rings_[ring];
+  const Ring upper_ring = rings_[upper];
   const double height = height_;
   const Vec3* spokes = spokes_.data();
   Vec2* points = loop.data();
   for (std::uint32_t j = 0; j < spoke_count_; ++j) {
-    points[j] = crossing(scale * spokes[j] + centre,
-                         upper_scale * spokes[j] + upper_centre, height);
+    points[j] = crossing(lower_ring.vertex(spokes[j]),
+                         upper_ring.vertex(spokes[j]), height);
   }
 }
 
@@ -195,7 +196,7 @@ void SweepSectioner::find_crossed_edges() {
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
     if (ranges_[i].low >= ranges_[i].high) continue;
     const auto layers_below = [&](std::uint32_t j) {
-      return layers_->layers_below(scales_[i] * spokes_[j].z + centres_[i].z);
+      return layers_->layers_below(rings_[i].vertex(spokes_[j]).z);
     };
     std::uint32_t here = layers_below(0);
     for (std::uint32_t j = 0; j < spoke_count_; ++j) {
@@ -256,30 +257,39 @@ void SweepSectioner::trace(RingEdge start, std::uint32_t layer) {
 bool SweepSectioner::pass_strip(RingEdge& edge, std::uint32_t strip,
                                 Side entry) {
   const std::uint32_t upper = next_ring(strip);
+  // Copies, which no point added can change for the compiler.
+  const Ring lower_ring = rings_[strip];
+  const Ring upper_ring = rings_[upper];
+  const Vec3* spokes = spokes_.data();
+  const double threshold = threshold_;
+  const auto is_below = [&](const Ring& ring, std::uint32_t spoke) {
+    return !(ring.vertex(spokes[spoke]).z > threshold);
+  };
+  std::vector<Vec2>& loop = builder_->loop();
   std::uint32_t j = edge.spoke;
   for (;;) {
     const std::uint32_t k = next_spoke(j);
     Side exit = Side::kLowerRing;
     switch (entry) {
       case Side::kLowerRing:
-        exit = !is_above(upper, j)   ? Side::kSpoke
-               : !is_above(upper, k) ? Side::kUpperRing
-                                     : Side::kNextSpoke;
+        exit = is_below(upper_ring, j)   ? Side::kSpoke
+               : is_below(upper_ring, k) ? Side::kUpperRing
+                                         : Side::kNextSpoke;
         break;
       case Side::kNextSpoke:
-        exit = !is_above(strip, j)   ? Side::kLowerRing
-               : !is_above(upper, j) ? Side::kSpoke
-                                     : Side::kUpperRing;
+        exit = is_below(lower_ring, j)   ? Side::kLowerRing
+               : is_below(upper_ring, j) ? Side::kSpoke
+                                         : Side::kUpperRing;
         break;
       case Side::kUpperRing:
-        exit = !is_above(strip, k)   ? Side::kNextSpoke
-               : !is_above(strip, j) ? Side::kLowerRing
-                                     : Side::kSpoke;
+        exit = is_below(lower_ring, k)   ? Side::kNextSpoke
+               : is_below(lower_ring, j) ? Side::kLowerRing
+                                         : Side::kSpoke;
         break;
       case Side::kSpoke:
-        exit = !is_above(upper, k)   ? Side::kUpperRing
-               : !is_above(strip, k) ? Side::kNextSpoke
-                                     : Side::kLowerRing;
+        exit = is_below(upper_ring, k)   ? Side::kUpperRing
+               : is_below(lower_ring, k) ? Side::kNextSpoke
+                                         : Side::kLowerRing;
         break;
     }
     switch (exit) {
@@ -290,16 +300,16 @@ bool SweepSectioner::pass_strip(RingEdge& edge, std::uint32_t strip,
         edge = {upper, j};
         return true;
       case Side::kNextSpoke:
-        add_spoke_point(strip, k);
-        j = k;
         entry = Side::kSpoke;
         break;
       case Side::kSpoke:
-        add_spoke_point(strip, j);
-        j = previous_spoke(j);
         entry = Side::kNextSpoke;
         break;
     }
+    const Vec3& spoke = spokes[exit == Side::kNextSpoke ? k : j];
+    loop.push_back(
+        crossing(lower_ring.vertex(spoke), upper_ring.vertex(spoke), height_));
+    j = exit == Side::kNextSpoke ? k : previous_spoke(j);
   }
 }
 
@@ -345,21 +355,6 @@ std::uint32_t SweepSectioner::leave_last_cap(std::uint32_t spoke) const {
   spoke = previous_spoke(spoke);
   while (is_above(ring, spoke)) spoke = previous_spoke(spoke);
   return spoke;
-}
-
-// --- Points -----------------------------------------------------------------
-
-void SweepSectioner::add_ring_point(RingEdge edge) {
-  add_crossing(vertex(edge.ring, edge.spoke),
-               vertex(edge.ring, next_spoke(edge.spoke)));
-}
-
-void SweepSectioner::add_spoke_point(std::uint32_t ring, std::uint32_t spoke) {
-  add_crossing(vertex(ring, spoke), vertex(next_ring(ring), spoke));
-}
-
-void SweepSectioner::add_crossing(const Vec3& from, const Vec3& to) {
-  builder_->loop().push_back(crossing(from, to, height_));
 }
 
 }  // namespace lamina::ldni::detail

@@ -65,6 +65,13 @@ class SweepSectioner {
   // Side of a quad that a walk enters by: its lower ring (scale_i, height_i),
   // its next spoke, its upper ring, its own spoke.
   enum class Side : std::uint8_t { kLowerRing, kNextSpoke, kUpperRing, kSpoke };
+  // A ring in the world: from a spoke to its vertex.
+  struct Ring {
+    double scale;
+    Vec3 centre;
+
+    Vec3 vertex(const Vec3& spoke) const { return scale * spoke + centre; }
+  };
   // A place on ring `ring` between spokes `spoke` and the next one.
   struct RingEdge {
     std::uint32_t ring = 0;
@@ -88,10 +95,7 @@ class SweepSectioner {
   void close(std::uint32_t layer);
 
   bool is_above(std::uint32_t ring, std::uint32_t spoke) const {
-    return scales_[ring] * spokes_[spoke].z + centres_[ring].z > threshold_;
-  }
-  Vec3 vertex(std::uint32_t ring, std::uint32_t spoke) const {
-    return scales_[ring] * spokes_[spoke] + centres_[ring];
+    return rings_[ring].vertex(spokes_[spoke]).z > threshold_;
   }
   std::uint32_t next_spoke(std::uint32_t spoke) const {
     return spoke + 1 == spoke_count_ ? 0 : spoke + 1;
@@ -110,14 +114,11 @@ class SweepSectioner {
   std::uint32_t leave_first_cap(std::uint32_t spoke) const;
   std::uint32_t leave_last_cap(std::uint32_t spoke) const;
   void add_ring_point(RingEdge edge);
-  void add_spoke_point(std::uint32_t ring, std::uint32_t spoke);
-  void add_crossing(const Vec3& from, const Vec3& to);
   void mark(RingEdge edge, std::uint32_t layer);
 
   // The sweep in hand, placed in the world.
   std::vector<Vec3> spokes_;
-  std::vector<Vec3> centres_;
-  std::vector<double> scales_;
+  std::vector<Ring> rings_;
   std::uint32_t spoke_count_ = 0;
   std::uint32_t ring_count_ = 0;
   bool is_closed_ = false;
