@@ -45,14 +45,15 @@ class FacetJoiner {
   // count  of facets; a guess
   explicit FacetJoiner(std::size_t count) : vertices_(count / 2 + 3) {
     triangles_.reserve(count);
+    corners_.back() = Vec3(std::numeric_limits<double>::quiet_NaN());
+    last_.fill(kAtOnce);
   }
 
   void add(const std::array<Vec3, 3>& corners) {
     if (waiting_ + 3 > kAtOnce) join();
-    std::array<std::uint32_t, 3> places{};
-    for (int i = 0; i < 3; ++i) places[i] = place_of(corners[i]);
-    last_places_ = places;
-    last_corners_ = corners;
+    const std::array<std::uint32_t, 3> places = {
+        place_of(corners[0]), place_of(corners[1]), place_of(corners[2])};
+    last_ = places;
     triangles_.push_back(places);
   }
 
@@ -64,8 +65,8 @@ class FacetJoiner {
  private:
   // Among the corners that wait.
   std::uint32_t place_of(const Vec3& corner) {
-    for (int i = 0; i < 3; ++i) {
-      if (corner == last_corners_[i]) return last_places_[i];
+    for (const std::uint32_t place : last_) {
+      if (corners_[place] == corner) return place;
     }
     corners_[waiting_] = corner;
     return waiting_++;
@@ -79,19 +80,18 @@ class FacetJoiner {
       for (std::uint32_t& corner : triangles_[joined_]) corner = names[corner];
     }
     waiting_ = 0;
-    last_corners_.fill(kNowhere);
+    last_.fill(kAtOnce);
   }
 
-  static constexpr std::size_t kAtOnce = 96;  // corners
-  static constexpr Vec3 kNowhere{std::numeric_limits<double>::quiet_NaN()};
+  static constexpr std::uint32_t kAtOnce = 96;  // corners
 
   VertexTable vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::size_t joined_ = 0;  // of triangles_
-  std::array<Vec3, kAtOnce> corners_{};
+  // Behind them one that equals none.
+  std::array<Vec3, kAtOnce + 1> corners_{};
   std::uint32_t waiting_ = 0;
-  std::array<Vec3, 3> last_corners_{kNowhere, kNowhere, kNowhere};
-  std::array<std::uint32_t, 3> last_places_{};
+  std::array<std::uint32_t, 3> last_{};  // places of the last facet's corners
 };
 
 // The facets of a binary file.

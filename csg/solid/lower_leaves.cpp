@@ -13,6 +13,12 @@
 namespace lamina::csg {
 namespace {
 
+// Whether the map turns and scales nothing.
+bool is_shift(const Affine& m) {
+  return m[0] == Vec3(1, 0, 0) && m[1] == Vec3(0, 1, 0) &&
+         m[2] == Vec3(0, 0, 1);
+}
+
 // Other sizes than these make OpenSCAD's primitives empty.
 bool is_size(double x) { return x > 0 && std::isfinite(x); }
 
@@ -147,7 +153,11 @@ Box3 Lowerer::bound(std::uint32_t leaf, const Affine& m) {
   KeptBox& kept = kept_boxes_[slot];
   const bool is_same = kept.leaf == leaf && kept.linear[0] == m[0] &&
                        kept.linear[1] == m[1] && kept.linear[2] == m[2];
-  if (!is_same) kept = {leaf, m, bound_leaf(leaves_[leaf], m)};
+  if (!is_same) {
+    const Box3 box =
+        is_shift(m) ? leaves_[leaf].box : bound_leaf(leaves_[leaf], m);
+    kept = {leaf, m, box};
+  }
   return shift_box(kept.box, m[3]);
 }
 
