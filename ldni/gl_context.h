@@ -23,7 +23,7 @@ struct GlVersion {
 };
 
 // A state machine of OpenGL's, with its objects. For one thread at a time,
-// while a GlScope of that thread lives.
+// while a GlScope of that thread lives. May outlive its platform.
 class GlContext {
  public:
   virtual ~GlContext() = default;

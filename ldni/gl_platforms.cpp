@@ -69,22 +69,23 @@ struct OsMesaFunctions {
 
 class OsMesaContext final : public GlContext {
  public:
-  OsMesaContext(const OsMesaFunctions& osmesa, OSMesaContext context)
-      : osmesa_(osmesa), context_(context) {}
-  ~OsMesaContext() override { osmesa_.destroy(context_); }
+  OsMesaContext(std::shared_ptr<const OsMesaFunctions> osmesa,
+                OSMesaContext context)
+      : osmesa_(std::move(osmesa)), context_(context) {}
+  ~OsMesaContext() override { osmesa_->destroy(context_); }
 
  private:
   void make_current() override {
-    if (osmesa_.make_current(context_, window_.data(), GL_UNSIGNED_BYTE, 1,
-                             1) == GL_FALSE) {
+    if (osmesa_->make_current(context_, window_.data(), GL_UNSIGNED_BYTE, 1,
+                              1) == GL_FALSE) {
       fail("OSMesa can't draw");
     }
   }
   void release() override {
-    osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+    osmesa_->make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
   }
 
-  const OsMesaFunctions& osmesa_;
+  std::shared_ptr<const OsMesaFunctions> osmesa_;
   OSMesaContext context_;
   // OSMesa wants a picture to draw in; nothing is drawn in this one.
   std::array<unsigned char, 4> window_{};
@@ -102,17 +103,18 @@ class OsMesaPlatform final : public GlPlatform {
                                             OSMESA_CONTEXT_MINOR_VERSION,
                                             least.minor,
                                             0};
-    const OSMesaContext context = osmesa_.create(attributes.data(), nullptr);
+    const OSMesaContext context = osmesa_->create(attributes.data(), nullptr);
     if (context == nullptr) {
       fail(fmt::format("OSMesa has no OpenGL {}.{}", least.major, least.minor));
     }
     return std::make_unique<OsMesaContext>(osmesa_, context);
   }
   Finder finder() const override {
-    return [this](const char* name) { return osmesa_.find(name); };
+    return [this](const char* name) { return osmesa_->find(name); };
   }
 
-  OsMesaFunctions osmesa_;
+  std::shared_ptr<const OsMesaFunctions> osmesa_ =
+      std::make_shared<const OsMesaFunctions>();
 };
 
 // --- EGL --------------------------------------------------------------------
@@ -150,23 +152,25 @@ struct EglFunctions {
 
 class EglContext final : public GlContext {
  public:
-  EglContext(const EglFunctions& egl, EGLDisplay display, EGLContext context)
-      : egl_(egl), display_(display), context_(context) {}
-  ~EglContext() override { egl_.destroy_context(display_, context_); }
+  EglContext(std::shared_ptr<const EglFunctions> egl, EGLDisplay display,
+             EGLContext context)
+      : egl_(std::move(egl)), display_(display), context_(context) {}
+  ~EglContext() override { egl_->destroy_context(display_, context_); }
 
  private:
   void make_current() override {
-    egl_.bind_api(EGL_OPENGL_API);
-    if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) ==
-        EGL_FALSE) {
+    egl_->bind_api(EGL_OPENGL_API);
+    if (egl_->make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE,
+                           context_) == EGL_FALSE) {
       fail("EGL can't draw");
     }
   }
   void release() override {
-    egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl_->make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE,
+                       EGL_NO_CONTEXT);
   }
 
-  const EglFunctions& egl_;
+  std::shared_ptr<const EglFunctions> egl_;
   EGLDisplay display_;
   EGLContext context_;
 };
@@ -193,7 +197,7 @@ class EglPlatform final : public GlPlatform {
     if (context == EGL_NO_CONTEXT) {
       fail(fmt::format("EGL has no OpenGL {}.{}", least.major, least.minor));
     }
-    return std::make_unique<EglContext>(*egl_, display_, context);
+    return std::make_unique<EglContext>(egl_, display_, context);
   }
   Finder finder() const override {
     return [this](const char* name) { return egl_->find(name); };
