@@ -218,7 +218,7 @@ void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
     return;
   }
   const csg::Scene& scene = *lowered.scene();
-  ProgressSink progress(sink, run.terminal, scene.box.low.z, scene.box.high.z);
+  ProgressSink progress(sink, run.terminal);
   run.report.slice =
       slicer::slice(scene, run.options.settings, progress, run.diagnostics);
   run.report.origins = origins_of(scene, run.report.slice.features);
@@ -250,6 +250,18 @@ std::string sampler_name(const slicer::Settings& settings) {
       return "gl-peeling";
   }
   return {};
+}
+
+// The panel of the printer; of formats without images an empty one.
+slicer::Panel chosen_panel(const DesignOptions& options) {
+  const bool is_sl1 = options.format == OutputFormat::kSl1;
+  if (!is_sl1 && options.format != OutputFormat::kPng) return {};
+  const std::string usual = is_sl1 ? "prusa-sl1" : "plain";
+  slicer::Panel panel =
+      slicer::find_panel(options.printer.empty() ? usual : options.printer);
+  if (options.mirrors_x) panel.right = -panel.right;
+  if (options.mirrors_y) panel.up = -panel.up;
+  return panel;
 }
 
 void finish_report(Run& run, std::uint64_t output_bytes) {
@@ -293,19 +305,21 @@ int compile(Run& run) {
   }
   if (loaded.has_failed || evaluated.has_failed) return kFault;
 
-  slicer::OutputFile output(run.options.output, run.temporary_files);
   auto deviation = promised_deviation(run.options);
-  const auto writer = slicer::make_layer_writer(
-      {run.options.format, run.options.cli_encoding,
-       deviation ? std::optional(deviation->from_section()) : std::nullopt},
-      output);
+  slicer::WriterOptions how;
+  how.format = run.options.format;
+  how.cli = run.options.cli_encoding;
+  how.panel = chosen_panel(run.options);
+  if (deviation) how.deviation = deviation->from_section();
+  const auto writer =
+      slicer::make_layer_writer(how, run.options.output, run.temporary_files);
   make_layers(run, std::move(evaluated.tree), *writer);
   writer->finish(run.diagnostics);
   if (deviation) deviation->rounding = writer->greatest_rounding();
   run.report.deviation = deviation;
   run.report.snapped_layers = writer->snapped_layers();
-  output.commit();
-  finish_report(run, output.size());
+  writer->commit();
+  finish_report(run, writer->size());
   return kDone;
 }
 

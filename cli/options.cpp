@@ -261,6 +261,11 @@ void add_options(CLI::App& app, Parsed& parsed) {
     parsed.design.cli_encoding = word == "ascii" ? slicer::CliEncoding::kAscii
                                                  : slicer::CliEncoding::kBinary;
   });
+  app.add_option("--printer", parsed.design.printer)->type_name("printer");
+  add_choice(app, "--mirror", {"x", "y", "xy"}, [&](const std::string& axes) {
+    parsed.design.mirrors_x = axes != "y";
+    parsed.design.mirrors_y = axes != "x";
+  });
   app.add_option("--report", parsed.design.report)->type_name("file");
   app.add_option("-d", parsed.design.dependencies)->type_name("file");
   add_design_options(app, parsed.design, parsed.definitions);

@@ -20,6 +20,9 @@ struct DesignOptions {
   std::string output;  // "-": standard output
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
   slicer::CliEncoding cli_encoding = slicer::CliEncoding::kBinary;
+  std::string printer;     // name or profile of its panel; empty: the format's
+  bool mirrors_x = false;  // the image
+  bool mirrors_y = false;
   std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
   std::string parameter_file;     // -p; empty: none
   std::string parameter_set;      // -P

@@ -105,6 +105,12 @@ void Terminal::clear_progress() {
   has_progress_ = false;
 }
 
+void ProgressSink::begin(const Box3& box) {
+  bottom_ = box.low.z;
+  top_ = box.high.z;
+  sink_.begin(box);
+}
+
 void ProgressSink::take(const slicer::Layer& layer) {
   sink_.take(layer);
   terminal_.show_progress((layer.top - bottom_) / (top_ - bottom_));

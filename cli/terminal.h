@@ -52,17 +52,17 @@ class Terminal {
 // Passes layers on and shows how far they have come between two heights.
 class ProgressSink : public slicer::LayerSink {
  public:
-  ProgressSink(slicer::LayerSink& sink, Terminal& terminal, double bottom,
-               double top)
-      : sink_(sink), terminal_(terminal), bottom_(bottom), top_(top) {}
+  ProgressSink(slicer::LayerSink& sink, Terminal& terminal)
+      : sink_(sink), terminal_(terminal) {}
 
+  void begin(const Box3& box) override;
   void take(const slicer::Layer& layer) override;
 
  private:
   slicer::LayerSink& sink_;
   Terminal& terminal_;
-  double bottom_;
-  double top_;
+  double bottom_ = 0;
+  double top_ = 0;
 };
 
 }  // namespace lamina::cli

@@ -40,13 +40,14 @@ class Coverage {
   std::vector<double> sums_;  // rows of width_ + 2
 };
 
-// Where millimetres go in an image: x right, y up there, down here.
+// Where millimetres go in an image, whose y runs down.
 struct PixelMap {
-  Vec2 origin = Vec2(0);  // the pixel place of (0, 0) mm
-  double scale = 1;       // pixels per mm
+  Vec2 origin = Vec2(0);     // the pixel place of (0, 0) mm
+  Vec2 per_x = Vec2(1, 0);   // pixels per mm of x
+  Vec2 per_y = Vec2(0, -1);  // and of y
 
   Vec2 operator()(Vec2 mm) const {
-    return {origin.x + scale * mm.x, origin.y - scale * mm.y};
+    return origin + mm.x * per_x + mm.y * per_y;
   }
 };
 

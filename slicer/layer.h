@@ -25,6 +25,9 @@ struct Layer {
 class LayerSink {
  public:
   virtual ~LayerSink() = default;
+  // Once, before the first layer. box: no contour reaches beyond it but by
+  // what --compensate adds.
+  virtual void begin(const Box3& /*box*/) {}
   virtual void take(const Layer& layer) = 0;
 };
 

@@ -127,11 +127,10 @@ void draw_layer(Image& image, const Layer& layer, const Rectangle& tile,
                 const Bounds& bounds) {
   const Vec2 room(tile.width - 2.0 * kPadding, tile.height - 2.0 * kPadding);
   const Vec2 size = bounds.size();
-  PixelMap map;
-  map.scale = std::min(room.x / std::max(size.x, 1e-9),
-                       room.y / std::max(size.y, 1e-9));
-  map.origin = Vec2(tile.width, tile.height) / 2.0 +
-               map.scale * Vec2(-bounds.center().x, bounds.center().y);
+  const double scale = std::min(room.x / std::max(size.x, 1e-9),
+                                room.y / std::max(size.y, 1e-9));
+  PixelMap map{Vec2(0), {scale, 0}, {0, -scale}};
+  map.origin = Vec2(tile.width, tile.height) / 2.0 - map(bounds.center());
   Coverage solid(tile.width, tile.height);
   add_contours(solid, layer.contours, map);
   blend(image, solid, tile.x, tile.y, kSolid);

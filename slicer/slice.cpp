@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
@@ -442,6 +443,7 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   if (settings.min_feature > 0) {
     features.emplace(settings.min_feature, number_makers(scene));
   }
+  sink.begin(scene.box);
   OrderedOutput output(grid, settings, sink, features ? &*features : nullptr,
                        report);
   const unsigned threads =
@@ -456,6 +458,21 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   if (report.layers == 0) throw_empty(report);
   return report;
 }
+
+namespace {
+
+// In the plane z = 0.
+Box3 box_of(const ldni::Contours& contours) {
+  Box3 box;
+  box.low.z = box.high.z = 0;
+  for (const Vec2& point : contours.points) {
+    box.low = glm::min(box.low, Vec3(point, 0));
+    box.high = glm::max(box.high, Vec3(point, 0));
+  }
+  return box;
+}
+
+}  // namespace
 
 SliceReport slice_outline(const planar::Region& outline,
                           const Settings& settings, LayerSink& sink,
@@ -479,6 +496,7 @@ SliceReport slice_outline(const planar::Region& outline,
   report.losses = compensator.counts();
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (layer.contours.is_empty()) throw_empty(report);
+  sink.begin(box_of(layer.contours));
   sink.take(layer);
   return report;
 }

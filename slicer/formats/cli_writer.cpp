@@ -41,8 +41,9 @@ void print_number(OutputFile& output, float value) {
 
 }  // namespace
 
-CliWriter::CliWriter(OutputFile& output, CliEncoding encoding)
-    : output_(output), encoding_(encoding) {
+CliWriter::CliWriter(const std::string& path, TemporaryFiles& temporary_files,
+                     CliEncoding encoding)
+    : FileWriter(path, temporary_files), encoding_(encoding) {
   write_header();
 }
 

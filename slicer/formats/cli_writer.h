@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "slicer/formats/float_contours.h"
 #include "slicer/formats/layer_writer.h"
@@ -20,9 +21,10 @@
 
 namespace lamina::slicer {
 
-class CliWriter : public LayerWriter {
+class CliWriter : public FileWriter {
  public:
-  CliWriter(OutputFile& output, CliEncoding encoding);
+  CliWriter(const std::string& path, TemporaryFiles& temporary_files,
+            CliEncoding encoding);
 
   // Throws FileError where two layers fall on the same float32 height.
   void take(const Layer& layer) override;
@@ -40,7 +42,6 @@ class CliWriter : public LayerWriter {
   void write_height(float z);
   void write_loop(std::span<const FloatPoint> loop);
 
-  OutputFile& output_;
   const CliEncoding encoding_;
   std::uint32_t layers_ = 0;
   float bottom_z_ = 0;  // of the first layer

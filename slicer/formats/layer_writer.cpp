@@ -2,6 +2,7 @@
 
 #include "parser/check.h"
 #include "slicer/formats/cli_writer.h"
+#include "slicer/formats/image_stack_writer.h"
 #include "slicer/formats/layers_json_writer.h"
 #include "slicer/formats/slc_writer.h"
 #include "slicer/formats/svg_writer.h"
@@ -9,20 +10,25 @@
 namespace lamina::slicer {
 
 std::unique_ptr<LayerWriter> make_layer_writer(const WriterOptions& options,
-                                               OutputFile& output) {
+                                               const std::string& path,
+                                               TemporaryFiles& files) {
   switch (options.format) {
     case OutputFormat::kSlc:
-      return std::make_unique<SlcWriter>(output, options.deviation);
+      return std::make_unique<SlcWriter>(path, files, options.deviation);
     case OutputFormat::kCli:
-      return std::make_unique<CliWriter>(output, options.cli);
+      return std::make_unique<CliWriter>(path, files, options.cli);
     case OutputFormat::kSvg:
-      return std::make_unique<SvgWriter>(output);
+      return std::make_unique<SvgWriter>(path, files);
+    case OutputFormat::kPng:
+    case OutputFormat::kSl1:
+      return std::make_unique<ImageStackWriter>(options.format, options.panel,
+                                                path, files);
     default:
       break;
   }
   LAMINA_CHECK_EQ(static_cast<int>(options.format),
                   static_cast<int>(OutputFormat::kLayersJson));
-  return std::make_unique<LayersJsonWriter>(output);
+  return std::make_unique<LayersJsonWriter>(path, files);
 }
 
 }  // namespace lamina::slicer

@@ -19,7 +19,9 @@ void write_loop(OutputFile& output, std::span<const Vec2> loop) {
 
 }  // namespace
 
-LayersJsonWriter::LayersJsonWriter(OutputFile& output) : output_(output) {
+LayersJsonWriter::LayersJsonWriter(const std::string& path,
+                                   TemporaryFiles& temporary_files)
+    : FileWriter(path, temporary_files) {
   output_.write("{\"units\":\"mm\",\"layers\":[");
 }
 

@@ -8,19 +8,20 @@
 // z is the height of the section. One line a layer; numbers are the shortest
 // that read back as the same double.
 
+#include <string>
+
 #include "slicer/formats/layer_writer.h"
 
 namespace lamina::slicer {
 
-class LayersJsonWriter : public LayerWriter {
+class LayersJsonWriter : public FileWriter {
  public:
-  explicit LayersJsonWriter(OutputFile& output);
+  LayersJsonWriter(const std::string& path, TemporaryFiles& temporary_files);
 
   void take(const Layer& layer) override;
   void finish(Diagnostics& diagnostics) override;
 
  private:
-  OutputFile& output_;
   bool has_layers_ = false;
 };
 

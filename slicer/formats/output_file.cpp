@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -59,12 +62,53 @@ std::string hidden_sibling(const std::string& path, int attempt) {
                      ::getpid(), attempt);
 }
 
+// A file, or a folder with all that it holds.
+void remove_all(const std::string& path) {
+  std::error_code ignored;
+  std::filesystem::remove_all(path, ignored);
+}
+
 }  // namespace
 
 void TemporaryFiles::discard_all() {
   // The lock is never given back: no output can be committed any more.
   mutex_.lock();
-  for (const std::string& path : paths_) ::unlink(path.c_str());
+  for (const std::string& path : paths_) remove_all(path);
+}
+
+std::string TemporaryFiles::make_folder(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  for (int attempt = 0;; ++attempt) {
+    std::string folder = hidden_sibling(path, attempt);
+    if (::mkdir(folder.c_str(), 0777) == 0) {
+      paths_.push_back(folder);
+      return folder;
+    }
+    if (errno != EEXIST) return {};
+  }
+}
+
+bool TemporaryFiles::commit_folder(const std::string& folder,
+                                   const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  // A name that is free, or an empty folder, is taken by a rename. Else the
+  // two change places at once, where the file system can do that.
+  if (::rename(folder.c_str(), path.c_str()) != 0) {
+    if (errno != ENOTEMPTY && errno != EEXIST) return false;
+    if (::renameat2(AT_FDCWD, folder.c_str(), AT_FDCWD, path.c_str(),
+                    RENAME_EXCHANGE) != 0) {
+      return false;
+    }
+    remove_all(folder);
+  }
+  std::erase(paths_, folder);
+  return true;
+}
+
+void TemporaryFiles::discard(const std::string& folder) {
+  const std::lock_guard lock(mutex_);
+  remove_all(folder);
+  std::erase(paths_, folder);
 }
 
 OutputFile::OutputFile(std::string path, TemporaryFiles& temporary_files)

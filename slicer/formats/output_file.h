@@ -18,13 +18,21 @@
 
 namespace lamina::slicer {
 
-// The temporary files of a run, so that whoever stops the run can remove them.
-// Safe to use from several threads.
+// The temporary files and folders of a run, so that whoever stops the run can
+// remove them. Safe to use from several threads.
 class TemporaryFiles {
  public:
   // Removes them all and forbids new ones and renames from now on: for the
   // thread that ends the process after an interrupt.
   void discard_all();
+
+  // A new folder under a hidden name beside `path`; empty if it cannot be made
+  // (errno tells why).
+  std::string make_folder(const std::string& path);
+  // Puts that folder in the place of `path` and removes what stood there.
+  // False if it cannot (errno).
+  bool commit_folder(const std::string& folder, const std::string& path);
+  void discard(const std::string& folder);
 
  private:
   friend class OutputFile;

@@ -12,18 +12,19 @@ struct Written {
   std::string_view extension;
   OutputFormat format;
 };
-constexpr std::array<Written, 7> kWritten = {{
+constexpr std::array<Written, 9> kWritten = {{
     {"slc", OutputFormat::kSlc},
     {"cli", OutputFormat::kCli},
     {"svg", OutputFormat::kSvg},
+    {"png", OutputFormat::kPng},
+    {"sl1", OutputFormat::kSl1},
     {"layers.json", OutputFormat::kLayersJson},
     {"ast", OutputFormat::kAst},
     {"echo", OutputFormat::kEcho},
     {"csg", OutputFormat::kCsg},
 }};
 
-constexpr std::array<std::string_view, 4> kNotYetWritten = {"png", "sl1", "zip",
-                                                            "3mf"};
+constexpr std::array<std::string_view, 2> kNotYetWritten = {"zip", "3mf"};
 
 // What openscad writes and lamina has no mesh for, with what comes nearest.
 struct Refused {
@@ -77,7 +78,7 @@ FormatChoice choose_output_format(std::string_view name) {
   }
   return {{},
           fmt::format("'{}' has no extension that lamina knows (.slc .cli "
-                      ".svg .layers.json .csg .echo .ast)",
+                      ".svg .png .sl1 .layers.json .csg .echo .ast)",
                       name),
           false};
 }

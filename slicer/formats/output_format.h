@@ -11,6 +11,8 @@ enum class OutputFormat {
   kSlc,
   kCli,
   kSvg,
+  kPng,  // a folder of images
+  kSl1,
   kLayersJson,
   kAst,   // the parser's product
   kEcho,  // what the design says

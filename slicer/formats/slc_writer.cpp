@@ -25,8 +25,9 @@ void append(OutputFile& output, const Value& value) {
 
 }  // namespace
 
-SlcWriter::SlcWriter(OutputFile& output, std::optional<double> deviation)
-    : output_(output), deviation_(deviation) {}
+SlcWriter::SlcWriter(const std::string& path, TemporaryFiles& temporary_files,
+                     std::optional<double> deviation)
+    : FileWriter(path, temporary_files), deviation_(deviation) {}
 
 // The program's name; "lamina 0.1.0 within 0.00100117000 mm".
 std::string SlcWriter::package() const {

@@ -16,11 +16,12 @@
 
 namespace lamina::slicer {
 
-class SlcWriter : public LayerWriter {
+class SlcWriter : public FileWriter {
  public:
   // deviation  as in WriterOptions; the header tells it, and what
   //            rounding adds, behind the name of the program
-  SlcWriter(OutputFile& output, std::optional<double> deviation);
+  SlcWriter(const std::string& path, TemporaryFiles& temporary_files,
+            std::optional<double> deviation);
 
   // Throws FileError where two layers fall on the same float32 height.
   void take(const Layer& layer) override;
@@ -39,7 +40,6 @@ class SlcWriter : public LayerWriter {
   void write_header();
   std::string package() const;
 
-  OutputFile& output_;
   const std::optional<double> deviation_;
   bool has_layers_ = false;
   float bottom_z_ = 0;  // of the first layer

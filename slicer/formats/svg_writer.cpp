@@ -7,7 +7,10 @@
 
 namespace lamina::slicer {
 
-SvgWriter::SvgWriter(OutputFile& output) : output_(output) { write_head(); }
+SvgWriter::SvgWriter(const std::string& path, TemporaryFiles& temporary_files)
+    : FileWriter(path, temporary_files) {
+  write_head();
+}
 
 void SvgWriter::write_head() {
   const FloatPoint low = contours_.low();

@@ -10,15 +10,16 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "slicer/formats/float_contours.h"
 #include "slicer/formats/layer_writer.h"
 
 namespace lamina::slicer {
 
-class SvgWriter : public LayerWriter {
+class SvgWriter : public FileWriter {
  public:
-  explicit SvgWriter(OutputFile& output);
+  SvgWriter(const std::string& path, TemporaryFiles& temporary_files);
 
   void take(const Layer& layer) override;
   // Warns where the numbers are too coarse for the design.
@@ -34,7 +35,6 @@ class SvgWriter : public LayerWriter {
   void write_head();
   void write_loop(std::span<const FloatPoint> closed_loop);
 
-  OutputFile& output_;
   std::uint32_t layers_ = 0;
   FloatContours contours_;
 };

@@ -3,6 +3,7 @@
 // numbers of .layers.json tell; and slic3r, which cuts the mesh that openscad
 // makes of the same design, tells them too.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -91,15 +92,17 @@ std::string design_path(const std::string& name) {
   return kSource + "/examples/" + name + ".scad";
 }
 
-// Layers of 0.1 mm of a design, with all vertices.
+// Layers of a design, with all vertices; 0.1 mm unless the options say so.
 std::string slice(const std::string& name, const TemporaryFolder& folder,
                   const std::string& ending,
                   const std::vector<std::string>& options = {}) {
   const std::string path = folder.file("layers" + ending);
   std::vector<std::string> arguments = {
-      LAMINA_PROGRAM, design_path(name), "-o", path, "-q", "--layer",
-      "0.1",          "--tolerance",     "0"};
+      LAMINA_PROGRAM, design_path(name), "-o", path, "-q", "--tolerance", "0"};
   arguments.insert(arguments.end(), options.begin(), options.end());
+  if (std::find(options.begin(), options.end(), "--layer") == options.end()) {
+    arguments.insert(arguments.end(), {"--layer", "0.1"});
+  }
   must_run(arguments);
   return path;
 }
@@ -151,6 +154,28 @@ INSTANTIATE_TEST_SUITE_P(Examples, Formats,
                          [](const auto& design) {
                            return std::string(design.param);
                          });
+
+// Grey is the covered share of a pixel, rounded to 1/255 of it: the area of a
+// layer is off by half of that, at most, for each pixel that its edge crosses.
+TEST_P(Formats, ImagesCoverTheAreaOfTheContours) {
+  const TemporaryFolder folder;
+  const std::vector<LayerFacts> contours =
+      read_json(slice(GetParam(), folder, ".layers.json", {"--layer", "0.5"}));
+  constexpr double kPixel = 0.04725;
+  for (const std::string ending : {".sl1", ".png"}) {
+    SCOPED_TRACE(ending);
+    const std::vector<LayerFacts> images = read_independently(
+        slice(GetParam(), folder, ending, {"--layer", "0.5"}));
+    ASSERT_EQ(images.size(), contours.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      EXPECT_NEAR(images[i].height, contours[i].height, 2e-6);
+      const double crossed = 4 + 2 * contours[i].perimeter / kPixel;
+      EXPECT_NEAR(images[i].area, contours[i].area,
+                  crossed * kPixel * kPixel / 2 / 255)
+          << "layer " << i;
+    }
+  }
+}
 
 // Designs that begin at z = 0, where slic3r sets every part, and that have no
 // gap below 0.1 mm, which it closes.

@@ -8,14 +8,19 @@ of lamina's writers and readers shows. Prints one line a layer,
 
     <height> <loops> <holes> <area> <perimeter>
 
-with millimetres; the height is that of the layer's upper side. Whatever
+with millimetres; the height is that of the layer's upper side. Of images, .sl1
+archives and folders, only the area is known: the grey of all pixels. Whatever
 breaks a rule of the format ends it with a message and status 1.
 """
+import json
 import math
+import os
 import re
 import struct
 import sys
 import xml.etree.ElementTree
+import zipfile
+import zlib
 
 
 def demand(condition, words):
@@ -186,14 +191,78 @@ def read_svg(data):
     return layers
 
 
+def grey_rows(png):
+    """The rows of an 8-bit grey PNG whose rows are stored as they are."""
+    demand(png[:8] == b"\x89PNG\r\n\x1a\n", "no PNG")
+    packed, place = b"", 8
+    while place < len(png):
+        size, = struct.unpack_from(">I", png, place)
+        kind = png[place + 4:place + 8]
+        body = png[place + 8:place + 8 + size]
+        check, = struct.unpack_from(">I", png, place + 8 + size)
+        demand(zlib.crc32(kind + body) == check, "a broken chunk")
+        if kind == b"IHDR":
+            width, height, *form = struct.unpack(">IIBBBBB", body)
+            demand(form == [8, 0, 0, 0, 0], "not 8 bits of grey")
+        elif kind == b"IDAT":
+            packed += body
+        place += 12 + size
+    raw = zlib.decompress(packed)
+    demand(len(raw) == (width + 1) * height, "pixels do not count up")
+    rows = [raw[y * (width + 1):(y + 1) * (width + 1)] for y in range(height)]
+    demand(all(row[0] == 0 for row in rows), "a filtered row")
+    return [row[1:] for row in rows]
+
+
+def image_statistics(png, pixels, pixel_area):
+    rows = grey_rows(png)
+    demand((len(rows[0]), len(rows)) == tuple(pixels), "not the panel's size")
+    return 0, 0, sum(map(sum, rows)) / 255 * pixel_area, 0
+
+
+def read_sl1(path):
+    archive = zipfile.ZipFile(path)
+    demand(archive.testzip() is None, "a broken entry")
+    config = dict(line.split(" = ") for line in
+                  archive.read("config.ini").decode().splitlines())
+    thickness = float(config["layerHeight"])
+    images = sorted(n for n in archive.namelist() if n.endswith(".png"))
+    demand(images == [f"{config['jobDir']}{i:05}.png"
+                      for i in range(len(images))], "images do not count up")
+    return [((i + 1) * thickness,
+             image_statistics(archive.read(name), (1440, 2560), 0.04725 ** 2))
+            for i, name in enumerate(images)]
+
+
+def read_folder(path):
+    with open(os.path.join(path, "index.json"), encoding="utf-8") as file:
+        index = json.load(file)
+    names = [layer["file"] for layer in index["layers"]]
+    demand(sorted(os.listdir(path)) == sorted(names + ["index.json"]),
+           "the folder does not hold what its index tells")
+    layers = []
+    for layer in index["layers"]:
+        with open(os.path.join(path, layer["file"]), "rb") as file:
+            layers.append((layer["z"] + index["layer_thickness"] / 2,
+                           image_statistics(file.read(), index["pixels"],
+                                            math.prod(index["pixel_mm"]))))
+    return layers
+
+
 READERS = {".slc": read_slc, ".cli": read_cli, ".svg": read_svg}
 
 
 def read(path):
+    """(height, statistics) of each layer."""
     suffix = path[path.rindex("."):]
+    if suffix == ".sl1":
+        return read_sl1(path)
+    if suffix == ".png":
+        return read_folder(path)
     demand(suffix in READERS, f"{path}: no format of this name")
     with open(path, "rb") as file:
-        return READERS[suffix](file.read())
+        return [(height, statistics(loops))
+                for height, loops in READERS[suffix](file.read())]
 
 
 def statistics(loops):
@@ -205,8 +274,7 @@ def statistics(loops):
 
 def main():
     for path in sys.argv[1:]:
-        for height, loops in read(path):
-            count, holes, area, perimeter = statistics(loops)
+        for height, (count, holes, area, perimeter) in read(path):
             print(f"{height:.6f} {count} {holes} {area:.9g} {perimeter:.9g}")
 
 

@@ -92,7 +92,7 @@ TEST(Coverage, HolesAreLeftOut) {
   support::add_loop(contours, {{0, 0}, {3, 0}, {3, 3}, {0, 3}});
   support::add_loop(contours, {{1, 1}, {1, 2}, {2, 2}, {2, 1}});
   Coverage coverage(30, 30);
-  add_contours(coverage, contours, {Vec2(0, 30), 10});
+  add_contours(coverage, contours, {Vec2(0, 30), {10, 0}, {0, -10}});
   EXPECT_NEAR(sum_of(coverage), 800, 1e-3);
   EXPECT_EQ(shares_of(coverage)[15][15], 0);
 }

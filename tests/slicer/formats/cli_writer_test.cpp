@@ -42,12 +42,12 @@ std::string write_cli(const std::vector<Layer>& layers, CliEncoding encoding,
                       Diagnostics* diagnostics = nullptr) {
   const TemporaryFolder folder;
   TemporaryFiles files;
-  OutputFile output(folder.file("a.cli"), files);
-  CliWriter writer(output, encoding);
+  const std::string path = folder.file("a.cli");
+  CliWriter writer(path, files, encoding);
   for (const Layer& layer : layers) writer.take(layer);
   Diagnostics unheard;
   writer.finish(diagnostics != nullptr ? *diagnostics : unheard);
-  output.commit();
+  writer.commit();
   return read_file(folder.file("a.cli"));
 }
 

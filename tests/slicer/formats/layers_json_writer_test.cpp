@@ -12,12 +12,12 @@ namespace {
 std::string write_json(const std::vector<Layer>& layers) {
   const support::TemporaryFolder folder;
   TemporaryFiles files;
-  OutputFile output(folder.file("a.layers.json"), files);
-  LayersJsonWriter writer(output);
+  const std::string path = folder.file("a.layers.json");
+  LayersJsonWriter writer(path, files);
   for (const Layer& layer : layers) writer.take(layer);
   Diagnostics diagnostics;
   writer.finish(diagnostics);
-  output.commit();
+  writer.commit();
   return support::read_file(folder.file("a.layers.json"));
 }
 

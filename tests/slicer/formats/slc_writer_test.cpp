@@ -38,12 +38,12 @@ std::string write_slc(const std::vector<Layer>& layers,
                       std::optional<double> deviation = {}) {
   const TemporaryFolder folder;
   TemporaryFiles files;
-  OutputFile output(folder.file("a.slc"), files);
-  SlcWriter writer(output, deviation);
+  const std::string path = folder.file("a.slc");
+  SlcWriter writer(path, files, deviation);
   for (const Layer& layer : layers) writer.take(layer);
   Diagnostics unheard;
   writer.finish(unheard);
-  output.commit();
+  writer.commit();
   return read_file(folder.file("a.slc"));
 }
 

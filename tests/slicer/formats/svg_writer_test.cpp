@@ -23,12 +23,12 @@ using support::TemporaryFolder;
 std::string write_svg(const std::vector<Layer>& layers) {
   const TemporaryFolder folder;
   TemporaryFiles files;
-  OutputFile output(folder.file("a.svg"), files);
-  SvgWriter writer(output);
+  const std::string path = folder.file("a.svg");
+  SvgWriter writer(path, files);
   for (const Layer& layer : layers) writer.take(layer);
   Diagnostics unheard;
   writer.finish(unheard);
-  output.commit();
+  writer.commit();
   return read_file(folder.file("a.svg"));
 }
 

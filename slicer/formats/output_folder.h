@@ -1,0 +1,46 @@
+#pragma once
+// A folder of files that appears whole or not at all.
+//
+// It is filled under a hidden name beside the target and put in its place at
+// the end. A folder that stands there is replaced if lamina made it: if it
+// holds the file of contents that the new one will hold.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "slicer/formats/output_file.h"
+
+namespace lamina::slicer {
+
+class OutputFolder {
+ public:
+  // contents  name of the file that tells what the folder holds
+  //
+  // Throws FileError if the folder cannot be made, or if what stands there may
+  // not be replaced.
+  OutputFolder(std::string path, std::string contents,
+               TemporaryFiles& temporary_files);
+  ~OutputFolder();  // discards what was not committed
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  // Both throw FileError.
+  void add(const std::string& name, std::string_view bytes);
+  void commit();
+
+  // Bytes so far.
+  std::uint64_t size() const { return size_; }
+
+ private:
+  void check_target() const;
+  [[noreturn]] void fail(std::string_view fault) const;
+
+  std::string path_;
+  std::string contents_;
+  std::string temporary_path_;  // empty: committed
+  TemporaryFiles& temporary_files_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace lamina::slicer
