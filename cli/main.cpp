@@ -23,22 +23,17 @@
 #include "cli/make_rule.h"
 #include "cli/options.h"
 #include "cli/report.h"
+#include "cli/run.h"
 #include "cli/run_on_stack.h"
 #include "cli/terminal.h"
 #include "csg/eval/csg_printer.h"
-#include "csg/eval/evaluator.h"
-#include "csg/solid/lower.h"
-#include "csg/text/typesetter.h"
 #include "parser/ast_printer.h"
-#include "parser/loader.h"
-#include "parser/parameter_set.h"
 #include "slicer/formats/layer_writer.h"
 #include "slicer/formats/output_file.h"
 #include "slicer/formats/slc_reader.h"
 #include "slicer/image.h"
 #include "slicer/inspect.h"
 #include "slicer/picture.h"
-#include "slicer/slice.h"
 
 namespace lamina::cli {
 namespace {
@@ -47,130 +42,6 @@ using slicer::OutputFormat;
 
 constexpr int kDone = 0;
 constexpr int kFault = 1;
-
-// Recursion of a design's functions ends here, long before memory does.
-constexpr std::size_t kEvaluationStack = std::size_t{128} << 20;
-
-// What the passes of a run share.
-struct Run {
-  Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
-      std::size_t stack)
-      : options(run_options),
-        temporary_files(files),
-        evaluation_stack(std::min(stack / 2, kEvaluationStack)),
-        terminal(run_options.is_quiet),
-        diagnostics([this](const Diagnostic& d) { terminal.show(d); }),
-        loader(sources, diagnostics, library_folders(),
-               run_options.definitions) {
-    diagnostics.set_hard_warnings(run_options.has_hard_warnings);
-  }
-
-  const DesignOptions& options;
-  slicer::TemporaryFiles& temporary_files;
-  std::size_t evaluation_stack;
-  Terminal terminal;
-  SourceStore sources;
-  Diagnostics diagnostics;
-  Loader loader;
-  text::Typesetter typesetter{text::module_folders(), diagnostics};
-  RunReport report;
-  const std::chrono::steady_clock::time_point begin =
-      std::chrono::steady_clock::now();
-};
-
-// Runs a pass and adds the processor seconds that it takes to `seconds`.
-template <typename Pass>
-auto timed(double& seconds, const Pass& pass) {
-  const double begin = process_seconds();
-  auto product = pass();
-  seconds += process_seconds() - begin;
-  return product;
-}
-
-void write_text(Run& run, const std::string& path, std::string_view text) {
-  slicer::OutputFile output(path, run.temporary_files);
-  output.write(text);
-  output.commit();
-}
-
-std::size_t count(const Diagnostics& diagnostics, Severity severity) {
-  std::size_t count = 0;
-  for (const Diagnostic& diagnostic : diagnostics.all()) {
-    if (diagnostic.severity == severity) ++count;
-  }
-  return count;
-}
-
-// All messages so far, as openscad's `.echo` holds them.
-std::string echo_text(const Run& run) {
-  const std::string& design = run.options.design;
-  const std::size_t slash = design.rfind('/');
-  const std::string folder =
-      slash == std::string::npos ? "." : design.substr(0, slash);
-  return openscad_text(run.diagnostics.all(), folder);
-}
-
-// The design with the values of its parameter set.
-struct Loaded {
-  ast::Program program;
-  bool has_failed = false;  // the set could not be used
-};
-
-Loaded load(Run& run) {
-  const DesignOptions& options = run.options;
-  try {
-    return timed(run.report.load_seconds, [&]() -> Loaded {
-      ast::Program program = run.loader.load(options.design);
-      const bool is_good =
-          options.parameter_file.empty() ||
-          apply_parameter_set(options.parameter_file, options.parameter_set,
-                              program, run.diagnostics);
-      return {std::move(program), !is_good};
-    });
-  } catch (const SyntaxError&) {
-    if (run.options.format == OutputFormat::kEcho) {
-      write_text(run, run.options.output,
-                 echo_text(run) + fmt::format("Can't parse file '{}'!\n\n",
-                                              run.options.design));
-    }
-    throw;
-  }
-}
-
-// The tree of the design; has_failed tells a failed assertion, endless
-// recursion or, under hard warnings, a warning. The tree is empty then.
-struct Evaluated {
-  csg::Tree tree;
-  bool has_failed = false;
-};
-
-Evaluated evaluate(Run& run, const ast::Program& program) {
-  csg::EvaluateOptions options;
-  options.stack_bytes = run.evaluation_stack;
-  // As openscad sets it for each of its outputs.
-  const bool has_preview = run.options.format == OutputFormat::kCsg ||
-                           run.options.format == OutputFormat::kEcho;
-  options.preview = has_preview && (run.options.render.empty() ||
-                                    !run.options.preview.empty());
-  options.seed = run.options.seed;
-  options.check_parameters = run.options.checks_parameters;
-  options.check_ranges = run.options.checks_parameter_ranges;
-  run.typesetter.add_fonts(run.loader.fonts());
-  options.text_measurer = &run.typesetter;
-  const std::size_t errors = count(run.diagnostics, Severity::kError);
-  return timed(run.report.evaluate_seconds, [&]() -> Evaluated {
-    try {
-      csg::Tree tree =
-          csg::evaluate(program, run.loader, options, run.diagnostics);
-      const bool has_failed = count(run.diagnostics, Severity::kError) > errors;
-      return {std::move(tree), has_failed};
-    } catch (const InternalError&) {
-      throw;
-    } catch (const Error&) {
-      return {{}, true};
-    }
-  });
-}
 
 // The rule for make, if one is asked for. `tree` is null before evaluation.
 void write_dependencies(Run& run, const csg::Tree* tree) {
@@ -186,42 +57,6 @@ void write_dependencies(Run& run, const csg::Tree* tree) {
 std::string csg_text(Run& run, const csg::Tree& tree) {
   if (tree.root == nullptr) return "\n";
   return csg::print_csg(tree, *csg::select_root(tree, run.diagnostics));
-}
-
-[[noreturn]] void refuse_geometry(const std::string& words) {
-  throw GeometryError({Severity::kError, {}, words});
-}
-
-// The formats that show a 2D design; the others are printed.
-bool holds_outlines(OutputFormat format) {
-  return format == OutputFormat::kSvg || format == OutputFormat::kLayersJson;
-}
-
-// From the CSG tree to layers in `sink`.
-void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
-  // Lowering comes before slicing because transforms, 2D parts and hulls need
-  // the whole tree, layers only the leaves.
-  const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
-    return csg::lower(tree,
-                      {run.options.world_from_design, run.options.chordal_error,
-                       &run.typesetter, run.options.scale},
-                      run.diagnostics);
-  });
-  tree.drop_nodes();
-  if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
-  if (const planar::Region* outline = lowered.outline()) {
-    if (!holds_outlines(run.options.format)) {
-      refuse_geometry("Current top level object is not a 3D object.");
-    }
-    run.report.slice = slicer::slice_outline(*outline, run.options.settings,
-                                             sink, run.diagnostics);
-    return;
-  }
-  const csg::Scene& scene = *lowered.scene();
-  ProgressSink progress(sink, run.terminal);
-  run.report.slice =
-      slicer::slice(scene, run.options.settings, progress, run.diagnostics);
-  run.report.origins = origins_of(scene, run.report.slice.features);
 }
 
 // What the options promise of the contours.

@@ -124,7 +124,7 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"oneapi/tbb", {"slicer/"}},
       {"png", {"slicer/", "csg/import/"}},
       {"pugixml", {"csg/import/"}},
-      {"minizip/", {"csg/import/"}},
+      {"minizip/", {"csg/import/", "slicer/formats/"}},
       {"CLI/", {"cli/"}},
       {"fontconfig/", {"csg/text/"}},
       {"ft2build.h", {"csg/text/"}},

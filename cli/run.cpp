@@ -1,0 +1,148 @@
+#include "cli/run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "csg/solid/lower.h"
+#include "parser/parameter_set.h"
+#include "slicer/slice.h"
+
+namespace lamina::cli {
+namespace {
+
+using slicer::OutputFormat;
+
+// Recursion of a design's functions ends here, long before memory does.
+constexpr std::size_t kEvaluationStack = std::size_t{128} << 20;
+
+// Runs a pass and adds the processor seconds that it takes to `seconds`.
+template <typename Pass>
+auto timed(double& seconds, const Pass& pass) {
+  const double begin = process_seconds();
+  auto product = pass();
+  seconds += process_seconds() - begin;
+  return product;
+}
+
+// The formats that show a 2D design; the others are printed.
+bool holds_outlines(OutputFormat format) {
+  return format == OutputFormat::kSvg || format == OutputFormat::kLayersJson;
+}
+
+}  // namespace
+
+Run::Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
+         std::size_t stack)
+    : options(run_options),
+      temporary_files(files),
+      evaluation_stack(std::min(stack / 2, kEvaluationStack)),
+      terminal(run_options.is_quiet),
+      diagnostics([this](const Diagnostic& d) { terminal.show(d); }),
+      loader(sources, diagnostics, library_folders(), run_options.definitions) {
+  diagnostics.set_hard_warnings(run_options.has_hard_warnings);
+}
+
+void write_text(Run& run, const std::string& path, std::string_view text) {
+  slicer::OutputFile output(path, run.temporary_files);
+  output.write(text);
+  output.commit();
+}
+
+std::size_t count(const Diagnostics& diagnostics, Severity severity) {
+  std::size_t count = 0;
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    if (diagnostic.severity == severity) ++count;
+  }
+  return count;
+}
+
+std::string echo_text(const Run& run) {
+  const std::string& design = run.options.design;
+  const std::size_t slash = design.rfind('/');
+  const std::string folder =
+      slash == std::string::npos ? "." : design.substr(0, slash);
+  return openscad_text(run.diagnostics.all(), folder);
+}
+
+[[noreturn]] void refuse_geometry(const std::string& words) {
+  throw GeometryError({Severity::kError, {}, words});
+}
+
+Loaded load(Run& run) {
+  const DesignOptions& options = run.options;
+  try {
+    return timed(run.report.load_seconds, [&]() -> Loaded {
+      ast::Program program = run.loader.load(options.design);
+      const bool is_good =
+          options.parameter_file.empty() ||
+          apply_parameter_set(options.parameter_file, options.parameter_set,
+                              program, run.diagnostics);
+      return {std::move(program), !is_good};
+    });
+  } catch (const SyntaxError&) {
+    if (run.options.format == OutputFormat::kEcho) {
+      write_text(run, run.options.output,
+                 echo_text(run) + fmt::format("Can't parse file '{}'!\n\n",
+                                              run.options.design));
+    }
+    throw;
+  }
+}
+
+Evaluated evaluate(Run& run, const ast::Program& program) {
+  csg::EvaluateOptions options;
+  options.stack_bytes = run.evaluation_stack;
+  // As openscad sets it for each of its outputs.
+  const bool has_preview = run.options.format == OutputFormat::kCsg ||
+                           run.options.format == OutputFormat::kEcho;
+  options.preview = has_preview && (run.options.render.empty() ||
+                                    !run.options.preview.empty());
+  options.seed = run.options.seed;
+  options.check_parameters = run.options.checks_parameters;
+  options.check_ranges = run.options.checks_parameter_ranges;
+  run.typesetter.add_fonts(run.loader.fonts());
+  options.text_measurer = &run.typesetter;
+  const std::size_t errors = count(run.diagnostics, Severity::kError);
+  return timed(run.report.evaluate_seconds, [&]() -> Evaluated {
+    try {
+      csg::Tree tree =
+          csg::evaluate(program, run.loader, options, run.diagnostics);
+      const bool has_failed = count(run.diagnostics, Severity::kError) > errors;
+      return {std::move(tree), has_failed};
+    } catch (const InternalError&) {
+      throw;
+    } catch (const Error&) {
+      return {{}, true};
+    }
+  });
+}
+
+void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
+  // Lowering comes before slicing because transforms, 2D parts and hulls need
+  // the whole tree, layers only the leaves.
+  const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
+    return csg::lower(tree,
+                      {run.options.world_from_design, run.options.chordal_error,
+                       &run.typesetter, run.options.scale},
+                      run.diagnostics);
+  });
+  tree.drop_nodes();
+  if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
+  if (const planar::Region* outline = lowered.outline()) {
+    if (!holds_outlines(run.options.format)) {
+      refuse_geometry("Current top level object is not a 3D object.");
+    }
+    run.report.slice = slicer::slice_outline(*outline, run.options.settings,
+                                             sink, run.diagnostics);
+    return;
+  }
+  const csg::Scene& scene = *lowered.scene();
+  ProgressSink progress(sink, run.terminal);
+  run.report.slice =
+      slicer::slice(scene, run.options.settings, progress, run.diagnostics);
+  run.report.origins = origins_of(scene, run.report.slice.features);
+}
+
+}  // namespace lamina::cli

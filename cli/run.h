@@ -1,0 +1,70 @@
+#pragma once
+// A run over a design, and its passes as far as layers.
+//
+// Each pass appends to Diagnostics and throws where the run must end.
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "cli/options.h"
+#include "cli/report.h"
+#include "cli/terminal.h"
+#include "csg/eval/evaluator.h"
+#include "csg/text/typesetter.h"
+#include "parser/loader.h"
+#include "slicer/formats/output_file.h"
+#include "slicer/layer.h"
+
+namespace lamina::cli {
+
+// What the passes of a run share.
+struct Run {
+  // stack  bytes of the thread that runs it
+  Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
+      std::size_t stack);
+
+  const DesignOptions& options;
+  slicer::TemporaryFiles& temporary_files;
+  std::size_t evaluation_stack;
+  Terminal terminal;
+  SourceStore sources;
+  Diagnostics diagnostics;
+  Loader loader;
+  text::Typesetter typesetter{text::module_folders(), diagnostics};
+  RunReport report;
+  const std::chrono::steady_clock::time_point begin =
+      std::chrono::steady_clock::now();
+};
+
+void write_text(Run& run, const std::string& path, std::string_view text);
+
+std::size_t count(const Diagnostics& diagnostics, Severity severity);
+
+// All messages so far, as openscad's `.echo` holds them.
+std::string echo_text(const Run& run);
+
+[[noreturn]] void refuse_geometry(const std::string& words);
+
+// The design with the values of its parameter set.
+struct Loaded {
+  ast::Program program;
+  bool has_failed = false;  // the set could not be used
+};
+
+Loaded load(Run& run);
+
+// The tree of the design; has_failed tells a failed assertion, endless
+// recursion or, under hard warnings, a warning. The tree is empty then.
+struct Evaluated {
+  csg::Tree tree;
+  bool has_failed = false;
+};
+
+Evaluated evaluate(Run& run, const ast::Program& program);
+
+// From the CSG tree to layers in `sink`.
+void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink);
+
+}  // namespace lamina::cli
