@@ -329,9 +329,10 @@ const char* find_contradiction(const slicer::Settings& settings) {
     return "--min-feature needs --contour faithful";
   }
   if (settings.sampler == slicer::SamplerKind::kScanline) return nullptr;
-  if (!is_paper) return "--sampler gl needs --contour paper";
+  if (!is_paper) return "--sampler gl and gl-peeling need --contour paper";
   if (!settings.heights.empty()) {
-    return "--sampler gl needs layers of one thickness, not --heights";
+    return "--sampler gl and gl-peeling need layers of one thickness, not "
+           "--heights";
   }
   return nullptr;
 }
