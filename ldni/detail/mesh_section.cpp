@@ -162,6 +162,8 @@ bool MeshSectioner::is_entered_openly(const csg::Mesh& mesh,
 void MeshSectioner::trace(const csg::Mesh& mesh, std::uint32_t start,
                           std::uint32_t layer) {
   height_ = layers_->heights[layer];
+  below_.vertex = kNone;
+  above_.vertex = kNone;
   std::uint32_t current = start;
   do {
     const CrossedTriangle& crossed = crossed_[current];
@@ -177,12 +179,18 @@ void MeshSectioner::trace(const csg::Mesh& mesh, std::uint32_t start,
 }
 
 // Interpolates from the lower to the higher vertex number, so that an edge
-// used by several triangles gives one point.
-void MeshSectioner::add_point(const csg::Mesh& mesh, std::uint32_t from,
-                              std::uint32_t to) {
-  if (from > to) std::swap(from, to);
-  const Vec3 start = world_from_leaf_ * Vec4(mesh.vertices[from], 1);
-  const Vec3 end = world_from_leaf_ * Vec4(mesh.vertices[to], 1);
+// used by several triangles gives one point. One end is that of the edge
+// before.
+void MeshSectioner::add_point(const csg::Mesh& mesh, std::uint32_t below,
+                              std::uint32_t above) {
+  const auto place = [&](End& end, std::uint32_t vertex) {
+    if (end.vertex == vertex) return;
+    end = {vertex, world_from_leaf_ * Vec4(mesh.vertices[vertex], 1)};
+  };
+  place(below_, below);
+  place(above_, above);
+  const Vec3& start = below < above ? below_.place : above_.place;
+  const Vec3& end = below < above ? above_.place : below_.place;
   const double t =
       std::clamp((height_ - start.z) / (end.z - start.z), 0.0, 1.0);
   builder_->loop().push_back(

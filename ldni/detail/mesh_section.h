@@ -60,7 +60,8 @@ class MeshSectioner {
   void trace(const csg::Mesh& mesh, std::uint32_t crossed, std::uint32_t layer);
   std::uint32_t exit_corner(const csg::Mesh& mesh, std::uint32_t crossed,
                             std::uint32_t layer) const;
-  void add_point(const csg::Mesh& mesh, std::uint32_t from, std::uint32_t to);
+  void add_point(const csg::Mesh& mesh, std::uint32_t below,
+                 std::uint32_t above);
 
   bool is_above(std::uint32_t vertex, std::uint32_t layer) const {
     return layers_below_[vertex] > layer;
@@ -71,6 +72,13 @@ class MeshSectioner {
   ChainBuilder* builder_ = nullptr;
   std::uint32_t instance_ = 0;
   std::int32_t orientation_ = 1;
+  // Of the edge that a walk crossed last.
+  struct End {
+    std::uint32_t vertex = kNone;
+    Vec3 place{0};  // in the world
+  };
+  End below_;
+  End above_;
   double height_ = 0;
   std::uint64_t open_paths_ = 0;
   std::vector<std::uint32_t> layers_below_;  // a vertex
