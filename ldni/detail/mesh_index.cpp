@@ -1,7 +1,5 @@
 #include "ldni/detail/mesh_index.h"
 
-#include <cstdint>
-
 namespace lamina::ldni::detail {
 namespace {
 
@@ -24,12 +22,16 @@ MeshIndex::MeshIndex(const csg::Mesh& mesh, const Affine& world_from_leaf,
 MeshIndex::MeshIndex(const csg::Mesh& mesh, const std::vector<double>& heights,
                      const LayerGrid& grid)
     : vertices(mesh.vertices.size(), grid,
-               [&](std::size_t i, const auto& visit) { visit(heights[i]); }),
-      triangles(mesh.triangles.size(), grid,
-                [&](std::size_t i, const auto& visit) {
-                  for (const std::uint32_t corner : mesh.triangles[i]) {
-                    visit(heights[corner]);
-                  }
-                }) {}
+               [&](std::size_t i) {
+                 return HeightRange{heights[i], heights[i]};
+               }),
+      triangles(mesh.triangles.size(), grid, [&](std::size_t i) {
+        const auto& corners = mesh.triangles[i];
+        const double a = heights[corners[0]];
+        const double b = heights[corners[1]];
+        const double c = heights[corners[2]];
+        return HeightRange{std::min(std::min(a, b), c),
+                           std::max(std::max(a, b), c)};
+      }) {}
 
 }  // namespace lamina::ldni::detail

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "csg/scene.h"
@@ -28,26 +27,30 @@ inline double height_of(const Affine& world_from_leaf, const Vec3& point) {
   return m[0].z * point.x + m[1].z * point.y + m[2].z * point.z + m[3].z;
 }
 
+// Heights from the lowest to the highest point.
+struct HeightRange {
+  double low = 0;
+  double high = 0;
+};
+
 // Runs of as many things as stand in the mesh together, the last one shorter.
 class LayerRuns {
  public:
-  // visit_heights(i, visit) calls visit(height) for each point of thing i of
-  // `count`.
-  template <typename VisitHeights>
+  // heights_of(i) is what thing i of `count` spans.
+  template <typename HeightsOf>
   LayerRuns(std::size_t count, const LayerGrid& grid,
-            const VisitHeights& visit_heights)
+            const HeightsOf& heights_of)
       : count_(count) {
     ranges_.reserve(count / kLength + 1);
     for (std::size_t begin = 0; begin < count; begin += kLength) {
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
-      for (std::size_t i = begin; i < end_of(begin); ++i) {
-        visit_heights(i, [&](double height) {
-          low = std::min(low, height);
-          high = std::max(high, height);
-        });
+      HeightRange whole = heights_of(begin);
+      for (std::size_t i = begin + 1; i < end_of(begin); ++i) {
+        const HeightRange heights = heights_of(i);
+        whole.low = std::min(whole.low, heights.low);
+        whole.high = std::max(whole.high, heights.high);
       }
-      ranges_.push_back({grid.layers_below(low), grid.layers_below(high)});
+      ranges_.push_back(
+          {grid.layers_below(whole.low), grid.layers_below(whole.high)});
     }
   }
 
