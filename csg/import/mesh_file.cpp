@@ -96,6 +96,7 @@ std::size_t drop_infinite(RawMesh& raw) {
   for (Vec3& vertex : vertices) {
     if (!is_finite(vertex)) vertex = Vec3(0);  // no face's any more
   }
+  raw.is_joined = false;
   return dropped;
 }
 

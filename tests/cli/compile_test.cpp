@@ -185,6 +185,30 @@ TEST(Compile, OneAndManyThreadsWriteTheSameBytes) {
   }
 }
 
+// Not even the box that the layers start from.
+TEST(Compile, AFacetOfAFileThatIsNowhereChangesNoLayer) {
+  const auto facet = [](const std::string& a, const std::string& b,
+                        const std::string& c) {
+    return "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b +
+           "\nvertex " + c + "\nendloop\nendfacet\n";
+  };
+  const std::string a = "20 20 20";
+  const std::string b = "24 20 20";
+  const std::string c = "20 24 20";
+  const std::string top = "20 20 23.3";
+  const std::string text = "solid\n" + facet(a, c, b) + facet(a, b, top) +
+                           facet(b, c, top) + facet(c, a, top);
+  const TemporaryFolder folder;
+  folder.write("whole.stl", text + "endsolid\n");
+  folder.write("more.stl", text + facet(a, b, "nan 1 1") + "endsolid\n");
+  for (const std::string name : {"whole", "more"}) {
+    folder.write(name + ".scad", "import(\"" + name + ".stl\");");
+    ASSERT_EQ(run(folder, {name + ".scad", "--layer", "0.3"}).status, 0);
+  }
+  EXPECT_EQ(read_file(folder.file("more.slc")),
+            read_file(folder.file("whole.slc")));
+}
+
 TEST(Compile, ScaleIsScaleOfTheDesignAndLeavesLayersAsTheyAre) {
   const TemporaryFolder folder;
   const std::string text =
