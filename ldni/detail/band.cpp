@@ -5,9 +5,8 @@ namespace lamina::ldni::detail {
 void Band::enclose(const Vec2* first, const Vec2* last, double limit) {
   const Vec2* end = last;
   if (last->x >= limit) {
-    end = std::lower_bound(
-        first + 1, last, limit,
-        [](const Vec2& point, double x) { return point.x < x; });
+    end = first + 1;
+    while (end->x < limit) ++end;
   }
   right = end->x;
   ends_chain = end == last;

@@ -78,8 +78,8 @@ inline Stretch apart_stretch(const Band& lower, const Band& upper, double x,
   };
   const double gap = gap_at(x);
   const double gap_at_end = gap_at(end);
-  if (gap > 0 && gap_at_end > 0) return {x, end};
-  if (gap <= 0 && gap_at_end <= 0) return {};
+  if (std::min(gap, gap_at_end) > 0) return {x, end};
+  if (std::max(gap, gap_at_end) <= 0) return {};
   // The gap of two lines changes evenly.
   const double zero = x + (end - x) * (gap / (gap - gap_at_end));
   return gap > 0 ? Stretch{x, zero} : Stretch{zero, end};
