@@ -53,8 +53,9 @@ void RaySweep::update_sets_from(std::uint32_t entry) {
 
 void RaySweep::update_survival() {
   for (const std::uint32_t entry : touched_) {
-    if (entry == status_.sentinel() || !status_.is_alive(entry)) continue;
-    if (status_[entry].column != column_) update_group(entry);
+    if (status_.is_alive(entry) && status_[entry].column != column_) {
+      update_group(entry);
+    }
   }
 }
 

@@ -269,7 +269,7 @@ void RaySweep::settle_order() {
     const std::uint32_t lower = to_check_.back();
     to_check_.pop_back();
     const std::uint32_t sentinel = status_.sentinel();
-    if (lower == sentinel || !status_.is_alive(lower)) continue;
+    if (!status_.is_alive(lower)) continue;
     if (status_[lower].settled == status_[lower].outlook) continue;
     const std::uint32_t upper = status_[lower].above;
     if (upper == sentinel) {

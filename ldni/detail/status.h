@@ -105,6 +105,7 @@ class Status {
   std::uint32_t sentinel() const { return sentinel_; }
   Entry& operator[](std::uint32_t entry) { return entries_[entry]; }
   const Entry& operator[](std::uint32_t entry) const { return entries_[entry]; }
+  // Whether the entry is on the ray; the sentinel is not.
   bool is_alive(std::uint32_t entry) const { return is_alive_[entry] != 0; }
   std::uint32_t first() const { return entries_[sentinel_].above; }
 
