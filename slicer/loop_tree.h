@@ -65,7 +65,9 @@ class LoopTree {
 
   // Calls take(leaf, leaf), a leaf with itself too, for all that may hold an
   // edge and a foreign vertex within `reach` [mm] in x and in y; returns true
-  // at the first that it returns true for.
+  // at the first that it returns true for. Gives up, true as well, where so
+  // many stretches run beside each other, hundreds of rings in rings, that a
+  // grid of the vertices is faster.
   template <typename Take>
   bool visit_near(double reach, const Take& take) const;
 
@@ -94,6 +96,8 @@ class LoopTree {
  private:
   static constexpr std::uint32_t kEdgesPerLeaf = 4;
   static constexpr std::uint32_t kNone = 0xffffffff;
+  // Looks at pairs, for each leaf, before visit_near() gives up; 14 are usual.
+  static constexpr std::size_t kMostLooks = 32;
 
   struct Node {
     Vec2 low = Vec2(1e300);
@@ -136,12 +140,19 @@ class LoopTree {
   }
   bool follow_apart(const Node& a, const Node& b, double reach) const;
 
+  // What a visit is about.
   template <typename Take>
-  bool visit_within(std::size_t level, std::uint32_t i, double reach,
-                    const Take& take) const;
+  struct Visit {
+    double reach;
+    const Take& take;
+    std::size_t looks_left;
+  };
+  template <typename Take>
+  bool visit_within(std::size_t level, std::uint32_t i,
+                    Visit<Take>& visit) const;
   template <typename Take>
   bool visit_between(std::size_t level, std::uint32_t i, std::uint32_t j,
-                     double reach, const Take& take) const;
+                     Visit<Take>& visit) const;
 
   // A segment with all that is within reach of it.
   struct Strip {
@@ -169,34 +180,36 @@ class LoopTree {
 
 template <typename Take>
 bool LoopTree::visit_near(double reach, const Take& take) const {
-  return !leaves_.empty() && visit_within(top(), 0, reach, take);
+  if (leaves_.empty()) return false;
+  Visit<Take> visit{reach, take, kMostLooks * (leaves_.size() + kMostLooks)};
+  return visit_within(top(), 0, visit);
 }
 
 template <typename Take>
-bool LoopTree::visit_within(std::size_t level, std::uint32_t i, double reach,
-                            const Take& take) const {
-  if (node(level, i).advances(reach)) return false;
-  if (level == 0) return take(leaves_[i], leaves_[i]);
+bool LoopTree::visit_within(std::size_t level, std::uint32_t i,
+                            Visit<Take>& visit) const {
+  if (node(level, i).advances(visit.reach)) return false;
+  if (level == 0) return visit.take(leaves_[i], leaves_[i]);
   const std::uint32_t first = 2 * i;
-  if (visit_within(level - 1, first, reach, take)) return true;
+  if (visit_within(level - 1, first, visit)) return true;
   if (first + 1 == node_count(level - 1)) return false;
-  return visit_within(level - 1, first + 1, reach, take) ||
-         visit_between(level - 1, first, first + 1, reach, take);
+  return visit_within(level - 1, first + 1, visit) ||
+         visit_between(level - 1, first, first + 1, visit);
 }
 
 template <typename Take>
 bool LoopTree::visit_between(std::size_t level, std::uint32_t i,
-                             std::uint32_t j, double reach,
-                             const Take& take) const {
+                             std::uint32_t j, Visit<Take>& visit) const {
+  if (visit.looks_left-- == 0) return true;
   const Node& a = node(level, i);
   const Node& b = node(level, j);
-  if (are_apart(a, b, reach)) return false;
-  if (i + 1 == j && follow_apart(a, b, reach)) return false;
-  if (level == 0) return take(leaves_[i], leaves_[j]);
+  if (are_apart(a, b, visit.reach)) return false;
+  if (i + 1 == j && follow_apart(a, b, visit.reach)) return false;
+  if (level == 0) return visit.take(leaves_[i], leaves_[j]);
   const std::uint32_t count = node_count(level - 1);
   for (std::uint32_t k = 2 * i; k < std::min(2 * i + 2, count); ++k) {
     for (std::uint32_t l = 2 * j; l < std::min(2 * j + 2, count); ++l) {
-      if (visit_between(level - 1, k, l, reach, take)) return true;
+      if (visit_between(level - 1, k, l, visit)) return true;
     }
   }
   return false;

@@ -78,16 +78,54 @@ bool LoopRounder::is_safe(const ldni::Contours& contours) {
   tree_.fill(points_, {vertices_.data(), points_.size()}, ends_);
   // Both ends of a distance move, by half the spacing each way.
   const double reach = kTreeReach * spacing_;
-  const auto visit = [&](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+  near_pairs_.clear();
+  const bool is_crowded = tree_.visit_near(
+      reach, [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+        near_pairs_.push_back({&a, &b});
+        return false;
+      });
+  if (is_crowded) return is_safe_by_grid();
+  const auto meet = [&](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
     return tree_.visit_meetings(
         a, b, reach, [&](std::uint32_t vertex, std::uint32_t edge) {
           return a.loop == b.loop || !touch(vertex, edge);
         });
   };
-  return !tree_.visit_near(
-      reach, [&](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
-        return visit(a, b) || (&a != &b && visit(b, a));
-      });
+  return std::none_of(near_pairs_.begin(), near_pairs_.end(),
+                      [&](const auto& pair) {
+                        const auto& [a, b] = pair;
+                        return meet(*a, *b) || (a != b && meet(*b, *a));
+                      });
+}
+
+// The same for loops that are too many beside each other for the tree.
+bool LoopRounder::is_safe_by_grid() {
+  members_.clear();
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : ends_) {
+    for (std::uint32_t i = begin; i + 1 < end; ++i) members_.push_back(i);
+    begin = end;
+  }
+  grid_.fill(points_, members_);
+  begin = 0;
+  for (const std::uint32_t end : ends_) {
+    for (std::uint32_t edge = begin; edge + 1 < end; ++edge) {
+      const std::uint32_t to = edge + 2 == end ? begin : edge + 1;
+      const auto meets = [&](std::uint32_t i) {
+        if (i == edge || i == to) return false;
+        const bool is_same_loop = i >= begin && i < end;
+        return meets_square(points_[edge], points_[edge + 1], points_[i],
+                            kTreeReach * spacing_) &&
+               (is_same_loop || !touch(i, edge));
+      };
+      if (grid_.has_near(points_[edge], points_[edge + 1],
+                         kTreeReach * spacing_, meets)) {
+        return false;
+      }
+    }
+    begin = end;
+  }
+  return true;
 }
 
 // Whether two loops touch in a vertex of both: they go on doing so, if it is

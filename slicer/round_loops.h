@@ -21,6 +21,7 @@
 //    All that is on integers below 2^24, hence exact.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "ldni/contours.h"
@@ -52,6 +53,7 @@ class LoopRounder {
  private:
   void measure(const ldni::Contours& contours);
   bool is_safe(const ldni::Contours& contours);
+  bool is_safe_by_grid();
   bool touch(std::uint32_t vertex, std::uint32_t edge) const;
   void snap(ldni::Contours& contours);
   bool lead_through_cells(ldni::Contours& contours);
@@ -63,6 +65,8 @@ class LoopRounder {
   std::vector<std::uint32_t> vertices_;  // all of them
   std::vector<std::uint32_t> ends_;
   LoopTree tree_;
+  std::vector<std::pair<const LoopTree::Leaf*, const LoopTree::Leaf*>>
+      near_pairs_;  // of the tree
   std::vector<std::uint32_t> members_;
   PointGrid grid_;
   std::vector<Vec2> cells_;  // middles of those that hold a vertex

@@ -115,7 +115,7 @@ void Simplifier::simplify(ldni::Contours& contours) {
     find_neighbours();
   }
   // Clear shortcuts keep the distance as well.
-  is_apart_ = !has_meetings();
+  is_apart_ = !is_crowded_ && !has_meetings();
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     thin_out(loops_[l], l == 0 ? 0 : ends_[l - 1], ends_[l]);
   }
@@ -227,14 +227,19 @@ void Simplifier::list_kept() {
 void Simplifier::find_neighbours() {
   tree_.fill(points_, vertices_, ends_);
   near_pairs_.clear();
-  tree_.visit_near(clearance_ + 2 * kEndMargin,
-                   [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
-                     const std::uint32_t i = tree_.index_of(a);
-                     const std::uint32_t k = tree_.index_of(b);
-                     near_pairs_.push_back({i, k});
-                     if (i != k) near_pairs_.push_back({k, i});
-                     return false;
-                   });
+  is_crowded_ = tree_.visit_near(
+      clearance_ + 2 * kEndMargin,
+      [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+        const std::uint32_t i = tree_.index_of(a);
+        const std::uint32_t k = tree_.index_of(b);
+        near_pairs_.push_back({i, k});
+        if (i != k) near_pairs_.push_back({k, i});
+        return false;
+      });
+  if (is_crowded_) {
+    grid_.fill(points_, vertices_);
+    return;
+  }
   // Sort by the first leaf: count, sum up, and deal out from the back.
   near_begins_.assign(tree_.leaf_count() + 1, 0);
   for (const auto& [leaf, other] : near_pairs_) ++near_begins_[leaf];
@@ -383,10 +388,11 @@ bool Simplifier::is_clear(const Shortcut& shortcut, std::uint32_t k,
     if (point == a || point == b) return touches_a && touches_b;
     return is_in_strip(shortcut, shortcut.place_of(point));
   };
+  const double reach =
+      std::max(shortcut.highest, -shortcut.lowest) + clearance_;
+  if (is_crowded_) return !grid_.has_near(a, b, reach, is_hit);
   const std::uint32_t leaf = tree_.leaf_of(k);
   if (last_k > tree_.leaf(leaf).end) {
-    const double reach =
-        std::max(shortcut.highest, -shortcut.lowest) + clearance_;
     return !tree_.has_near(a, b, reach, is_hit);
   }
   for (std::uint32_t i = near_begins_[leaf]; i < near_begins_[leaf + 1]; ++i) {

@@ -42,6 +42,7 @@
 
 #include "ldni/contours.h"
 #include "slicer/loop_tree.h"
+#include "slicer/point_grid.h"
 
 namespace lamina::slicer {
 
@@ -101,6 +102,8 @@ class Simplifier {
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> ends_;
   LoopTree tree_;
+  bool is_crowded_ = false;  // too much so for the tree: ask the grid
+  PointGrid grid_;
   // Leaves of the tree that come near to leaf i: near_leaves_ from
   // near_begins_[i] to near_begins_[i + 1].
   std::vector<std::uint32_t> near_begins_;

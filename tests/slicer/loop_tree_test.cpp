@@ -140,5 +140,21 @@ TEST(LoopTree, HandsOnLittleOfASmoothLoop) {
   EXPECT_LE(visits, 5);
 }
 
+TEST(LoopTree, GivesUpOnHundredsOfRingsInRings) {
+  Loops loops;
+  for (int ring = 1; ring <= 300; ++ring) {
+    std::vector<Vec2> circle;
+    for (int i = 0; i < 40; ++i) {
+      const double angle = 0.15707963267948966 * i;
+      circle.push_back(Vec2(std::cos(angle), std::sin(angle)) * (0.05 * ring));
+    }
+    loops.add(circle);
+  }
+  LoopTree tree;
+  tree.fill(loops.points, loops.vertices, loops.ends);
+  EXPECT_TRUE(
+      tree.visit_near(1e-6, [](const auto&, const auto&) { return false; }));
+}
+
 }  // namespace
 }  // namespace lamina::slicer

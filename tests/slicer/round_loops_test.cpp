@@ -170,5 +170,28 @@ TEST(RoundLoops, RandomScenesStaySimpleAndDisjoint) {
   EXPECT_GT(rounder.snapped_layers(), 100U);
 }
 
+// More rings in rings than the tree of boxes can tell apart: the grid does.
+TEST(RoundLoops, HundredsOfRingsInRingsStayAsTheyAre) {
+  for (const double gap : {0.05, 1e-6}) {
+    ldni::Contours contours;
+    for (int ring = 1; ring <= 300; ++ring) {
+      // The last one is as near to the one before as `gap`.
+      const double radius = ring < 300 ? 0.05 * ring : 0.05 * 299 + gap;
+      for (int i = 0; i < 40; ++i) {
+        const double angle = 0.15707963267948966 * (ring % 2 == 0 ? i : -i);
+        contours.points.push_back(
+            {radius * std::cos(angle), radius * std::sin(angle)});
+      }
+      contours.ends.push_back(
+          static_cast<std::uint32_t>(contours.points.size()));
+    }
+    LoopRounder rounder;
+    rounder.round(contours);
+    EXPECT_EQ(rounder.snapped_layers(), gap < 1e-5 ? 1U : 0U);
+    EXPECT_EQ(contours.loop_count() == 300, gap > 1e-5);
+    EXPECT_TRUE(are_sound_floats(contours));
+  }
+}
+
 }  // namespace
 }  // namespace lamina::slicer
