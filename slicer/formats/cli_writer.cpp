@@ -1,7 +1,7 @@
 #include "slicer/formats/cli_writer.h"
 
 #include <bit>
-#include <cmath>
+#include <charconv>
 #include <string>
 
 #include <fmt/format.h>
@@ -31,12 +31,12 @@ void append(OutputFile& output, const Value& value) {
 // The shortest digits that read back as the same number; readers want no
 // exponent.
 void print_number(OutputFile& output, float value) {
-  const float size = std::abs(value);
-  if (value == 0 || (size >= 1e-4F && size < 1e15F)) {
-    print(output, FMT_COMPILE("{}"), value + 0.0F);  // -0 prints as 0
-  } else {
-    print(output, FMT_COMPILE("{:.20f}"), value);
-  }
+  constexpr std::size_t kLongest = 64;  // 45 decimals and what stands before
+  char* const begin = output.reserve(kLongest);
+  const std::to_chars_result end =
+      std::to_chars(begin, begin + kLongest, value + 0.0F,  // -0 prints as 0
+                    std::chars_format::fixed);
+  output.advance(static_cast<std::size_t>(end.ptr - begin));
 }
 
 }  // namespace

@@ -107,6 +107,18 @@ TEST(CliWriter, WritesNumbersWithoutExponents) {
   EXPECT_NE(text.find(",2,0,0,100000,0.0000001"), std::string::npos) << text;
 }
 
+TEST(CliWriter, WritesEveryDigitOfTheSmallestNumbers) {
+  // What is left of sines and cosines; every float32 has a name of its own.
+  const float tiny = 6.123234e-17F;
+  const std::string text =
+      write_cli({layer_at(0, 1, {{{double{tiny}, 0}, {2, 0}, {0, 2}}})},
+                CliEncoding::kAscii);
+  const std::size_t begin = text.find("/1,1,4,") + 7;
+  const std::string digits = text.substr(begin, text.find(',', begin) - begin);
+  EXPECT_EQ(std::stof(digits), tiny) << digits;
+  EXPECT_EQ(digits.find('e'), std::string::npos) << digits;
+}
+
 TEST(CliWriter, EndsWellWithoutLayers) {
   const std::string text = write_cli({}, CliEncoding::kAscii);
   EXPECT_NE(text.find("$$LAYERS/0000000000\n$$HEADEREND\n$$GEOMETRYSTART\n"
