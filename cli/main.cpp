@@ -143,7 +143,7 @@ int compile(Run& run) {
   auto deviation = promised_deviation(run.options);
   slicer::WriterOptions how;
   how.format = run.options.format;
-  how.cli = run.options.cli_encoding;
+  if (run.options.cli_encoding) how.cli = *run.options.cli_encoding;
   how.panel = chosen_panel(run.options);
   if (deviation) how.deviation = deviation->from_section();
   const auto writer =

@@ -328,11 +328,35 @@ const char* find_contradiction(const slicer::Settings& settings) {
   if (settings.min_feature > 0 && is_paper) {
     return "--min-feature needs --contour faithful";
   }
+  if (settings.boxes == slicer::BoxMode::kGlobal && !is_paper) {
+    return "--boxes global needs --contour paper";
+  }
   if (settings.sampler == slicer::SamplerKind::kScanline) return nullptr;
   if (!is_paper) return "--sampler gl and gl-peeling need --contour paper";
   if (!settings.heights.empty()) {
     return "--sampler gl and gl-peeling need layers of one thickness, not "
            "--heights";
+  }
+  return nullptr;
+}
+
+// Options that do not go with the format; null if all do.
+const char* find_misfit(const DesignOptions& options) {
+  const bool is_sl1 = options.format == slicer::OutputFormat::kSl1;
+  const bool has_images =
+      is_sl1 || options.format == slicer::OutputFormat::kPng;
+  const bool is_mirrored = options.mirrors_x || options.mirrors_y;
+  if (!has_images && !options.printer.empty()) {
+    return "--printer needs images: .png or .sl1";
+  }
+  if (!has_images && is_mirrored) {
+    return "--mirror needs images: .png or .sl1";
+  }
+  if (options.cli_encoding && options.format != slicer::OutputFormat::kCli) {
+    return "--cli needs .cli output";
+  }
+  if (is_sl1 && !options.settings.heights.empty()) {
+    return ".sl1 needs layers of one thickness, not --heights";
   }
   return nullptr;
 }
@@ -365,6 +389,7 @@ Command finish_design(Parsed& parsed) {
   if (const char* contradiction = find_contradiction(options.settings)) {
     return usage_error(contradiction);
   }
+  if (const char* misfit = find_misfit(options)) return usage_error(misfit);
   return options;
 }
 

@@ -19,7 +19,7 @@ struct DesignOptions {
   std::string design;
   std::string output;  // "-": standard output
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
-  slicer::CliEncoding cli_encoding = slicer::CliEncoding::kBinary;
+  std::optional<slicer::CliEncoding> cli_encoding;
   std::string printer;     // name or profile of its panel; empty: the format's
   bool mirrors_x = false;  // the image
   bool mirrors_y = false;
