@@ -78,8 +78,9 @@ void TemporaryFiles::discard_all() {
 
 std::string TemporaryFiles::make_folder(const std::string& path) {
   const std::lock_guard lock(mutex_);
+  const std::string target = follow_links(path);
   for (int attempt = 0;; ++attempt) {
-    std::string folder = hidden_sibling(path, attempt);
+    std::string folder = hidden_sibling(target, attempt);
     if (::mkdir(folder.c_str(), 0777) == 0) {
       paths_.push_back(folder);
       return folder;
@@ -88,14 +89,23 @@ std::string TemporaryFiles::make_folder(const std::string& path) {
   }
 }
 
+std::FILE* TemporaryFiles::open_file_in(const std::string& folder,
+                                        const std::string& name) {
+  // Under the lock: a file that came while discard_all() empties the folder
+  // would keep it.
+  const std::lock_guard lock(mutex_);
+  return std::fopen((folder + "/" + name).c_str(), "wbx");
+}
+
 bool TemporaryFiles::commit_folder(const std::string& folder,
                                    const std::string& path) {
   const std::lock_guard lock(mutex_);
+  const std::string target = follow_links(path);
   // A name that is free, or an empty folder, is taken by a rename. Else the
   // two change places at once, where the file system can do that.
-  if (::rename(folder.c_str(), path.c_str()) != 0) {
+  if (::rename(folder.c_str(), target.c_str()) != 0) {
     if (errno != ENOTEMPTY && errno != EEXIST) return false;
-    if (::renameat2(AT_FDCWD, folder.c_str(), AT_FDCWD, path.c_str(),
+    if (::renameat2(AT_FDCWD, folder.c_str(), AT_FDCWD, target.c_str(),
                     RENAME_EXCHANGE) != 0) {
       return false;
     }

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -26,11 +27,13 @@ class TemporaryFiles {
   // thread that ends the process after an interrupt.
   void discard_all();
 
-  // A new folder under a hidden name beside `path`; empty if it cannot be made
-  // (errno tells why).
+  // A new folder under a hidden name beside `path`, or beside what it links to;
+  // empty if it cannot be made (errno tells why).
   std::string make_folder(const std::string& path);
-  // Puts that folder in the place of `path` and removes what stood there.
-  // False if it cannot (errno).
+  // A new file of that folder, for writing; null if it cannot be made (errno).
+  std::FILE* open_file_in(const std::string& folder, const std::string& name);
+  // Puts that folder in the place of `path`, or of what it links to, and
+  // removes what stood there. False if it cannot (errno).
   bool commit_folder(const std::string& folder, const std::string& path);
   void discard(const std::string& folder);
 

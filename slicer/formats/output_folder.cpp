@@ -21,7 +21,7 @@ OutputFolder::OutputFolder(std::string path, std::string contents,
       contents_(std::move(contents)),
       temporary_files_(temporary_files) {
   while (path_.size() > 1 && path_.ends_with('/')) path_.pop_back();
-  if (path_ == "-") fail("a folder cannot go to standard output");
+  if (path_ == "-") fail("standard output takes no folder");
   check_target();
   temporary_path_ = temporary_files_.make_folder(path_);
   if (temporary_path_.empty()) fail(std::strerror(errno));
@@ -35,7 +35,12 @@ OutputFolder::~OutputFolder() {
 void OutputFolder::check_target() const {
   std::error_code unreadable;
   const fs::file_status status = fs::status(path_, unreadable);
-  if (!fs::exists(status)) return;
+  if (!fs::exists(status)) {
+    if (fs::is_symlink(fs::symlink_status(path_, unreadable))) {
+      fail("it links to what is not there");
+    }
+    return;
+  }
   if (!fs::is_directory(status)) fail("it is no folder");
   if (fs::is_empty(path_, unreadable)) return;
   if (!fs::exists(fs::path(path_) / contents_, unreadable)) {
@@ -45,8 +50,7 @@ void OutputFolder::check_target() const {
 }
 
 void OutputFolder::add(const std::string& name, std::string_view bytes) {
-  const std::string file_path = temporary_path_ + "/" + name;
-  std::FILE* file = std::fopen(file_path.c_str(), "wbx");
+  std::FILE* const file = temporary_files_.open_file_in(temporary_path_, name);
   if (file == nullptr) fail(std::strerror(errno));
   const bool is_written =
       std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();

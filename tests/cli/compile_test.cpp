@@ -516,6 +516,27 @@ TEST(Compile, InterruptedRunsEndWith130AndLeaveNothing) {
   }
 }
 
+// Files go on being made while the folder is emptied.
+TEST(Compile, AnInterruptedFolderOfImagesLeavesNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([1, 1, 100]);");
+  folder.write("tiny.json", R"({"name":"tiny","pixels":[8,8],"pixel_mm":[1,1],)"
+                            R"("right":"+x","up":"+y"})");
+  for (int i = 0; i < 3; ++i) {
+    support::BackgroundProcess process(
+        command({"a.scad", "-o", "a.png", "--printer", "tiny.json", "--layer",
+                 "0.0001"}),
+        folder.path());
+    for (int k = 0; k < 500 && folder.entry_count() < 3; ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    process.send(SIGINT);
+    EXPECT_EQ(process.wait(), 130);
+    EXPECT_EQ(folder.entry_count(), 2U);
+  }
+}
+
 TEST(Compile, AReaderThatLeavesIsAnErrorNotADeath) {
   const TemporaryFolder folder;
   folder.write("a.scad", "sphere(5, $fn = 200);");
