@@ -1,8 +1,10 @@
 #include "slicer/panel.h"
 
+#include <cmath>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -24,31 +26,35 @@ constexpr unsigned kMostPixels = 65536;  // along a side
                    fmt::format("Can't use printer '{}': {}", name, fault)});
 }
 
-Vec2 read_direction(const Json& word) {
-  const std::string text = word.get<std::string>();
-  const double sign = text.starts_with('-') ? -1 : 1;
-  const std::string axis = text.substr(text.find_first_not_of("+-"));
-  if (axis == "x") return {sign, 0};
-  if (axis == "y") return {0, sign};
+Vec2 read_direction(const Json& json) {
+  const std::string word = json.get<std::string>();
+  if (word == "+x") return {1, 0};
+  if (word == "-x") return {-1, 0};
+  if (word == "+y") return {0, 1};
+  if (word == "-y") return {0, -1};
   throw std::runtime_error(
-      fmt::format("a direction is +x, -x, +y or -y, not '{}'", text));
+      fmt::format("a direction is +x, -x, +y or -y, not '{}'", word));
+}
+
+unsigned read_pixels(const Json& json) {
+  const double pixels = json.get<double>();
+  if (!(pixels >= 1 && pixels <= kMostPixels) || pixels != std::floor(pixels)) {
+    throw std::runtime_error(
+        fmt::format("pixels are from 1 to {}, not {}", kMostPixels, pixels));
+  }
+  return static_cast<unsigned>(pixels);
 }
 
 Panel read_panel(std::string_view text) {
   const Json json = Json::parse(text);
   Panel panel;
   panel.name = json.at("name").get<std::string>();
-  panel.width = json.at("pixels").at(0).get<unsigned>();
-  panel.height = json.at("pixels").at(1).get<unsigned>();
+  panel.width = read_pixels(json.at("pixels").at(0));
+  panel.height = read_pixels(json.at("pixels").at(1));
   panel.pixel = {json.at("pixel_mm").at(0).get<double>(),
                  json.at("pixel_mm").at(1).get<double>()};
   panel.right = read_direction(json.at("right"));
   panel.up = read_direction(json.at("up"));
-  if (panel.width == 0 || panel.height == 0 || panel.width > kMostPixels ||
-      panel.height > kMostPixels) {
-    throw std::runtime_error(
-        fmt::format("pixels must be 1 to {}", kMostPixels));
-  }
   if (!(panel.pixel.x > 0) || !(panel.pixel.y > 0)) {
     throw std::runtime_error("pixel_mm must be positive");
   }
@@ -86,12 +92,17 @@ Panel find_panel(const std::string& name_or_file) {
     fail(name_or_file,
          "lamina knows" + names + ", and files that end in .json");
   }
-  std::ifstream file(name_or_file, std::ios::binary);
-  if (!file) fail(name_or_file, "the file cannot be read");
-  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::ifstream file(name_or_file, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file || !text) fail(name_or_file, "there is nothing to read");
   try {
-    return read_panel(text);
-  } catch (const std::exception& error) {
+    return read_panel(text.view());
+  } catch (const Json::exception& error) {
+    // "[json.exception.…] words"
+    const std::string_view words = error.what();
+    fail(name_or_file, words.substr(words.find("] ") + 2));
+  } catch (const std::runtime_error& error) {
     fail(name_or_file, error.what());
   }
 }

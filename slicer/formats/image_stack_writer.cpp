@@ -1,6 +1,6 @@
 #include "slicer/formats/image_stack_writer.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,6 +15,9 @@ namespace lamina::slicer {
 namespace {
 
 constexpr const char* kContents = "index.json";
+
+// A part as large as the panel fits, whatever rounding its numbers saw.
+constexpr double kSlack = 1e-3;  // [pixels]
 
 class FolderStack : public StackOutput {
  public:
@@ -115,6 +118,12 @@ std::unique_ptr<StackOutput> open_stack(OutputFormat format,
   return std::make_unique<ArchiveStack>(path, files);
 }
 
+// Without what subtracting heights left of rounding.
+double thickness_of(const Layer& layer) {
+  constexpr double kPerMm = 1e9;
+  return std::round((layer.top - layer.bottom) * kPerMm) / kPerMm;
+}
+
 double area_of(const ldni::Contours& contours) {
   double area = 0;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
@@ -144,17 +153,18 @@ void ImageStackWriter::check_reach(const Layer& layer) const {
   const Panel& panel = summary_.panel;
   for (const Vec2& point : layer.contours.points) {
     const Vec2 place = map_(point);
-    if (place.x >= 0 && place.x <= panel.width && place.y >= 0 &&
-        place.y <= panel.height) {
+    if (place.x >= -kSlack && place.x <= panel.width + kSlack &&
+        place.y >= -kSlack && place.y <= panel.height + kSlack) {
       continue;
     }
     throw GeometryError(
         {Severity::kError,
          {},
-         fmt::format("The design is larger than the panel of {} mm x {} mm "
-                     "({}): the layer at {:.6g} mm reaches beyond it",
-                     panel.width * panel.pixel.x, panel.height * panel.pixel.y,
-                     panel.name, layer.section_z)});
+         fmt::format(
+             "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
+             "({}): the layer at {:.6g} mm reaches beyond it",
+             panel.width * panel.pixel.x, panel.height * panel.pixel.y,
+             panel.name, layer.section_z)});
   }
 }
 
@@ -164,7 +174,7 @@ void ImageStackWriter::take(const Layer& layer) {
                      draw_grey_png(layer.contours, summary_.panel.width,
                                    summary_.panel.height, map_));
   ++summary_.layers;
-  summary_.layer_thickness = layer.top - layer.bottom;
+  summary_.layer_thickness = thickness_of(layer);
   summary_.volume += area_of(layer.contours) * (layer.top - layer.bottom);
   summary_.heights.push_back(layer.section_z);
 }

@@ -84,8 +84,11 @@ void ZipOutput::add(const std::string& name, std::string_view bytes,
   zip_fileinfo info = {};
   info.tmz_date.tm_year = 1980;
   info.tmz_date.tm_mday = 1;
-  check(zipOpenNewFileInZip(archive_, name.c_str(), &info, nullptr, 0, nullptr,
-                            0, nullptr, method, Z_DEFAULT_COMPRESSION));
+  constexpr uLong kNamesAreUtf8 = 1 << 11;  // a flag of the entry
+  check(zipOpenNewFileInZip4(archive_, name.c_str(), &info, nullptr, 0, nullptr,
+                             0, nullptr, method, Z_DEFAULT_COMPRESSION, 0,
+                             -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
+                             nullptr, 0, 0, kNamesAreUtf8));
   check(zipWriteInFileInZip(archive_, bytes.data(),
                             static_cast<unsigned>(bytes.size())));
   check(zipCloseFileInZip(archive_));

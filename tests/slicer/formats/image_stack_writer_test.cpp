@@ -16,6 +16,7 @@
 
 #include "parser/diagnostic.h"
 #include "tests/support/contour_checks.h"
+#include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina::slicer {
@@ -132,6 +133,68 @@ TEST(ImageStackWriter, RefusesWhatReachesBeyondThePanel) {
   EXPECT_EQ(folder.entry_count(), 0U);
 }
 
+TEST(ImageStackWriter, APartAsLargeAsThePanelFits) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"plain", "prusa-sl1", "elegoo-mars-3"}) {
+    const Panel panel = find_panel(name);
+    const bool is_turned = panel.right.x == 0;
+    const Vec2 size(panel.width * panel.pixel.x, panel.height * panel.pixel.y);
+    const Vec2 low(33.3, 17.7);
+    const Vec2 high = low + (is_turned ? Vec2(size.y, size.x) : size);
+    write_folder(folder.file(name), panel,
+                 {layer_of({low, {high.x, low.y}, high, {low.x, high.y}})},
+                 box_around(low, high));
+    const Rows rows = read_png(folder.file(name) + "/00000.png");
+    EXPECT_EQ(rows, Rows(panel.height, std::vector<int>(panel.width, 255)))
+        << name;
+  }
+}
+
+TEST(ImageStackWriter, TellsTheThicknessWithoutRounding) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.png");
+  Layer layer = layer_of(kBar);
+  layer.bottom = 9.95;
+  layer.top = 10;  // 0.05000000000000071 higher
+  write_folder(path, small_panel(), {layer}, kBox);
+  const auto index = nlohmann::json::parse(read_file(path + "/index.json"));
+  EXPECT_EQ(index.at("layer_thickness"), 0.05);
+}
+
+TEST(ImageStackWriter, FollowsLinksToFolders) {
+  const TemporaryFolder folder;
+  const Layer layer = layer_of(kBar);
+  std::filesystem::create_directory(folder.file("real"));
+  std::filesystem::create_directory_symlink("real", folder.file("a.png"));
+  write_folder(folder.file("a.png"), small_panel(), {layer, layer}, kBox);
+  write_folder(folder.file("a.png"), small_panel(), {layer}, kBox);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("a.png")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("real/00000.png")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("real/00001.png")));
+  std::filesystem::create_directory_symlink("none", folder.file("b.png"));
+  EXPECT_THROW(write_folder(folder.file("b.png"), small_panel(), {layer}, kBox),
+               FileError);
+  EXPECT_EQ(folder.entry_count(), 3U);
+}
+
+TEST(ImageStackWriter, NamesInArchivesAreUtf8) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("Rîng.sl1");
+  TemporaryFiles files;
+  ImageStackWriter writer(OutputFormat::kSl1, small_panel(), path, files);
+  writer.begin(kBox);
+  writer.take(layer_of(kBar));
+  Diagnostics unheard;
+  writer.finish(unheard);
+  writer.commit();
+  const auto listing = support::run_process(
+      {"/usr/bin/python3", "-c",
+       "import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).namelist())",
+       path});
+  EXPECT_EQ(listing.output, "['Rîng00000.png', 'config.ini']\n")
+      << listing.errors;
+}
+
 TEST(ImageStackWriter, ReplacesOnlyFoldersOfItsOwn) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.png");
@@ -188,10 +251,15 @@ TEST(Panel, IsFoundByNameOrFile) {
        R"({"name":"a","pixels":[5,5],"pixel_mm":[0,1],"right":"+x","up":"+y"})",
        R"({"name":"a","pixels":[5,5],"pixel_mm":[1,1],"right":"+x","up":"-x"})",
        R"({"name":"a","pixels":[5,5],"pixel_mm":[1,1],"right":"z","up":"+y"})",
-       R"({"name":"a","pixels":[5,5],"pixel_mm":[1,1],"right":"+-","up":"+y"})"}) {
+       R"({"name":"a","pixels":[5.5,5],"pixel_mm":[1,1],"right":"+x","up":"+y"})",
+       R"({"name":"a","pixels":[-4294967196,5],"pixel_mm":[1,1],"right":"+x","up":"+y"})",
+       R"({"name":"a","pixels":[5,5],"pixel_mm":[1,1],"right":"","up":"+y"})",
+       R"({"name":"a","pixels":[5,5],"pixel_mm":[1,1],"right":"+-x","up":"+y"})"}) {
     const std::string bad = folder.write("bad.json", text);
     EXPECT_THROW(find_panel(bad), FileError) << text;
   }
+  std::filesystem::create_directory(folder.file("folder.json"));
+  EXPECT_THROW(find_panel(folder.file("folder.json")), FileError);
   EXPECT_THROW(find_panel("unknown"), FileError);
   EXPECT_THROW(find_panel(folder.file("none.json")), FileError);
 }
