@@ -105,7 +105,7 @@ void Simplifier::simplify(ldni::Contours& contours) {
   copy_loops(contours);
   vertices_.clear();
   ends_.clear();
-  for (const Loop& loop : loops_) choose(loop);
+  for (Loop& loop : loops_) choose(loop);
   kept_.assign(points_.size(), 0);
   for (const std::uint32_t i : vertices_) kept_[i] = 1;
   find_neighbours();
@@ -117,7 +117,9 @@ void Simplifier::simplify(ldni::Contours& contours) {
   // Clear shortcuts keep the distance as well.
   is_apart_ = !is_crowded_ && !has_meetings();
   for (std::size_t l = 0; l < loops_.size(); ++l) {
-    thin_out(loops_[l], l == 0 ? 0 : ends_[l - 1], ends_[l]);
+    if (loops_[l].has_spare) {
+      thin_out(loops_[l], l == 0 ? 0 : ends_[l - 1], ends_[l]);
+    }
   }
   write_kept(contours);
 }
@@ -145,7 +147,7 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
 }
 
 // Chooses vertices as if the loop were alone.
-void Simplifier::choose(const Loop& loop) {
+void Simplifier::choose(Loop& loop) {
   const std::size_t begin = vertices_.size();
   bool is_chosen = false;
   for (double tolerance = tolerance_; tolerance > kEndMargin && !is_chosen;
@@ -154,6 +156,7 @@ void Simplifier::choose(const Loop& loop) {
     choose_within(loop, tolerance);
     is_chosen = keeps_area(loop.doubled_area,
                            doubled_area_kept(begin, vertices_.size()));
+    loop.has_spare = loop.has_spare || !is_chosen;
   }
   if (!is_chosen) {
     vertices_.resize(begin);
@@ -221,9 +224,8 @@ void Simplifier::list_kept() {
 }
 
 // Fills the tree, and finds the leaves whose strips and vertices may meet: a
-// strip lies within
-// the box of its run, widened by the clearance; and where runs follow each
-// other and advance along an axis, so do their strips.
+// strip lies within the box of its run, widened by the clearance; and where
+// runs follow each other and advance along an axis, so do their strips.
 void Simplifier::find_neighbours() {
   tree_.fill(points_, vertices_, ends_);
   near_pairs_.clear();
@@ -262,11 +264,19 @@ bool Simplifier::has_meetings() const {
 }
 
 // Splits runs until each is safe. Returns whether a vertex was brought back.
+// All runs are close to their shortcuts, by the choice or by an earlier call;
+// what has no neighbour is clear as well.
 bool Simplifier::mend() {
   bool is_changed = false;
   for (std::uint32_t k = 0; k + 1 < vertices_.size(); ++k) {
     // The last vertex of a loop is followed by the first one of the next.
-    if (vertices_[k + 1] > vertices_[k] + 1) is_changed |= mend_run(k);
+    if (vertices_[k + 1] <= vertices_[k] + 1) continue;
+    const std::uint32_t leaf = tree_.leaf_of(k);
+    if (near_begins_[leaf] == near_begins_[leaf + 1]) continue;
+    if (mend_run(k)) {
+      is_changed = true;
+      loops_[tree_.leaf(leaf).loop].has_spare = true;
+    }
   }
   return is_changed;
 }

@@ -15,11 +15,12 @@
 //    in [0, length] × [-tolerance, tolerance]. The run crosses every abscissa
 //    of the shortcut, so each of the two is within the tolerance of the other.
 //    Moving every point of the run straight down to the shortcut sweeps the
-//    strip between them; no vertex that stays may lie in a strip. A tree of
-//    boxes tells nearly all strips apart at once (loop_tree.h).
+//    strip between them; no vertex that stays may lie in a strip. The first is
+//    so by the choice. A tree of boxes tells nearly all strips apart at once
+//    (loop_tree.h); only the others are looked at.
 // 3. Mend. A run that fails is split at its farthest vertex, until none fails.
 // 4. Thin out. A vertex whose run and the next pass the proof as one is left
-//    out: what the splits no longer need.
+//    out: what the splits, or a choice within less, no longer need.
 //
 // Why the topology stays. Prick the plane at all vertices that stay. Runs can
 // be moved to their shortcuts without crossing a prick, and runs are disjoint.
@@ -67,12 +68,13 @@ class Simplifier {
   struct Loop {
     std::uint32_t begin;
     std::uint32_t end;
-    double doubled_area;  // signed [mm²]
+    double doubled_area;     // signed [mm²]
+    bool has_spare = false;  // vertices that the choice did not want
   };
   struct Shortcut;
 
   void copy_loops(const ldni::Contours& contours);
-  void choose(const Loop& loop);
+  void choose(Loop& loop);
   void choose_within(const Loop& loop, double tolerance);
   std::uint32_t farthest_reach(std::uint32_t anchor, std::uint32_t end,
                                double tolerance) const;
