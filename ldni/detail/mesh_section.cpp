@@ -40,7 +40,8 @@ void MeshSectioner::count_layers_below(const csg::Mesh& mesh,
     if (!meets_block(layers)) {
       const std::uint32_t below =
           std::clamp(layers.first, layers_->first, end_layer) - layers_->first;
-      std::fill(&layers_below_[begin], &layers_below_[end], below);
+      std::fill(layers_below_.begin() + begin, layers_below_.begin() + end,
+                below);
       return;
     }
     for (std::size_t i = begin; i < end; ++i) {
