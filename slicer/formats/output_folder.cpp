@@ -1,10 +1,13 @@
 #include "slicer/formats/output_folder.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +17,26 @@
 namespace lamina::slicer {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::unordered_set<std::string>;
+
+// What stands between quotes in a file of contents: the names of the files that
+// it tells of, and its own. None if lamina did not write it.
+Words words_of(const fs::path& contents) {
+  std::ifstream file(contents, std::ios::binary);
+  Words words;
+  for (std::string word; std::getline(file, word, '"');) words.insert(word);
+  const bool is_own = std::any_of(
+      words.begin(), words.end(),
+      [](const std::string& word) { return word.starts_with("lamina "); });
+  if (!is_own) return {};
+  words.insert(contents.filename());
+  return words;
+}
+
+}  // namespace
 
 OutputFolder::OutputFolder(std::string path, std::string contents,
                            TemporaryFiles& temporary_files)
@@ -33,20 +56,26 @@ OutputFolder::~OutputFolder() {
 
 // Throws where something stands at the target that lamina did not make.
 void OutputFolder::check_target() const {
-  std::error_code unreadable;
-  const fs::file_status status = fs::status(path_, unreadable);
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
   if (!fs::exists(status)) {
-    if (fs::is_symlink(fs::symlink_status(path_, unreadable))) {
+    if (fs::is_symlink(fs::symlink_status(path_, error))) {
       fail("it links to what is not there");
     }
     return;
   }
   if (!fs::is_directory(status)) fail("it is no folder");
-  if (fs::is_empty(path_, unreadable)) return;
-  if (!fs::exists(fs::path(path_) / contents_, unreadable)) {
-    fail(fmt::format("a folder without {} stands there; it would be lost",
-                     contents_));
+  const Words own = words_of(fs::path(path_) / contents_);
+  for (fs::directory_iterator entry(path_, error), end; entry != end; ++entry) {
+    const std::string name = entry->path().filename();
+    if (!own.contains(name)) {
+      fail(
+          fmt::format("a folder stands there, and '{}' in it, which lamina "
+                      "did not make, would be lost",
+                      name));
+    }
   }
+  if (error) fail(error.message());
 }
 
 void OutputFolder::add(const std::string& name, std::string_view bytes) {

@@ -2,8 +2,8 @@
 // A folder of files that appears whole or not at all.
 //
 // It is filled under a hidden name beside the target and put in its place at
-// the end. A folder that stands there is replaced if lamina made it: if it
-// holds the file of contents that the new one will hold.
+// the end. A folder that stands there is replaced if lamina made all that it
+// holds: the file of contents, and what that one names.
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,8 @@ namespace lamina::slicer {
 
 class OutputFolder {
  public:
-  // contents  name of the file that tells what the folder holds
+  // contents  name of the file that tells what the folder holds: in quotes, the
+  //           names of its files and a word that begins with "lamina "
   //
   // Throws FileError if the folder cannot be made, or if what stands there may
   // not be replaced.

@@ -205,6 +205,15 @@ TEST(ImageStackWriter, ReplacesOnlyFoldersOfItsOwn) {
   EXPECT_FALSE(std::filesystem::exists(path + "/00001.png"));
   EXPECT_EQ(folder.entry_count(), 1U);
 
+  // A letter among the images, and another program's file of contents.
+  std::ofstream(path + "/letter.txt") << "dear";
+  EXPECT_THROW(write_folder(path, small_panel(), {layer}, kBox), FileError);
+  EXPECT_EQ(read_file(path + "/letter.txt"), "dear");
+  std::filesystem::remove(path + "/letter.txt");
+  write_folder(path, small_panel(), {layer}, kBox);
+  std::ofstream(path + "/index.json") << "{\"file\": \"00000.png\"}";
+  EXPECT_THROW(write_folder(path, small_panel(), {layer}, kBox), FileError);
+
   std::filesystem::create_directory(folder.file("mine"));
   std::ofstream(folder.file("mine/letter.txt")) << "dear";
   EXPECT_THROW(write_folder(folder.file("mine"), small_panel(), {layer}, kBox),
