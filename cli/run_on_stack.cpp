@@ -83,8 +83,10 @@ sigset_t ending_signals() {
 
 int run_on_stack(slicer::TemporaryFiles& temporary_files,
                  const std::function<int(std::size_t)>& work) {
-  // A reader that closes its pipe early is a failed write, not a death.
+  // A reader that closes its pipe early, and a file larger than the user may
+  // write, are failed writes, not a death.
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);
   // All threads inherit the mask: signals reach sigwait() alone.
   sigset_t signals = ending_signals();
   ::sigaddset(&signals, kDoneSignal);

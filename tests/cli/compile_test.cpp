@@ -548,6 +548,21 @@ TEST(Compile, AReaderThatLeavesIsAnErrorNotADeath) {
   EXPECT_EQ(result.status, 1);
 }
 
+TEST(Compile, AFileLargerThanTheUserMayWriteLeavesNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "sphere(5, $fn = 200);");
+  for (const char* const output : {"a.slc", "a.sl1", "a.png"}) {
+    const std::string line = std::string("ulimit -f 1; ") + LAMINA_PROGRAM +
+                             " a.scad --tolerance 0 -o " + output;
+    const auto result =
+        support::run_process({"bash", "-c", line}, folder.path());
+    EXPECT_EQ(result.status, 1) << output;
+    EXPECT_NE(result.errors.find("File too large"), std::string::npos)
+        << result.errors;
+    EXPECT_EQ(folder.entry_count(), 1U) << output;
+  }
+}
+
 TEST(Compile, ASetThatCannotBeUsedMakesNoLayers) {
   const TemporaryFolder folder;
   folder.write("a.scad", "size = 1; echo(size); cube(size);");
