@@ -346,6 +346,13 @@ const char* find_misfit(const DesignOptions& options) {
   const bool has_images =
       is_sl1 || options.format == slicer::OutputFormat::kPng;
   const bool is_mirrored = options.mirrors_x || options.mirrors_y;
+  const bool has_layers = options.format != slicer::OutputFormat::kAst &&
+                          options.format != slicer::OutputFormat::kEcho &&
+                          options.format != slicer::OutputFormat::kCsg;
+  if (!has_layers && !options.report.empty()) return "--report needs layers";
+  if (!has_layers && options.settings.min_feature > 0) {
+    return "--min-feature needs layers";
+  }
   if (!has_images && !options.printer.empty()) {
     return "--printer needs images: .png or .sl1";
   }

@@ -103,6 +103,8 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"a.scad", "-o", "a.svg", "--printer", "plain"},
       {"a.scad", "--mirror", "x"},
       {"a.scad", "-o", "a.csg", "--cli", "ascii"},
+      {"a.scad", "-o", "a.csg", "--report", "a.json"},
+      {"a.scad", "-o", "a.echo", "--min-feature", "0.2"},
       {"a.scad", "-o", "a.sl1", "--heights", "0.5"},
       {"view", "a.scad", "-o", "a.png", "--sampler", "gl"},
       {"view", "a.scad", "-o", "a.png", "--min-feature", "0.2"},
