@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "parser/check.h"
+#include "slicer/plane.h"
 
 namespace lamina::slicer {
 namespace {
@@ -32,9 +33,6 @@ double to_float(double value) {
   return static_cast<double>(static_cast<float>(value) + 0.0F);
 }
 Vec2 to_float(Vec2 point) { return {to_float(point.x), to_float(point.y)}; }
-
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 
 }  // namespace
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <span>
 
+#include "slicer/farthest_reach.h"
+#include "slicer/plane.h"
+
 namespace lamina::slicer {
 namespace {
 
@@ -15,68 +18,12 @@ constexpr double kClearance = 2e-7;
 // And by this [mm] along, so that rounding hides nothing at their ends.
 constexpr double kEndMargin = 1e-9;
 
-// A search for the next vertex goes on for so many vertices, and twice as many
-// as it has reached, after the last one that a line reaches.
-constexpr std::uint32_t kPatience = 16;
-
 // Loops change their area by at most this factor, or its inverse.
 constexpr double kAreaFactor = 2;
-
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
 
 bool keeps_area(double before, double after) {
   return after / before >= 1 / kAreaFactor && after / before <= kAreaFactor;
 }
-
-// Directions of the lines from the anchor that pass all vertices so far within
-// the tolerance.
-class Cone {
- public:
-  // The first vertex, seen from the anchor, and the square of its distance.
-  Cone(double tolerance, Vec2 to, double squared)
-      : tolerance_(tolerance), tolerance_squared_(tolerance * tolerance) {
-    const double cosine = cosine_of(squared);
-    right_ = right_side(to, cosine);
-    left_ = left_side(to, cosine);
-  }
-
-  // Takes another vertex. Whether the cone held it before.
-  bool narrow(Vec2 to, double squared) {
-    const double cosine = cosine_of(squared);
-    const double past_right = cross(right_, to);
-    const double past_left = cross(to, left_);
-    // The new sides beside the old ones, multiplied out.
-    if (cosine * past_right > tolerance_ * dot(right_, to)) {
-      right_ = right_side(to, cosine);
-    }
-    if (cosine * past_left > tolerance_ * dot(left_, to)) {
-      left_ = left_side(to, cosine);
-    }
-    return past_right >= 0 && past_left >= 0;
-  }
-  bool is_empty() const { return cross(right_, left_) < 0; }
-
- private:
-  // Of half the angle, times the distance; its sine is the tolerance. What is
-  // nearer than the tolerance asks for no more than not to lie behind the
-  // anchor.
-  double cosine_of(double squared) const {
-    return std::sqrt(std::max(0.0, squared - tolerance_squared_));
-  }
-  Vec2 right_side(Vec2 to, double cosine) const {
-    return to * cosine - left_of(to) * tolerance_;
-  }
-  Vec2 left_side(Vec2 to, double cosine) const {
-    return to * cosine + left_of(to) * tolerance_;
-  }
-
-  double tolerance_;
-  double tolerance_squared_;
-  Vec2 right_;
-  Vec2 left_;
-};
 
 }  // namespace
 
@@ -170,45 +117,9 @@ void Simplifier::choose(Loop& loop) {
 void Simplifier::choose_within(const Loop& loop, double tolerance) {
   for (std::uint32_t anchor = loop.begin; anchor != loop.end;) {
     vertices_.push_back(anchor);
-    anchor = farthest_reach(anchor, loop.end, tolerance);
+    anchor = farthest_reach(points_, anchor, loop.end, tolerance);
   }
   vertices_.push_back(loop.end);
-}
-
-// Last vertex, at most `end`, for which a straight line from the anchor passes
-// all vertices between within the tolerance, nearly always.
-std::uint32_t Simplifier::farthest_reach(std::uint32_t anchor,
-                                         std::uint32_t end,
-                                         double tolerance) const {
-  if (end < anchor + 2) return end;
-  // Most runs of a coarse section end at once; that is cheap to see: no line
-  // passes both vertices.
-  const Vec2 first = points_[anchor + 1] - points_[anchor];
-  const Vec2 second = points_[anchor + 2] - points_[anchor];
-  const double area = cross(first, second);
-  if (area * area >
-      2 * tolerance * tolerance * (dot(first, first) + dot(second, second))) {
-    return anchor + 1;
-  }
-  std::uint32_t reach = anchor + 1;
-  double farthest = dot(first, first);  // squared
-  if (farthest == 0) return anchor + 1;
-  Cone cone(tolerance, first, farthest);
-  for (std::uint32_t i = anchor + 2; i <= end; ++i) {
-    const Vec2 to = points_[i] - points_[anchor];
-    const double squared = dot(to, to);
-    const bool is_passed = cone.narrow(to, squared);
-    // The end of a shortcut is its farthest vertex.
-    if (squared >= farthest) {
-      farthest = squared;
-      if (is_passed) reach = i;
-    } else if (std::sqrt(squared) < std::sqrt(farthest) - tolerance) {
-      break;  // it turns back
-    }
-    if (cone.is_empty()) break;
-    if (i - reach > kPatience + 2 * (reach - anchor)) break;
-  }
-  return reach;
 }
 
 // Writes down the vertices that are kept.

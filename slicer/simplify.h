@@ -76,8 +76,6 @@ class Simplifier {
   void copy_loops(const ldni::Contours& contours);
   void choose(Loop& loop);
   void choose_within(const Loop& loop, double tolerance);
-  std::uint32_t farthest_reach(std::uint32_t anchor, std::uint32_t end,
-                               double tolerance) const;
   void list_kept();
   void find_neighbours();
   bool has_meetings() const;
