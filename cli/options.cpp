@@ -12,6 +12,7 @@
 #include <double-conversion/double-conversion.h>
 #include <fmt/format.h>
 
+#include "cli/contradictions.h"
 #include "cli/help.h"
 #include "slicer/thin_finder.h"
 #include "slicer/version.h"
@@ -320,52 +321,6 @@ std::string without_extension(const std::string& path) {
   const bool has_extension = dot != std::string::npos && dot > 0 &&
                              (slash == std::string::npos || dot > slash + 1);
   return has_extension ? path.substr(0, dot) : path;
-}
-
-// Options that do not go together; null if all do.
-const char* find_contradiction(const slicer::Settings& settings) {
-  const bool is_paper = settings.contour == slicer::ContourMode::kPaper;
-  if (settings.min_feature > 0 && is_paper) {
-    return "--min-feature needs --contour faithful";
-  }
-  if (settings.boxes == slicer::BoxMode::kGlobal && !is_paper) {
-    return "--boxes global needs --contour paper";
-  }
-  if (settings.sampler == slicer::SamplerKind::kScanline) return nullptr;
-  if (!is_paper) return "--sampler gl and gl-peeling need --contour paper";
-  if (!settings.heights.empty()) {
-    return "--sampler gl and gl-peeling need layers of one thickness, not "
-           "--heights";
-  }
-  return nullptr;
-}
-
-// Options that do not go with the format; null if all do.
-const char* find_misfit(const DesignOptions& options) {
-  const bool is_sl1 = options.format == slicer::OutputFormat::kSl1;
-  const bool has_images =
-      is_sl1 || options.format == slicer::OutputFormat::kPng;
-  const bool is_mirrored = options.mirrors_x || options.mirrors_y;
-  const bool has_layers = options.format != slicer::OutputFormat::kAst &&
-                          options.format != slicer::OutputFormat::kEcho &&
-                          options.format != slicer::OutputFormat::kCsg;
-  if (!has_layers && !options.report.empty()) return "--report needs layers";
-  if (!has_layers && options.settings.min_feature > 0) {
-    return "--min-feature needs layers";
-  }
-  if (!has_images && !options.printer.empty()) {
-    return "--printer needs images: .png or .sl1";
-  }
-  if (!has_images && is_mirrored) {
-    return "--mirror needs images: .png or .sl1";
-  }
-  if (options.cli_encoding && options.format != slicer::OutputFormat::kCli) {
-    return "--cli needs .cli output";
-  }
-  if (is_sl1 && !options.settings.heights.empty()) {
-    return ".sl1 needs layers of one thickness, not --heights";
-  }
-  return nullptr;
 }
 
 Command finish_design(Parsed& parsed) {

@@ -1,0 +1,46 @@
+#include "cli/contradictions.h"
+
+namespace lamina::cli {
+
+const char* find_contradiction(const slicer::Settings& settings) {
+  const bool is_paper = settings.contour == slicer::ContourMode::kPaper;
+  if (settings.min_feature > 0 && is_paper) {
+    return "--min-feature needs --contour faithful";
+  }
+  if (settings.boxes == slicer::BoxMode::kGlobal && !is_paper) {
+    return "--boxes global needs --contour paper";
+  }
+  if (settings.sampler == slicer::SamplerKind::kScanline) return nullptr;
+  if (!is_paper) return "--sampler gl and gl-peeling need --contour paper";
+  if (!settings.heights.empty()) {
+    return "--sampler gl and gl-peeling need layers of one thickness, not "
+           "--heights";
+  }
+  return nullptr;
+}
+
+const char* find_misfit(const DesignOptions& options) {
+  using enum slicer::OutputFormat;
+  const slicer::OutputFormat format = options.format;
+  const slicer::Settings& settings = options.settings;
+  const bool has_layers = format != kAst && format != kEcho && format != kCsg;
+  if (!has_layers && !options.report.empty()) return "--report needs layers";
+  if (!has_layers && settings.min_feature > 0) {
+    return "--min-feature needs layers";
+  }
+  const bool has_images = format == kPng || format == kSl1;
+  const bool is_mirrored = options.mirrors_x || options.mirrors_y;
+  if (!has_images && !options.printer.empty()) {
+    return "--printer needs images: .png or .sl1";
+  }
+  if (!has_images && is_mirrored) {
+    return "--mirror needs images: .png or .sl1";
+  }
+  if (options.cli_encoding && format != kCli) return "--cli needs .cli output";
+  if (format == kSl1 && !settings.heights.empty()) {
+    return ".sl1 needs layers of one thickness, not --heights";
+  }
+  return nullptr;
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,17 @@
+#pragma once
+// Options that each are good, but not together. They are refused, so that
+// nobody takes for done what was not. Only options of slicing may stand idle:
+// one set of them goes for layers and texts of a design.
+
+#include "cli/options.h"
+#include "slicer/settings.h"
+
+namespace lamina::cli {
+
+// What is wrong with them, for the user; null if they go together.
+const char* find_contradiction(const slicer::Settings& settings);
+
+// Likewise of the options with the output's format.
+const char* find_misfit(const DesignOptions& options);
+
+}  // namespace lamina::cli
