@@ -23,7 +23,7 @@ const char* find_misfit(const DesignOptions& options) {
   using enum slicer::OutputFormat;
   const slicer::OutputFormat format = options.format;
   const slicer::Settings& settings = options.settings;
-  const bool has_layers = format != kAst && format != kEcho && format != kCsg;
+  const bool has_layers = slicer::is_of_layers(format);
   if (!has_layers && !options.report.empty()) return "--report needs layers";
   if (!has_layers && settings.min_feature > 0) {
     return "--min-feature needs layers";

@@ -323,14 +323,22 @@ std::string without_extension(const std::string& path) {
   return has_extension ? path.substr(0, dot) : path;
 }
 
+// By its name: a file that lamina writes, and no design.
+bool holds_layers(const std::string& path) {
+  const slicer::FormatChoice choice = slicer::choose_output_format(path);
+  return choice.format && slicer::is_of_layers(*choice.format);
+}
+
 Command finish_design(Parsed& parsed) {
   DesignOptions& options = parsed.design;
   if (options.design.empty()) return usage_error("no design was given");
-  if (options.design.ends_with(".slc")) {
+  if (holds_layers(options.design)) {
     return usage_error(
-        fmt::format("'{0}' holds layers already; try 'lamina "
-                    "inspect {0}' or 'lamina view {0}'",
-                    options.design));
+        options.design.ends_with(".slc")
+            ? fmt::format("'{0}' holds layers already; try 'lamina inspect "
+                          "{0}' or 'lamina view {0}'",
+                          options.design)
+            : fmt::format("'{}' holds layers already", options.design));
   }
   options.definitions = join_definitions(parsed.definitions);
   if (options.output.empty()) {
@@ -361,6 +369,11 @@ Command finish_view(Parsed& parsed) {
   if (!options.design.output.ends_with(".png")) {
     return usage_error(fmt::format("view draws .png pictures; '{}' is none",
                                    options.design.output));
+  }
+  const std::string& file = options.design.design;
+  if (holds_layers(file) && !file.ends_with(".slc")) {
+    return usage_error(fmt::format(
+        "view reads layers from .slc only, and designs; not '{}'", file));
   }
   if (const char* contradiction = find_contradiction(options.design.settings)) {
     return usage_error(contradiction);

@@ -54,6 +54,11 @@ std::string lower_case(std::string_view text) {
 
 }  // namespace
 
+bool is_of_layers(OutputFormat format) {
+  using enum OutputFormat;
+  return format != kAst && format != kEcho && format != kCsg;
+}
+
 FormatChoice choose_output_format(std::string_view name) {
   const std::string lower = lower_case(name);
   for (const Written& written : kWritten) {

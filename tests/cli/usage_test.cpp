@@ -66,6 +66,10 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
   const std::vector<std::vector<std::string>> mistakes = {
       {},
       {"--no-such-option", "a.scad"},
+      {"a.slc"},
+      {"a.cli", "-o", "b.slc"},
+      {"view", "a.sl1", "-o", "b.png"},
+      {"view", "a.svg", "-o", "b.png"},
       {"a.scad", "--layer", "0"},
       {"a.scad", "--layer", "-1"},
       {"a.scad", "--layer", "thick"},
