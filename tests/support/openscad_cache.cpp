@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -28,6 +29,26 @@ const std::string& openscad_version() {
   return version;
 }
 
+// Names of the fonts on this machine: which of them a text takes depends on
+// all that are there.
+const std::string& installed_fonts() {
+  static const std::string fonts = [] {
+    std::set<std::string> names;
+    for (const char* const folder :
+         {"/usr/share/fonts", "/usr/local/share/fonts"}) {
+      std::error_code missing;
+      for (const fs::directory_entry& entry :
+           fs::recursive_directory_iterator(folder, missing)) {
+        names.insert(entry.path().filename().string());
+      }
+    }
+    std::string all;
+    for (const std::string& name : names) all += name + '\0';
+    return all;
+  }();
+  return fonts;
+}
+
 // FNV-1a.
 std::uint64_t hash(const std::string& text) {
   std::uint64_t value = 0xcbf29ce484222325;
@@ -41,8 +62,8 @@ std::uint64_t hash(const std::string& text) {
 // The folder in which the cache keeps the answer.
 fs::path place_of(const fs::path& design, const std::string& format,
                   const std::vector<std::string>& options) {
-  std::string key =
-      openscad_version() + design.string() + read_file(design.string());
+  std::string key = openscad_version() + installed_fonts() + design.string() +
+                    read_file(design.string());
   for (const std::string& option : options) key += '\0' + option;
   return cache_folder() / fmt::format("{}-{:016x}.{}", design.stem().string(),
                                       hash(key), format);

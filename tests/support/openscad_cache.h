@@ -2,10 +2,10 @@
 // The installed openscad, asked once for each thing.
 //
 // A design may take it a minute, so what it wrote is kept outside the source
-// and the build tree, and serves as long as the program's version, the design's
-// path and text, and the options stay the same. Tests run side by side: every
-// answer is a folder that is filled elsewhere and put in its place by one
-// rename, so that there is never half of one.
+// and the build tree, and serves as long as the program's version, the fonts on
+// the machine, the design's path and text, and the options stay the same. Tests
+// run side by side: every answer is a folder that is filled elsewhere and put
+// in its place by one rename, so that there is never half of one.
 
 #include <filesystem>
 #include <string>
