@@ -28,7 +28,7 @@ const char* find_misfit(const DesignOptions& options) {
   if (!has_layers && settings.min_feature > 0) {
     return "--min-feature needs layers";
   }
-  const bool has_images = format == kPng || format == kSl1;
+  const bool has_images = slicer::is_of_images(format);
   const bool is_mirrored = options.mirrors_x || options.mirrors_y;
   if (!has_images && !options.printer.empty()) {
     return "--printer needs images: .png or .sl1";

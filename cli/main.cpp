@@ -89,9 +89,9 @@ std::string sampler_name(const slicer::Settings& settings) {
 
 // The panel of the printer; of formats without images an empty one.
 slicer::Panel chosen_panel(const DesignOptions& options) {
-  const bool is_sl1 = options.format == OutputFormat::kSl1;
-  if (!is_sl1 && options.format != OutputFormat::kPng) return {};
-  const std::string usual = is_sl1 ? "prusa-sl1" : "plain";
+  if (!slicer::is_of_images(options.format)) return {};
+  const std::string usual =
+      options.format == OutputFormat::kSl1 ? "prusa-sl1" : "plain";
   slicer::Panel panel =
       slicer::find_panel(options.printer.empty() ? usual : options.printer);
   if (options.mirrors_x) panel.right = -panel.right;

@@ -1,6 +1,5 @@
 #include "slicer/formats/cli_writer.h"
 
-#include <bit>
 #include <charconv>
 #include <string>
 
@@ -12,9 +11,6 @@
 namespace lamina::slicer {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "CLI is little-endian and is written as it lies in memory");
-
 // Commands of the binary body: those with long numbers.
 constexpr std::uint16_t kStartLayer = 127;
 constexpr std::uint16_t kStartPolyline = 130;
@@ -22,11 +18,6 @@ constexpr std::uint16_t kStartPolyline = 130;
 constexpr std::int32_t kPart = 1;  // identifier of the only one
 constexpr std::int32_t kInner = 0;
 constexpr std::int32_t kOuter = 1;
-
-template <typename Value>
-void append(OutputFile& output, const Value& value) {
-  output.write({reinterpret_cast<const char*>(&value), sizeof(value)});
-}
 
 // The shortest digits that read back as the same number; readers want no
 // exponent.
@@ -43,7 +34,7 @@ void print_number(OutputFile& output, float value) {
 
 CliWriter::CliWriter(const std::string& path, TemporaryFiles& temporary_files,
                      CliEncoding encoding)
-    : FileWriter(path, temporary_files), encoding_(encoding) {
+    : FloatWriter(path, temporary_files), encoding_(encoding) {
   write_header();
 }
 
@@ -59,11 +50,7 @@ void CliWriter::write_header() {
       fixed_width(low.y), fixed_width(bottom_z_), fixed_width(high.x),
       fixed_width(high.y), fixed_width(top_z_), layers_,
       is_ascii ? "\n$$GEOMETRYSTART\n" : "");
-  if (output_.size() == 0) {
-    output_.write(header);
-  } else {
-    output_.patch(0, header);
-  }
+  write_head(header);
 }
 
 void CliWriter::write_height(float z) {
@@ -103,13 +90,8 @@ void CliWriter::take(const Layer& layer) {
   const auto z = static_cast<float>(layer.top);
   if (layers_ == 0) {
     bottom_z_ = static_cast<float>(layer.bottom);
-  } else if (!(z > top_z_)) {
-    throw FileError({Severity::kError,
-                     {},
-                     fmt::format("Can't write '{}': the layers at {} and {} mm "
-                                 "are one in CLI's 32-bit numbers",
-                                 output_.path(), top_z_, layer.top),
-                     {}});
+  } else {
+    check_rise(top_z_, layer.top, "CLI");
   }
   ++layers_;
   top_z_ = z;

@@ -15,13 +15,12 @@
 #include <span>
 #include <string>
 
-#include "slicer/formats/float_contours.h"
-#include "slicer/formats/layer_writer.h"
+#include "slicer/formats/float_writer.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::slicer {
 
-class CliWriter : public FileWriter {
+class CliWriter : public FloatWriter {
  public:
   CliWriter(const std::string& path, TemporaryFiles& temporary_files,
             CliEncoding encoding);
@@ -30,12 +29,6 @@ class CliWriter : public FileWriter {
   void take(const Layer& layer) override;
   // Warns where the numbers are too coarse for the design.
   void finish(Diagnostics& diagnostics) override;
-  std::uint64_t snapped_layers() const override {
-    return contours_.snapped_layers();
-  }
-  double greatest_rounding() const override {
-    return contours_.greatest_rounding();
-  }
 
  private:
   void write_header();
@@ -46,7 +39,6 @@ class CliWriter : public FileWriter {
   std::uint32_t layers_ = 0;
   float bottom_z_ = 0;  // of the first layer
   float top_z_ = 0;     // of the last one
-  FloatContours contours_;
 };
 
 }  // namespace lamina::slicer

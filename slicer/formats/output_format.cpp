@@ -59,6 +59,10 @@ bool is_of_layers(OutputFormat format) {
   return format != kAst && format != kEcho && format != kCsg;
 }
 
+bool is_of_images(OutputFormat format) {
+  return format == OutputFormat::kPng || format == OutputFormat::kSl1;
+}
+
 FormatChoice choose_output_format(std::string_view name) {
   const std::string lower = lower_case(name);
   for (const Written& written : kWritten) {

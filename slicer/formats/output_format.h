@@ -24,6 +24,9 @@ enum class CliEncoding { kBinary, kAscii };
 // Whether it holds layers, not one of the stages on the way to them.
 bool is_of_layers(OutputFormat format);
 
+// Whether its layers are images for a panel.
+bool is_of_images(OutputFormat format);
+
 // A file name or an `--export-format` as far as it could be understood.
 struct FormatChoice {
   std::optional<OutputFormat> format;

@@ -1,6 +1,5 @@
 #include "slicer/formats/slc_writer.h"
 
-#include <bit>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,22 +11,14 @@
 namespace lamina::slicer {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "SLC is little-endian and is written as it lies in memory");
-
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
-
-template <typename Value>
-void append(OutputFile& output, const Value& value) {
-  output.write({reinterpret_cast<const char*>(&value), sizeof(value)});
-}
 
 }  // namespace
 
 SlcWriter::SlcWriter(const std::string& path, TemporaryFiles& temporary_files,
                      std::optional<double> deviation)
-    : FileWriter(path, temporary_files), deviation_(deviation) {}
+    : FloatWriter(path, temporary_files), deviation_(deviation) {}
 
 // The program's name; "lamina 0.1.0 within 0.00100117000 mm".
 std::string SlcWriter::package() const {
@@ -47,11 +38,7 @@ void SlcWriter::write_header() {
       "{},{} {},{} {},{}\r\n\x1A",
       package(), fixed_width(low.x), fixed_width(high.x), fixed_width(low.y),
       fixed_width(high.y), fixed_width(bottom_z_), fixed_width(top_z_));
-  if (output_.size() == 0) {
-    output_.write(header);
-  } else {
-    output_.patch(0, header);
-  }
+  write_head(header);
 }
 
 void SlcWriter::begin_file(const Layer& first) {
@@ -71,13 +58,8 @@ void SlcWriter::take(const Layer& layer) {
   if (!has_layers_) {
     begin_file(layer);
     bottom_z_ = z;
-  } else if (!(z > last_z_)) {
-    throw FileError({Severity::kError,
-                     {},
-                     fmt::format("Can't write '{}': the layers at {} and {} mm "
-                                 "are one in SLC's 32-bit numbers",
-                                 output_.path(), last_z_, layer.bottom),
-                     {}});
+  } else {
+    check_rise(last_z_, layer.bottom, "SLC");
   }
   has_layers_ = true;
   last_z_ = z;

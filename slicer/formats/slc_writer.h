@@ -11,12 +11,11 @@
 #include <optional>
 #include <string>
 
-#include "slicer/formats/float_contours.h"
-#include "slicer/formats/layer_writer.h"
+#include "slicer/formats/float_writer.h"
 
 namespace lamina::slicer {
 
-class SlcWriter : public FileWriter {
+class SlcWriter : public FloatWriter {
  public:
   // deviation  as in WriterOptions; the header tells it, and what
   //            rounding adds, behind the name of the program
@@ -27,12 +26,6 @@ class SlcWriter : public FileWriter {
   void take(const Layer& layer) override;
   // Warns where the numbers are too coarse for the design.
   void finish(Diagnostics& diagnostics) override;
-  std::uint64_t snapped_layers() const override {
-    return contours_.snapped_layers();
-  }
-  double greatest_rounding() const override {
-    return contours_.greatest_rounding();
-  }
 
  private:
   void begin_file(const Layer& first);
@@ -45,7 +38,6 @@ class SlcWriter : public FileWriter {
   float bottom_z_ = 0;  // of the first layer
   float last_z_ = 0;
   float top_z_ = 0;
-  FloatContours contours_;
 };
 
 }  // namespace lamina::slicer

@@ -8,11 +8,11 @@
 namespace lamina::slicer {
 
 SvgWriter::SvgWriter(const std::string& path, TemporaryFiles& temporary_files)
-    : FileWriter(path, temporary_files) {
-  write_head();
+    : FloatWriter(path, temporary_files) {
+  write_svg_head();
 }
 
-void SvgWriter::write_head() {
+void SvgWriter::write_svg_head() {
   const FloatPoint low = contours_.low();
   const FloatPoint high = contours_.high();
   const std::string width = fixed_width(double{high.x} - low.x);
@@ -26,11 +26,7 @@ void SvgWriter::write_head() {
       "  <!-- lamina {} -->\n",
       width, height, fixed_width(low.x), fixed_width(-high.y), width, height,
       version());
-  if (output_.size() == 0) {
-    output_.write(head);
-  } else {
-    output_.patch(0, head);
-  }
+  write_head(head);
 }
 
 void SvgWriter::take(const Layer& layer) {
@@ -58,7 +54,7 @@ void SvgWriter::write_loop(std::span<const FloatPoint> closed_loop) {
 
 void SvgWriter::finish(Diagnostics& diagnostics) {
   output_.write("</svg>\n");
-  write_head();
+  write_svg_head();
   contours_.warn_of_coarse_numbers("SVG", diagnostics);
 }
 

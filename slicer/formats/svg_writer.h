@@ -12,31 +12,23 @@
 #include <span>
 #include <string>
 
-#include "slicer/formats/float_contours.h"
-#include "slicer/formats/layer_writer.h"
+#include "slicer/formats/float_writer.h"
 
 namespace lamina::slicer {
 
-class SvgWriter : public FileWriter {
+class SvgWriter : public FloatWriter {
  public:
   SvgWriter(const std::string& path, TemporaryFiles& temporary_files);
 
   void take(const Layer& layer) override;
   // Warns where the numbers are too coarse for the design.
   void finish(Diagnostics& diagnostics) override;
-  std::uint64_t snapped_layers() const override {
-    return contours_.snapped_layers();
-  }
-  double greatest_rounding() const override {
-    return contours_.greatest_rounding();
-  }
 
  private:
-  void write_head();
+  void write_svg_head();
   void write_loop(std::span<const FloatPoint> closed_loop);
 
   std::uint32_t layers_ = 0;
-  FloatContours contours_;
 };
 
 }  // namespace lamina::slicer

@@ -9,25 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "parser/diagnostic.h"
-#include "tests/support/contour_checks.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/slicer/formats/writing.h"
 
 namespace lamina::slicer {
 namespace {
 
 using namespace std::string_literals;
-using support::add_loop;
-using support::read_file;
-using support::TemporaryFolder;
-
-Layer layer_at(double bottom, double top,
-               const std::vector<std::vector<Vec2>>& loops) {
-  Layer layer;
-  layer.bottom = bottom;
-  layer.top = top;
-  for (const auto& loop : loops) add_loop(layer.contours, loop);
-  return layer;
-}
 
 // A square with a square hole, an empty layer, a triangle.
 std::vector<Layer> three_layers() {
@@ -40,15 +27,9 @@ std::vector<Layer> three_layers() {
 
 std::string write_cli(const std::vector<Layer>& layers, CliEncoding encoding,
                       Diagnostics* diagnostics = nullptr) {
-  const TemporaryFolder folder;
-  TemporaryFiles files;
-  const std::string path = folder.file("a.cli");
-  CliWriter writer(path, files, encoding);
-  for (const Layer& layer : layers) writer.take(layer);
   Diagnostics unheard;
-  writer.finish(diagnostics != nullptr ? *diagnostics : unheard);
-  writer.commit();
-  return read_file(folder.file("a.cli"));
+  return written<CliWriter>(
+      layers, diagnostics != nullptr ? *diagnostics : unheard, encoding);
 }
 
 constexpr const char* kHeaderAfterEncoding =

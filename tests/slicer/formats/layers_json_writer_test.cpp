@@ -3,22 +3,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/slicer/formats/writing.h"
 #include "tests/support/contour_checks.h"
-#include "tests/support/temporary_folder.h"
 
 namespace lamina::slicer {
 namespace {
 
 std::string write_json(const std::vector<Layer>& layers) {
-  const support::TemporaryFolder folder;
-  TemporaryFiles files;
-  const std::string path = folder.file("a.layers.json");
-  LayersJsonWriter writer(path, files);
-  for (const Layer& layer : layers) writer.take(layer);
-  Diagnostics diagnostics;
-  writer.finish(diagnostics);
-  writer.commit();
-  return support::read_file(folder.file("a.layers.json"));
+  Diagnostics unheard;
+  return written<LayersJsonWriter>(layers, unheard);
 }
 
 TEST(LayersJsonWriter, AnotherJsonLibraryReadsEveryDigitBack) {

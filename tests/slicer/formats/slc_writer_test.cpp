@@ -13,38 +13,19 @@
 #include "parser/diagnostic.h"
 #include "slicer/formats/slc_reader.h"
 #include "slicer/version.h"
-#include "tests/support/contour_checks.h"
+#include "tests/slicer/formats/writing.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina::slicer {
 namespace {
 
 using namespace std::string_literals;
-using support::add_loop;
-using support::read_file;
 using support::TemporaryFolder;
-
-Layer layer_at(double bottom, double top,
-               const std::vector<std::vector<Vec2>>& loops) {
-  Layer layer;
-  layer.bottom = bottom;
-  layer.top = top;
-  layer.section_z = (bottom + top) / 2;
-  for (const auto& loop : loops) add_loop(layer.contours, loop);
-  return layer;
-}
 
 std::string write_slc(const std::vector<Layer>& layers,
                       std::optional<double> deviation = {}) {
-  const TemporaryFolder folder;
-  TemporaryFiles files;
-  const std::string path = folder.file("a.slc");
-  SlcWriter writer(path, files, deviation);
-  for (const Layer& layer : layers) writer.take(layer);
   Diagnostics unheard;
-  writer.finish(unheard);
-  writer.commit();
-  return read_file(folder.file("a.slc"));
+  return written<SlcWriter>(layers, unheard, deviation);
 }
 
 // What the reader makes of `bytes`.

@@ -10,26 +10,17 @@
 
 #include "parser/diagnostic.h"
 #include "slicer/version.h"
+#include "tests/slicer/formats/writing.h"
 #include "tests/support/contour_checks.h"
-#include "tests/support/temporary_folder.h"
 
 namespace lamina::slicer {
 namespace {
 
 using support::add_loop;
-using support::read_file;
-using support::TemporaryFolder;
 
 std::string write_svg(const std::vector<Layer>& layers) {
-  const TemporaryFolder folder;
-  TemporaryFiles files;
-  const std::string path = folder.file("a.svg");
-  SvgWriter writer(path, files);
-  for (const Layer& layer : layers) writer.take(layer);
   Diagnostics unheard;
-  writer.finish(unheard);
-  writer.commit();
-  return read_file(folder.file("a.svg"));
+  return written<SvgWriter>(layers, unheard);
 }
 
 std::string head(const std::string& size_and_view) {

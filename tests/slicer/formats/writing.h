@@ -1,0 +1,39 @@
+#pragma once
+// Layers made by hand, and what a writer makes of layers.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "parser/diagnostic.h"
+#include "slicer/formats/layer_writer.h"
+#include "tests/support/contour_checks.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::slicer {
+
+inline Layer layer_at(double bottom, double top,
+                      const std::vector<std::vector<Vec2>>& loops) {
+  Layer layer;
+  layer.bottom = bottom;
+  layer.top = top;
+  layer.section_z = (bottom + top) / 2;
+  for (const auto& loop : loops) support::add_loop(layer.contours, loop);
+  return layer;
+}
+
+// The bytes that a Writer(path, temporary files, options…) writes.
+template <typename Writer, typename... Options>
+std::string written(const std::vector<Layer>& layers, Diagnostics& diagnostics,
+                    Options&&... options) {
+  const support::TemporaryFolder folder;
+  TemporaryFiles files;
+  const std::string path = folder.file("layers");
+  Writer writer(path, files, std::forward<Options>(options)...);
+  for (const Layer& layer : layers) writer.take(layer);
+  writer.finish(diagnostics);
+  writer.commit();
+  return support::read_file(path);
+}
+
+}  // namespace lamina::slicer
