@@ -3,7 +3,7 @@
 // nobody takes for done what was not. Only options of slicing may stand idle:
 // one set of them goes for layers and texts of a design.
 
-#include "cli/options.h"
+#include "cli/design_options.h"
 #include "slicer/settings.h"
 
 namespace lamina::cli {

@@ -1,10 +1,13 @@
 #include "cli/run.h"
 
 #include <algorithm>
+#include <exception>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/command.h"
 #include "csg/solid/lower.h"
 #include "parser/parameter_set.h"
 #include "slicer/slice.h"
@@ -29,6 +32,18 @@ auto timed(double& seconds, const Pass& pass) {
 // The formats that show a 2D design; the others are printed.
 bool holds_outlines(OutputFormat format) {
   return format == OutputFormat::kSvg || format == OutputFormat::kLayersJson;
+}
+
+// Passes that report what they throw have had it shown already.
+bool is_reported(const Diagnostics& diagnostics, const Diagnostic& thrown) {
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    if (diagnostic.message == thrown.message &&
+        diagnostic.range.source == thrown.range.source &&
+        diagnostic.range.begin == thrown.range.begin) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -143,6 +158,30 @@ void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
   run.report.slice =
       slicer::slice(scene, run.options.settings, progress, run.diagnostics);
   run.report.origins = origins_of(scene, run.report.slice.features);
+}
+
+int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
+               const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const InternalError& error) {
+    terminal.show(
+        {Severity::kError,
+         {},
+         fmt::format("internal error, please report: {}", error.what())});
+  } catch (const Error& error) {
+    if (!is_reported(diagnostics, error.diagnostic())) {
+      terminal.show(error.diagnostic());
+    }
+  } catch (const std::bad_alloc&) {
+    terminal.show({Severity::kError, {}, "out of memory"});
+  } catch (const std::exception& error) {
+    terminal.show(
+        {Severity::kError,
+         {},
+         fmt::format("internal error, please report: {}", error.what())});
+  }
+  return kFault;
 }
 
 }  // namespace lamina::cli

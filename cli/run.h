@@ -5,10 +5,11 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
-#include "cli/options.h"
+#include "cli/design_options.h"
 #include "cli/report.h"
 #include "cli/terminal.h"
 #include "csg/eval/evaluator.h"
@@ -66,5 +67,10 @@ Evaluated evaluate(Run& run, const ast::Program& program);
 
 // From the CSG tree to layers in `sink`.
 void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink);
+
+// Returns what `work` returns; where it throws, shows the message, unless it
+// is among `diagnostics` and so has been shown, and returns kFault.
+int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
+               const std::function<int()>& work);
 
 }  // namespace lamina::cli

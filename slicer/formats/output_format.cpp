@@ -92,4 +92,9 @@ FormatChoice choose_output_format(std::string_view name) {
           false};
 }
 
+bool is_named_as_layers(std::string_view path) {
+  const FormatChoice choice = choose_output_format(path);
+  return choice.format && is_of_layers(*choice.format);
+}
+
 }  // namespace lamina::slicer

@@ -40,4 +40,7 @@ struct FormatChoice {
 //       not matter
 FormatChoice choose_output_format(std::string_view name);
 
+// Whether a path is named as a file of layers, and so as no design.
+bool is_named_as_layers(std::string_view path);
+
 }  // namespace lamina::slicer

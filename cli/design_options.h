@@ -1,15 +1,14 @@
 #pragma once
-// The command line, read and checked: what a run is asked for.
+// What a run over a design is asked for, and the options that say so.
 
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
-#include <vector>
+
+#include <CLI/App.hpp>
 
 #include "csg/vec.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/picture.h"
 #include "slicer/settings.h"
 
 namespace lamina::cli {
@@ -43,25 +42,10 @@ struct DesignOptions {
   bool has_hard_warnings = false;
 };
 
-struct InspectOptions {
-  std::string file;
-  bool lists_all_layers = false;
-  double min_feature = 0;  // [mm]; 0: thin places are not looked for
-};
+// -D, -p, -P and what else the language has; `options` outlives `app`.
+void add_design_options(CLI::App& app, DesignOptions& options);
 
-struct ViewOptions {
-  DesignOptions design;  // also names a .slc
-  slicer::PictureOptions picture;
-};
-
-// Nothing to run: help and version were asked for, or the usage was wrong.
-struct Exit {
-  int status = 0;
-  std::string text;  // to standard output (status 0) or standard error
-};
-
-using Command = std::variant<DesignOptions, InspectOptions, ViewOptions, Exit>;
-
-Command parse_command_line(int argc, const char* const* argv);
+// What --help calls Slicing.
+void add_slicing_options(CLI::App& app, DesignOptions& options);
 
 }  // namespace lamina::cli

@@ -1,8 +1,21 @@
-#include "cli/help.h"
+// lamina DESIGN: from a design to layers, or to the text of a stage before.
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/commands.h"
+#include "cli/compile.h"
+#include "cli/contradictions.h"
+#include "cli/design_options.h"
+#include "cli/option_values.h"
+#include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
+namespace {
 
-const std::string_view kHelp =
+constexpr std::string_view kHelp =
     R"(lamina compiles OpenSCAD designs straight to the layers of a 3D printer.
 
 Usage:
@@ -83,32 +96,94 @@ Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 130 interrupted.
 )";
 
-const std::string_view kInspectHelp =
-    R"(Usage: lamina inspect FILE.slc [OPTION]...
+std::string without_extension(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  const std::size_t dot = path.rfind('.');
+  const bool has_extension = dot != std::string::npos && dot > 0 &&
+                             (slash == std::string::npos || dot > slash + 1);
+  return has_extension ? path.substr(0, dot) : path;
+}
 
-Shows the header, the layers and the totals of a .slc file and checks its
-loops: closed, without repeats, crossings and empty loops, turned as their
-nesting asks for, layers rising. Ends with 1 if there is a defect.
+class SliceCommand : public Command {
+ public:
+  std::string_view help() const override { return kHelp; }
 
-  --all       list every layer of a long file
-  --min-feature MM
-              tell of walls and gaps thinner than this
-  -h, --help  print this help
-)";
+  void add_options(CLI::App& app) override {
+    app.add_option("design", options_.design);
+    app.add_option("-o", options_.output)->type_name("file");
+    app.add_option("--export-format", export_format_)->type_name("format");
+    add_choice(app, "--cli", {"binary", "ascii"},
+               [this](const std::string& word) {
+                 options_.cli_encoding = word == "ascii"
+                                             ? slicer::CliEncoding::kAscii
+                                             : slicer::CliEncoding::kBinary;
+               });
+    app.add_option("--printer", options_.printer)->type_name("printer");
+    add_choice(app, "--mirror", {"x", "y", "xy"},
+               [this](const std::string& axes) {
+                 options_.mirrors_x = axes != "y";
+                 options_.mirrors_y = axes != "x";
+               });
+    app.add_option("--report", options_.report)->type_name("file");
+    app.add_option("-d", options_.dependencies)->type_name("file");
+    add_design_options(app, options_);
+    add_slicing_options(app, options_);
+    add_thin_width(app, options_.settings.min_feature);
+  }
 
-const std::string_view kViewHelp =
-    R"(Usage: lamina view FILE -o PICTURE.png [OPTION]...
+  void check() override {
+    if (options_.design.empty()) throw UsageError("no design was given");
+    if (slicer::is_named_as_layers(options_.design)) refuse_layers();
+    choose_output();
+    if (const char* contradiction = find_contradiction(options_.settings)) {
+      throw UsageError(contradiction);
+    }
+    if (const char* misfit = find_misfit(options_)) throw UsageError(misfit);
+  }
 
-Draws the layers of a .slc file, or of a .scad or .csg design with any option
-of Design and Slicing (see 'lamina --help').
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+    Run run(options_, temporary_files, stack);
+    return run_caught(run.terminal, run.diagnostics,
+                      [&] { return compile(run); });
+  }
 
-  -o FILE         the picture
-  --style STYLE   sheet: single layers side by side; stack: all layers on top
-                  of each other, as a solid [sheet]
-  --layers N      layers on a sheet, filled up to whole rows [20]
-  --width PIXELS  width of the picture [1600]
-  -q, --quiet     say nothing but errors
-  -h, --help      print this help
-)";
+ private:
+  [[noreturn]] void refuse_layers() const {
+    const std::string& file = options_.design;
+    throw UsageError(
+        file.ends_with(".slc")
+            ? fmt::format("'{0}' holds layers already; try 'lamina inspect "
+                          "{0}' or 'lamina view {0}'",
+                          file)
+            : fmt::format("'{}' holds layers already", file));
+  }
+
+  // The output's name where none was given, and its format.
+  void choose_output() {
+    if (options_.output.empty()) {
+      options_.output = without_extension(options_.design) + "." +
+                        (export_format_.empty() ? "slc" : export_format_);
+    }
+    if (options_.output == "-" && export_format_.empty()) {
+      throw UsageError("-o - needs --export-format");
+    }
+    const slicer::FormatChoice choice = slicer::choose_output_format(
+        export_format_.empty() ? options_.output : export_format_);
+    if (!choice.format) {
+      throw UsageError(choice.complaint,
+                       choice.is_known ? kFault : kUsageFault);
+    }
+    options_.format = *choice.format;
+  }
+
+  DesignOptions options_;
+  std::string export_format_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_slice_command() {
+  return std::make_unique<SliceCommand>();
+}
 
 }  // namespace lamina::cli

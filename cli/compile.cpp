@@ -1,0 +1,144 @@
+#include "cli/compile.h"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/make_rule.h"
+#include "csg/eval/csg_printer.h"
+#include "parser/ast_printer.h"
+#include "slicer/compensate.h"
+#include "slicer/deviation.h"
+#include "slicer/formats/layer_writer.h"
+
+namespace lamina::cli {
+namespace {
+
+using slicer::OutputFormat;
+
+// The rule for make, if one is asked for. `tree` is null before evaluation.
+void write_dependencies(Run& run, const csg::Tree* tree) {
+  if (run.options.dependencies.empty()) return;
+  std::vector<std::string> files = run.loader.files();
+  if (tree != nullptr) {
+    files.insert(files.end(), tree->files.begin(), tree->files.end());
+  }
+  write_text(run, run.options.dependencies,
+             make_rule(run.options.output, files));
+}
+
+std::string csg_text(Run& run, const csg::Tree& tree) {
+  if (tree.root == nullptr) return "\n";
+  return csg::print_csg(tree, *csg::select_root(tree, run.diagnostics));
+}
+
+// What the options promise of the contours.
+std::optional<slicer::Deviation> promised_deviation(
+    const DesignOptions& options) {
+  const slicer::Settings& settings = options.settings;
+  if (settings.contour == slicer::ContourMode::kPaper) return std::nullopt;
+  slicer::Deviation deviation;
+  deviation.simplification = settings.tolerance;
+  if (settings.compensation != 0) {
+    deviation.compensation = slicer::Compensator::kArcTolerance;
+  }
+  if (options.chordal_error > 0) deviation.facets = options.chordal_error;
+  return deviation;
+}
+
+// Empty where contours are not made of samples.
+std::string sampler_name(const slicer::Settings& settings) {
+  if (settings.contour != slicer::ContourMode::kPaper) return {};
+  switch (settings.sampler) {
+    case slicer::SamplerKind::kScanline:
+      return "scanline";
+    case slicer::SamplerKind::kGl:
+      return "gl";
+    case slicer::SamplerKind::kGlPeeling:
+      return "gl-peeling";
+  }
+  return {};
+}
+
+// The panel of the printer; of formats without images an empty one.
+slicer::Panel chosen_panel(const DesignOptions& options) {
+  if (!slicer::is_of_images(options.format)) return {};
+  const std::string usual =
+      options.format == OutputFormat::kSl1 ? "prusa-sl1" : "plain";
+  slicer::Panel panel =
+      slicer::find_panel(options.printer.empty() ? usual : options.printer);
+  if (options.mirrors_x) panel.right = -panel.right;
+  if (options.mirrors_y) panel.up = -panel.up;
+  return panel;
+}
+
+void finish_report(Run& run, std::uint64_t output_bytes) {
+  run.report.wall_seconds = std::chrono::duration<double>(
+                                std::chrono::steady_clock::now() - run.begin)
+                                .count();
+  run.report.warnings = count(run.diagnostics, Severity::kWarning);
+  run.report.min_feature = run.options.settings.min_feature;
+  run.report.sampler = sampler_name(run.options.settings);
+  if (!run.options.report.empty()) {
+    write_text(run, run.options.report, report_json(run.report));
+  }
+  if (run.report.min_feature > 0) {
+    run.terminal.say(feature_lines(run.report));
+  }
+  // The memory in it costs a small run a tenth of its time to find out.
+  if (!run.options.is_quiet) {
+    run.terminal.say(
+        summary_line(run.options.output, output_bytes, run.report));
+  }
+}
+
+}  // namespace
+
+int compile(Run& run) {
+  const Loaded loaded = load(run);
+  // The syntax tree is written before anything is evaluated: what a design
+  // does is no matter of its syntax.
+  if (run.options.format == OutputFormat::kAst) {
+    write_dependencies(run, nullptr);
+    write_text(run, run.options.output, ast::print(loaded.program));
+    return kDone;
+  }
+  Evaluated evaluated = evaluate(run, loaded.program);
+  // A run that hard warnings cut short does not know them all.
+  if (evaluated.tree.root != nullptr) write_dependencies(run, &evaluated.tree);
+  // Texts end well even where the design failed, as openscad's do.
+  if (run.options.format == OutputFormat::kEcho) {
+    // For what it warns of.
+    if (evaluated.tree.root) csg::select_root(evaluated.tree, run.diagnostics);
+    write_text(run, run.options.output, echo_text(run));
+    return kDone;
+  }
+  if (run.options.format == OutputFormat::kCsg) {
+    write_text(run, run.options.output, csg_text(run, evaluated.tree));
+    return kDone;
+  }
+  if (loaded.has_failed || evaluated.has_failed) return kFault;
+
+  auto deviation = promised_deviation(run.options);
+  slicer::WriterOptions how;
+  how.format = run.options.format;
+  if (run.options.cli_encoding) how.cli = *run.options.cli_encoding;
+  how.panel = chosen_panel(run.options);
+  if (deviation) how.deviation = deviation->from_section();
+  const auto writer =
+      slicer::make_layer_writer(how, run.options.output, run.temporary_files);
+  make_layers(run, std::move(evaluated.tree), *writer);
+  writer->finish(run.diagnostics);
+  if (deviation) deviation->rounding = writer->greatest_rounding();
+  run.report.deviation = deviation;
+  run.report.snapped_layers = writer->snapped_layers();
+  writer->commit();
+  finish_report(run, writer->size());
+  return kDone;
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,101 @@
+#include "cli/option_values.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <CLI/App.hpp>
+#include <double-conversion/double-conversion.h>
+#include <fmt/format.h>
+
+#include "slicer/thin_finder.h"
+
+namespace lamina::cli {
+namespace {
+
+// A number and nothing else; finite.
+std::optional<double> parse_number(std::string_view text) {
+  const double_conversion::StringToDoubleConverter converter(
+      double_conversion::StringToDoubleConverter::NO_FLAGS, NAN, NAN, nullptr,
+      nullptr);
+  int used = 0;
+  const double value = converter.StringToDouble(
+      text.data(), static_cast<int>(text.size()), &used);
+  if (text.empty() || used != static_cast<int>(text.size()) ||
+      !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+double require_thin_width(const std::string& option, std::string_view text) {
+  const double value = require_number(option, text);
+  if (!(value >= slicer::kLeastThinWidth &&
+        value <= slicer::kGreatestThinWidth)) {
+    throw CLI::ValidationError(
+        option,
+        fmt::format("must be {} to {} mm, not {}", slicer::kLeastThinWidth,
+                    slicer::kGreatestThinWidth, text));
+  }
+  return value;
+}
+
+}  // namespace
+
+double require_number(const std::string& option, std::string_view text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value) {
+    throw CLI::ValidationError(
+        option, fmt::format("a number was expected, not '{}'", text));
+  }
+  return *value;
+}
+
+double require_positive(const std::string& option, std::string_view text) {
+  const double value = require_number(option, text);
+  if (!(value > 0)) {
+    throw CLI::ValidationError(
+        option, fmt::format("must be more than 0 mm, not {}", text));
+  }
+  return value;
+}
+
+double require_within(const std::string& option, std::string_view text,
+                      double least, double greatest, std::string_view unit) {
+  const double value = require_number(option, text);
+  if (!(value >= least && value <= greatest)) {
+    throw CLI::ValidationError(
+        option, fmt::format("must be from {} to {}{}, not {}", least, greatest,
+                            unit, text));
+  }
+  return value;
+}
+
+CLI::Option* add_text(CLI::App& app, const std::string& name,
+                      const std::string& value,
+                      std::function<void(const std::string&)> use) {
+  return app.add_option_function<std::string>(name, std::move(use))
+      ->type_name(value);
+}
+
+void add_choice(CLI::App& app, const std::string& name,
+                const std::vector<std::string>& words,
+                std::function<void(const std::string&)> use) {
+  add_text(app, name, "word", std::move(use))->check(CLI::IsMember(words));
+}
+
+void add_switch(CLI::App& app, const std::string& name, bool& target) {
+  const std::vector<std::string> words = {"true", "false", "on",
+                                          "off",  "1",     "0"};
+  add_text(app, name, "word", [&target](const std::string& word) {
+    target = word == "true" || word == "on" || word == "1";
+  })->transform(CLI::IsMember(words, CLI::ignore_case));
+}
+
+void add_thin_width(CLI::App& app, double& width) {
+  add_text(app, "--min-feature", "length", [&width](const std::string& text) {
+    width = require_thin_width("--min-feature", text);
+  });
+}
+
+}  // namespace lamina::cli
