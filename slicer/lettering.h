@@ -8,8 +8,8 @@
 
 namespace lamina::slicer {
 
-// Adds a line of text. ASCII letters, digits and . , : - _ / ( ) + =; other
-// characters become a small box.
+// Adds a line of text, in UTF-8. ASCII letters, digits and
+// . , : - _ / ( ) + = % × ² ³; other characters become a small box.
 //
 // at    left end of the base line [pixels]
 // size  height of a capital [pixels]

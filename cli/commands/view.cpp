@@ -1,6 +1,7 @@
 // lamina view: a picture of a layer file or of a design's layers.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,7 +19,9 @@
 #include "slicer/formats/output_format.h"
 #include "slicer/formats/slc_reader.h"
 #include "slicer/image.h"
-#include "slicer/picture.h"
+#include "slicer/layer_picture.h"
+#include "slicer/relief.h"
+#include "slicer/sheet_picture.h"
 
 namespace lamina::cli {
 namespace {
@@ -29,14 +32,30 @@ constexpr std::string_view kViewHelp =
 Draws the layers of a .slc file, or of a .scad or .csg design with any option
 of Design and Slicing (see 'lamina --help').
 
-  -o FILE         the picture
-  --style STYLE   sheet: single layers side by side; stack: all layers on top
-                  of each other, as a solid [sheet]
-  --layers N      layers on a sheet, filled up to whole rows [20]
-  --width PIXELS  width of the picture [1600]
-  -q, --quiet     say nothing but errors
-  -h, --help      print this help
+  -o FILE           the picture
+  --style STYLE     sheet: single layers side by side; stack: all layers on top
+                    of each other, as a solid [sheet]
+  --layers N        layers on a sheet, filled up to whole rows [20]
+  --layer-number N  this layer alone, counted from 1 at the bottom
+  --at Z            the layer at this height alone
+  --min-feature MM  of a layer alone: marks walls and gaps thinner than this
+  --width PIXELS    width of the picture [1600; of a layer alone 1200]
+  -q, --quiet       say nothing but errors
+  -h, --help        print this help
 )";
+
+enum class Style { kSheet, kStack };
+
+struct ViewOptions {
+  Style style = Style::kSheet;
+  slicer::SheetOptions sheet;
+  slicer::LayerPictureOptions layer;
+  std::optional<std::size_t> layer_number;  // from 1
+  std::optional<double> layer_height;       // [mm]
+  std::optional<unsigned> width;            // [pixels]
+
+  bool is_of_one_layer() const { return layer_number || layer_height; }
+};
 
 class LayerList : public slicer::LayerSink {
  public:
@@ -60,7 +79,46 @@ std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
   return std::move(list.layers);
 }
 
-int draw(Run& run, const slicer::PictureOptions& options) {
+// The index of the layer that is asked for by its number or its height.
+std::size_t find_layer(const std::vector<slicer::Layer>& layers,
+                       const ViewOptions& options) {
+  if (options.layer_number) {
+    if (*options.layer_number > layers.size()) {
+      refuse_geometry(fmt::format("there is no layer {}: there are {}",
+                                  *options.layer_number, layers.size()));
+    }
+    return *options.layer_number - 1;
+  }
+  const double z = *options.layer_height;
+  if (!(z >= layers.front().bottom && z <= layers.back().top)) {
+    refuse_geometry(fmt::format(
+        "there is no layer at z {} mm: the layers reach from {:.6g} to {:.6g}",
+        z, layers.front().bottom, layers.back().top));
+  }
+  const auto nearest = std::min_element(
+      layers.begin(), layers.end(),
+      [z](const slicer::Layer& a, const slicer::Layer& b) {
+        return std::abs(a.section_z - z) < std::abs(b.section_z - z);
+      });
+  return static_cast<std::size_t>(nearest - layers.begin());
+}
+
+slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
+                           const std::string& title,
+                           const ViewOptions& options) {
+  if (options.is_of_one_layer()) {
+    slicer::LayerPictureOptions layer = options.layer;
+    layer.width = options.width.value_or(layer.width);
+    return draw_layer_picture(layers, find_layer(layers, options), title,
+                              layer);
+  }
+  slicer::SheetOptions sheet = options.sheet;
+  sheet.width = options.width.value_or(sheet.width);
+  if (options.style == Style::kStack) return draw_relief(layers, sheet.width);
+  return draw_sheet(layers, title, sheet);
+}
+
+int draw(Run& run, const ViewOptions& options) {
   const auto layers = layers_of(run);
   if (!layers) return kFault;
   if (std::all_of(layers->begin(), layers->end(), [](const auto& layer) {
@@ -72,8 +130,9 @@ int draw(Run& run, const slicer::PictureOptions& options) {
   const std::size_t slash = run.options.design.rfind('/');
   const std::string title =
       run.options.design.substr(slash == std::string::npos ? 0 : slash + 1);
+  const slicer::Image picture = draw_picture(*layers, title, options);
   slicer::OutputFile output(run.options.output, run.temporary_files);
-  write_png(draw_picture(*layers, title, options), output);
+  write_png(picture, output);
   output.commit();
   return kDone;
 }
@@ -87,13 +146,19 @@ class ViewCommand : public Command {
     app.add_option("-o", design_.output)->type_name("file")->required();
     add_choice(
         app, "--style", {"sheet", "stack"}, [this](const std::string& style) {
-          picture_.style = style == "stack" ? slicer::PictureStyle::kStack
-                                            : slicer::PictureStyle::kSheet;
+          options_.style = style == "stack" ? Style::kStack : Style::kSheet;
         });
-    app.add_option("--layers", picture_.layer_count)
+    app.add_option("--layers", options_.sheet.layer_count)
         ->check(CLI::Range(1U, 400U))
         ->type_name("number");
-    app.add_option("--width", picture_.width)
+    auto* const number = app.add_option("--layer-number", options_.layer_number)
+                             ->check(CLI::PositiveNumber)
+                             ->type_name("number");
+    add_text(app, "--at", "height", [this](const std::string& text) {
+      options_.layer_height = require_number("--at", text);
+    })->excludes(number);
+    add_thin_width(app, options_.layer.min_feature);
+    app.add_option("--width", options_.width)
         ->check(CLI::Range(200U, 8000U))
         ->type_name("number");
     add_design_options(app, design_);
@@ -110,6 +175,12 @@ class ViewCommand : public Command {
       throw UsageError(fmt::format(
           "view reads layers from .slc only, and designs; not '{}'", file));
     }
+    if (options_.layer.min_feature > 0 && !options_.is_of_one_layer()) {
+      throw UsageError("--min-feature needs --layer-number or --at");
+    }
+    if (options_.style == Style::kStack && options_.is_of_one_layer()) {
+      throw UsageError("--style stack shows all layers, not one");
+    }
     if (const char* contradiction = find_contradiction(design_.settings)) {
       throw UsageError(contradiction);
     }
@@ -118,12 +189,12 @@ class ViewCommand : public Command {
   int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
     Run run(design_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics,
-                      [&] { return draw(run, picture_); });
+                      [&] { return draw(run, options_); });
   }
 
  private:
   DesignOptions design_;  // also names a .slc
-  slicer::PictureOptions picture_;
+  ViewOptions options_;
 };
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -76,6 +78,92 @@ TEST(View, DrawsADesignDirectly) {
   ASSERT_EQ(result.status, 0) << result.errors;
   EXPECT_GT(golden_share(read_png(folder.file("a.png"))), 0.1);
   EXPECT_EQ(folder.entry_count(), 2U);
+}
+
+// Whether all pixels of the column, below the title, are as that in the corner.
+bool is_paper(const Picture& picture, unsigned x) {
+  for (unsigned y = 62; y < picture.height; ++y) {
+    const unsigned char* const pixel =
+        picture.rgb.data() + 3 * (std::size_t{y} * picture.width + x);
+    if (!std::equal(pixel, pixel + 3, picture.rgb.data())) return false;
+  }
+  return true;
+}
+
+TEST(View, LabelsOfNarrowTilesStayUnderThem) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "translate([0, 0, 1000]) cube([3, 9, 2.1]);");
+  const auto result = run(folder, {"view", "a.scad", "-o", "a.png", "--layer",
+                                   "0.1", "--width", "900"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Picture picture = read_png(folder.file("a.png"));
+  // The margins beside the seven columns are free.
+  unsigned margins = 0;
+  for (unsigned x = 1; x < picture.width; ++x) {
+    margins += is_paper(picture, x) && !is_paper(picture, x - 1) ? 1 : 0;
+  }
+  EXPECT_EQ(margins, 7U);
+}
+
+TEST(View, ALayerAloneFillsThePicture) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([40, 40, 2]); cube([10, 5, 4]);");
+  ASSERT_EQ(run(folder, {"a.scad", "--layer", "1"}).status, 0);
+  const auto golden_pixels = [&](std::vector<std::string> which) {
+    std::vector<std::string> words = {"view", "a.slc", "-o", "a.png"};
+    words.insert(words.end(), which.begin(), which.end());
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    const Picture picture = read_png(folder.file("a.png"));
+    EXPECT_EQ(picture.width, 1200U);
+    return golden_share(picture) * picture.width * picture.height;
+  };
+  // The field is 1164 pixels wide and the layer 48 less on either side; the
+  // outline is darker than gold, but not less red.
+  const double width = 1164 - 2 * 48;
+  EXPECT_NEAR(golden_pixels({"--layer-number", "3"}) / (width * width / 2), 1,
+              0.01);
+  EXPECT_NEAR(golden_pixels({"--at", "3.9"}) / (width * width / 2), 1, 0.01);
+  EXPECT_NEAR(golden_pixels({"--at", "0"}) / (width * width), 1, 0.01);
+}
+
+std::size_t red_pixels(const Picture& picture) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+    if (picture.rgb[i] > 150 && picture.rgb[i + 1] < 60) ++count;
+  }
+  return count;
+}
+
+TEST(View, ThinWallsOfALayerAreMarked) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([10, 0.3, 1]); cube([3, 3, 1]);");
+  const auto marks = [&](const char* width) {
+    const auto result = run(folder, {"view", "a.scad", "-o", "a.png", "--at",
+                                     "0.5", "--min-feature", width});
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return red_pixels(read_png(folder.file("a.png")));
+  };
+  EXPECT_EQ(marks("0.25"), 0U);
+  // 7 mm of middle line at 106.8 pixels per mm, 4 pixels wide.
+  EXPECT_GT(marks("0.35"), 7 * 106 * 3);
+}
+
+TEST(View, ALayerThatIsNotThereIsAnError) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  auto result = run(folder, {"view", "a.scad", "-o", "a.png", "--at", "1.5"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find("no layer at z 1.5 mm: the layers reach from 0 "
+                               "to 1"),
+            std::string::npos)
+      << result.errors;
+  result =
+      run(folder, {"view", "a.scad", "-o", "a.png", "--layer-number", "21"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find("no layer 21: there are 20"), std::string::npos)
+      << result.errors;
+  EXPECT_EQ(folder.entry_count(), 1U);
 }
 
 }  // namespace
