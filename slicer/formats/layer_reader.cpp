@@ -1,0 +1,103 @@
+#include "slicer/formats/layer_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "slicer/formats/cli_reader.h"
+#include "slicer/formats/layers_json_reader.h"
+#include "slicer/formats/reading.h"
+#include "slicer/formats/slc_reader.h"
+#include "slicer/formats/svg_reader.h"
+
+namespace lamina::slicer {
+namespace {
+
+// What lies farther from the origin is no part of a print but a broken file,
+// and would break what counts in integers [mm].
+constexpr double kGreatestCoordinate = 1e9;
+
+LayerFileFacts read_slc(const std::string& path, const TakeLayer& take) {
+  SlcReader reader(path);
+  SlcLayer slc_layer;
+  while (reader.read_layer(slc_layer)) {
+    Layer layer = to_layer(slc_layer);
+    take(layer);
+  }
+  LayerFileFacts facts;
+  facts.format = "SLC " + reader.header().version;
+  facts.writer = reader.header().package;
+  facts.deviation = reader.header().deviation;
+  return facts;
+}
+
+using Read = LayerFileFacts (*)(const std::string& path, const TakeLayer& take);
+struct Format {
+  std::string_view ending;
+  Read read;
+};
+constexpr std::array<Format, 4> kFormats = {{
+    {".slc", read_slc},
+    {".cli", read_cli},
+    {".svg", read_svg},
+    {".layers.json", read_layers_json},
+}};
+
+bool ends_with(std::string_view path, std::string_view ending) {
+  return path.size() > ending.size() &&
+         std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
+                    [](char small, char any) {
+                      return small ==
+                             std::tolower(static_cast<unsigned char>(any));
+                    });
+}
+
+Read reader_for(std::string_view path) {
+  for (const Format& format : kFormats) {
+    if (ends_with(path, format.ending)) return format.read;
+  }
+  return nullptr;
+}
+
+bool is_within_reach(double value) {
+  return std::abs(value) <= kGreatestCoordinate;
+}
+
+bool is_within_reach(const Layer& layer) {
+  return is_within_reach(layer.bottom) && is_within_reach(layer.top) &&
+         is_within_reach(layer.section_z) &&
+         std::all_of(layer.contours.points.begin(), layer.contours.points.end(),
+                     [](const Vec2& point) {
+                       return is_within_reach(point.x) &&
+                              is_within_reach(point.y);
+                     });
+}
+
+}  // namespace
+
+bool is_readable_layer_file(std::string_view path) {
+  return reader_for(path) != nullptr;
+}
+
+LayerFileFacts read_layers(const std::string& path, const TakeLayer& take) {
+  const Read read = reader_for(path);
+  if (read == nullptr) {
+    fail_to_read(path,
+                 "layers are read from .slc, .cli, .svg and .layers.json only");
+  }
+  std::size_t count = 0;
+  return read(path, [&](Layer& layer) {
+    ++count;
+    if (!is_within_reach(layer)) {
+      fail_to_read(path, fmt::format("layer {} reaches farther than {:g} mm "
+                                     "from the origin",
+                                     count, kGreatestCoordinate));
+    }
+    take(layer);
+  });
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,348 @@
+// Layers read back from every format: what lamina writes, what other programs
+// write as docs/formats.md describes it, and what is broken.
+
+#include "slicer/formats/layer_reader.h"
+
+#include <cstddef>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "parser/diagnostic.h"
+#include "slicer/formats/cli_writer.h"
+#include "slicer/formats/layers_json_writer.h"
+#include "slicer/formats/slc_writer.h"
+#include "slicer/formats/svg_writer.h"
+#include "tests/slicer/formats/writing.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::slicer {
+namespace {
+
+using namespace std::string_literals;
+using support::TemporaryFolder;
+
+struct Content {
+  LayerFileFacts facts;
+  std::vector<Layer> layers;
+};
+
+Content read(const std::string& name, const std::string& bytes) {
+  // In memory: there are thousands of files.
+  static const TemporaryFolder folder("/dev/shm");
+  Content content;
+  content.facts =
+      read_layers(folder.write(name, bytes),
+                  [&](const Layer& layer) { content.layers.push_back(layer); });
+  return content;
+}
+
+// The words of the error behind the file's name; empty: none.
+std::string error_of(const std::string& name, const std::string& bytes) {
+  try {
+    read(name, bytes);
+  } catch (const FileError& error) {
+    const std::string words = error.what();
+    return words.substr(words.find(name) + name.size() + 2);
+  }
+  return {};
+}
+
+std::vector<std::vector<Vec2>> loops(const Layer& layer) {
+  std::vector<std::vector<Vec2>> result;
+  for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+    const auto loop = layer.contours.loop(i);
+    result.emplace_back(loop.begin(), loop.end());
+  }
+  return result;
+}
+
+// A square with a square hole, an empty layer, a triangle; numbers that float32
+// holds.
+std::vector<Layer> three_layers() {
+  return {layer_at(1.0, 1.5,
+                   {{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+                    {{1, 1}, {1, 3}, {3, 3}, {3, 1}}}),
+          layer_at(1.5, 2.0, {}),
+          layer_at(2.0, 2.5, {{{-2, 0.5}, {2, 0.5}, {0, 3}}})};
+}
+
+struct Written {
+  std::string name;
+  std::string bytes;
+  LayerFileFacts facts;
+};
+
+// The three layers in every format.
+std::vector<Written> files() {
+  Diagnostics unheard;
+  const std::vector<Layer> layers = three_layers();
+  std::vector<Written> files;
+  const auto add = [&](const std::string& name, std::string bytes,
+                       const std::string& format, bool is_float32) {
+    files.push_back({name, std::move(bytes), {}});
+    files.back().facts.format = format;
+    files.back().facts.is_float32 = is_float32;
+  };
+  add("a.slc", written<SlcWriter>(layers, unheard, std::nullopt), "SLC 2.0",
+      true);
+  add("binary.cli", written<CliWriter>(layers, unheard, CliEncoding::kBinary),
+      "CLI, binary", true);
+  add("ascii.CLI", written<CliWriter>(layers, unheard, CliEncoding::kAscii),
+      "CLI, ASCII", true);
+  add("a.svg", written<SvgWriter>(layers, unheard), "SVG", true);
+  add("a.layers.json", written<LayersJsonWriter>(layers, unheard),
+      "layers.json", false);
+  return files;
+}
+
+TEST(ReadLayers, GivesBackWhatWasWritten) {
+  const std::vector<Layer> layers = three_layers();
+  for (const Written& file : files()) {
+    SCOPED_TRACE(file.name);
+    const Content content = read(file.name, file.bytes);
+    EXPECT_EQ(content.facts.format, file.facts.format);
+    EXPECT_EQ(content.facts.is_float32, file.facts.is_float32);
+    ASSERT_EQ(content.layers.size(), layers.size());
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      EXPECT_EQ(content.layers[i].section_z, layers[i].section_z);
+      EXPECT_EQ(content.layers[i].bottom, layers[i].bottom);
+      EXPECT_EQ(content.layers[i].top, layers[i].top);
+      EXPECT_EQ(loops(content.layers[i]), loops(layers[i]));
+    }
+  }
+}
+
+// Command, three numbers and four points. Without it a binary CLI file is
+// whole, as nothing counts the loops of a layer.
+constexpr std::size_t kLastPolyline = 2 + 3 * 4 + 4 * 8;
+
+TEST(ReadLayers, ACutFileIsAnErrorWhereverItIsCut) {
+  for (const Written& file : files()) {
+    SCOPED_TRACE(file.name);
+    // What only ends the last line may be missing.
+    const std::size_t whole = file.bytes.find_last_not_of('\n') + 1;
+    for (std::size_t size = 0; size < whole; ++size) {
+      if (file.name == "binary.cli" && size == whole - kLastPolyline) continue;
+      ASSERT_NE(error_of(file.name, file.bytes.substr(0, size)), "")
+          << size << " of " << whole << " bytes";
+    }
+  }
+}
+
+TEST(ReadLayers, SurvivesDamage) {
+  std::mt19937 random(20260801);
+  for (const Written& file : files()) {
+    SCOPED_TRACE(file.name);
+    for (int run = 0; run < 1000; ++run) {
+      std::string bytes = file.bytes;
+      const auto changes = 1 + random() % 4;
+      for (std::size_t i = 0; i < changes; ++i) {
+        bytes[random() % bytes.size()] = static_cast<char>(random());
+      }
+      error_of(file.name, bytes);  // or none
+    }
+  }
+}
+
+TEST(ReadLayers, RefusesOtherNames) {
+  EXPECT_FALSE(is_readable_layer_file("ring.stl"));
+  EXPECT_FALSE(is_readable_layer_file("ring.json"));
+  EXPECT_FALSE(is_readable_layer_file(".slc"));
+  EXPECT_TRUE(is_readable_layer_file("out/ring.Layers.Json"));
+  EXPECT_NE(error_of("ring.stl", "solid ring"), "");
+}
+
+TEST(ReadLayers, AMissingFileIsAnError) {
+  for (const char* name : {"no.slc", "no.cli", "no.svg", "no.layers.json"}) {
+    EXPECT_THROW(read_layers(name, [](const Layer&) {}), FileError);
+  }
+}
+
+TEST(ReadLayers, RefusesWhatLiesTooFarAway) {
+  EXPECT_EQ(
+      error_of("a.layers.json", R"({"layers":[{"z":1,"contours":[{"points":[)"
+                                "[0,0],[2e9,0],[0,1]]}]}]}"),
+      "layer 1 reaches farther than 1e+09 mm from the origin");
+}
+
+// --- CLI --------------------------------------------------------------------
+
+const std::string kAsciiHead =
+    "$$HEADERSTART\n$$ASCII\n$$UNITS/0.005\n$$VERSION/200\n"
+    "$$LABEL/1,ring\n$$HEADEREND\n$$GEOMETRYSTART\n";
+
+std::string ascii(const std::string& body) {
+  return kAsciiHead + body + "$$GEOMETRYEND\n";
+}
+
+TEST(ReadCli, ReadsAsciiInUnitsWithCommentsAndLinesBroken) {
+  const Content content = read(
+      "a.cli", ascii("// first // $$LAYER/100.0 $$POLYLINE/1,1,4,\n0,0, 200,0 "
+                     ",\r\n +200,200,0,0\n$$LAYER/120\n"
+                     "$$HATCHES/1,1,0,0,1,1$$POLYLINE/1,2,2,0,0,5,5\n"));
+  EXPECT_EQ(content.facts.lines_left_out, 2U);
+  ASSERT_EQ(content.layers.size(), 2U);
+  // As thick as the second one.
+  EXPECT_DOUBLE_EQ(content.layers[0].bottom, 0.4);
+  EXPECT_DOUBLE_EQ(content.layers[0].section_z, 0.45);
+  EXPECT_DOUBLE_EQ(content.layers[1].top, 0.6);
+  EXPECT_EQ(loops(content.layers[0]),
+            (std::vector<std::vector<Vec2>>{{{0, 0}, {1, 0}, {1, 1}}}));
+  EXPECT_TRUE(content.layers[1].contours.is_empty());
+}
+
+TEST(ReadCli, TurnsLoopsAsTheirDirectionSays) {
+  const Content content =
+      read("a.cli", ascii("$$LAYER/1$$POLYLINE/1,0,4,0,0,200,0,0,200,0,0"));
+  EXPECT_EQ(loops(content.layers.at(0)),
+            (std::vector<std::vector<Vec2>>{{{0, 1}, {1, 0}, {0, 0}}}));
+}
+
+TEST(ReadCli, ReadsShortNumbers) {
+  const std::string file =
+      "$$HEADERSTART\n$$BINARY\n$$UNITS/0.5\n$$VERSION/200\n$$HEADEREND"
+      "\x80\x00\x04\x00"
+      "\x81\x00\x01\x00\x01\x00\x04\x00"
+      "\x00\x00\x00\x00\x02\x00\x00\x00\x02\x00\x02\x00\x00\x00\x00\x00"
+      "\x83\x00\x01\x00\x01\x00\x00\x00\x00\x00\x02\x00\x00\x00"s;
+  const Content content = read("a.cli", file);
+  ASSERT_EQ(content.layers.size(), 1U);
+  EXPECT_EQ(content.facts.lines_left_out, 1U);
+  EXPECT_EQ(content.layers[0].top, 2);
+  EXPECT_EQ(loops(content.layers[0]),
+            (std::vector<std::vector<Vec2>>{{{0, 0}, {1, 0}, {1, 1}}}));
+}
+
+TEST(ReadCli, SectionsWithoutThicknessAreAtTheirHeights) {
+  Diagnostics unheard;
+  Layer low = layer_at(1, 1, {{{0, 0}, {1, 0}, {1, 1}}});
+  Layer high = layer_at(4, 4, {{{0, 0}, {1, 0}, {1, 1}}});
+  const Content content = read(
+      "a.cli", written<CliWriter>({low, high}, unheard, CliEncoding::kBinary));
+  ASSERT_EQ(content.layers.size(), 2U);
+  EXPECT_EQ(content.layers[0].section_z, 1);
+  EXPECT_EQ(content.layers[1].section_z, 4);
+}
+
+TEST(ReadCli, NamesThePlaceOfAFault) {
+  EXPECT_EQ(error_of("a.cli", "solid"),
+            "not a CLI file: it does not begin with \"$$HEADERSTART\"");
+  EXPECT_EQ(error_of("a.cli", "$$HEADERSTART\n$$HEADEREND"),
+            "the header tells neither $$ASCII nor $$BINARY");
+  EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,7,0\n")),
+            "line 9: direction 7 (0, 1 or 2 was expected)");
+  EXPECT_EQ(error_of("a.cli", ascii("$$POLYLINE/1,1,0\n")),
+            "line 8: a polyline stands before any layer");
+  EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/x\n")),
+            "line 8: a number was expected");
+  EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,1,3,0,0\n")),
+            "line 10: ',' and a number were expected");
+  EXPECT_EQ(error_of("a.cli", ascii("$$WARM/1\n")),
+            "line 8: unknown command '$$WARM'");
+  const std::string binary = "$$HEADERSTART\n$$BINARY\n$$UNITS/1\n$$HEADEREND";
+  EXPECT_EQ(error_of("a.cli", binary + "\x09\x00"s),
+            "byte 46: command 9 stands before any layer");
+  EXPECT_EQ(
+      error_of("a.cli", binary + "\x80\x00\x04\x00\x81\x00\x01\x00\x01\x00"
+                                 "\xFF\xFF\x00"s),
+      "the file ends at byte 57, 262139 bytes early");
+}
+
+// --- SVG --------------------------------------------------------------------
+
+std::string slic3r_svg(const std::string& body) {
+  return "<?xml version=\"1.0\"?>\n<svg width=\"10\" height=\"8\" "
+         "xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\">\n"
+         "  <!-- \n  Generated using Slic3r 1.3.0\n -->\n" +
+         body + "</svg>\n";
+}
+
+TEST(ReadSvg, ReadsWhatSlic3rWrites) {
+  const Content content = read(
+      "a.svg",
+      slic3r_svg("<g id=\"layer0\" slic3r:z=\"2.5e-07\">"
+                 "<polygon slic3r:type=\"contour\" points=\"10,8 0,8 0,0 "
+                 "10,0\"/><polygon slic3r:type=\"hole\" points=\"2,1 2,3 5,3 "
+                 "5,1\"/></g><g id=\"layer1\" slic3r:z=\"7.5e-07\"></g>"));
+  EXPECT_EQ(content.facts.writer, "Slic3r 1.3.0");
+  EXPECT_FALSE(content.facts.has_sides);
+  ASSERT_EQ(content.layers.size(), 2U);
+  EXPECT_DOUBLE_EQ(content.layers[0].section_z, 0.25);
+  EXPECT_NEAR(content.layers[0].bottom, 0, 1e-12);
+  EXPECT_DOUBLE_EQ(content.layers[1].top, 1);
+  EXPECT_EQ(loops(content.layers[0]),
+            (std::vector<std::vector<Vec2>>{{{10, 8}, {0, 8}, {0, 0}, {10, 0}},
+                                            {{2, 1}, {2, 3}, {5, 3}, {5, 1}}}));
+}
+
+TEST(ReadSvg, KeepsToTheSizeThatTheHeadTells) {
+  const Content content =
+      read("a.svg",
+           "<svg width=\"1in\" height=\"2in\" viewBox=\"0 0 10 20\">"
+           "<g slic3r:z=\"1\"><polygon slic3r:type=\"contour\" "
+           "points=\"0 0,10 0,10 10\"/></g></svg>");
+  EXPECT_EQ(
+      loops(content.layers.at(0)),
+      (std::vector<std::vector<Vec2>>{{{25.4, -25.4}, {25.4, 0}, {0, 0}}}));
+}
+
+TEST(ReadSvg, NamesThePlaceOfAFault) {
+  EXPECT_EQ(error_of("a.svg", "<svg>\n<g></svg>"),
+            "line 2: Start-end tags mismatch");
+  EXPECT_EQ(error_of("a.svg", "<html/>"),
+            "not an SVG file: it has no element <svg>");
+  EXPECT_EQ(error_of("a.svg", "<svg><g><path d=\"\"/></g></svg>"),
+            "no layers: no group has slic3r:z, as Slic3r writes them");
+  EXPECT_EQ(error_of("a.svg", "<svg>\n<g slic3r:z=\"high\"/></svg>"),
+            "line 2: slic3r:z is not a number");
+  EXPECT_EQ(error_of("a.svg",
+                     "<svg><g slic3r:z=\"0\">\n\n<polygon "
+                     "points=\"0,0\"/></g></svg>"),
+            "line 3: a polygon without slic3r:type");
+  EXPECT_EQ(error_of("a.svg",
+                     "<svg><g slic3r:z=\"0\"><polygon slic3r:type="
+                     "\"hole\" points=\"0,0 1,x\"/></g></svg>"),
+            "line 1: number 4 of the points is none");
+}
+
+// --- .layers.json -----------------------------------------------------------
+
+TEST(ReadLayersJson, PassesOverWhatItDoesNotKnow) {
+  const Content content = read(
+      "a.layers.json",
+      R"({"by":{"layers":[1,[2]]},"layers":[{"z":0.5,"note":null,"contours":[)"
+      R"({"points":[[0,0],[0,1],[1,0]],"hole":false,"ends":[7]}]}]})");
+  ASSERT_EQ(content.layers.size(), 1U);
+  EXPECT_EQ(content.layers[0].top, 0.5);
+  EXPECT_EQ(loops(content.layers[0]),
+            (std::vector<std::vector<Vec2>>{{{1, 0}, {0, 1}, {0, 0}}}));
+}
+
+TEST(ReadLayersJson, NamesThePlaceOfAFault) {
+  const auto error = [](const std::string& text) {
+    return error_of("a.layers.json", text);
+  };
+  EXPECT_NE(error("{\"layers\":\n[}").find("line 2: not JSON near"),
+            std::string::npos);
+  EXPECT_EQ(error("[1]"), "line 1: an object with \"layers\" was expected");
+  EXPECT_EQ(error("{}"), "it has no list \"layers\"");
+  EXPECT_EQ(error("{\"units\":\"inch\"}"),
+            "line 1: unknown unit 'inch' (mm was expected)");
+  EXPECT_EQ(error("{\"layers\":\n[{\"contours\":[]}]}"),
+            "line 2: layer 1 has no z");
+  EXPECT_EQ(error("{\"layers\":[{\"z\":true}]}"),
+            "line 1: a height must be a number");
+  EXPECT_EQ(error("{\"layers\":[{\"z\":0,\"contours\":[{\"points\":[\n[1]"),
+            "line 2: a point needs two numbers");
+  EXPECT_EQ(error("{\"layers\":[{\"z\":0,\"contours\":[{\"points\":[[1,2,3]"),
+            "line 1: a point (two numbers) was expected");
+  EXPECT_EQ(error("{\"layers\":[{\"z\":0,\"contours\":7"),
+            "line 1: \"contours\" must be a list");
+}
+
+}  // namespace
+}  // namespace lamina::slicer
