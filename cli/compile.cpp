@@ -11,7 +11,6 @@
 #include "cli/make_rule.h"
 #include "csg/eval/csg_printer.h"
 #include "parser/ast_printer.h"
-#include "slicer/compensate.h"
 #include "slicer/deviation.h"
 #include "slicer/formats/layer_writer.h"
 
@@ -39,14 +38,10 @@ std::string csg_text(Run& run, const csg::Tree& tree) {
 // What the options promise of the contours.
 std::optional<slicer::Deviation> promised_deviation(
     const DesignOptions& options) {
-  const slicer::Settings& settings = options.settings;
-  if (settings.contour == slicer::ContourMode::kPaper) return std::nullopt;
-  slicer::Deviation deviation;
-  deviation.simplification = settings.tolerance;
-  if (settings.compensation != 0) {
-    deviation.compensation = slicer::Compensator::kArcTolerance;
+  auto deviation = slicer::promised_deviation(options.settings);
+  if (deviation && options.chordal_error > 0) {
+    deviation->facets = options.chordal_error;
   }
-  if (options.chordal_error > 0) deviation.facets = options.chordal_error;
   return deviation;
 }
 

@@ -4,7 +4,19 @@
 #include <limits>
 #include <numbers>
 
+#include "slicer/compensate.h"
+
 namespace lamina::slicer {
+
+std::optional<Deviation> promised_deviation(const Settings& settings) {
+  if (settings.contour == ContourMode::kPaper) return std::nullopt;
+  Deviation deviation;
+  deviation.simplification = settings.tolerance;
+  if (settings.compensation != 0) {
+    deviation.compensation = Compensator::kArcTolerance;
+  }
+  return deviation;
+}
 
 double float32_rounding(double greatest) {
   const auto rounded = static_cast<float>(greatest);

@@ -5,6 +5,7 @@
 
 #include "ldni/leaf_section.h"
 #include "ldni/sample.h"
+#include "slicer/settings.h"
 
 namespace lamina::slicer {
 
@@ -30,6 +31,10 @@ struct Deviation {
     return from_section() + *facets;
   }
 };
+
+// What a job's settings promise of its contours, before they are written;
+// nothing of the paper's.
+std::optional<Deviation> promised_deviation(const Settings& settings);
 
 // What rounding to 32-bit numbers moves a point by at most, of coordinates up
 // to `greatest` in magnitude [mm].
