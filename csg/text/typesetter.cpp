@@ -58,7 +58,7 @@ std::vector<std::string> module_folders() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return {};
   const fs::path folder = program.parent_path();
-  return {folder.string(), (folder.parent_path() / "lib/lamina").string()};
+  return {folder.string(), (folder.parent_path() / LAMINA_MODULES).string()};
 }
 
 Typesetter::Typesetter(std::vector<std::string> folders,

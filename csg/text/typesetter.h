@@ -16,8 +16,8 @@
 
 namespace lamina::text {
 
-// Where the program's modules lie: beside it, or in ../lib/lamina where it is
-// installed.
+// Where the program's modules lie: beside it, or in lib/lamina next to its
+// folder where it is installed.
 std::vector<std::string> module_folders();
 
 // Into how many chords a curve is cut.

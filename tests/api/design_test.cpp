@@ -1,0 +1,152 @@
+// lamina as a library, as another program sees it: by its one header.
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <lamina/design.h>
+
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using lamina::Design;
+using lamina::DesignOptions;
+using lamina::Layer;
+using lamina::SliceOptions;
+
+SliceOptions layers_of(double thickness) {
+  SliceOptions options;
+  options.layer_thickness = thickness;
+  return options;
+}
+
+SliceOptions at_heights(const std::vector<double>& heights) {
+  SliceOptions options;
+  options.heights = heights;
+  return options;
+}
+
+// What `make` throws.
+template <typename Make>
+std::string fault_of(const Make& make) {
+  try {
+    make();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+// Area of a regular polygon of `n` sides in a circle of radius `r`.
+double polygon_area(double r, int n) {
+  return n * r * r / 2 * std::sin(2 * std::numbers::pi / n);
+}
+
+TEST(Design, GivesTheLayersOfATube) {
+  const Design tube = Design::from_text(
+      "difference() { cylinder(r = 5, h = 2, $fn = 32);"
+      "  translate([0, 0, -1]) cylinder(r = 3, h = 4, $fn = 32); }");
+  const std::vector<Layer> layers = tube.slice(layers_of(0.5));
+  ASSERT_EQ(layers.size(), 4U);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const Layer& layer = layers[i];
+    EXPECT_DOUBLE_EQ(layer.bottom, 0.5 * static_cast<double>(i));
+    EXPECT_DOUBLE_EQ(layer.top, 0.5 * static_cast<double>(i + 1));
+    EXPECT_DOUBLE_EQ(layer.section_z, 0.5 * static_cast<double>(i) + 0.25);
+    EXPECT_EQ(layer.loops.size(), 2U);
+    EXPECT_NEAR(lamina::area(layer), polygon_area(5, 32) - polygon_area(3, 32),
+                1e-9);
+  }
+}
+
+TEST(Design, OuterLoopsArePositiveAndHolesNegative) {
+  const Design block = Design::from_text(
+      "difference() { cube(10); translate([2, 2, -1]) cube([3, 4, 12]); }");
+  const std::vector<Layer> layers = block.slice(at_heights({-1, 5}));
+  ASSERT_EQ(layers.size(), 2U);
+  EXPECT_TRUE(layers[0].loops.empty());
+  ASSERT_EQ(layers[1].loops.size(), 2U);
+  const double a = lamina::signed_area(layers[1].loops[0]);
+  const double b = lamina::signed_area(layers[1].loops[1]);
+  EXPECT_NEAR(std::max(a, b), 100, 1e-12);
+  EXPECT_NEAR(std::min(a, b), -12, 1e-12);
+}
+
+TEST(Design, DefinitionsSetVariables) {
+  DesignOptions options;
+  options.definitions = {"a=3", "b=4"};
+  const Design plate =
+      Design::from_text("a = 1; b = 1; cube([a, b, 1]);", options);
+  EXPECT_NEAR(lamina::area(plate.slice(at_heights({0.5}))[0]), 12, 1e-12);
+}
+
+TEST(Design, TextNeedsNoSetUp) {
+  const Design letter = Design::from_text("linear_extrude(1) text(\"o\");");
+  EXPECT_EQ(letter.slice(at_heights({0.5}))[0].loops.size(), 2U);
+}
+
+TEST(Design, ShowsEchoesAndWarnings) {
+  std::string shown;
+  DesignOptions options;
+  options.show = [&](std::string_view message) { shown += message; };
+  Design::from_text("echo(1 + 1); cube(unknown); cube(1);", options, "a.scad");
+  EXPECT_NE(shown.find("ECHO: 2\n"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("a.scad:1:19: warning: Ignoring unknown variable"),
+            std::string::npos)
+      << shown;
+}
+
+TEST(Design, FaultsAreThrownWithTheirPlace) {
+  const std::string syntax =
+      fault_of([] { Design::from_text("cube(1)\nsphere(;", {}, "a.scad"); });
+  EXPECT_EQ(syntax.substr(0, 7), "a.scad:") << syntax;
+  const std::string assertion = fault_of(
+      [] { Design::from_text("cube(1);\nassert(false);", {}, "a.scad"); });
+  EXPECT_EQ(assertion.substr(0, 18), "a.scad:2:1: error:") << assertion;
+  EXPECT_NE(
+      fault_of([] { Design::from_file("missing.scad"); }).find("missing.scad"),
+      std::string::npos);
+  EXPECT_NE(
+      fault_of([] { Design::from_text("square(1);"); }).find("not a 3D object"),
+      std::string::npos);
+  EXPECT_NE(fault_of([] { Design::from_text("echo(1);"); }).find("is empty"),
+            std::string::npos);
+}
+
+TEST(Design, RefusesWhatCannotBeSliced) {
+  const Design cube = Design::from_text("cube(1);");
+  EXPECT_THROW(cube.slice(layers_of(0)), std::runtime_error);
+  EXPECT_THROW(cube.slice(layers_of(NAN)), std::runtime_error);
+  EXPECT_THROW(cube.slice(at_heights({0.5, 0.5})), std::runtime_error);
+  SliceOptions intolerant;
+  intolerant.tolerance = -1;
+  EXPECT_THROW(cube.slice(intolerant), std::runtime_error);
+  EXPECT_THROW(cube.write("cube.stl"), std::runtime_error);
+  EXPECT_THROW(cube.write("cube.png"), std::runtime_error);
+  EXPECT_THROW(cube.write("missing/folder/cube.slc"), std::runtime_error);
+}
+
+TEST(Design, WritesTheBytesOfTheProgram) {
+  const lamina::support::TemporaryFolder folder;
+  const std::string design = folder.write(
+      "a.scad", "difference() { sphere(5); rotate([30, 0, 0]) cube(4); }");
+  const Design solid = Design::from_file(design);
+  for (const std::string extension : {"slc", "cli", "svg", "layers.json"}) {
+    solid.write(folder.file("library." + extension), layers_of(0.1));
+    const auto program = lamina::support::run_process(
+        {LAMINA_PROGRAM, design, "-o", "program." + extension, "--layer", "0.1",
+         "-q"},
+        folder.path());
+    ASSERT_EQ(program.status, 0) << program.errors;
+    EXPECT_EQ(lamina::support::read_file(folder.file("library." + extension)),
+              lamina::support::read_file(folder.file("program." + extension)))
+        << extension;
+  }
+}
+
+}  // namespace
