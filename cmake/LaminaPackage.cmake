@@ -1,0 +1,70 @@
+# Debian packages by CPack: lamina and lamina-dev. What lies in them is said in
+# LaminaInstall.cmake; here is what Debian asks for beside it.
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The lamina authors <authors@lamina.invalid>"
+    CACHE STRING "Maintainer of the packages")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+# Each package has a summary of its own.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
+set(CPACK_STRIP_FILES ON)
+# Ours is the machine's file mode mask otherwise.
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+    WORLD_READ WORLD_EXECUTE)
+
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+# Libraries that the program is linked with are found by dpkg-shlibdeps. Those
+# that it opens itself where it needs them are only recommended: OpenGL draws
+# solids and the paper's samples, the fonts are those of OpenSCAD's text().
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME lamina)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-liberation, libosmesa6")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS
+    "lamina-dev, libegl1, openscad, openscad-mcad")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
+"compiler from OpenSCAD designs to the layers of a 3D printer
+lamina reads a design of OpenSCAD (.scad or .csg) and writes the layers that
+wax and resin printers take: SLC, CLI, SVG, images for panels. It never builds
+a mesh of the whole design: parts are cut layer by layer and joined there, so
+that the contours are exact and the time is short.
+
+It also checks, measures and draws layer files.")
+
+# The archive needs at link time what the program is linked with.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME lamina-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "lamina (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})"
+  libdouble-conversion-dev libfmt-dev libminizip-dev libpng-dev
+  libpolyclipping-dev libpugixml-dev libqhull-dev libtbb-dev zlib1g-dev
+  pkg-config)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, g++")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+"compiler from OpenSCAD designs to layers - files for development
+lamina reads a design of OpenSCAD and makes the layers of a 3D printer.
+
+This package holds the library for C++ programs, its header, its CMake package
+and an example.")
+
+# A reproducible build tells the date by SOURCE_DATE_EPOCH.
+string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file(cmake/debian/changelog.in changelog.Debian @ONLY)
+lamina_compress(${PROJECT_BINARY_DIR}/changelog.Debian changelog.Debian.gz)
+# Nobody but Debian asks for these.
+install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/lamina
+        COMPONENT program EXCLUDE_FROM_ALL)
+install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
+              ${PROJECT_BINARY_DIR}/changelog.gz cmake/debian/copyright
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/lamina-dev
+        COMPONENT development EXCLUDE_FROM_ALL)
+
+include(CPack)
