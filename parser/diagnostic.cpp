@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "parser/detail/paths.h"
+#include "parser/detail/utf8.h"
 
 namespace lamina {
 
@@ -57,28 +58,13 @@ void append_openscad_place(std::string& text, const Source& source,
                       detail::relative_path(source.path(), base_folder), line);
 }
 
-// Length of the UTF-8 character at the beginning of `text`; 0 if there is none.
-std::size_t character_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80                     ? 1
-                             : first >= 0xc2 && first < 0xe0  ? 2
-                             : first >= 0xe0 && first < 0xf0  ? 3
-                             : first >= 0xf0 && first <= 0xf4 ? 4
-                                                              : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80) return 0;
-  }
-  return length;
-}
-
 // A piece of text as a terminal shows it in one column a character: control
 // characters would move the cursor and tabs shift the carets, so both become
 // blanks; bytes that are no UTF-8 become question marks.
 std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = detail::character_length(text);
     const auto first = static_cast<unsigned char>(text[0]);
     if (length == 0) {
       result += '?';

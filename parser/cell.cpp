@@ -1,0 +1,112 @@
+#include "parser/cell.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include <double-conversion/double-conversion.h>
+#include <fmt/format.h>
+
+#include "parser/detail/literal.h"
+#include "parser/diagnostic.h"
+#include "parser/loader.h"
+#include "parser/parser.h"
+#include "parser/text.h"
+
+namespace lamina {
+namespace {
+
+[[noreturn]] void refuse(std::string_view expected, std::string_view cell) {
+  throw FileError({Severity::kError,
+                   {},
+                   fmt::format("{} was expected, not '{}'", expected, cell)});
+}
+
+// A number as OpenSCAD writes it; none if it is none.
+std::optional<std::string> read_number(std::string_view cell,
+                                       DecimalSign decimal) {
+  std::string text(cell);
+  if (decimal == DecimalSign::kPointOrComma &&
+      std::count(text.begin(), text.end(), ',') == 1 &&
+      text.find('.') == std::string::npos) {
+    text[text.find(',')] = '.';
+  }
+  if (text.starts_with('+')) text.erase(0, 1);
+  const double_conversion::StringToDoubleConverter converter(
+      double_conversion::StringToDoubleConverter::NO_FLAGS, NAN, NAN, nullptr,
+      nullptr);
+  int used = 0;
+  const double value = converter.StringToDouble(
+      text.data(), static_cast<int>(text.size()), &used);
+  const bool is_number = !text.empty() && std::isfinite(value) &&
+                         used == static_cast<int>(text.size());
+  if (!is_number) return std::nullopt;
+  return text;
+}
+
+// In any case of letters: spreadsheets turn true into TRUE.
+std::optional<std::string> read_truth(std::string_view cell) {
+  std::string word(cell);
+  for (char& c : word) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (word == "true" || word == "false") return word;
+  return std::nullopt;
+}
+
+// Whether the cell, and nothing less, is a literal of OpenSCAD.
+bool is_literal(std::string_view cell) {
+  SourceStore sources;
+  Diagnostics diagnostics;
+  Loader loader(sources, diagnostics, {});
+  const Source& source = sources.add("", fmt::format("x = {}\n;", cell));
+  try {
+    const ast::Program program = parse(source, nullptr, loader, diagnostics);
+    if (program.statements.size() != 1) return false;
+    const auto* assignment =
+        std::get_if<ast::Assignment>(&program.statements[0]->node);
+    return assignment != nullptr && detail::is_literal(*assignment->value);
+  } catch (const SyntaxError&) {
+    return false;
+  }
+}
+
+std::string quoted(std::string_view cell) {
+  std::string text;
+  append_quoted(cell, text);
+  return text;
+}
+
+bool is_quoted(std::string_view cell) {
+  return cell.size() > 1 && cell.starts_with('"') && cell.ends_with('"') &&
+         is_literal(cell);
+}
+
+bool is_vector(std::string_view cell) {
+  return cell.starts_with('[') && is_literal(cell);
+}
+
+}  // namespace
+
+std::string value_of_cell(std::string_view cell, VariableKind kind,
+                          DecimalSign decimal) {
+  if (is_quoted(cell)) return std::string(cell);
+  if (kind == VariableKind::kString) return quoted(cell);
+  const bool is_any = kind == VariableKind::kAny;
+  if (is_any || kind == VariableKind::kNumber) {
+    if (auto number = read_number(cell, decimal)) return *number;
+    if (!is_any) refuse("a number", cell);
+  }
+  if (is_any || kind == VariableKind::kBool) {
+    if (auto truth = read_truth(cell)) return *truth;
+    if (!is_any) refuse("true or false", cell);
+  }
+  if (is_vector(cell)) return std::string(cell);
+  if (!is_any || cell.starts_with('['))
+    refuse("a vector such as [1, 2.5]", cell);
+  return quoted(cell);
+}
+
+}  // namespace lamina

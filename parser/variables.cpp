@@ -1,0 +1,55 @@
+#include "parser/variables.h"
+
+#include <set>
+#include <variant>
+
+#include "parser/detail/literal.h"
+
+namespace lamina {
+namespace {
+
+VariableKind kind_of(const ast::Expr& value) {
+  const auto type = detail::type_of(value);
+  if (!type) return VariableKind::kAny;
+  switch (*type) {
+    case detail::ValueType::kBool:
+      return VariableKind::kBool;
+    case detail::ValueType::kNumber:
+      return VariableKind::kNumber;
+    case detail::ValueType::kString:
+      return VariableKind::kString;
+    case detail::ValueType::kVector:
+      return VariableKind::kVector;
+    case detail::ValueType::kRange:
+      return VariableKind::kAny;
+  }
+  return VariableKind::kAny;
+}
+
+void add_variables(const ast::Program& program, const Loader& loader,
+                   std::set<const ast::Program*>& seen, Variables& variables) {
+  if (!seen.insert(&program).second) return;
+  Variables own;
+  for (const ast::Statement* statement : program.statements) {
+    const auto* assignment = std::get_if<ast::Assignment>(&statement->node);
+    if (assignment == nullptr) continue;
+    own[std::string(assignment->name)] = kind_of(*assignment->value);
+  }
+  variables.merge(own);
+  for (const ast::Use& use : program.uses) {
+    if (const ast::Program* used = loader.used_program(use)) {
+      add_variables(*used, loader, seen, variables);
+    }
+  }
+}
+
+}  // namespace
+
+Variables find_variables(const ast::Program& program, const Loader& loader) {
+  Variables variables;
+  std::set<const ast::Program*> seen;
+  add_variables(program, loader, seen, variables);
+  return variables;
+}
+
+}  // namespace lamina
