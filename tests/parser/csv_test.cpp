@@ -76,7 +76,7 @@ TEST(Csv, TellsWhatIsWrongAndWhere) {
             "t.csv:2:3: error: this quote has no end\n"
             "    2 | 1,\"x\n"
             "      |   ^\n");
-  EXPECT_EQ(complaint("a\n\"1\" ring\n").substr(0, 20),
+  EXPECT_EQ(complaint("a\n\"1\" ring\n").substr(0, 21),
             "t.csv:2:1: error: the");
   EXPECT_EQ(complaint("a\nJ\xfcrgen\n").substr(0, 39),
             "t.csv:2:2: error: this is no UTF-8 text");
