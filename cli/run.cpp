@@ -154,7 +154,7 @@ void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
     return;
   }
   const csg::Scene& scene = *lowered.scene();
-  ProgressSink progress(sink, run.terminal);
+  ProgressSink progress(sink, run.terminal.progress());
   run.report.slice =
       slicer::slice(scene, run.options.settings, progress, run.diagnostics);
   run.report.origins = origins_of(scene, run.report.slice.features);

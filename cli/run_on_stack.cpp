@@ -7,6 +7,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "cli/progress.h"
+
 namespace lamina::cli {
 namespace {
 
@@ -107,6 +109,7 @@ int run_on_stack(slicer::TemporaryFiles& temporary_files,
   ::sigwait(&signals, &received);
   if (received != kDoneSignal) {
     temporary_files.discard_all();
+    end_progress();
     ::_exit(kInterruptedStatus);
   }
   ::pthread_join(thread, nullptr);

@@ -3,12 +3,9 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace lamina::cli {
 namespace {
-
-constexpr std::chrono::milliseconds kProgressPeriod{150};
 
 // Endless recursion has as many equal notes as the trace is long: one is
 // shown, with their number.
@@ -36,10 +33,7 @@ Diagnostic with_folded_notes(const Diagnostic& diagnostic) {
 
 }  // namespace
 
-Terminal::Terminal(bool is_quiet)
-    : is_quiet_(is_quiet),
-      is_terminal_(::isatty(STDERR_FILENO) == 1),
-      last_progress_(std::chrono::steady_clock::now()) {}
+Terminal::Terminal(bool is_quiet) : is_quiet_(is_quiet), progress_(!is_quiet) {}
 
 Terminal::~Terminal() { finish(); }
 
@@ -68,18 +62,8 @@ void Terminal::say(std::string_view line) {
   write(fmt::format("{}\n", line));
 }
 
-void Terminal::show_progress(double share) {
-  if (is_quiet_ || !is_terminal_) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_progress_ < kProgressPeriod) return;
-  last_progress_ = now;
-  end_echoes();
-  std::fputs(fmt::format("\rslicing {:3.0f} %", 100 * share).c_str(), stderr);
-  has_progress_ = true;
-}
-
 void Terminal::finish() {
-  clear_progress();
+  progress_.erase();
   end_echoes();
   for (const auto& [text, count] : counts_) {
     if (count == 1) continue;
@@ -96,24 +80,18 @@ void Terminal::end_echoes() {
 }
 
 void Terminal::write(std::string_view text) {
-  clear_progress();
+  progress_.erase();
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-void Terminal::clear_progress() {
-  if (has_progress_) std::fputs("\r             \r", stderr);
-  has_progress_ = false;
-}
-
-void ProgressSink::begin(const Box3& box) {
-  bottom_ = box.low.z;
-  top_ = box.high.z;
-  sink_.begin(box);
+void ProgressSink::expect(std::uint32_t layers) {
+  sink_.expect(layers);
+  line_.begin(layers, "layers");
 }
 
 void ProgressSink::take(const slicer::Layer& layer) {
   sink_.take(layer);
-  terminal_.show_progress((layer.top - bottom_) / (top_ - bottom_));
+  line_.show(++done_);
 }
 
 }  // namespace lamina::cli

@@ -2,12 +2,12 @@
 // What a user sees on standard error: messages as they come up, progress, a
 // closing line.
 
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
 
+#include "cli/progress.h"
 #include "parser/diagnostic.h"
 #include "slicer/layer.h"
 
@@ -28,9 +28,8 @@ class Terminal {
   // A line of its own; not when quiet.
   void say(std::string_view line);
 
-  // How far the slicing is, 0 … 1; shown on a terminal only, a few times a
-  // second.
-  void show_progress(double share);
+  // The line that tells how far the run is; messages are written above it.
+  ProgressLine& progress() { return progress_; }
 
   // Tells how often messages were repeated.
   void finish();
@@ -38,31 +37,29 @@ class Terminal {
  private:
   void write(std::string_view text);
   void end_echoes();
-  void clear_progress();
 
   bool is_quiet_;
-  bool is_terminal_;
-  bool has_progress_ = false;
-  std::chrono::steady_clock::time_point last_progress_;
+  ProgressLine progress_;
   std::string last_echo_;
   std::uint64_t echo_count_ = 0;
   std::map<std::string, std::uint64_t> counts_;  // caret text → times
 };
 
-// Passes layers on and shows how far they have come between two heights.
+// Passes layers on and shows how many of them are done.
 class ProgressSink : public slicer::LayerSink {
  public:
-  ProgressSink(slicer::LayerSink& sink, Terminal& terminal)
-      : sink_(sink), terminal_(terminal) {}
+  ProgressSink(slicer::LayerSink& sink, ProgressLine& line)
+      : sink_(sink), line_(line) {}
+  ~ProgressSink() override { line_.erase(); }
 
-  void begin(const Box3& box) override;
+  void begin(const Box3& box) override { sink_.begin(box); }
+  void expect(std::uint32_t layers) override;
   void take(const slicer::Layer& layer) override;
 
  private:
   slicer::LayerSink& sink_;
-  Terminal& terminal_;
-  double bottom_ = 0;
-  double top_ = 0;
+  ProgressLine& line_;
+  std::uint64_t done_ = 0;
 };
 
 }  // namespace lamina::cli

@@ -28,6 +28,8 @@ class LayerSink {
   // Once, before the first layer. box: no contour reaches beyond it but by
   // what --compensate adds.
   virtual void begin(const Box3& /*box*/) {}
+  // Once, after begin(): no more layers than these will come.
+  virtual void expect(std::uint32_t /*layers*/) {}
   virtual void take(const Layer& layer) = 0;
 };
 

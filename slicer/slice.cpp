@@ -90,6 +90,7 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
     features.emplace(settings.min_feature, number_makers(scene));
   }
   sink.begin(scene.box);
+  sink.expect(grid.layer_count());
   run_slice_job(plan, grid, settings, sink, features ? &*features : nullptr,
                 report);
   if (features) report.features = features->finish();

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <pty.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -13,15 +14,21 @@
 namespace lamina::support {
 namespace {
 
-// Starts the program with its streams going to files.
-pid_t start(const std::vector<std::string>& arguments,
-            const std::string& folder, const std::string& output,
-            const std::string& errors) {
+// For execvp; valid as long as the arguments.
+std::vector<char*> words_of(const std::vector<std::string>& arguments) {
   std::vector<char*> words;
   for (const std::string& argument : arguments) {
     words.push_back(const_cast<char*>(argument.c_str()));
   }
   words.push_back(nullptr);
+  return words;
+}
+
+// Starts the program with its streams going to files.
+pid_t start(const std::vector<std::string>& arguments,
+            const std::string& folder, const std::string& output,
+            const std::string& errors) {
+  const std::vector<char*> words = words_of(arguments);
   const pid_t process = ::fork();
   if (process < 0) throw std::runtime_error("fork failed");
   if (process > 0) return process;
@@ -55,6 +62,35 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   ::wait4(process, &wait_status, 0, &usage);
   return {status_of(wait_status), read_file(streams.file("out")),
           read_file(streams.file("err")), usage.ru_maxrss};
+}
+
+ProcessResult run_on_terminal(const std::vector<std::string>& arguments,
+                              const std::string& folder,
+                              const std::string& cue) {
+  const std::vector<char*> words = words_of(arguments);
+  const winsize size = {24, 80, 0, 0};
+  int terminal = -1;
+  const pid_t process = ::forkpty(&terminal, nullptr, nullptr, &size);
+  if (process < 0) throw std::runtime_error("forkpty failed");
+  if (process == 0) {
+    if (::chdir(folder.c_str()) != 0) ::_exit(126);
+    ::execvp(words[0], words.data());
+    ::_exit(127);
+  }
+  std::string shown;
+  bool is_pressed = cue.empty();
+  char buffer[4096];
+  // A terminal whose last user is gone reads as an error.
+  for (ssize_t count; (count = ::read(terminal, buffer, sizeof buffer)) > 0;) {
+    shown.append(buffer, static_cast<std::size_t>(count));
+    if (is_pressed || shown.find(cue) == std::string::npos) continue;
+    is_pressed = ::write(terminal, "\x03", 1) == 1;
+  }
+  ::close(terminal);
+  int wait_status = 0;
+  rusage usage{};
+  ::wait4(process, &wait_status, 0, &usage);
+  return {status_of(wait_status), shown, "", usage.ru_maxrss};
 }
 
 BackgroundProcess::BackgroundProcess(const std::vector<std::string>& arguments,

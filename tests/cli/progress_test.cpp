@@ -1,0 +1,92 @@
+// The line that tells how far a long run is.
+
+#include "cli/progress.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::TemporaryFolder;
+
+TEST(ProgressText, TellsWhatIsDoneHowFastAndHowLongItTakesYet) {
+  EXPECT_EQ(progress_text({1000, 4000, "layers", 2}, 60),
+            "[=====>               ] 1000 of 4000 layers, 500/s, 6 s left");
+  EXPECT_EQ(progress_text({7, 200, "pieces", 2}, 40),
+            "  7 of 200 pieces, 3.5/s, 56 s left");
+  EXPECT_EQ(progress_text({1, 61, "layers", 1}, 45),
+            " 1 of 61 layers, 1.0/s, 1 min 00 s left");
+}
+
+TEST(ProgressText, NeedsNoMoreThanItsWidth) {
+  for (std::size_t width = 0; width < 120; ++width) {
+    EXPECT_LE(progress_text({1000, 4000, "layers", 2}, width).size(), width);
+    EXPECT_LE(progress_text({0, 4000, "layers", 0}, width).size(), width);
+  }
+}
+
+TEST(ProgressText, KnowsNoRateBeforeTheFirstIsDone) {
+  EXPECT_EQ(progress_text({0, 9, "layers", 3}, 20), "0 of 9 layers");
+}
+
+// Some seconds of work.
+std::vector<std::string> long_run(const TemporaryFolder& folder) {
+  folder.write("a.scad", "cylinder(r = 30, h = 60, $fn = 500);");
+  return command({"a.scad", "--layer", "0.002", "--threads", "1"});
+}
+
+// What stands on the last line of a terminal in the end.
+std::string last_line(const std::string& shown) {
+  std::string line;
+  std::size_t column = 0;
+  for (const char c : shown) {
+    if (c == '\n') line.clear();
+    if (c == '\n' || c == '\r') {
+      column = 0;
+      continue;
+    }
+    line.resize(std::max(line.size(), column + 1), ' ');
+    line[column++] = c;
+  }
+  return line.substr(0, line.find_last_not_of(' ') + 1);
+}
+
+TEST(Progress, IsShownOnATerminalAndErasedAtTheEnd) {
+  const TemporaryFolder folder;
+  const auto result = support::run_on_terminal(long_run(folder), folder.path());
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.output.find(" of 30000 layers, "), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find(" s left"), std::string::npos);
+  const std::size_t end =
+      result.output.rfind('\r', result.output.find("a.slc:"));
+  EXPECT_EQ(result.output.substr(end, 7), "\ra.slc:");
+  EXPECT_EQ(last_line(result.output), "");
+}
+
+TEST(Progress, IsNotForPipesQuietRunsAndShortOnes) {
+  const TemporaryFolder folder;
+  std::vector<std::string> words = long_run(folder);
+  EXPECT_EQ(support::run_process(words, folder.path()).errors.find('\r'),
+            std::string::npos);
+  words.emplace_back("-q");
+  EXPECT_EQ(support::run_on_terminal(words, folder.path()).output, "");
+  folder.write("b.scad", "cube(1);");
+  const auto small =
+      support::run_on_terminal(command({"b.scad"}), folder.path());
+  EXPECT_EQ(small.output.find("left"), std::string::npos);
+}
+
+TEST(Progress, LeavesNothingBehindAnInterrupt) {
+  const TemporaryFolder folder;
+  const auto result = support::run_on_terminal(long_run(folder), folder.path(),
+                                               " of 30000 layers");
+  EXPECT_EQ(result.status, 130);
+  EXPECT_EQ(last_line(result.output), "");
+  EXPECT_EQ(folder.entry_count(), 1U);  // the design
+}
+
+}  // namespace
+}  // namespace lamina::cli
