@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "csg/solid/lower.h"
 #include "parser/parameter_set.h"
 #include "slicer/slice.h"
 
@@ -134,10 +133,10 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   });
 }
 
-void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
+csg::Lowered lower(Run& run, csg::Tree& tree) {
   // Lowering comes before slicing because transforms, 2D parts and hulls need
   // the whole tree, layers only the leaves.
-  const csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
+  csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
     return csg::lower(tree,
                       {run.options.world_from_design, run.options.chordal_error,
                        &run.typesetter, run.options.scale},
@@ -145,19 +144,28 @@ void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
   });
   tree.drop_nodes();
   if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
+  return lowered;
+}
+
+void slice(Run& run, const csg::Lowered& lowered,
+           const slicer::Settings& settings, slicer::LayerSink& sink) {
   if (const planar::Region* outline = lowered.outline()) {
-    if (!holds_outlines(run.options.format)) {
-      refuse_geometry("Current top level object is not a 3D object.");
-    }
-    run.report.slice = slicer::slice_outline(*outline, run.options.settings,
-                                             sink, run.diagnostics);
+    run.report.slice =
+        slicer::slice_outline(*outline, settings, sink, run.diagnostics);
     return;
   }
   const csg::Scene& scene = *lowered.scene();
   ProgressSink progress(sink, run.terminal.progress());
-  run.report.slice =
-      slicer::slice(scene, run.options.settings, progress, run.diagnostics);
+  run.report.slice = slicer::slice(scene, settings, progress, run.diagnostics);
   run.report.origins = origins_of(scene, run.report.slice.features);
+}
+
+void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
+  const csg::Lowered lowered = lower(run, tree);
+  if (lowered.outline() != nullptr && !holds_outlines(run.options.format)) {
+    refuse_geometry("Current top level object is not a 3D object.");
+  }
+  slice(run, lowered, run.options.settings, sink);
 }
 
 int run_caught(Terminal& terminal, const Diagnostics& diagnostics,

@@ -13,10 +13,12 @@
 #include "cli/report.h"
 #include "cli/terminal.h"
 #include "csg/eval/evaluator.h"
+#include "csg/solid/lower.h"
 #include "csg/text/typesetter.h"
 #include "parser/loader.h"
 #include "slicer/formats/output_file.h"
 #include "slicer/layer.h"
+#include "slicer/settings.h"
 
 namespace lamina::cli {
 
@@ -65,7 +67,16 @@ struct Evaluated {
 
 Evaluated evaluate(Run& run, const ast::Program& program);
 
-// From the CSG tree to layers in `sink`.
+// The solid or the outline that the tree stands for; throws where it is empty.
+// Drops the tree's nodes; the solid needs what is left of it.
+csg::Lowered lower(Run& run, csg::Tree& tree);
+
+// Sections of what was lowered; may be called again, with other settings.
+void slice(Run& run, const csg::Lowered& lowered,
+           const slicer::Settings& settings, slicer::LayerSink& sink);
+
+// From the CSG tree to layers in `sink`: both of these. Throws where the
+// format of the output holds no outline and the design is one.
 void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink);
 
 // Returns what `work` returns; where it throws, shows the message, unless it
