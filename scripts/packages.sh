@@ -16,7 +16,7 @@ LAMINA_TEST_PACKAGES=(
   libgtest-dev libbenchmark-dev libcgal-dev
   openscad openscad-testing-data openscad-mcad libgl1-mesa-dri
   fonts-dejavu-core fonts-hosny-amiri
-  slic3r python3
+  slic3r python3 chromium
 )
 
 # install_missing <package>…: installs those that are not there; asks for

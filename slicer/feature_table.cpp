@@ -37,8 +37,6 @@ std::string counts_text(std::span<const ThinFeature* const> features) {
                      plural(features.size() - walls, "gap"));
 }
 
-bool is_edge(const ThinFeature& feature) { return feature.width < kEdgeWidth; }
-
 // A line of the table: the thinnest of all features of one origin.
 struct Line {
   const ThinFeature* thinnest;
@@ -79,6 +77,8 @@ std::vector<Line> lines_of(std::span<const ThinFeature* const> told,
 bool is_low(const ThinFeature& feature, double width) {
   return feature.height < width - kEdgeWidth;
 }
+
+bool is_edge(const ThinFeature& feature) { return feature.width < kEdgeWidth; }
 
 std::string_view name_of(ThinKind kind) {
   return kind == ThinKind::kWall ? "wall" : "gap";

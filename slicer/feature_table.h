@@ -15,6 +15,9 @@ namespace lamina::slicer {
 // wires that lie flat.
 bool is_low(const ThinFeature& feature, double width);
 
+// Whether two sides meet there in an edge: it has no width.
+bool is_edge(const ThinFeature& feature);
+
 // "wall" or "gap".
 std::string_view name_of(ThinKind kind);
 

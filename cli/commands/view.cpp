@@ -22,27 +22,33 @@
 #include "slicer/layer_picture.h"
 #include "slicer/relief.h"
 #include "slicer/sheet_picture.h"
+#include "slicer/viewer_page.h"
 
 namespace lamina::cli {
 namespace {
 
 constexpr std::string_view kViewHelp =
     R"(Usage: lamina view FILE -o PICTURE.png [OPTION]...
+       lamina view FILE -o PAGE.html [OPTION]...
 
 Draws the layers of a .slc file, or of a .scad or .csg design with any option
-of Design and Slicing (see 'lamina --help').
+of Design and Slicing (see 'lamina --help'). A page shows all layers in any
+browser, to leaf through, zoom and measure; it is one file and needs no network.
 
-  -o FILE           the picture
+  -o FILE           the picture or the page
   --style STYLE     sheet: single layers side by side; stack: all layers on top
                     of each other, as a solid [sheet]
   --layers N        layers on a sheet, filled up to whole rows [20]
   --layer-number N  this layer alone, counted from 1 at the bottom
   --at Z            the layer at this height alone
-  --min-feature MM  of a layer alone: marks walls and gaps thinner than this
+  --min-feature MM  of a layer alone or a page: marks walls and gaps thinner
+                    than this
   --width PIXELS    width of the picture [1600; of a layer alone 1200]
   -q, --quiet       say nothing but errors
   -h, --help        print this help
 )";
+
+bool is_page(const std::string& output) { return output.ends_with(".html"); }
 
 enum class Style { kSheet, kStack };
 
@@ -130,6 +136,11 @@ int draw(Run& run, const ViewOptions& options) {
   const std::size_t slash = run.options.design.rfind('/');
   const std::string title =
       run.options.design.substr(slash == std::string::npos ? 0 : slash + 1);
+  if (is_page(run.options.output)) {
+    write_text(run, run.options.output,
+               viewer_page(*layers, title, options.layer.min_feature));
+    return kDone;
+  }
   const slicer::Image picture = draw_picture(*layers, title, options);
   slicer::OutputFile output(run.options.output, run.temporary_files);
   write_png(picture, output);
@@ -166,17 +177,19 @@ class ViewCommand : public Command {
   }
 
   void check() override {
-    if (!design_.output.ends_with(".png")) {
-      throw UsageError(fmt::format("view draws .png pictures; '{}' is none",
-                                   design_.output));
+    if (!is_page(design_.output) && !design_.output.ends_with(".png")) {
+      throw UsageError(fmt::format(
+          "view writes .png pictures and .html pages; '{}' is neither",
+          design_.output));
     }
     const std::string& file = design_.design;
     if (slicer::is_named_as_layers(file) && !file.ends_with(".slc")) {
       throw UsageError(fmt::format(
           "view reads layers from .slc only, and designs; not '{}'", file));
     }
-    if (options_.layer.min_feature > 0 && !options_.is_of_one_layer()) {
-      throw UsageError("--min-feature needs --layer-number or --at");
+    if (options_.layer.min_feature > 0 && !is_page(design_.output) &&
+        !options_.is_of_one_layer()) {
+      throw UsageError("--min-feature needs --layer-number, --at or .html");
     }
     if (options_.style == Style::kStack && options_.is_of_one_layer()) {
       throw UsageError("--style stack shows all layers, not one");

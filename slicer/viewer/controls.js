@@ -1,0 +1,342 @@
+// The page: what its buttons, keys and pointers do.
+
+const kPlaySpeed = 30;       // layers per second, at most 20 s for all
+const kSnapReach = 9;        // of measuring [pixels]
+const kClickReach = 5;       // what moves farther is no click [pixels]
+const kListedFeatures = 200;
+
+const kIcons = {
+  play: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M5 2.5v15l12-7.5z"/></svg>',
+  pause: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M4 3h4v14H4zm8 0h4v14h-4z"/></svg>',
+  theme: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M10 1a9 9 0 1 0 0 18 9 9 0 0 0 0-18zm0 16V3a7 7 0 0 1 0 14z"/></svg>',
+};
+
+const byId = (id) => document.getElementById(id);
+
+class Viewer {
+  constructor(part) {
+    this.part = part;
+    this.view = new View();
+    this.drawing = new Drawing(byId("drawing"), part, this.view);
+    this.plot = new Plot(byId("plot"), part);
+    this.state = {
+      index: 0, below: false, thin: part.minFeature > 0, pointer: null, ends: [],
+    };
+    this.pointers = new Map();
+    this.describePart();
+    this.listFeatures();
+    this.bindSlider();
+    this.bindButtons();
+    this.bindKeys();
+    this.bindPointers();
+    new ResizeObserver(() => this.resize()).observe(byId("drawing"));
+    const asked = /layer=(\d+)/.exec(location.hash);
+    this.choose(asked ? +asked[1] - 1 : this.fullestLayer());
+    this.fit();
+  }
+
+  fullestLayer() {
+    const areas = this.part.layers.map((layer) => layer.area);
+    return areas.indexOf(Math.max(...areas));
+  }
+
+  describePart() {
+    const {title, layers, size, volume} = this.part;
+    const [x, y, z] = size.map((length) => length.toFixed(2));
+    byId("title").textContent = title;
+    byId("summary").textContent =
+        `${layers.length} layers · ${x} × ${y} × ${z} mm · ${volume.toFixed(2)} mm³`;
+    byId("theme").innerHTML = kIcons.theme;
+    byId("play").innerHTML = kIcons.play;
+    byId("slider").max = layers.length;
+  }
+
+  listFeatures() {
+    const {minFeature, features, lowFeatures} = this.part;
+    if (!minFeature) return;
+    byId("thin").hidden = false;
+    byId("thin-list").hidden = false;
+    byId("thin-list").querySelector("h2").textContent =
+        `${features.length} ${features.length === 1 ? "place" : "places"} ` +
+        `thinner than ${minFeature} mm`;
+    byId("thin-list").querySelector("ol").append(
+        ...features.slice(0, kListedFeatures).map((feature) => {
+          const item = document.createElement("li");
+          const button = document.createElement("button");
+          const range = feature.first === feature.last ? `${feature.first}` :
+            `${feature.first}–${feature.last}`;
+          button.innerHTML = `<span class="${feature.kind}">${feature.kind} ` +
+            `${feature.width ? `${feature.width.toFixed(3)} mm` : "edge"}</span><small>layer ${range}</small>`;
+          button.onclick = () => this.visit(feature);
+          item.append(button);
+          return item;
+        }));
+    byId("thin-list").querySelector("p").textContent = [
+      features.length > kListedFeatures ?
+        `The ${kListedFeatures} thinnest are listed.` : "",
+      lowFeatures ? `${lowFeatures} more are lower than they should be wide.` : "",
+    ].join(" ");
+  }
+
+  // Goes where the feature is thinnest.
+  visit(feature) {
+    this.choose(feature.layer - 1);
+    const reach = Math.max(1, 6 * feature.width);
+    const [x, y] = feature.place;
+    this.view.show([x - reach, y - reach], [x + reach, y + reach],
+        this.drawing.canvas.clientWidth, this.drawing.canvas.clientHeight);
+    this.draw();
+  }
+
+  choose(index) {
+    const {layers} = this.part;
+    this.state.index = Math.min(layers.length - 1, Math.max(0, Math.round(index)));
+    const layer = layers[this.state.index];
+    const number = this.state.index + 1;
+    byId("number").textContent = `${number} of ${layers.length}`;
+    byId("height").textContent = `${+layer.z.toFixed(6)} mm`;
+    byId("area").textContent = `${layer.area.toFixed(4)} mm²`;
+    byId("loops").textContent = layer.holes === 0 ? `${layer.loops}` :
+      `${layer.loops}, ${layer.holes} of them ${layer.holes === 1 ? "a hole" : "holes"}`;
+    byId("perimeter").textContent = `${layer.perimeter.toFixed(3)} mm`;
+    const words = `Layer ${number} of ${layers.length}, z ${+layer.z.toFixed(6)} mm, ` +
+      `area ${layer.area.toFixed(2)} mm²`;
+    byId("slider").value = number;
+    byId("slider").setAttribute("aria-valuetext", words);
+    byId("drawing").setAttribute("aria-label", words);
+    this.draw();
+  }
+
+  // Draws once a frame, however much has changed.
+  draw() {
+    if (this.frame) return;
+    this.frame = requestAnimationFrame(() => {
+      this.frame = 0;
+      this.drawing.draw(this.state);
+      this.plot.draw(this.state.index);
+    });
+  }
+
+  fit() {
+    const {size} = this.part;
+    this.view.show([0, 0], size, this.drawing.canvas.clientWidth,
+        this.drawing.canvas.clientHeight);
+    this.isFitted = true;
+    this.draw();
+  }
+
+  resize() {
+    if (this.isFitted) this.fit();
+    this.draw();
+  }
+
+  bindSlider() {
+    const slider = byId("slider");
+    slider.oninput = () => this.choose(slider.value - 1);
+    slider.onpointermove = (event) => {
+      const share = event.offsetX / slider.clientWidth;
+      const {layers} = this.part;
+      const index = Math.round(Math.min(1, Math.max(0, share)) * (layers.length - 1));
+      byId("hint").hidden = false;
+      byId("hint").style.left = `${Math.min(slider.clientWidth - 70,
+          Math.max(70, event.offsetX))}px`;
+      byId("hint").textContent =
+          `${index + 1}: z ${+layers[index].z.toFixed(4)}, ${layers[index].area.toFixed(2)} mm²`;
+    };
+    slider.onpointerleave = () => { byId("hint").hidden = true; };
+    byId("profile").onwheel = (event) => {
+      event.preventDefault();
+      this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
+    };
+  }
+
+  toggle(name) {
+    this.state[name] = !this.state[name];
+    byId(name).setAttribute("aria-pressed", this.state[name]);
+    if (name === "thin") byId("thin-list").hidden = !this.state.thin;
+    this.draw();
+  }
+
+  toggleMeasure() {
+    this.isMeasuring = !this.isMeasuring;
+    byId("measure").setAttribute("aria-pressed", this.isMeasuring);
+    byId("drawing").classList.toggle("measuring", this.isMeasuring);
+    this.state.ends = [];
+    this.tellDistance();
+    this.draw();
+  }
+
+  toggleTheme() {
+    const root = document.documentElement;
+    root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
+    this.draw();
+  }
+
+  play() {
+    this.isPlaying = !this.isPlaying;
+    byId("play").innerHTML = this.isPlaying ? kIcons.pause : kIcons.play;
+    byId("play").setAttribute("aria-pressed", this.isPlaying);
+    if (!this.isPlaying) return;
+    const last = this.part.layers.length - 1;
+    const speed = Math.max(kPlaySpeed, last / 20);
+    const from = this.state.index === last ? 0 : this.state.index;
+    const begin = performance.now();
+    const step = (now) => {
+      if (!this.isPlaying) return;
+      this.choose(from + Math.max(0, now - begin) / 1000 * speed);
+      if (this.state.index < last) requestAnimationFrame(step);
+      else this.play();
+    };
+    requestAnimationFrame(step);
+  }
+
+  bindButtons() {
+    byId("fit").onclick = () => this.fit();
+    byId("measure").onclick = () => this.toggleMeasure();
+    byId("below").onclick = () => this.toggle("below");
+    byId("thin").onclick = () => this.toggle("thin");
+    byId("theme").onclick = () => this.toggleTheme();
+    byId("play").onclick = () => this.play();
+  }
+
+  bindKeys() {
+    const middle = () => [this.drawing.canvas.clientWidth / 2,
+      this.drawing.canvas.clientHeight / 2];
+    const zoom = (factor) => {
+      this.isFitted = false;
+      this.view.zoom(factor, middle());
+      this.draw();
+    };
+    const move = (layers) => this.choose(this.state.index + layers);
+    const keys = {
+      ArrowUp: () => move(1), ArrowRight: () => move(1),
+      ArrowDown: () => move(-1), ArrowLeft: () => move(-1),
+      PageUp: () => move(10), PageDown: () => move(-10),
+      Home: () => this.choose(0), End: () => this.choose(Infinity),
+      "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(.8),
+      f: () => this.fit(), 0: () => this.fit(),
+      m: () => this.toggleMeasure(), b: () => this.toggle("below"),
+      t: () => this.part.minFeature && this.toggle("thin"),
+      d: () => this.toggleTheme(), " ": () => this.play(),
+      Escape: () => this.isMeasuring && this.toggleMeasure(),
+    };
+    document.addEventListener("keydown", (event) => {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+      // Space and Enter press the button that has the focus.
+      if (!act || (event.key === " " && event.target.tagName === "BUTTON")) return;
+      event.preventDefault();
+      act();
+    });
+  }
+
+  bindPointers() {
+    const canvas = this.drawing.canvas;
+    const place = (event) => [event.offsetX, event.offsetY];
+    canvas.onwheel = (event) => {
+      event.preventDefault();
+      if (event.shiftKey) {
+        this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
+        return;
+      }
+      this.isFitted = false;
+      const lines = event.deltaMode === 1 ? 30 : 1;
+      this.view.zoom(Math.exp(-event.deltaY * lines * .0016), place(event));
+      this.draw();
+    };
+    canvas.onpointerdown = (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      this.pointers.set(event.pointerId, place(event));
+      this.travel = 0;
+      canvas.classList.add("panning");
+    };
+    canvas.onpointermove = (event) => {
+      if (this.pointers.has(event.pointerId)) this.drag(event.pointerId, place(event));
+      this.state.pointer = place(event);
+      const [x, y] = this.view.toPart(this.state.pointer);
+      byId("pointer").textContent =
+          `x ${(x + this.part.low[0]).toFixed(3)}  y ${(y + this.part.low[1]).toFixed(3)} mm`;
+      this.draw();
+    };
+    canvas.onpointerup = canvas.onpointercancel = (event) => {
+      const isLast = this.pointers.size === 1;
+      this.pointers.delete(event.pointerId);
+      canvas.classList.remove("panning");
+      if (isLast && this.travel < kClickReach && event.type === "pointerup") {
+        this.click(place(event));
+      }
+    };
+    canvas.onpointerleave = () => {
+      this.state.pointer = null;
+      byId("pointer").textContent = "";
+      this.draw();
+    };
+  }
+
+  // One pointer moves the part, two of them stretch it.
+  drag(id, to) {
+    const from = this.pointers.get(id);
+    const others = [...this.pointers].filter(([other]) => other !== id);
+    const apart = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
+    this.travel += apart(from, to);
+    this.isFitted = this.isFitted && this.travel < kClickReach;
+    if (others.length === 0) {
+      this.view.x += to[0] - from[0];
+      this.view.y += to[1] - from[1];
+    } else {
+      const [, hold] = others[0];
+      this.view.zoom(apart(to, hold) / Math.max(1, apart(from, hold)), hold);
+    }
+    this.pointers.set(id, to);
+  }
+
+  click(at) {
+    if (!this.isMeasuring) return;
+    const {state} = this;
+    if (state.ends.length === 2) state.ends = [];
+    state.ends.push({
+      index: state.index,
+      place: snap(this.part.layers[state.index], this.view.toPart(at),
+          kSnapReach / this.view.scale),
+    });
+    this.tellDistance();
+    this.draw();
+  }
+
+  tellDistance() {
+    const {ends} = this.state;
+    byId("distance").hidden = !this.isMeasuring;
+    if (ends.length < 2) {
+      byId("distance").innerHTML = ends.length === 0 ?
+        "<small>Click two points; corners and edges attract</small>" :
+        "<small>Click the second point, in this layer or another</small>";
+      return;
+    }
+    const {layers} = this.part;
+    const [a, b] = ends;
+    const dx = b.place[0] - a.place[0];
+    const dy = b.place[1] - a.place[1];
+    const dz = layers[b.index].z - layers[a.index].z;
+    const parts = [["Δx", dx], ["Δy", dy]].concat(dz ? [["Δz", dz]] : []);
+    byId("distance").innerHTML = `${Math.hypot(dx, dy, dz).toFixed(3)} mm <small> ` +
+      parts.map(([name, length]) => `${name} ${length.toFixed(3)}`).join("  ") +
+      "</small>";
+  }
+}
+
+async function start() {
+  const dark = /theme=(dark|light)/.exec(location.hash);
+  document.documentElement.dataset.theme = dark ? dark[1] :
+    matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  try {
+    window.viewer = new Viewer(await readPart());
+    document.documentElement.dataset.ready = "true";
+  } catch (error) {
+    byId("fault").hidden = false;
+    byId("fault").textContent = typeof DecompressionStream === "undefined" ?
+      "This page needs a browser of 2023 or later." : `The page is damaged: ${error}`;
+    throw error;
+  }
+}
+
+start();

@@ -1,0 +1,139 @@
+// The part: what the page was given, as numbers.
+
+// Integers as lamina writes them: 7 bits a byte, low ones first.
+class Numbers {
+  constructor(bytes) {
+    this.bytes = bytes;
+    this.place = 0;
+  }
+
+  count() {
+    let value = 0;
+    let weight = 1;
+    for (;;) {
+      const byte = this.bytes[this.place++];
+      value += (byte & 0x7f) * weight;
+      if (byte < 0x80) return value;
+      weight *= 128;
+    }
+  }
+
+  signed() {
+    const value = this.count();
+    return value % 2 ? -(value + 1) / 2 : value / 2;
+  }
+}
+
+async function inflate(base64) {
+  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(
+      new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// Places in mm, counted from the part's lower left corner: small numbers, that
+// a canvas can draw exactly.
+class Places {
+  constructor(numbers, step) {
+    this.numbers = numbers;
+    this.step = step;
+    this.x = 0;
+    this.y = 0;
+  }
+
+  next() {
+    this.x += this.numbers.signed();
+    this.y += this.numbers.signed();
+    return [this.x * this.step, this.y * this.step];
+  }
+}
+
+// {title, low, size, volume, minFeature, layers: [{z, bottom, top, loops, holes,
+// vertices, area, perimeter, contours, marks}], features, lowFeatures}; contours
+// are lists of flat arrays x, y, x, y, …
+async function readPart() {
+  const text = (id) => document.getElementById(id).textContent;
+  const facts = JSON.parse(text("facts"));
+  const numbers = new Numbers(await inflate(text("contours")));
+  const layers = facts.layers.map(
+      ([z, bottom, top, loops, holes, vertices, area, perimeter]) =>
+        ({z, bottom, top, loops, holes, vertices, area, perimeter, marks: []}));
+
+  let places = new Places(numbers, facts.step);
+  for (const layer of layers) {
+    layer.contours = Array.from({length: numbers.count()}, () => {
+      const loop = new Float64Array(2 * numbers.count());
+      for (let i = 0; i < loop.length; i += 2) loop.set(places.next(), i);
+      return loop;
+    });
+  }
+  if (facts.thin) {
+    places = new Places(numbers, facts.step);
+    for (const layer of layers) {
+      layer.marks = Array.from({length: numbers.count()}, () => ({
+        kind: numbers.count() ? "gap" : "wall",
+        from: places.next(),
+        to: places.next(),
+      }));
+    }
+  }
+  const [x, y] = facts.low;
+  return {
+    title: facts.title,
+    low: facts.low,
+    size: [facts.high[0] - x, facts.high[1] - y,
+      layers[layers.length - 1].top - layers[0].bottom],
+    volume: facts.volume,
+    minFeature: facts.minFeature,
+    layers,
+    lowFeatures: facts.thin ? facts.thin.low : 0,
+    features: (facts.thin ? facts.thin.features : []).map(
+        ([kind, first, last, layer, width, px, py]) => ({
+          kind: kind ? "gap" : "wall", first, last, layer, width,
+          place: [px - x, py - y],
+        })),
+  };
+}
+
+// The path of a layer's contours, made when it is first drawn.
+function pathOf(layer) {
+  if (!layer.path) {
+    layer.path = new Path2D();
+    for (const loop of layer.contours) {
+      layer.path.moveTo(loop[0], loop[1]);
+      for (let i = 2; i < loop.length; i += 2) layer.path.lineTo(loop[i], loop[i + 1]);
+      layer.path.closePath();
+    }
+  }
+  return layer.path;
+}
+
+// The nearest corner of the layer, or else the nearest point of an edge, if it is
+// within `reach`; else the place itself.
+function snap(layer, [x, y], reach) {
+  let corner = reach * reach;
+  let edge = corner;
+  let atCorner = null;
+  let atEdge = null;
+  for (const loop of layer.contours) {
+    let ax = loop[loop.length - 2];
+    let ay = loop[loop.length - 1];
+    for (let i = 0; i < loop.length; i += 2) {
+      const bx = loop[i];
+      const by = loop[i + 1];
+      const toCorner = (bx - x) ** 2 + (by - y) ** 2;
+      if (toCorner < corner) [corner, atCorner] = [toCorner, [bx, by]];
+      const length = (bx - ax) ** 2 + (by - ay) ** 2;
+      if (length > 0) {
+        const t = Math.min(1, Math.max(0,
+            ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length));
+        const px = ax + t * (bx - ax);
+        const py = ay + t * (by - ay);
+        const toEdge = (px - x) ** 2 + (py - y) ** 2;
+        if (toEdge < edge) [edge, atEdge] = [toEdge, [px, py]];
+      }
+      [ax, ay] = [bx, by];
+    }
+  }
+  return atCorner || atEdge || [x, y];
+}

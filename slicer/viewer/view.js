@@ -1,0 +1,291 @@
+// What is drawn: the section with its rulers, and the plot of areas.
+
+const kRuler = 24;  // width of a ruler [pixels]
+
+// The largest of 1, 2, 5, 10, … that is no longer.
+function roundLength(longest) {
+  const power = 10 ** Math.floor(Math.log10(longest));
+  return [5, 2, 1].map((digit) => digit * power)
+      .find((length) => length <= longest * (1 + 1e-9));
+}
+
+// As few digits as a ruler of that step needs.
+function rulerText(value, step) {
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  return (Math.abs(value) < step / 2 ? 0 : value).toFixed(digits);
+}
+
+function color(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue("--" + name);
+}
+
+// Gives a canvas the pixels of its place on the page; returns its context, in
+// the page's pixels, and its size.
+function prepare(canvas) {
+  const ratio = window.devicePixelRatio || 1;
+  const width = canvas.clientWidth;
+  const height = canvas.clientHeight;
+  if (canvas.width !== Math.round(width * ratio) ||
+      canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  return {context, width, height, ratio};
+}
+
+// Where millimetres of the part lie on the canvas; y up there, down here.
+class View {
+  constructor() {
+    this.scale = 1;  // pixels per mm
+    this.x = 0;      // of the part's corner
+    this.y = 0;
+  }
+
+  toPage([x, y]) {
+    return [this.x + x * this.scale, this.y - y * this.scale];
+  }
+
+  toPart([x, y]) {
+    return [(x - this.x) / this.scale, (this.y - y) / this.scale];
+  }
+
+  // Shows the box in the free area of the canvas.
+  show([x0, y0], [x1, y1], width, height) {
+    const margin = Math.min(60, width / 10);
+    this.scale = Math.min(
+        (width - kRuler - 2 * margin) / Math.max(x1 - x0, 1e-6),
+        (height - kRuler - 2 * margin) / Math.max(y1 - y0, 1e-6));
+    this.x = (width + kRuler - (x0 + x1) * this.scale) / 2;
+    this.y = (height + kRuler + (y0 + y1) * this.scale) / 2;
+  }
+
+  zoom(factor, [x, y]) {
+    const scale = Math.min(1e6, Math.max(1e-3, this.scale * factor));
+    this.x = x - (x - this.x) * scale / this.scale;
+    this.y = y - (y - this.y) * scale / this.scale;
+    this.scale = scale;
+  }
+}
+
+class Drawing {
+  constructor(canvas, part, view) {
+    this.canvas = canvas;
+    this.part = part;
+    this.view = view;
+  }
+
+  // state: {index, below, thin, pointer, ends: [{place, index}]}
+  draw(state) {
+    const sheet = prepare(this.canvas);
+    const layer = this.part.layers[state.index];
+    sheet.context.fillStyle = color("field");
+    sheet.context.fillRect(0, 0, sheet.width, sheet.height);
+    this.drawGrid(sheet);
+    if (state.below && state.index > 0) {
+      this.strokePath(sheet, this.part.layers[state.index - 1], "faint", [4, 3]);
+    }
+    this.fillPath(sheet, layer);
+    this.strokePath(sheet, layer, "outline", []);
+    if (state.thin) this.drawMarks(sheet, layer);
+    this.drawMeasure(sheet, state);
+    this.drawRulers(sheet, state.pointer);
+    this.drawScale(sheet);
+  }
+
+  inPart({context, ratio}) {
+    const {scale, x, y} = this.view;
+    context.setTransform(ratio * scale, 0, 0, -ratio * scale, ratio * x, ratio * y);
+  }
+
+  fillPath(sheet, layer) {
+    sheet.context.save();
+    this.inPart(sheet);
+    sheet.context.fillStyle = color("solid");
+    sheet.context.fill(pathOf(layer));
+    sheet.context.restore();
+  }
+
+  strokePath(sheet, layer, name, dashes) {
+    const {context} = sheet;
+    context.save();
+    this.inPart(sheet);
+    context.lineWidth = 1.3 / this.view.scale;
+    context.lineJoin = "round";
+    context.setLineDash(dashes.map((length) => length / this.view.scale));
+    context.strokeStyle = color(name);
+    context.stroke(pathOf(layer));
+    context.restore();
+  }
+
+  // Calls visit(page, mm) for the lines of a ruler along one axis (0: x, 1: y).
+  forTicks(axis, step, length, visit) {
+    const a = this.view.toPart([0, 0])[axis] + this.part.low[axis];
+    const b = this.view.toPart([length, length])[axis] + this.part.low[axis];
+    const first = Math.ceil(Math.min(a, b) / step);
+    const last = Math.floor(Math.max(a, b) / step);
+    for (let i = first; i <= last; ++i) {
+      const place = i * step - this.part.low[axis];
+      visit(this.view.toPage([place, place])[axis], i * step);
+    }
+  }
+
+  drawGrid({context, width, height}) {
+    const step = roundLength(110 / this.view.scale);
+    context.strokeStyle = color("line");
+    context.lineWidth = 1;
+    context.beginPath();
+    this.forTicks(0, step, width, (x) => {
+      context.moveTo(Math.round(x) + .5, 0);
+      context.lineTo(Math.round(x) + .5, height);
+    });
+    this.forTicks(1, step, height, (y) => {
+      context.moveTo(0, Math.round(y) + .5);
+      context.lineTo(width, Math.round(y) + .5);
+    });
+    context.stroke();
+  }
+
+  drawMarks({context}, layer) {
+    context.lineWidth = 4;
+    context.lineCap = "round";
+    for (const mark of layer.marks) {
+      context.strokeStyle = color(mark.kind);
+      context.beginPath();
+      context.moveTo(...this.view.toPage(mark.from));
+      context.lineTo(...this.view.toPage(mark.to));
+      context.stroke();
+    }
+    context.lineCap = "butt";
+  }
+
+  drawMeasure({context}, state) {
+    if (state.ends.length === 0) return;
+    const ends = state.ends.map((end) => this.view.toPage(end.place));
+    context.strokeStyle = context.fillStyle = color("measure");
+    context.lineWidth = 2;
+    context.beginPath();
+    ends.forEach((end, i) => i ? context.lineTo(...end) : context.moveTo(...end));
+    context.stroke();
+    for (const [x, y] of ends) {
+      context.beginPath();
+      context.arc(x, y, 4.5, 0, 2 * Math.PI);
+      context.fill();
+    }
+  }
+
+  drawRulers({context, width, height}, pointer) {
+    context.fillStyle = color("paper");
+    context.fillRect(0, 0, width, kRuler);
+    context.fillRect(0, 0, kRuler, height);
+    const step = roundLength(110 / this.view.scale);
+    context.strokeStyle = color("faint");
+    context.fillStyle = color("faint");
+    context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+    context.lineWidth = 1;
+    context.beginPath();
+    for (const [part, length] of [[1, 9], [.1, 4]]) {
+      this.forTicks(0, step * part, width, (x) => {
+        if (x < kRuler) return;
+        context.moveTo(Math.round(x) + .5, kRuler - length);
+        context.lineTo(Math.round(x) + .5, kRuler);
+      });
+      this.forTicks(1, step * part, height, (y) => {
+        if (y < kRuler) return;
+        context.moveTo(kRuler - length, Math.round(y) + .5);
+        context.lineTo(kRuler, Math.round(y) + .5);
+      });
+    }
+    context.stroke();
+    this.forTicks(0, step, width, (x, mm) => {
+      if (x > kRuler) context.fillText(rulerText(mm, step), x + 4, 12);
+    });
+    this.forTicks(1, step, height, (y, mm) => {
+      if (y < kRuler + 20) return;
+      context.save();
+      context.translate(12, y - 4);
+      context.rotate(-Math.PI / 2);
+      context.fillText(rulerText(mm, step), 0, 0);
+      context.restore();
+    });
+    if (pointer) {
+      context.fillStyle = color("accent");
+      context.fillRect(pointer[0] - .5, 0, 1, kRuler);
+      context.fillRect(0, pointer[1] - .5, kRuler, 1);
+    }
+    context.fillStyle = color("paper");
+    context.fillRect(0, 0, kRuler, kRuler);
+  }
+
+  drawScale({context, height}) {
+    const length = roundLength(150 / this.view.scale);
+    const x = kRuler + 16.5;
+    const y = height - 19.5;
+    const end = x + length * this.view.scale;
+    const words = length < .01 ? `${+(length * 1000).toPrecision(1)} µm` :
+      `${+length.toPrecision(1)} mm`;
+    context.font = "12px system-ui, 'DejaVu Sans', sans-serif";
+    context.fillStyle = color("card");
+    context.beginPath();
+    context.roundRect(x - 8, y - 13, end - x + 26 + context.measureText(words).width, 26, 8);
+    context.fill();
+    context.strokeStyle = context.fillStyle = color("ink");
+    context.lineWidth = 2;
+    context.beginPath();
+    for (const at of [x, end]) {
+      context.moveTo(at, y - 5);
+      context.lineTo(at, y + 5);
+    }
+    context.moveTo(x, y);
+    context.lineTo(end, y);
+    context.stroke();
+    context.fillText(words, end + 9, y + 4);
+  }
+}
+
+// Areas of all layers from the bottom (left) to the top, over the slider.
+class Plot {
+  constructor(canvas, part) {
+    this.canvas = canvas;
+    this.part = part;
+    this.greatest = Math.max(...part.layers.map((layer) => layer.area), 1e-9);
+  }
+
+  draw(index) {
+    const {context, width, height} = prepare(this.canvas);
+    const {layers} = this.part;
+    const foot = height - 7;
+    const xOf = (i) => layers.length === 1 ? width / 2 :
+      i / (layers.length - 1) * (width - 2) + 1;
+    const yOf = (layer) => foot - layer.area / this.greatest * (foot - 4);
+    context.fillStyle = context.strokeStyle = color("solid");
+    context.lineWidth = 1.5;
+    context.beginPath();
+    layers.forEach((layer, i) => context.lineTo(xOf(i), yOf(layer)));
+    context.stroke();
+    context.lineTo(xOf(layers.length - 1), foot);
+    context.lineTo(xOf(0), foot);
+    context.globalAlpha = .28;
+    context.fill();
+    context.globalAlpha = 1;
+    layers.forEach((layer, i) => {
+      for (const kind of ["gap", "wall"]) {
+        if (!layer.marks.some((mark) => mark.kind === kind)) continue;
+        context.fillStyle = color(kind);
+        context.fillRect(xOf(i) - .8, foot + 2, 1.6, 4);
+      }
+    });
+    const x = xOf(index);
+    const y = yOf(layers[index]);
+    context.fillStyle = color("accent");
+    context.fillRect(x - 1, 0, 2, foot);
+    context.beginPath();
+    context.arc(x, y, 5.5, 0, 2 * Math.PI);
+    context.fill();
+    context.lineWidth = 2;
+    context.strokeStyle = color("paper");
+    context.stroke();
+  }
+}

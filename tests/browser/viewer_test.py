@@ -1,0 +1,284 @@
+"""The page of `lamina view -o x.html`, as Chromium shows it.
+
+usage: viewer_test.py LAMINA [unittest's arguments]
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from browser import Browser
+
+LAMINA = None
+EXAMPLES = os.path.join(os.path.dirname(__file__), "..", "..", "examples")
+
+LIGHT = {"solid": (217, 169, 64), "field": (255, 255, 253)}
+DARK = {"solid": (210, 160, 58), "field": (29, 31, 35)}
+
+# A plate with a round hole, off the middle, and a pin upon it.
+PLATE = """
+$fn = 48;
+difference() {
+  translate([10, 20, 1]) cube([10, 10, 1]);
+  translate([17, 27, 0]) cylinder(r = 2, h = 3);
+}
+translate([11, 21, 1]) cube([0.25, 4, 2]);
+"""
+
+
+def lamina(*arguments, status=0):
+    result = subprocess.run([LAMINA, *arguments], capture_output=True,
+                            text=True, check=False)
+    if result.returncode != status:
+        raise AssertionError(f"{arguments}: {result.stderr}")
+    return result.stdout
+
+
+def inspected_layers(path):
+    """The lines of `inspect --all`: z, loops, holes, vertices, area, perimeter.
+    """
+    lines = lamina("inspect", path, "--all").splitlines()
+    begin = next(i for i, line in enumerate(lines) if "perimeter mm" in line)
+    rows = []
+    for line in lines[begin + 1:]:
+        if not line.strip():
+            break
+        rows.append([float(word) for word in line.split()[1:7]])
+    return rows
+
+
+class ViewerTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.browser = Browser(1100, 560)
+        with open(cls.path("plate.scad"), "w", encoding="utf-8") as file:
+            file.write(PLATE)
+        lamina(cls.path("plate.scad"), "--layer", "0.1")
+        lamina("view", cls.path("plate.slc"), "-o", cls.path("plate.html"),
+               "--min-feature", "0.4")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.folder.cleanup()
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder.name, name)
+
+    def open(self, name, state="theme=light&layer=1"):
+        self.browser.open(f"file://{self.path(name)}#{state}")
+
+    def tearDown(self):
+        self.assertEqual(self.browser.faults, [])
+
+    def on_page(self, x, y):
+        """Where a place in mm is on the page."""
+        left, top, _, _ = self.browser.place_of("drawing")
+        px, py = self.browser.evaluate(
+            f"viewer.view.toPage([{x} - viewer.part.low[0],"
+            f" {y} - viewer.part.low[1]])")
+        return left + px, top + py
+
+    def test_numbers_are_those_of_inspect(self):
+        self.open("plate.html")
+        rows = inspected_layers(self.path("plate.slc"))
+        self.assertEqual(len(rows), 20)
+        # A file tells where layers begin, the page where their sections are.
+        half_layer = 0.05
+        for number, (z, loops, holes, vertices, area, perimeter) in enumerate(
+                rows, 1):
+            self.assertEqual(self.browser.text("number"),
+                             f"{number} of {len(rows)}")
+            self.assertAlmostEqual(
+                float(self.browser.text("height").split()[0]),
+                z + half_layer, delta=1e-5)
+            counts = [int(n) for n in
+                      re.findall(r"\d+", self.browser.text("loops"))]
+            self.assertEqual(counts, [loops, holes] if holes else [loops])
+            self.assertAlmostEqual(
+                float(self.browser.text("area").split()[0]), area, delta=6e-5)
+            self.assertAlmostEqual(
+                float(self.browser.text("perimeter").split()[0]), perimeter,
+                delta=6e-4)
+            self.assertEqual(
+                self.browser.evaluate("viewer.part.layers[viewer.state.index]"
+                                      ".vertices"), vertices)
+            self.browser.press("ArrowUp")
+
+    def test_contours_are_those_of_the_layers(self):
+        lamina(os.path.join(EXAMPLES, "solitaire.scad"), "--layer", "0.05",
+               "-o", self.path("ring.slc"))
+        lamina("view", self.path("ring.slc"), "-o", self.path("ring.html"))
+        self.assertLess(os.path.getsize(self.path("ring.html")), 400_000)
+        self.open("ring.html")
+        rows = inspected_layers(self.path("ring.slc"))
+        drawn = self.browser.evaluate("""viewer.part.layers.map((layer) =>
+          layer.contours.map((loop) => {
+            let area = 0;
+            for (let i = 0; i < loop.length; i += 2) {
+              const j = (i + 2) % loop.length;
+              area += loop[i] * loop[j + 1] - loop[j] * loop[i + 1];
+            }
+            return area / 2;
+          }))""")
+        self.assertEqual(len(drawn), len(rows))
+        for areas, (_, loops, holes, _, area, perimeter) in zip(drawn, rows):
+            self.assertEqual(len(areas), loops)
+            self.assertEqual(sum(1 for a in areas if a < 0), holes)
+            # Corners are rounded to 1e-4 mm.
+            self.assertAlmostEqual(sum(areas), area, delta=1e-4 * perimeter)
+
+    def test_the_section_is_drawn_where_it_is(self):
+        for theme, colors in ("light", LIGHT), ("dark", DARK):
+            self.open("plate.html", f"theme={theme}&layer=5")
+            picture = self.browser.screenshot()
+            for place, name in [((12, 28), "solid"), ((19.8, 20.2), "solid"),
+                                ((17, 27), "field"), ((18.2, 26), "field"),
+                                ((20.3, 25), "field"), ((9.7, 25), "field")]:
+                self.assertEqual(picture.at(*self.on_page(*place)),
+                                 colors[name], (theme, place))
+        # Above the plate only the pin is left.
+        self.open("plate.html", "theme=light&layer=15")
+        picture = self.browser.screenshot()
+        self.assertEqual(picture.at(*self.on_page(12, 28)), LIGHT["field"])
+
+    def test_keys_wheel_and_slider_choose_layers(self):
+        self.open("plate.html")
+        number = lambda: int(self.browser.text("number").split()[0])
+        for key, expected in [("ArrowRight", 2), ("PageUp", 12), ("End", 20),
+                              ("ArrowUp", 20), ("ArrowDown", 19), ("Home", 1)]:
+            self.browser.press(key)
+            self.assertEqual(number(), expected, key)
+        left, top, width, height = self.browser.place_of("slider")
+        self.browser.wheel(left + 50, top + 20, -100)
+        self.assertEqual(number(), 2)
+        self.browser.wheel(left + 50, top + 20, 100)
+        self.assertEqual(number(), 1)
+        self.browser.click(left + width - 1, top + height / 2)
+        self.assertEqual(number(), 20)
+        self.browser.click(left + width / 2, top + height / 2)
+        self.assertIn(number(), (10, 11))
+        self.assertIn(f"Layer {number()} of 20", self.browser.evaluate(
+            "document.getElementById('slider').ariaValueText"))
+
+    def test_playing_ends_at_the_top(self):
+        self.open("plate.html", "layer=18")
+        self.browser.press(" ")
+        self.browser.evaluate("""new Promise((resolve) => {
+          const look = () => viewer.isPlaying ? setTimeout(look, 20) : resolve();
+          look();
+        })""")
+        self.assertEqual(self.browser.text("number"), "20 of 20")
+
+    def test_the_wheel_zooms_around_the_pointer_and_dragging_moves(self):
+        self.open("plate.html")
+        x, y = self.on_page(13, 23)
+        scale = self.browser.evaluate("viewer.view.scale")
+        self.browser.wheel(x, y, -300)
+        self.assertGreater(self.browser.evaluate("viewer.view.scale"),
+                           1.3 * scale)
+        after = self.on_page(13, 23)
+        self.assertAlmostEqual(after[0], x, delta=1)
+        self.assertAlmostEqual(after[1], y, delta=1)
+        self.browser.drag((x, y), (x + 80, y - 40))
+        after = self.on_page(13, 23)
+        self.assertAlmostEqual(after[0], x + 80, delta=1)
+        self.assertAlmostEqual(after[1], y - 40, delta=1)
+        self.browser.press("f")
+        self.assertAlmostEqual(self.browser.evaluate("viewer.view.scale"),
+                               scale)
+
+    def test_two_clicks_measure(self):
+        self.open("plate.html", "layer=1")
+        self.browser.press("m")
+        for place in (10, 20), (20, 30):
+            x, y = self.on_page(*place)
+            # Corners attract.
+            self.browser.click(x + 3, y - 2)
+        self.assertIn("14.142 mm", self.browser.text("distance"))
+        # From layer to layer it is a distance in space.
+        self.browser.click(*self.on_page(10, 20))
+        self.browser.press("PageUp")
+        self.browser.click(*self.on_page(11.25, 25))
+        self.assertIn(f"{(1.25**2 + 25 + 1)**.5:.3f} mm",
+                      self.browser.text("distance"))
+        self.browser.press("Escape")
+        self.assertTrue(self.browser.evaluate(
+            "document.getElementById('distance').hidden"))
+
+    def test_thin_places_are_those_of_inspect(self):
+        self.open("plate.html", "theme=light&layer=1")
+        table = lamina("inspect", self.path("plate.slc"), "--min-feature",
+                       "0.4").split("thinner than")[1]
+        self.assertIn("1 wall", table)
+        listed = self.browser.text("thin-list")
+        self.assertIn("1 place thinner than 0.4 mm", listed)
+        self.assertIn("wall 0.250 mm", listed)
+        self.assertIn("11–20", listed)
+        self.browser.evaluate(
+            "document.querySelector('#thin-list button').click()")
+        number = int(self.browser.text("number").split()[0])
+        self.assertGreaterEqual(number, 11)
+        picture = self.browser.screenshot()
+        self.assertEqual(picture.at(*self.on_page(11.125, 23)), (200, 16, 46))
+        self.browser.press("t")
+        picture = self.browser.screenshot()
+        self.assertEqual(picture.at(*self.on_page(11.125, 23)), LIGHT["solid"])
+
+    def test_the_page_asks_for_nothing(self):
+        self.open("plate.html")
+        self.assertEqual([url for url in self.browser.requests
+                          if not url.startswith(("file:", "data:"))], [])
+        self.assertEqual(len([url for url in self.browser.requests
+                              if url.startswith("file:")]), 1)
+
+    def test_names_are_no_markup(self):
+        name = "a<b>&amp;</script>.slc".replace("/", "")
+        os.link(self.path("plate.slc"), self.path(name))
+        lamina("view", self.path(name), "-o", self.path("named.html"))
+        self.open("named.html")
+        self.assertEqual(self.browser.text("title"), name)
+        self.assertEqual(self.browser.evaluate("document.title"), name)
+
+    def test_it_fits_a_phone(self):
+        phone = Browser(360, 740, is_phone=True)
+        try:
+            phone.open(f"file://{self.path('plate.html')}#layer=1")
+            self.assertLessEqual(
+                phone.evaluate("document.documentElement.scrollWidth"), 360)
+            _, top, width, height = phone.place_of("drawing")
+            self.assertEqual(width, 360)
+            self.assertGreater(height, 400)
+            for element in ("fit", "measure", "below", "theme", "play"):
+                x, y, w, h = phone.place_of(element)
+                self.assertGreaterEqual(min(x, y), 0)
+                self.assertLessEqual(x + w, 360)
+                self.assertLessEqual(y + h, 740)
+                self.assertGreaterEqual(h, 34)
+            # Two fingers stretch.
+            scale = phone.evaluate("viewer.view.scale")
+            y = top + height / 2
+            points = lambda reach: [{"x": 180 - reach, "y": y, "id": 0},
+                                    {"x": 180 + reach, "y": y, "id": 1}]
+            phone.call("Input.dispatchTouchEvent", type="touchStart",
+                       touchPoints=points(40))
+            for reach in (50, 60, 70, 80):
+                phone.call("Input.dispatchTouchEvent", type="touchMove",
+                           touchPoints=points(reach))
+            phone.call("Input.dispatchTouchEvent", type="touchEnd",
+                       touchPoints=[])
+            self.assertAlmostEqual(
+                phone.evaluate("viewer.view.scale") / scale, 2, delta=.1)
+            self.assertEqual(phone.faults, [])
+        finally:
+            phone.close()
+
+
+if __name__ == "__main__":
+    LAMINA = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
