@@ -1,7 +1,6 @@
 #include "cli/compile.h"
 
 #include <chrono>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -71,24 +70,13 @@ slicer::Panel chosen_panel(const DesignOptions& options) {
   return panel;
 }
 
-void finish_report(Run& run, std::uint64_t output_bytes) {
+void complete_report(Run& run) {
   run.report.wall_seconds = std::chrono::duration<double>(
                                 std::chrono::steady_clock::now() - run.begin)
                                 .count();
   run.report.warnings = count(run.diagnostics, Severity::kWarning);
   run.report.min_feature = run.options.settings.min_feature;
   run.report.sampler = sampler_name(run.options.settings);
-  if (!run.options.report.empty()) {
-    write_text(run, run.options.report, report_json(run.report));
-  }
-  if (run.report.min_feature > 0) {
-    run.terminal.say(feature_lines(run.report));
-  }
-  // The memory in it costs a small run a tenth of its time to find out.
-  if (!run.options.is_quiet) {
-    run.terminal.say(
-        summary_line(run.options.output, output_bytes, run.report));
-  }
 }
 
 }  // namespace
@@ -132,8 +120,23 @@ int compile(Run& run) {
   run.report.deviation = deviation;
   run.report.snapped_layers = writer->snapped_layers();
   writer->commit();
-  finish_report(run, writer->size());
+  run.report.output_bytes = writer->size();
+  complete_report(run);
   return kDone;
+}
+
+void show_report(Run& run) {
+  if (!slicer::is_of_layers(run.options.format)) return;
+  if (!run.options.report.empty()) {
+    write_text(run, run.options.report, report_json(run.report));
+  }
+  if (run.report.min_feature > 0) {
+    run.terminal.say(feature_lines(run.report));
+  }
+  // The memory in it costs a small run a tenth of its time to find out.
+  if (!run.options.is_quiet) {
+    run.terminal.say(summary_line(run.options.output, run.report));
+  }
 }
 
 }  // namespace lamina::cli

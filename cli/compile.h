@@ -14,4 +14,8 @@ namespace lamina::cli {
 // throws what run_caught shows.
 int compile(Run& run);
 
+// What a run that ended well and made layers tells of itself: the file of
+// --report, features, a closing line.
+void show_report(Run& run);
+
 }  // namespace lamina::cli

@@ -49,16 +49,78 @@ std::uint64_t peak_of_address_space() {
   return 0;
 }
 
+// An object of JSON, one key a line.
+class JsonObject {
+ public:
+  // value  a number, or a text that is JSON itself
+  template <typename Value>
+  void add(std::string_view key, const Value& value) {
+    fmt::format_to(std::back_inserter(members_), "{}  \"{}\": {}",
+                   members_.empty() ? "" : ",\n", key, value);
+  }
+
+  std::string text() const { return fmt::format("{{\n{}\n}}", members_); }
+
+ private:
+  std::string members_;
+};
+
 // What only the paper's contours have.
-template <typename Add>
-void add_paper(const RunReport& report, const Add& add) {
+void add_paper(const RunReport& report, JsonObject& json) {
   const slicer::PaperCounts& paper = report.slice.paper;
-  add("sampler", nlohmann::json(report.sampler).dump());
-  add("renderer", nlohmann::json(report.slice.renderer).dump());
-  add("boolean_seconds", paper.boolean_seconds);
-  add("link_seconds", paper.link_seconds);
-  add("image_intervals", paper.intervals);
-  add("repaired_pixels", paper.repaired_pixels);
+  json.add("sampler", nlohmann::json(report.sampler).dump());
+  json.add("renderer", nlohmann::json(report.slice.renderer).dump());
+  json.add("boolean_seconds", paper.boolean_seconds);
+  json.add("link_seconds", paper.link_seconds);
+  json.add("image_intervals", paper.intervals);
+  json.add("repaired_pixels", paper.repaired_pixels);
+}
+
+void add_passes(const RunReport& report, JsonObject& json) {
+  const slicer::SliceReport& slice = report.slice;
+  json.add("load_seconds", report.load_seconds);
+  json.add("evaluate_seconds", report.evaluate_seconds);
+  json.add("lower_seconds", report.lower_seconds);
+  json.add("section_seconds", slice.section_seconds);
+  json.add("sweep_seconds", slice.sweep_seconds);
+  json.add("feature_seconds", slice.feature_seconds);
+  json.add("output_seconds", slice.output_seconds);
+}
+
+void add_layers(const RunReport& report, JsonObject& json) {
+  const slicer::SliceReport& slice = report.slice;
+  json.add("layers", slice.layers);
+  json.add("loops", slice.loops);
+  json.add("holes", slice.holes);
+  json.add("points", slice.points);
+  json.add("volume_mm3", slice.volume);
+  json.add("greatest_area_mm2", slice.greatest_area);
+  json.add("chains", slice.sweep.chains);
+  json.add("chain_points", slice.sweep.points);
+  json.add("slabs", slice.sweep.slabs);
+  json.add("stops", slice.sweep.stops);
+  json.add("evaluations", slice.sweep.evaluations);
+  json.add("resolved_layers", slice.sweep.resolved_layers);
+  json.add("image_pixels", slice.paper.pixels);
+  json.add("image_samples", slice.paper.samples);
+  json.add("image_bytes", slice.paper.image_bytes());
+  json.add("vanished_regions", slice.losses.vanished_regions);
+  json.add("vanished_holes", slice.losses.vanished_holes);
+  json.add("broken_walls", slice.losses.broken_walls);
+  json.add("closed_gaps", slice.losses.closed_gaps);
+  json.add("open_paths", slice.open_paths);
+  json.add("unbalanced_columns", slice.sweep.unbalanced_columns);
+  json.add("repaired_columns", slice.sweep.repaired_columns);
+  json.add("capped_columns", slice.sweep.capped_columns);
+  json.add("snapped_layers", report.snapped_layers);
+  json.add("warnings", report.warnings);
+  json.add("deviation_mm", deviation_json(report.deviation));
+  if (!report.sampler.empty()) add_paper(report, json);
+  if (report.min_feature > 0) {
+    json.add("min_feature_mm", report.min_feature);
+    json.add("features",
+             features_json(slice.features, report.min_feature, report.origins));
+  }
 }
 
 }  // namespace
@@ -78,56 +140,21 @@ std::uint64_t peak_memory_bytes() {
 }
 
 std::string report_json(const RunReport& report) {
-  const slicer::SliceReport& slice = report.slice;
-  std::string json = "{\n";
-  const auto add = [&json](std::string_view key, auto value) {
-    if (json.size() > 2) json += ",\n";
-    fmt::format_to(std::back_inserter(json), "  \"{}\": {}", key, value);
-  };
-  add("load_seconds", report.load_seconds);
-  add("evaluate_seconds", report.evaluate_seconds);
-  add("lower_seconds", report.lower_seconds);
-  add("section_seconds", slice.section_seconds);
-  add("sweep_seconds", slice.sweep_seconds);
-  add("feature_seconds", slice.feature_seconds);
-  add("output_seconds", slice.output_seconds);
-  add("total_seconds", process_seconds());
-  add("wall_seconds", report.wall_seconds);
-  add("peak_memory_bytes", peak_memory_bytes());
-  add("layers", slice.layers);
-  add("loops", slice.loops);
-  add("holes", slice.holes);
-  add("points", slice.points);
-  add("volume_mm3", slice.volume);
-  add("greatest_area_mm2", slice.greatest_area);
-  add("chains", slice.sweep.chains);
-  add("chain_points", slice.sweep.points);
-  add("slabs", slice.sweep.slabs);
-  add("stops", slice.sweep.stops);
-  add("evaluations", slice.sweep.evaluations);
-  add("resolved_layers", slice.sweep.resolved_layers);
-  add("image_pixels", slice.paper.pixels);
-  add("image_samples", slice.paper.samples);
-  add("image_bytes", slice.paper.image_bytes());
-  add("vanished_regions", slice.losses.vanished_regions);
-  add("vanished_holes", slice.losses.vanished_holes);
-  add("broken_walls", slice.losses.broken_walls);
-  add("closed_gaps", slice.losses.closed_gaps);
-  add("open_paths", slice.open_paths);
-  add("unbalanced_columns", slice.sweep.unbalanced_columns);
-  add("repaired_columns", slice.sweep.repaired_columns);
-  add("capped_columns", slice.sweep.capped_columns);
-  add("snapped_layers", report.snapped_layers);
-  add("warnings", report.warnings);
-  add("deviation_mm", deviation_json(report.deviation));
-  if (!report.sampler.empty()) add_paper(report, add);
-  if (report.min_feature > 0) {
-    add("min_feature_mm", report.min_feature);
-    add("features",
-        features_json(slice.features, report.min_feature, report.origins));
-  }
-  json += "\n}\n";
-  return json;
+  JsonObject json;
+  add_passes(report, json);
+  json.add("total_seconds", process_seconds());
+  json.add("wall_seconds", report.wall_seconds);
+  json.add("peak_memory_bytes", peak_memory_bytes());
+  add_layers(report, json);
+  return json.text() + "\n";
+}
+
+std::string piece_json(const RunReport& report) {
+  JsonObject json;
+  add_passes(report, json);
+  json.add("wall_seconds", report.wall_seconds);
+  add_layers(report, json);
+  return json.text();
 }
 
 std::string feature_lines(const RunReport& report) {
@@ -137,8 +164,7 @@ std::string feature_lines(const RunReport& report) {
   return lines;
 }
 
-std::string summary_line(const std::string& output, std::uint64_t bytes,
-                         const RunReport& report) {
+std::string summary_line(const std::string& output, const RunReport& report) {
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
       "{}: {} layers, {} loops, {} vertices, {}\n"
@@ -146,9 +172,9 @@ std::string summary_line(const std::string& output, std::uint64_t bytes,
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
       output == "-" ? "standard output" : output, slice.layers, slice.loops,
-      slice.points, memory_text(bytes), process_seconds(), report.load_seconds,
-      report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
-      slice.sweep_seconds, slice.output_seconds,
+      slice.points, memory_text(report.output_bytes), process_seconds(),
+      report.load_seconds, report.evaluate_seconds, report.lower_seconds,
+      slice.section_seconds, slice.sweep_seconds, slice.output_seconds,
       memory_text(peak_memory_bytes()), report.wall_seconds);
 }
 

@@ -31,6 +31,7 @@ struct RunReport {
   std::optional<slicer::Deviation> deviation;
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
   std::uint64_t warnings = 0;
+  std::uint64_t output_bytes = 0;
   double wall_seconds = 0;  // of the whole run
   // --sampler, where contours are the paper's; else empty.
   std::string sampler;
@@ -40,11 +41,14 @@ struct RunReport {
 // of the moment of the call.
 std::string report_json(const RunReport& report);
 
+// The same of one of several runs: a JSON object without what only the whole
+// program has, its total time and memory. Ended by '}'.
+std::string piece_json(const RunReport& report);
+
 // The table of features that were found, without the last '\n'.
 std::string feature_lines(const RunReport& report);
 
 // "ring.slc: 98 layers, 810 loops, …"
-std::string summary_line(const std::string& output, std::uint64_t bytes,
-                         const RunReport& report);
+std::string summary_line(const std::string& output, const RunReport& report);
 
 }  // namespace lamina::cli

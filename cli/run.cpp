@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "parser/parameter_set.h"
 #include "slicer/slice.h"
+#include "slicer/thread_clock.h"
 
 namespace lamina::cli {
 namespace {
@@ -19,12 +20,13 @@ using slicer::OutputFormat;
 // Recursion of a design's functions ends here, long before memory does.
 constexpr std::size_t kEvaluationStack = std::size_t{128} << 20;
 
-// Runs a pass and adds the processor seconds that it takes to `seconds`.
+// Runs a pass and adds the processor seconds that it takes to `seconds`. It
+// works on this thread alone, beside which other runs may go on.
 template <typename Pass>
 auto timed(double& seconds, const Pass& pass) {
-  const double begin = process_seconds();
+  const double begin = slicer::thread_seconds();
   auto product = pass();
-  seconds += process_seconds() - begin;
+  seconds += slicer::thread_seconds() - begin;
   return product;
 }
 
@@ -48,11 +50,11 @@ bool is_reported(const Diagnostics& diagnostics, const Diagnostic& thrown) {
 }  // namespace
 
 Run::Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
-         std::size_t stack)
+         std::size_t stack, Inbox* inbox)
     : options(run_options),
       temporary_files(files),
       evaluation_stack(std::min(stack / 2, kEvaluationStack)),
-      terminal(run_options.is_quiet),
+      terminal(run_options.is_quiet, inbox),
       diagnostics([this](const Diagnostic& d) { terminal.show(d); }),
       loader(sources, diagnostics, library_folders(), run_options.definitions) {
   diagnostics.set_hard_warnings(run_options.has_hard_warnings);

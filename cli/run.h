@@ -25,8 +25,9 @@ namespace lamina::cli {
 // What the passes of a run share.
 struct Run {
   // stack  bytes of the thread that runs it
+  // inbox  as of Terminal
   Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
-      std::size_t stack);
+      std::size_t stack, Inbox* inbox = nullptr);
 
   const DesignOptions& options;
   slicer::TemporaryFiles& temporary_files;

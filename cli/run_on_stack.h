@@ -2,11 +2,9 @@
 // Runs the passes on a stack large enough for any design, and ends the run
 // cleanly when it is interrupted.
 //
-// Designs nest: a sum of 100,000 terms is a tree as deep, and parser, printer
-// and evaluator walk trees by recursion. A reserved stack costs no memory
-// until it is used, so the passes get one of gigabytes, on a thread of their
-// own. The first thread meanwhile waits for signals; being an ordinary thread
-// and not a signal handler, it may take locks and remove temporary files.
+// The passes run on a thread of their own (cli/large_stack.h). The first thread
+// meanwhile waits for signals; being an ordinary thread and not a signal
+// handler, it may take locks and remove temporary files.
 
 #include <cstddef>
 #include <functional>

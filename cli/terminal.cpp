@@ -33,7 +33,10 @@ Diagnostic with_folded_notes(const Diagnostic& diagnostic) {
 
 }  // namespace
 
-Terminal::Terminal(bool is_quiet) : is_quiet_(is_quiet), progress_(!is_quiet) {}
+Terminal::Terminal(bool is_quiet, Inbox* inbox)
+    : is_quiet_(is_quiet),
+      inbox_(inbox),
+      progress_(!is_quiet && (inbox == nullptr || inbox->has_progress)) {}
 
 Terminal::~Terminal() { finish(); }
 
@@ -41,6 +44,10 @@ void Terminal::show(const Diagnostic& diagnostic) {
   if (is_quiet_ && diagnostic.severity != Severity::kError) return;
   std::string text = caret_text(with_folded_notes(diagnostic));
   if (text.empty()) return;
+  if (inbox_ != nullptr && inbox_->first_error.empty() &&
+      diagnostic.severity == Severity::kError) {
+    inbox_->first_error = diagnostic.message;
+  }
   if (diagnostic.severity == Severity::kEcho) {
     if (echo_count_ > 0 && text == last_echo_) {
       ++echo_count_;
@@ -80,6 +87,11 @@ void Terminal::end_echoes() {
 }
 
 void Terminal::write(std::string_view text) {
+  if (inbox_ != nullptr) {
+    inbox_->text += inbox_->prefix;
+    inbox_->text += text;
+    return;
+  }
   progress_.erase();
   std::fwrite(text.data(), 1, text.size(), stderr);
 }

@@ -13,10 +13,20 @@
 
 namespace lamina::cli {
 
+// Takes the messages of a run that is one of several, instead of standard
+// error: they are shown together when it has ended.
+struct Inbox {
+  std::string prefix;         // of every message: "orders.csv:17: "
+  bool has_progress = false;  // nothing else runs: it may draw its progress
+  std::string text;
+  std::string first_error;  // its words alone
+};
+
 class Terminal {
  public:
   // is_quiet  shows nothing but errors
-  explicit Terminal(bool is_quiet);
+  // inbox     null: standard error; else it outlives the terminal
+  explicit Terminal(bool is_quiet, Inbox* inbox = nullptr);
   ~Terminal();  // finishes
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
@@ -39,6 +49,7 @@ class Terminal {
   void end_echoes();
 
   bool is_quiet_;
+  Inbox* inbox_;
   ProgressLine progress_;
   std::string last_echo_;
   std::uint64_t echo_count_ = 0;

@@ -143,8 +143,11 @@ class SliceCommand : public Command {
 
   int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
     Run run(options_, temporary_files, stack);
-    return run_caught(run.terminal, run.diagnostics,
-                      [&] { return compile(run); });
+    return run_caught(run.terminal, run.diagnostics, [&] {
+      const int status = compile(run);
+      if (status == kDone) show_report(run);
+      return status;
+    });
   }
 
  private:
