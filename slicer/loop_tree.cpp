@@ -1,27 +1,19 @@
 #include "slicer/loop_tree.h"
 
+#include <glm/common.hpp>
+
 namespace lamina::slicer {
-namespace {
-
-Vec2 lower_of(Vec2 a, Vec2 b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y)};
-}
-Vec2 upper_of(Vec2 a, Vec2 b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y)};
-}
-
-}  // namespace
 
 void LoopTree::Node::add(const Node& other) {
-  low = lower_of(low, other.low);
-  high = upper_of(high, other.high);
+  low = least(low, other.low);
+  high = greatest(high, other.high);
   if (loop == other.loop && loop != kNone) {
-    least_step = lower_of(least_step, other.least_step);
-    greatest_step = upper_of(greatest_step, other.greatest_step);
+    least_step = least(least_step, other.least_step);
+    greatest_step = greatest(greatest_step, other.greatest_step);
   } else {
     // Not one stretch: it advances nowhere.
-    least_step = Vec2(-1e300);
-    greatest_step = Vec2(1e300);
+    least_step = both_lanes(-1e300);
+    greatest_step = both_lanes(1e300);
     loop = kNone;
   }
 }
@@ -35,15 +27,12 @@ bool LoopTree::follow_apart(const Node& a, const Node& b, double reach) const {
 
 // The node's box against the strip: apart in x, in y, or across the segment.
 bool LoopTree::Strip::meets(const Node& node) const {
-  if (node.low.x > high.x || node.high.x < low.x || node.low.y > high.y ||
-      node.high.y < low.y) {
-    return false;
-  }
-  const Vec2 centre = (node.low + node.high) * 0.5 - middle;
-  const Vec2 half = (node.high - node.low) * 0.5;
-  const double across = along.x * centre.y - along.y * centre.x;
+  if (holds_for_any((node.low > high) | (node.high < low))) return false;
+  const Lanes centre = (node.low + node.high) * 0.5 - middle;
+  const Lanes half = (node.high - node.low) * 0.5;
+  const double across = along.x * centre[1] - along.y * centre[0];
   return std::abs(across) <=
-         reach + std::abs(along.x) * half.y + std::abs(along.y) * half.x;
+         reach + std::abs(along.x) * half[1] + std::abs(along.y) * half[0];
 }
 
 void LoopTree::fill(std::span<const Vec2> points,
@@ -69,12 +58,12 @@ void LoopTree::sort_loops() {
   for (std::uint32_t l = 0; l < ends_.size(); ++l) {
     order_.push_back({0, l});
     const Vec2& first = points_[vertices_[loop_begin(l)]];
-    low = lower_of(low, first);
-    high = upper_of(high, first);
+    low = glm::min(low, first);
+    high = glm::max(high, first);
   }
   if (order_.size() < 3) return;
   const double strips = std::sqrt(static_cast<double>(order_.size()));
-  const Vec2 size = upper_of(high - low, Vec2(1e-9));
+  const Vec2 size = glm::max(high - low, Vec2(1e-9));
   for (auto& [place, l] : order_) {
     const Vec2 at = (points_[vertices_[loop_begin(l)]] - low) / size;
     const auto strip = static_cast<std::uint64_t>(at.x * strips);
@@ -99,14 +88,15 @@ LoopTree::Node LoopTree::measure(const Leaf& leaf) const {
   node.loop = leaf.loop;
   const Vec2* point = &points_[vertices_[leaf.begin]];
   const Vec2* last = &points_[vertices_[leaf.end]];
-  node.low = node.high = *point;
-  for (Vec2 before = *point; point != last;) {
-    const Vec2 here = *++point;
-    const Vec2 step = here - before;
-    node.low = lower_of(node.low, here);
-    node.high = upper_of(node.high, here);
-    node.least_step = lower_of(node.least_step, step);
-    node.greatest_step = upper_of(node.greatest_step, step);
+  Lanes before = lanes_of(*point);
+  node.low = node.high = before;
+  while (point != last) {
+    const Lanes here = lanes_of(*++point);
+    const Lanes step = here - before;
+    node.low = least(node.low, here);
+    node.high = greatest(node.high, here);
+    node.least_step = least(node.least_step, step);
+    node.greatest_step = greatest(node.greatest_step, step);
     before = here;
   }
   return node;

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "csg/lanes.h"
 #include "csg/vec.h"
 
 namespace lamina::slicer {
@@ -100,21 +101,23 @@ class LoopTree {
   static constexpr std::size_t kMostLooks = 32;
 
   struct Node {
-    Vec2 low = Vec2(1e300);
-    Vec2 high = Vec2(-1e300);
-    Vec2 least_step = Vec2(1e300);  // of the edges between points
-    Vec2 greatest_step = Vec2(-1e300);
+    Lanes low = both_lanes(1e300);
+    Lanes high = both_lanes(-1e300);
+    Lanes least_step = both_lanes(1e300);  // of the edges between points
+    Lanes greatest_step = both_lanes(-1e300);
     std::uint32_t loop = kNone;  // if all of it is of one
 
     void add(const Node& other);
     bool is_near(Vec2 point, double reach) const {
-      return point.x >= low.x - reach && point.x <= high.x + reach &&
-             point.y >= low.y - reach && point.y <= high.y + reach;
+      const Lanes at = lanes_of(point);
+      const Lanes margin = both_lanes(reach);
+      return !holds_for_any((at < low - margin) | (at > high + margin));
     }
     // Whether all edges advance by more than `reach` along an axis.
     bool advances(double reach) const {
-      return least_step.x > reach || least_step.y > reach ||
-             greatest_step.x < -reach || greatest_step.y < -reach;
+      const Lanes least_advance = both_lanes(reach);
+      return holds_for_any((least_step > least_advance) |
+                           (greatest_step < -least_advance));
     }
   };
 
@@ -135,8 +138,8 @@ class LoopTree {
   std::size_t top() const { return level_begins_.size() - 2; }
 
   static bool are_apart(const Node& a, const Node& b, double reach) {
-    return a.low.x > b.high.x + reach || b.low.x > a.high.x + reach ||
-           a.low.y > b.high.y + reach || b.low.y > a.high.y + reach;
+    const Lanes margin = both_lanes(reach);
+    return holds_for_any((a.low > b.high + margin) | (b.low > a.high + margin));
   }
   bool follow_apart(const Node& a, const Node& b, double reach) const;
 
@@ -156,9 +159,9 @@ class LoopTree {
 
   // A segment with all that is within reach of it.
   struct Strip {
-    Vec2 low;
-    Vec2 high;
-    Vec2 middle;
+    Lanes low;
+    Lanes high;
+    Lanes middle;
     Vec2 along;
     double reach;  // across, times the length of `along`
 
@@ -242,9 +245,9 @@ bool LoopTree::has_near(Vec2 a, Vec2 b, double reach,
                         const IsHit& is_hit) const {
   if (leaves_.empty()) return false;
   Strip strip;
-  strip.low = Vec2(std::min(a.x, b.x), std::min(a.y, b.y)) - Vec2(reach);
-  strip.high = Vec2(std::max(a.x, b.x), std::max(a.y, b.y)) + Vec2(reach);
-  strip.middle = a;
+  strip.low = least(lanes_of(a), lanes_of(b)) - both_lanes(reach);
+  strip.high = greatest(lanes_of(a), lanes_of(b)) + both_lanes(reach);
+  strip.middle = lanes_of(a);
   strip.along = b - a;
   strip.reach = reach * (std::abs(strip.along.x) + std::abs(strip.along.y));
   return has_hit(top(), 0, strip, is_hit);
