@@ -12,54 +12,50 @@ namespace {
 // as it has reached, after the last one that a line reaches.
 constexpr std::uint32_t kPatience = 16;
 
-Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
-
 // Directions of the lines from the anchor that pass all vertices so far within
-// the tolerance.
+// the tolerance, as slopes against the axis `along`.
+//
+// A line of slope s passes (x, y) by |y - s x| / sqrt(1 + s²). The tolerance is
+// held against |y - s x| instead, which spares a square root for each vertex;
+// s is small where a line goes far.
 class Cone {
  public:
-  // The first vertex, seen from the anchor, and the square of its distance.
-  Cone(double tolerance, Vec2 to, double squared)
-      : tolerance_(tolerance), tolerance_squared_(tolerance * tolerance) {
-    const double cosine = cosine_of(squared);
-    right_ = right_side(to, cosine);
-    left_ = left_side(to, cosine);
-  }
+  Cone(Vec2 along, double tolerance)
+      : along_(along), tolerance_(tolerance * std::sqrt(dot(along, along))) {}
 
-  // Takes another vertex. Whether the cone held it before.
-  bool narrow(Vec2 to, double squared) {
-    const double cosine = cosine_of(squared);
-    const double past_right = cross(right_, to);
-    const double past_left = cross(to, left_);
-    // The new sides beside the old ones, multiplied out.
-    if (cosine * past_right > tolerance_ * dot(right_, to)) {
-      right_ = right_side(to, cosine);
-    }
-    if (cosine * past_left > tolerance_ * dot(left_, to)) {
-      left_ = left_side(to, cosine);
-    }
-    return past_right >= 0 && past_left >= 0;
+  // Takes another vertex, seen from the anchor. Whether the cone held it
+  // before.
+  bool narrow(Vec2 to) {
+    const double x = dot(along_, to);
+    const double y = cross(along_, to);
+    const bool is_held = y >= least_ * x && y <= greatest_ * x;
+    least_ = std::max(least_, (y - tolerance_) / x);
+    greatest_ = std::min(greatest_, (y + tolerance_) / x);
+    if (x <= tolerance_) keep_ahead(x, y);
+    return is_held;
   }
-  bool is_empty() const { return cross(right_, left_) < 0; }
+  bool is_empty() const { return least_ > greatest_; }
 
  private:
-  // Of half the angle, times the distance; its sine is the tolerance. What is
-  // nearer than the tolerance asks for no more than not to lie behind the
-  // anchor.
-  double cosine_of(double squared) const {
-    return std::sqrt(std::max(0.0, squared - tolerance_squared_));
-  }
-  Vec2 right_side(Vec2 to, double cosine) const {
-    return to * cosine - left_of(to) * tolerance_;
-  }
-  Vec2 left_side(Vec2 to, double cosine) const {
-    return to * cosine + left_of(to) * tolerance_;
+  // What is this near to the anchor is not to lie behind it either.
+  void keep_ahead(double x, double y) {
+    if (x <= 0) {
+      least_ = kSteepest;
+      greatest_ = -kSteepest;
+    } else if (y > 0) {
+      least_ = std::max(least_, -x / y);
+    } else if (y < 0) {
+      greatest_ = std::min(greatest_, -x / y);
+    }
   }
 
-  double tolerance_;
-  double tolerance_squared_;
-  Vec2 right_;
-  Vec2 left_;
+  // Nothing farther off than the tolerance lies behind a line less steep.
+  static constexpr double kSteepest = 1;
+
+  Vec2 along_;
+  double tolerance_;  // in units of the axis' length
+  double least_ = -kSteepest;
+  double greatest_ = kSteepest;
 };
 
 }  // namespace
@@ -76,18 +72,20 @@ std::uint32_t farthest_reach(std::span<const Vec2> points, std::uint32_t anchor,
       2 * tolerance * tolerance * (dot(first, first) + dot(second, second))) {
     return anchor + 1;
   }
+  const double first_squared = dot(first, first);
+  if (first_squared == 0) return anchor + 1;
   std::uint32_t reach = anchor + 1;
-  double farthest = dot(first, first);  // squared
-  if (farthest == 0) return anchor + 1;
-  Cone cone(tolerance, first, farthest);
+  double farthest = first_squared;
+  Cone cone(dot(second, second) > first_squared ? second : first, tolerance);
+  cone.narrow(first);
   for (std::uint32_t i = anchor + 2; i <= end; ++i) {
     const Vec2 to = points[i] - points[anchor];
     const double squared = dot(to, to);
-    const bool is_passed = cone.narrow(to, squared);
+    const bool is_held = cone.narrow(to);
     // The end of a shortcut is its farthest vertex.
     if (squared >= farthest) {
       farthest = squared;
-      if (is_passed) reach = i;
+      if (is_held) reach = i;
     } else if (std::sqrt(squared) < std::sqrt(farthest) - tolerance) {
       break;  // it turns back
     }
