@@ -11,10 +11,6 @@
 namespace lamina::ldni::detail {
 namespace {
 
-// Loops with less area [mm²] are dropped: 31 nm squared, the leftovers of
-// faces that coincide up to rounding.
-constexpr double kLeastArea = 1e-9;
-
 // How far [tie distances] a change between tied chains may reach: groups of
 // ties can be a few ties wide.
 constexpr double kMostJump = 4;
@@ -148,11 +144,13 @@ void ContourTracer::trace(Contours& contours) {
   number_loops();
   split_pinches();
   // A loop is walked from its first piece; walked pieces lose their number.
+  pen_.begin(contours);
   for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
     if (pieces_[i].loop == kNoPiece) continue;
     walk(i);
-    close_loop(contours);
+    pen_.close_loop();
   }
+  pen_.lift();
 }
 
 void ContourTracer::number_loops() {
@@ -181,91 +179,20 @@ void ContourTracer::split_pinches() {
   }
 }
 
-// Whether a point, come to by one step and left by another, lies on the line
-// between its neighbours or is the tip of a spike without width.
-inline bool ContourTracer::is_straight(const Vec2& in, const Vec2& out) const {
-  const double cross = in.x * out.y - in.y * out.x;
-  const double dot = in.x * out.x + in.y * out.y;
-  const double in_squared = in.x * in.x + in.y * in.y;
-  const double out_squared = out.x * out.x + out.y * out.y;
-  // Distance from the line: from the base's, or from the longer side's for a
-  // spike, whose base may be short.
-  const double line_squared = dot < 0 ? std::max(in_squared, out_squared)
-                                      : in_squared + out_squared + 2 * dot;
-  return cross * cross <= merge_distance_ * merge_distance_ * line_squared;
-}
-
-// Whether leaving out `point` changes nothing: it repeats a neighbour, or what
-// is_straight() says.
-bool ContourTracer::is_redundant(const Vec2& before, const Vec2& point,
-                                 const Vec2& after) const {
-  return are_near(before, point, merge_distance_) ||
-         is_straight(point - before, after - point);
-}
-
-// Successive points of loop_ are never near each other.
-inline void ContourTracer::add_point(const Vec2& point) {
-  Vec2 step(0);
-  while (!loop_.empty()) {
-    step = point - loop_.back();
-    if (loop_.size() == 1 || !is_straight(last_step_, step)) {
-      if (std::abs(step.x) < merge_distance_ &&
-          std::abs(step.y) < merge_distance_) {
-        return;
-      }
-      break;
-    }
-    loop_.pop_back();
-    if (loop_.size() > 1) last_step_ = loop_.back() - loop_[loop_.size() - 2];
-  }
-  loop_.push_back(point);
-  last_step_ = step;
-}
-
 void ContourTracer::walk(std::uint32_t start) {
   for (std::uint32_t i = start; i != kNoPiece;) {
     Piece& piece = pieces_[i];
     if (piece.loop == kNoPiece) break;
     piece.loop = kNoPiece;
     if (piece.direction > 0) {
-      add_point(piece.left);
-      for (const Vec2* p = piece.vertices_begin; p < piece.vertices_end; ++p) {
-        add_point(*p);
-      }
-      add_point(piece.right);
+      pen_.draw_forward(piece.left, piece.vertices_begin, piece.vertices_end,
+                        piece.right);
     } else {
-      add_point(piece.right);
-      for (const Vec2* p = piece.vertices_end; p > piece.vertices_begin;) {
-        add_point(*--p);
-      }
-      add_point(piece.left);
+      pen_.draw_backward(piece.right, piece.vertices_begin, piece.vertices_end,
+                         piece.left);
     }
     i = piece.next;
   }
-}
-
-// Cleans the seam between the last and the first point, then keeps the loop if
-// it has any area.
-void ContourTracer::close_loop(Contours& contours) {
-  std::size_t begin = 0;
-  std::size_t end = loop_.size();
-  for (bool is_clean = false; !is_clean && end - begin >= 3;) {
-    is_clean = true;
-    if (are_near(loop_[end - 1], loop_[begin], merge_distance_) ||
-        is_redundant(loop_[end - 2], loop_[end - 1], loop_[begin])) {
-      --end;
-      is_clean = false;
-    } else if (is_redundant(loop_[end - 1], loop_[begin], loop_[begin + 1])) {
-      ++begin;
-      is_clean = false;
-    }
-  }
-  const std::span<const Vec2> kept(loop_.data() + begin, end - begin);
-  if (kept.size() >= 3 && std::abs(signed_area(kept)) >= kLeastArea) {
-    contours.points.insert(contours.points.end(), kept.begin(), kept.end());
-    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
-  }
-  loop_.clear();
 }
 
 }  // namespace lamina::ldni::detail

@@ -19,17 +19,16 @@
 
 #include "csg/vec.h"
 #include "ldni/contours.h"
+#include "ldni/detail/loop_pen.h"
 
 namespace lamina::ldni::detail {
 
 class ContourTracer {
  public:
   // tie_distance    ends of one side of a stop nearer than this could tie [mm]
-  // merge_distance  points of a loop nearer than this are one, and a point
-  //                 nearer than this to the line through its neighbours is
-  //                 left out [mm]
+  // merge_distance  as of LoopPen
   ContourTracer(double tie_distance, double merge_distance)
-      : tie_distance_(tie_distance), merge_distance_(merge_distance) {}
+      : tie_distance_(tie_distance), pen_(merge_distance) {}
 
   // Forgets the layer before.
   void begin();
@@ -100,22 +99,15 @@ class ContourTracer {
   void number_loop(std::uint32_t piece, std::uint32_t loop);
   void split_pinches();
   void walk(std::uint32_t start);
-  bool is_redundant(const Vec2& before, const Vec2& point,
-                    const Vec2& after) const;
-  bool is_straight(const Vec2& in, const Vec2& out) const;
-  void add_point(const Vec2& point);
-  void close_loop(Contours& contours);
 
   const double tie_distance_;
-  const double merge_distance_;
+  LoopPen pen_;
   bool has_jumps_ = false;
   std::vector<Piece> pieces_;
   std::vector<End> ends_;
   std::vector<End> waiting_;  // without partner, the lowest first
   std::vector<End> linked_;   // upper ends of the pairs of the stop
   std::vector<Pinch> pinches_;
-  std::vector<Vec2> loop_;
-  Vec2 last_step_ = Vec2(0);  // between the last two points of loop_
   std::uint32_t loop_count_ = 0;
   std::uint64_t unlinked_ends_ = 0;
 };
