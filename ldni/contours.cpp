@@ -1,6 +1,9 @@
 #include "ldni/contours.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "csg/lanes.h"
 
 namespace lamina::ldni {
 
@@ -26,6 +29,17 @@ double perimeter(std::span<const Vec2> loop) {
     length += std::hypot(step.x, step.y);
   }
   return length;
+}
+
+double greatest_coordinate(std::span<const Vec2> points) {
+  Lanes low = both_lanes(0);
+  Lanes high = both_lanes(0);
+  for (const Vec2& point : points) {
+    low = least(low, lanes_of(point));
+    high = greatest(high, lanes_of(point));
+  }
+  const Lanes reach = greatest(high, -low);
+  return std::max(reach[0], reach[1]);
 }
 
 }  // namespace lamina::ldni

@@ -50,12 +50,8 @@ void LoopRounder::round(ldni::Contours& contours, double clearance) {
 }
 
 void LoopRounder::measure(const ldni::Contours& contours) {
-  double largest = 0;
-  for (const Vec2& point : contours.points) {
-    largest = std::max({largest, std::abs(point.x), std::abs(point.y)});
-  }
   int exponent = 0;
-  std::frexp(largest, &exponent);
+  std::frexp(ldni::greatest_coordinate(contours.points), &exponent);
   spacing_ = std::ldexp(1.0, exponent - kFloatDigits);
 }
 

@@ -86,11 +86,7 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
     loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
                       2 * ldni::signed_area(loop)});
   }
-  double greatest = 0;
-  for (const Vec2& p : points_) {
-    greatest = std::max({greatest, std::abs(p.x), std::abs(p.y)});
-  }
-  clearance_ = kClearance * greatest;
+  clearance_ = kClearance * ldni::greatest_coordinate(contours.points);
 }
 
 // Chooses vertices as if the loop were alone.

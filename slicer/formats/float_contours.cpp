@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/lanes.h"
 #include "slicer/deviation.h"
 
 namespace lamina::slicer {
@@ -32,32 +33,40 @@ double signed_area(std::span<const FloatPoint> closed_loop) {
 }
 
 void FloatContours::take(const Layer& layer) {
-  for (const Vec2& point : layer.contours.points) {
-    reach_ = std::max({reach_, std::abs(point.x), std::abs(point.y)});
-  }
+  reach_ = std::max(reach_, ldni::greatest_coordinate(layer.contours.points));
   rounded_ = layer.contours;
   rounder_.round(rounded_, layer.clearance);
-  points_.clear();
-  ends_.clear();
-  for (std::size_t i = 0; i < rounded_.loop_count(); ++i) {
-    const std::size_t begin = points_.size();
+  const std::size_t loops = rounded_.loop_count();
+  points_.resize(rounded_.points.size() + loops);
+  ends_.resize(loops);
+  FloatPoint* end = points_.data();
+  for (std::size_t i = 0; i < loops; ++i) {
+    const FloatPoint* const begin = end;
     for (const Vec2& point : rounded_.loop(i)) {
-      points_.push_back(
-          {static_cast<float>(point.x), static_cast<float>(point.y)});
+      *end++ = {static_cast<float>(point.x), static_cast<float>(point.y)};
     }
-    extend(std::span(points_).subspan(begin));
-    points_.push_back(points_[begin]);
-    ends_.push_back(points_.size());
+    *end++ = *begin;
+    ends_[i] = static_cast<std::size_t>(end - points_.data());
   }
+  extend();
 }
 
-void FloatContours::extend(std::span<const FloatPoint> loop) {
-  if (!has_loops_) low_ = high_ = loop.front();
-  has_loops_ = true;
-  for (const FloatPoint& point : loop) {
-    low_ = {std::min(low_.x, point.x), std::min(low_.y, point.y)};
-    high_ = {std::max(high_.x, point.x), std::max(high_.y, point.y)};
+// The boxes of the layers so far by that of the one in hand.
+void FloatContours::extend() {
+  if (rounded_.is_empty()) return;
+  Lanes low = lanes_of(rounded_.points.front());
+  Lanes high = low;
+  if (has_loops_) {
+    low = Lanes{low_.x, low_.y};
+    high = Lanes{high_.x, high_.y};
   }
+  has_loops_ = true;
+  for (const Vec2& point : rounded_.points) {
+    low = least(low, lanes_of(point));
+    high = greatest(high, lanes_of(point));
+  }
+  low_ = {static_cast<float>(low[0]), static_cast<float>(low[1])};
+  high_ = {static_cast<float>(high[0]), static_cast<float>(high[1])};
 }
 
 double FloatContours::greatest_rounding() const {

@@ -55,7 +55,7 @@ class FloatContours {
                               Diagnostics& diagnostics) const;
 
  private:
-  void extend(std::span<const FloatPoint> loop);
+  void extend();
 
   LoopRounder rounder_;
   ldni::Contours rounded_;
