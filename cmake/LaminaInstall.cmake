@@ -18,6 +18,9 @@ lamina_compress(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog.gz)
 install(FILES README.md ${PROJECT_BINARY_DIR}/changelog.gz
               cmake/debian/copyright
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+lamina_compress(${PROJECT_BINARY_DIR}/cli/lamina.1 lamina.1.gz)
+install(FILES ${PROJECT_BINARY_DIR}/lamina.1.gz
+        DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(DIRECTORY docs examples
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         PATTERN man EXCLUDE PATTERN cpp EXCLUDE)

@@ -17,6 +17,7 @@ LAMINA_TEST_PACKAGES=(
   openscad openscad-testing-data openscad-mcad libgl1-mesa-dri
   fonts-dejavu-core fonts-hosny-amiri
   slic3r python3 chromium
+  man-db bash-completion zsh fish
 )
 
 # install_missing <package>…: installs those that are not there; asks for

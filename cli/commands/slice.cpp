@@ -50,6 +50,7 @@ Design:
   --hardwarnings      stop at the first warning
   --seed N            seed of rands() where the design gives none [0]
   --render            $preview is false, whatever the output
+  --preview           undoes --render
   -d FILE             write what the output depends on, as a rule for make
 
 Slicing (lengths in millimetres):

@@ -92,6 +92,14 @@ FormatChoice choose_output_format(std::string_view name) {
           false};
 }
 
+std::vector<std::string> written_extensions() {
+  std::vector<std::string> extensions;
+  for (const Written& written : kWritten) {
+    extensions.emplace_back(written.extension);
+  }
+  return extensions;
+}
+
 bool is_named_as_layers(std::string_view path) {
   const FormatChoice choice = choose_output_format(path);
   return choice.format && is_of_layers(*choice.format);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lamina::slicer {
 
@@ -39,6 +40,9 @@ struct FormatChoice {
 // name  a path ("out/ring.slc") or a bare extension ("slc"); letter case does
 //       not matter
 FormatChoice choose_output_format(std::string_view name);
+
+// What may stand for a format, "slc" to "csg".
+std::vector<std::string> written_extensions();
 
 // Whether a path is named as a file of layers, and so as no design.
 bool is_named_as_layers(std::string_view path);

@@ -1,0 +1,171 @@
+#include "cli/pages/command_pages.h"
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "cli/command.h"
+#include "cli/commands/commands.h"
+#include "slicer/formats/output_format.h"
+#include "slicer/panel.h"
+
+namespace lamina::cli {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  std::string part;
+  while (std::getline(stream, part, separator)) parts.push_back(part);
+  return parts;
+}
+
+// An entry's text in one line, without tables and without the default.
+std::string in_one_line(const HelpEntry& entry) {
+  std::string text;
+  for (const std::string& line : entry.text) {
+    if (line.starts_with(' ')) break;
+    text += (text.empty() ? "" : " ") + line;
+  }
+  return text.substr(0, text.find(" ["));
+}
+
+const HelpEntry* find_entry(const std::vector<HelpBlock>& help,
+                            const std::string& name, std::string& value) {
+  for (const HelpBlock& block : help) {
+    for (const HelpEntry& entry : block.entries) {
+      for (const NamedValue& option : entry.options) {
+        if (option.name != name) continue;
+        value = option.value;
+        return &entry;
+      }
+    }
+  }
+  return nullptr;
+}
+
+std::vector<std::string> names_of(const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames())
+    names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) {
+    names.push_back("--" + name);
+  }
+  return names;
+}
+
+// The words of CLI::IsMember, "{a,b}" at the end of the type's name; those that
+// the help names, "auto|MM"; printers and formats.
+std::vector<std::string> words_of(const CLI::Option& option,
+                                  const std::string& value) {
+  const std::string type = option.get_type_name();
+  if (type == "printer") {
+    std::vector<std::string> names;
+    for (const slicer::Panel& panel : slicer::known_panels()) {
+      names.push_back(panel.name);
+    }
+    return names;
+  }
+  if (type == "format") return slicer::written_extensions();
+  const std::size_t open = type.find('{');
+  if (open != std::string::npos && type.ends_with('}')) {
+    return split(type.substr(open + 1, type.size() - open - 2), ',');
+  }
+  std::vector<std::string> words;
+  if (value.find('|') == std::string::npos) return words;
+  for (const std::string& word : split(value, '|')) {
+    if (std::none_of(word.begin(), word.end(), [](unsigned char letter) {
+          return std::isupper(letter) != 0;
+        })) {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
+OptionPage option_page(const CLI::Option& option,
+                       const std::vector<HelpBlock>& help,
+                       const std::vector<HelpBlock>& main_help) {
+  OptionPage page;
+  page.names = names_of(option);
+  const std::string& name = page.names.back();
+  const HelpEntry* entry = find_entry(help, name, page.value);
+  if (!entry) entry = find_entry(main_help, name, page.value);
+  if (entry) page.text = in_one_line(*entry);
+  page.has_value = option.get_expected_max() > 0;
+  if (!page.has_value) return page;
+  page.may_repeat =
+      option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+  page.words = words_of(option, page.value);
+  if (!page.words.empty()) {
+    page.completion = Completion::kWords;
+  } else if (option.get_type_name() == "file") {
+    page.completion = Completion::kFile;
+  }
+  return page;
+}
+
+// By what the usage calls the first word: DESIGN, FILE.slc, FILE.
+std::vector<std::string> extensions_of(const std::string& usage) {
+  if (usage.find(" DESIGN") != std::string::npos) return {"scad", "csg"};
+  const std::size_t dot = usage.find("FILE.");
+  if (dot != std::string::npos) {
+    const std::size_t begin = dot + 5;
+    return {usage.substr(begin, usage.find_first_of(" ]", begin) - begin)};
+  }
+  return {"slc", "cli", "svg", "json", "stl", "scad", "csg"};
+}
+
+// "  lamina inspect FILE.slc [OPTION]...     check a layer file and list it"
+void read_usage(const std::vector<HelpBlock>& main_help, CommandPage& page) {
+  const std::string begin =
+      page.name.empty() ? "  lamina " : "  lamina " + page.name + " ";
+  for (const HelpBlock& block : main_help) {
+    if (block.heading != "Usage") continue;
+    for (const std::string& line : block.lines) {
+      if (!line.starts_with(begin)) continue;
+      const std::size_t end = line.find("  ", begin.size());
+      page.extensions = extensions_of(line.substr(0, end));
+      const std::size_t text = line.find_first_not_of(' ', end);
+      if (text != std::string::npos) page.text = line.substr(text);
+      return;
+    }
+  }
+}
+
+CommandPage command_page(const std::string& name, Command& command,
+                         const std::vector<HelpBlock>& main_help) {
+  CLI::App app("", "lamina");
+  app.set_help_flag("-h,--help");
+  app.set_version_flag("-v,--version", "");
+  command.add_options(app);
+  CommandPage page;
+  page.name = name;
+  page.help = read_help(command.help());
+  read_usage(main_help, page);
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_positional()) continue;
+    page.options.push_back(option_page(*option, page.help, main_help));
+  }
+  return page;
+}
+
+}  // namespace
+
+std::vector<CommandPage> command_pages() {
+  std::vector<CommandPage> pages;
+  const std::unique_ptr<Command> slice = make_slice_command();
+  const std::vector<HelpBlock> main_help = read_help(slice->help());
+  pages.push_back(command_page("", *slice, main_help));
+  for (const NamedCommand& named : kNamedCommands) {
+    const std::unique_ptr<Command> command = named.make();
+    pages.push_back(command_page(std::string(named.name), *command, main_help));
+  }
+  return pages;
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,41 @@
+#pragma once
+// Every command with its options: what CLI11 knows of them joined with what the
+// help says.
+
+#include <string>
+#include <vector>
+
+#include "cli/pages/help_text.h"
+
+namespace lamina::cli {
+
+enum class Completion {
+  kNothing,  // a number or a name that nobody can guess
+  kWords,    // OptionPage::words
+  kFile,
+};
+
+struct OptionPage {
+  std::vector<std::string> names;  // "-q", "--quiet"
+  std::string text;                // of the help, in one line
+  bool has_value = false;
+  bool may_repeat = false;
+  std::string value;  // what the help calls it: "MM"
+  Completion completion = Completion::kNothing;
+  std::vector<std::string> words;
+};
+
+struct CommandPage {
+  std::string name;  // empty: slicing a design, which has no word of its own
+  std::string text;  // in a few words
+  // Extensions of the files that it takes, without dots.
+  std::vector<std::string> extensions;
+  std::vector<OptionPage> options;
+  std::vector<HelpBlock> help;
+};
+
+// All commands, slicing first. An option that neither the help of its command
+// nor that of slicing has an entry for has no text.
+std::vector<CommandPage> command_pages();
+
+}  // namespace lamina::cli

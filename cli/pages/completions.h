@@ -1,0 +1,16 @@
+#pragma once
+// Completion of the command line by the three usual shells: commands, options,
+// words that options take, files by their extensions.
+
+#include <span>
+#include <string>
+
+#include "cli/pages/command_pages.h"
+
+namespace lamina::cli {
+
+std::string bash_completion(std::span<const CommandPage> pages);
+std::string zsh_completion(std::span<const CommandPage> pages);
+std::string fish_completion(std::span<const CommandPage> pages);
+
+}  // namespace lamina::cli

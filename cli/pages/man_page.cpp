@@ -1,0 +1,162 @@
+#include "cli/pages/man_page.h"
+
+#include <cctype>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "slicer/version.h"
+
+namespace lamina::cli {
+namespace {
+
+// Text as troff prints it: dashes that can be copied, and no requests.
+std::string escaped(std::string_view text) {
+  std::string result;
+  if (text.starts_with('.') || text.starts_with('\'')) result += "\\&";
+  for (const char letter : text) {
+    switch (letter) {
+      case '\\':
+        result += "\\e";
+        break;
+      case '-':
+        result += "\\-";
+        break;
+      case '\'':
+        result += "\\(aq";
+        break;
+      case '^':
+        result += "\\(ha";
+        break;
+      case '~':
+        result += "\\(ti";
+        break;
+      default:
+        result += letter;
+    }
+  }
+  return result;
+}
+
+// Names in bold, values in italics.
+std::string head_of(const HelpEntry& entry) {
+  std::string text;
+  for (const NamedValue& option : entry.options) {
+    if (!text.empty())
+      text += entry.head.find(',') < entry.head.size() ? ", " : " ";
+    text += fmt::format("\\fB{}\\fR", escaped(option.name));
+    if (!option.value.empty()) {
+      text += fmt::format(" \\fI{}\\fR", escaped(option.value));
+    }
+  }
+  return text;
+}
+
+// Lines that are indented further are a table, which keeps its shape.
+std::string text_of(const std::vector<std::string>& lines) {
+  std::string text;
+  bool is_table = false;
+  for (const std::string& line : lines) {
+    const bool is_row = line.starts_with(' ');
+    if (is_row != is_table) text += is_row ? ".EX\n" : ".EE\n";
+    is_table = is_row;
+    text += escaped(line) + "\n";
+  }
+  return text + (is_table ? ".EE\n" : "");
+}
+
+std::string entries_of(const HelpBlock& block) {
+  std::string text;
+  for (const HelpEntry& entry : block.entries) {
+    text += fmt::format(".TP\n{}\n{}", head_of(entry), text_of(entry.text));
+  }
+  return text;
+}
+
+// "  lamina inspect FILE.slc [OPTION]...     check a layer file"
+std::string synopsis_of(const std::vector<HelpBlock>& help) {
+  std::string text;
+  for (const HelpBlock& block : help) {
+    if (block.heading != "Usage") continue;
+    for (const std::string& line : block.lines) {
+      if (!line.starts_with("  lamina ")) continue;
+      const std::string usage = line.substr(9, line.find("  ", 9) - 9);
+      text += fmt::format("{}.B lamina\n{}\n", text.empty() ? "" : ".br\n",
+                          escaped(usage));
+    }
+  }
+  return text;
+}
+
+std::string examples_of(const std::vector<HelpBlock>& help) {
+  std::string text = ".EX\n";
+  for (const HelpBlock& block : help) {
+    if (block.heading != "Examples") continue;
+    for (const std::string& line : block.lines) text += escaped(line) + "\n";
+  }
+  return text + ".EE\n";
+}
+
+std::string options_of(const CommandPage& page) {
+  std::string text;
+  for (const HelpBlock& block : page.help) {
+    if (block.entries.empty()) continue;
+    text += fmt::format(".SS \"{}\"\n{}", escaped(block.heading),
+                        entries_of(block));
+  }
+  return text;
+}
+
+std::string paragraph_of(const std::vector<std::string>& lines) {
+  std::string text = ".PP\n";
+  for (const std::string& line : lines) {
+    text += line.starts_with(' ') ? fmt::format(".EX\n{}\n.EE\n", escaped(line))
+                                  : escaped(line) + "\n";
+  }
+  return text;
+}
+
+std::string section_of(const CommandPage& page) {
+  constexpr std::string_view kUsage = "Usage: ";
+  std::string text = fmt::format(".SS lamina {}\n", page.name);
+  for (const HelpBlock& block : page.help) {
+    std::vector<std::string> lines = block.lines;
+    if (!lines.empty() && lines.front().starts_with(kUsage)) {
+      text +=
+          fmt::format(".B {}\n", escaped(lines.front().substr(kUsage.size())));
+      lines.erase(lines.begin());
+    }
+    if (!block.heading.empty()) {
+      text += fmt::format(".PP\n{}:\n", escaped(block.heading));
+    }
+    if (!lines.empty()) text += paragraph_of(lines);
+    text += entries_of(block);
+  }
+  return text;
+}
+
+void replace(std::string& text, std::string_view mark,
+             std::string_view content) {
+  for (std::size_t at = text.find(mark); at != std::string::npos;
+       at = text.find(mark, at + content.size())) {
+    text.replace(at, mark.size(), content);
+  }
+}
+
+}  // namespace
+
+std::string man_page(std::span<const CommandPage> pages, std::string frame) {
+  std::string commands;
+  for (const CommandPage& page : pages) {
+    if (!page.name.empty()) commands += section_of(page);
+  }
+  replace(frame, "@VERSION@", slicer::version());
+  replace(frame, "@SYNOPSIS@\n", synopsis_of(pages.front().help));
+  replace(frame, "@OPTIONS@\n", options_of(pages.front()));
+  replace(frame, "@COMMANDS@\n", commands);
+  replace(frame, "@EXAMPLES@\n", examples_of(pages.front().help));
+  return frame;
+}
+
+}  // namespace lamina::cli
