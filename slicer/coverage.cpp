@@ -18,6 +18,7 @@ Coverage::Coverage(unsigned width, unsigned height)
       sums_(std::size_t{width + 2} * height, 0.0) {}
 
 void Coverage::add_edge(Vec2 from, Vec2 to) {
+  if (std::max(from.y, to.y) <= 0 || std::min(from.y, to.y) >= height_) return;
   // Cut at the left and the right side; what lies outside runs along the side.
   const auto clamped = [this](Vec2 p) {
     return Vec2(std::clamp(p.x, 0.0, static_cast<double>(width_)), p.y);
@@ -117,6 +118,27 @@ void Coverage::resolve_row(unsigned y, std::vector<float>& shares) const {
     sum += row[x];
     shares[x] = static_cast<float>(std::min(std::abs(sum), 1.0));
   }
+}
+
+void Coverage::resolve_row(unsigned y, std::vector<GreyRun>& runs) const {
+  runs.clear();
+  const double* row = sums_.data() + std::size_t{y} * (width_ + 2);
+  double sum = 0;
+  GreyRun run;
+  for (unsigned x = 0; x < width_; ++x) {
+    // Only where an edge passes does anything change.
+    if (row[x] != 0) {
+      sum += row[x];
+      const auto grey =
+          static_cast<std::uint8_t>(255 * std::min(std::abs(sum), 1.0) + 0.5);
+      if (grey != run.grey) {
+        if (run.count > 0) runs.push_back(run);
+        run = {grey, 0};
+      }
+    }
+    ++run.count;
+  }
+  if (run.count > 0) runs.push_back(run);
 }
 
 void add_contours(Coverage& coverage, const ldni::Contours& contours,

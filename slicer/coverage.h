@@ -7,12 +7,19 @@
 // drawn, so no share is ever wrong by more than rounding. Edges left of the
 // image count for its first column, edges right of it for nothing.
 
+#include <cstdint>
 #include <vector>
 
 #include "csg/vec.h"
 #include "ldni/contours.h"
 
 namespace lamina::slicer {
+
+// Neighbouring pixels of a row that are covered alike.
+struct GreyRun {
+  std::uint8_t grey = 0;  // 255: wholly
+  unsigned count = 0;
+};
 
 class Coverage {
  public:
@@ -30,6 +37,9 @@ class Coverage {
 
   // The covered share of the pixels of row y, 0 … 1, width() of them.
   void resolve_row(unsigned y, std::vector<float>& shares) const;
+
+  // The same as stretches of equal pixels from the left, shares as 0 … 255.
+  void resolve_row(unsigned y, std::vector<GreyRun>& runs) const;
 
  private:
   void add_inside(Vec2 from, Vec2 to);

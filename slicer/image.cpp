@@ -14,19 +14,9 @@ namespace {
 // Fast and small enough: pictures are mostly flat.
 constexpr int kCompressionLevel = 6;
 
-// Layers are runs of black and white: run lengths pack them best, and need none
-// of the tables whose upkeep takes half of zlib's time.
-constexpr int kRunLengths = 3;  // zlib's Z_RLE
-constexpr int kSmallTables = 4;
-
 void append_bytes(png_structp png, png_bytep bytes, png_size_t count) {
   auto& output = *static_cast<OutputFile*>(png_get_io_ptr(png));
   output.write({reinterpret_cast<const char*>(bytes), count});
-}
-
-void append_to_string(png_structp png, png_bytep bytes, png_size_t count) {
-  auto& text = *static_cast<std::string*>(png_get_io_ptr(png));
-  text.append(reinterpret_cast<const char*>(bytes), count);
 }
 
 void keep_bytes(png_structp /*png*/) {}  // the OutputFile flushes itself
@@ -75,28 +65,6 @@ void write_png(const Image& image, OutputFile& output) {
     png_write_row(writer.png, row.data());
   }
   png_write_end(writer.png, writer.info);
-}
-
-std::string grey_png(
-    unsigned width, unsigned height,
-    const std::function<void(unsigned, std::uint8_t*)>& fill_row) {
-  std::string bytes;
-  PngWriter writer;
-  png_set_write_fn(writer.png, &bytes, &append_to_string, &keep_bytes);
-  png_set_compression_strategy(writer.png, kRunLengths);
-  png_set_compression_mem_level(writer.png, kSmallTables);
-  png_set_filter(writer.png, 0, PNG_FILTER_NONE);
-  png_set_IHDR(writer.png, writer.info, width, height, 8, PNG_COLOR_TYPE_GRAY,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(writer.png, writer.info);
-  std::vector<std::uint8_t> row(width);
-  for (unsigned y = 0; y < height; ++y) {
-    fill_row(y, row.data());
-    png_write_row(writer.png, row.data());
-  }
-  png_write_end(writer.png, writer.info);
-  return bytes;
 }
 
 }  // namespace lamina::slicer

@@ -3,9 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "slicer/formats/output_file.h"
@@ -31,11 +28,5 @@ struct Image {
 
 // Appends the image as a PNG file, 8 bits a channel. Throws FileError.
 void write_png(const Image& image, OutputFile& output);
-
-// A PNG file of 8 bits of grey. Calls fill_row(y, row) from the top down, for
-// `width` values each.
-std::string grey_png(
-    unsigned width, unsigned height,
-    const std::function<void(unsigned, std::uint8_t*)>& fill_row);
 
 }  // namespace lamina::slicer

@@ -87,6 +87,31 @@ TEST(Coverage, WhatLiesOutsideIsCutOff) {
   EXPECT_NEAR(sum_of(right), 0.5, 1e-6);
 }
 
+TEST(Coverage, StretchesTellTheSameAsPixels) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-5, 35);
+  for (int run = 0; run < 100; ++run) {
+    Coverage coverage(30, 20);
+    add_polygon(coverage, {{place(random), place(random)},
+                           {place(random), place(random)},
+                           {place(random), place(random)}});
+    std::vector<float> shares;
+    std::vector<GreyRun> runs;
+    for (unsigned y = 0; y < coverage.height(); ++y) {
+      coverage.resolve_row(y, shares);
+      coverage.resolve_row(y, runs);
+      std::vector<float> greys;
+      for (const GreyRun& stretch : runs) {
+        greys.insert(greys.end(), stretch.count, stretch.grey);
+      }
+      ASSERT_EQ(greys.size(), shares.size());
+      for (std::size_t x = 0; x < shares.size(); ++x) {
+        EXPECT_NEAR(greys[x], 255 * shares[x], 0.501);
+      }
+    }
+  }
+}
+
 TEST(Coverage, HolesAreLeftOut) {
   ldni::Contours contours;
   support::add_loop(contours, {{0, 0}, {3, 0}, {3, 3}, {0, 3}});
