@@ -65,6 +65,9 @@ class ProgressSink : public slicer::LayerSink {
 
   void begin(const Box3& box) override { sink_.begin(box); }
   void expect(std::uint32_t layers) override;
+  std::string encode(const slicer::Layer& layer) const override {
+    return sink_.encode(layer);
+  }
   void take(const slicer::Layer& layer) override;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 // A finished layer, and who takes it.
 
-#include <cstdint>
+#include <string>
 
 #include "csg/vec.h"
 #include "ldni/contours.h"
@@ -17,6 +17,8 @@ struct Layer {
   // [mm]; 0: not known.
   double clearance = 0;
   ldni::Contours contours;
+  // What the sink's encode() made of the layer; empty where it was not asked.
+  std::string encoded;
 };
 
 // Takes the layers of a job in ascending order: a writer, a comparison, a test.
@@ -30,6 +32,10 @@ class LayerSink {
   virtual void begin(const Box3& /*box*/) {}
   // Once, after begin(): no more layers than these will come.
   virtual void expect(std::uint32_t /*layers*/) {}
+  // The part of the work on a layer that needs no other layer. Called by
+  // several threads at once, between begin() and the layer's take(), for layers
+  // with contours.
+  virtual std::string encode(const Layer& /*layer*/) const { return {}; }
   virtual void take(const Layer& layer) = 0;
 };
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -35,6 +37,7 @@ struct Draft {
   std::uint64_t holes = 0;
   double area = 0;       // [mm²]
   double clearance = 0;  // as of Layer
+  std::string encoded;   // as of Layer
 
   void measure() {
     holes = 0;
@@ -56,17 +59,36 @@ struct Block {
   double section_seconds = 0;
   double sweep_seconds = 0;
   double feature_seconds = 0;
-  double finish_seconds = 0;  // compensation and simplification
+  double finish_seconds = 0;  // compensation, simplification, encoding
 };
+
+// Where a layer lies.
+void place(Layer& layer, const ldni::LayerGrid& grid, std::uint32_t index) {
+  layer.section_z = grid.section_z(index);
+  layer.bottom = grid.layer_bottom(index);
+  layer.top = grid.layer_top(index);
+}
+
+// What a draft has of the layer. Twice: as it was.
+void exchange(Layer& layer, Draft& draft) {
+  std::swap(layer.contours, draft.contours);
+  std::swap(layer.clearance, draft.clearance);
+  std::swap(layer.encoded, draft.encoded);
+}
 
 // What one thread keeps from block to block.
 class Worker {
  public:
-  Worker(const Plan& plan, const Settings& settings)
+  // sink  only asked to encode
+  Worker(const Plan& plan, const ldni::LayerGrid& grid,
+         const Settings& settings, const LayerSink& sink)
       : plan_(plan),
+        grid_(grid),
+        sink_(sink),
         compensator_(settings.compensation),
         simplifier_(settings.tolerance) {
     if (settings.min_feature > 0) thin_finder_.emplace(settings.min_feature);
+    layer_.compensation = settings.compensation;
   }
 
   void make_contours(Block& block) {
@@ -95,11 +117,12 @@ class Worker {
     }
     // Simplification comes last, so that it thins out the arcs too.
     block.finish_seconds = measure([&] {
-      for (Draft& layer : layers) {
-        compensator_.compensate(layer.contours);
-        simplifier_.simplify(layer.contours);
-        layer.clearance = simplifier_.clearance();
-        layer.measure();
+      for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+        compensator_.compensate(layers[i].contours);
+        simplifier_.simplify(layers[i].contours);
+        layers[i].clearance = simplifier_.clearance();
+        layers[i].measure();
+        encode(block.first_layer + i, layers[i]);
       }
     });
   }
@@ -110,11 +133,24 @@ class Worker {
   }
 
  private:
+  void encode(std::uint32_t index, Draft& draft) {
+    draft.encoded.clear();
+    if (draft.contours.is_empty()) return;
+    place(layer_, grid_, index);
+    exchange(layer_, draft);
+    std::string encoded = sink_.encode(layer_);
+    exchange(layer_, draft);
+    draft.encoded = std::move(encoded);
+  }
+
   const Plan& plan_;
+  const ldni::LayerGrid& grid_;
+  const LayerSink& sink_;
   std::unique_ptr<BlockSlicer> slicer_;
   std::optional<ThinFinder> thin_finder_;  // if thin places are looked for
   Compensator compensator_;
   Simplifier simplifier_;
+  Layer layer_;
 };
 
 // Hands layers on in order.
@@ -148,14 +184,11 @@ class OrderedOutput {
     report_.holes += draft.holes;
     report_.points += draft.contours.points.size();
     report_.greatest_area = std::max(report_.greatest_area, draft.area);
-    layer_.section_z = grid_.section_z(index);
-    layer_.bottom = grid_.layer_bottom(index);
-    layer_.top = grid_.layer_top(index);
-    layer_.clearance = draft.clearance;
+    place(layer_, grid_, index);
     report_.volume += draft.area * (layer_.top - layer_.bottom);
-    std::swap(layer_.contours, draft.contours);
+    exchange(layer_, draft);
     sink_.take(layer_);
-    std::swap(layer_.contours, draft.contours);
+    exchange(layer_, draft);
     if (features_ != nullptr) {
       report_.feature_seconds +=
           measure([&] { features_->take(layer_, draft.thin); });
@@ -224,10 +257,11 @@ class Job {
   SliceReport& report_;
 };
 
+using MakeWorker = std::function<Worker()>;
+
 // Without the library of tasks, whose start takes as long as a small design.
-void run_alone(Job& job, const Plan& plan, const Settings& settings,
-               SliceReport& report) {
-  Worker worker(plan, settings);
+void run_alone(Job& job, const MakeWorker& make_worker, SliceReport& report) {
+  Worker worker = make_worker();
   Block block;
   while (job.start(block)) {
     worker.make_contours(block);
@@ -236,12 +270,11 @@ void run_alone(Job& job, const Plan& plan, const Settings& settings,
   worker.report_to(report);
 }
 
-void run_together(Job& job, unsigned threads, const Plan& plan,
-                  const Settings& settings, SliceReport& report) {
+void run_together(Job& job, unsigned threads, const MakeWorker& make_worker,
+                  SliceReport& report) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   threads);
-  tbb::enumerable_thread_specific<Worker> workers(
-      [&] { return Worker(plan, settings); });
+  tbb::enumerable_thread_specific<Worker> workers(make_worker);
   std::vector<Block> blocks(kBlocksPerThread * threads);
   // Input and output keep the same order and at most blocks.size() blocks are
   // under way, so the oldest block's memory is free again.
@@ -282,10 +315,11 @@ void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
   OrderedOutput output(grid, settings, sink, features, report);
   Job job(plan, grid.layer_count(), output, report);
   const unsigned threads = choose_threads(settings, job.block_count());
+  const auto make_worker = [&] { return Worker(plan, grid, settings, sink); };
   if (threads == 1) {
-    run_alone(job, plan, settings, report);
+    run_alone(job, make_worker, report);
   } else {
-    run_together(job, threads, plan, settings, report);
+    run_together(job, threads, make_worker, report);
   }
 }
 

@@ -168,11 +168,19 @@ void ImageStackWriter::check_reach(const Layer& layer) const {
   }
 }
 
+std::string ImageStackWriter::encode(const Layer& layer) const {
+  return draw_grey_png(layer.contours, summary_.panel.width,
+                       summary_.panel.height, map_);
+}
+
 void ImageStackWriter::take(const Layer& layer) {
   check_reach(layer);
-  output_->add_image(image_name(format_, summary_, summary_.layers),
-                     draw_grey_png(layer.contours, summary_.panel.width,
-                                   summary_.panel.height, map_));
+  const std::string name = image_name(format_, summary_, summary_.layers);
+  if (layer.encoded.empty()) {
+    output_->add_image(name, encode(layer));
+  } else {
+    output_->add_image(name, layer.encoded);
+  }
   ++summary_.layers;
   summary_.layer_thickness = thickness_of(layer);
   summary_.volume += area_of(layer.contours) * (layer.top - layer.bottom);

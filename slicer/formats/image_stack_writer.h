@@ -46,6 +46,8 @@ class ImageStackWriter : public LayerWriter {
   ~ImageStackWriter() override;
 
   void begin(const Box3& box) override;
+  // The layer's image.
+  std::string encode(const Layer& layer) const override;
   // Throws GeometryError where the layer reaches beyond the panel.
   void take(const Layer& layer) override;
   void finish(Diagnostics& diagnostics) override;
