@@ -1,6 +1,6 @@
 #pragma once
 // Both coordinates of a point in one register, for loops over long runs of
-// points: least and greatest of them take a quarter of the instructions so.
+// points: half the sums and products, a quarter of the least and greatest.
 //
 // In the notation that GCC and Clang have for every processor, with such
 // registers or without.
@@ -17,6 +17,11 @@ inline Lanes lanes_of(const Vec2& point) {
   Lanes lanes;
   std::memcpy(&lanes, &point, sizeof(lanes));
   return lanes;
+}
+inline Vec2 point_of(Lanes lanes) {
+  Vec2 point;
+  std::memcpy(&point, &lanes, sizeof(lanes));
+  return point;
 }
 inline Lanes both_lanes(double value) { return Lanes{value, value}; }
 

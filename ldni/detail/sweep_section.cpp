@@ -4,16 +4,6 @@
 #include <cstddef>
 
 namespace lamina::ldni::detail {
-namespace {
-
-Vec2 crossing(const Vec3& from, const Vec3& to, double height) {
-  // A vertex within kOnPlaneDistance of the section is on it: clamp.
-  const double t =
-      std::min(std::max((height - from.z) / (to.z - from.z), 0.0), 1.0);
-  return {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
-}
-
-}  // namespace
 
 std::uint32_t BlockLayers::layers_below(double z) const {
   if (thresholds.empty() || !(z > thresholds.front())) return 0;
@@ -48,7 +38,7 @@ void SweepSectioner::cut(const csg::Sweep& sweep, const Affine& world_from_leaf,
   place(sweep, world_from_leaf);
   find_ranges();
   cut_strips();
-  if (is_nested_) {
+  if (rises_and_falls_once()) {
     cut_runs();
   } else {
     cut_all_crossings();
@@ -57,33 +47,51 @@ void SweepSectioner::cut(const csg::Sweep& sweep, const Affine& world_from_leaf,
 
 void SweepSectioner::place(const csg::Sweep& sweep,
                            const Affine& world_from_leaf) {
-  const Vec3 x_axis = world_from_leaf[0];
-  const Vec3 y_axis = world_from_leaf[1];
-  const Vec3 z_axis = world_from_leaf[2];
-  const Vec3 origin = world_from_leaf[3];
-  spokes_.resize(spoke_count_);
-  for (std::uint32_t j = 0; j < spoke_count_; ++j) {
-    const Vec2& point = (*sweep.outline)[j];
-    spokes_[j] = x_axis * point.x + y_axis * point.y;
-  }
+  const Affine& m = world_from_leaf;
   rings_.resize(ring_count_);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
-    rings_[i] = {sweep.profile[i].x, z_axis * sweep.profile[i].y + origin};
+    const Vec3 centre = m[2] * sweep.profile[i].y + m[3];
+    rings_[i] = {sweep.profile[i].x, {Lanes{centre.x, centre.y}, centre.z}};
   }
-  const auto [lowest, highest] = std::minmax_element(
-      spokes_.begin(), spokes_.end(),
-      [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
-  lowest_ = static_cast<std::uint32_t>(lowest - spokes_.begin());
-  highest_ = static_cast<std::uint32_t>(highest - spokes_.begin());
-  is_nested_ = rises_and_falls_once();
+  // Spokes, the lowest first; behind the last one all of them again.
+  const Lanes x_axis{m[0].x, m[0].y};
+  const Lanes y_axis{m[1].x, m[1].y};
+  const double x_rise = m[0].z;
+  const double y_rise = m[1].z;
+  const Vec2* outline = sweep.outline->data();
+  std::uint32_t lowest = 0;
+  double least = 1e300;
+  for (std::uint32_t j = 0; j < spoke_count_; ++j) {
+    const double z = x_rise * outline[j].x + y_rise * outline[j].y;
+    if (z < least) {
+      least = z;
+      lowest = j;
+    }
+  }
+  spokes_.resize(2 * std::size_t{spoke_count_});
+  double greatest = least;
+  highest_ = 0;
+  for (std::uint32_t j = 0; j < spoke_count_; ++j) {
+    const std::uint32_t from = j + lowest;
+    const Vec2& point =
+        outline[from < spoke_count_ ? from : from - spoke_count_];
+    const Vertex spoke = {
+        both_lanes(point.x) * x_axis + both_lanes(point.y) * y_axis,
+        x_rise * point.x + y_rise * point.y};
+    spokes_[j] = spokes_[j + spoke_count_] = spoke;
+    if (spoke.z >= greatest) {
+      greatest = spoke.z;
+      highest_ = j;
+    }
+  }
 }
 
 bool SweepSectioner::rises_and_falls_once() const {
-  for (std::uint32_t j = lowest_; j != highest_; j = next_spoke(j)) {
-    if (spokes_[next_spoke(j)].z < spokes_[j].z) return false;
+  for (std::uint32_t j = 0; j < highest_; ++j) {
+    if (spokes_[j + 1].z < spokes_[j].z) return false;
   }
-  for (std::uint32_t j = highest_; j != lowest_; j = next_spoke(j)) {
-    if (spokes_[next_spoke(j)].z > spokes_[j].z) return false;
+  for (std::uint32_t j = highest_; j < spoke_count_; ++j) {
+    if (spokes_[j + 1].z > spokes_[j].z) return false;
   }
   return true;
 }
@@ -92,7 +100,7 @@ void SweepSectioner::find_ranges() {
   ranges_.resize(ring_count_);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
     const Ring& ring = rings_[i];
-    ranges_[i].low = layers_->layers_below(ring.vertex(spokes_[lowest_]).z);
+    ranges_[i].low = layers_->layers_below(ring.vertex(spokes_[0]).z);
     ranges_[i].high = layers_->layers_below(ring.vertex(spokes_[highest_]).z);
   }
 }
@@ -106,13 +114,6 @@ void SweepSectioner::close(std::uint32_t layer) {
   builder_->close_loop(layer, instance_, orientation_);
 }
 
-inline void SweepSectioner::add_ring_point(RingEdge edge) {
-  const Ring& ring = rings_[edge.ring];
-  builder_->loop().push_back(
-      crossing(ring.vertex(spokes_[edge.spoke]),
-               ring.vertex(spokes_[next_spoke(edge.spoke)]), height_));
-}
-
 // --- Loops round a strip ----------------------------------------------------
 
 void SweepSectioner::cut_strips() {
@@ -124,237 +125,153 @@ void SweepSectioner::cut_strip(std::uint32_t ring, std::uint32_t upper) {
   // The profile rises through the layer: the loop runs with the outline.
   for (std::uint32_t l = ranges_[ring].high; l < ranges_[upper].low; ++l) {
     begin(l);
-    add_strip_points(ring, upper);
+    add_spoke_points(ring, 0, spoke_count_);
     close(l);
   }
   // It falls through the layer: against the outline.
   for (std::uint32_t l = ranges_[upper].high; l < ranges_[ring].low; ++l) {
     begin(l);
-    add_strip_points(ring, upper);
-    std::reverse(builder_->loop().begin(), builder_->loop().end());
+    add_spoke_points(ring, spoke_count_, 0);
     close(l);
   }
 }
 
-// Where the section crosses each spoke between the two rings.
-void SweepSectioner::add_strip_points(std::uint32_t ring, std::uint32_t upper) {
+// Where the section crosses the spokes of a strip, on the way from edge `from`
+// to edge `to`: edge j lies between spokes j and j + 1.
+void SweepSectioner::add_spoke_points(std::uint32_t strip, std::uint32_t from,
+                                      std::uint32_t to) {
   std::vector<Vec2>& loop = builder_->loop();
-  loop.resize(spoke_count_);
-  const Ring lower_ring = rings_[ring];
-  const Ring upper_ring = rings_[upper];
+  const std::size_t begin = loop.size();
+  loop.resize(begin + (from < to ? to - from : from - to));
+  Vec2* point = loop.data() + begin;
+  // Copies, which no point added can change for the compiler.
+  const Ring lower = rings_[strip];
+  const Ring upper = rings_[next_ring(strip)];
   const double height = height_;
-  const Vec3* spokes = spokes_.data();
-  Vec2* points = loop.data();
-  for (std::uint32_t j = 0; j < spoke_count_; ++j) {
-    points[j] = crossing(lower_ring.vertex(spokes[j]),
-                         upper_ring.vertex(spokes[j]), height);
+  const Vertex* spoke = &spokes_[from];
+  const Vertex* const last = &spokes_[to];
+  while (spoke < last) {
+    ++spoke;
+    *point++ = crossing(lower.vertex(*spoke), upper.vertex(*spoke), height);
+  }
+  for (; spoke > last; --spoke) {
+    *point++ = crossing(lower.vertex(*spoke), upper.vertex(*spoke), height);
   }
 }
 
-// --- Loops that cross rings -------------------------------------------------
+// --- Loops that cross rings, of outlines that rise and fall once ------------
 
 void SweepSectioner::cut_runs() {
-  // Seed each layer at rings whose predecessor it does not cross.
   RingRange all = ranges_[0];
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
     const RingRange& range = ranges_[i];
     all.low = std::max(all.low, range.low);
     all.high = std::min(all.high, range.high);
-    const bool has_previous = i > 0 || is_closed_;
-    const RingRange before =
-        has_previous ? ranges_[previous_ring(i)] : RingRange{};
     for (std::uint32_t l = range.low; l < range.high; ++l) {
-      if (l >= before.low && l < before.high) continue;
+      if (has_previous(i) && ranges_[previous_ring(i)].holds(l)) continue;
       begin(l);
-      trace({i, find_rise(i)}, l);
+      cut_run(i, l);
     }
   }
   if (!is_closed_) return;
-  // A closed profile crossed all the way round gives two loops.
   for (std::uint32_t l = all.low; l < all.high; ++l) {
     begin(l);
-    trace({0, find_rise(0)}, l);
-    trace({0, find_fall(0)}, l);
+    cut_round(l);
   }
 }
 
-void SweepSectioner::cut_all_crossings() {
-  find_crossed_edges();
-  for (const CrossedEdge& crossed : crossed_edges_) {
-    for (std::uint32_t l = crossed.range.low; l < crossed.range.high; ++l) {
-      if (is_passed_[crossed.first_flag + l - crossed.range.low]) continue;
-      begin(l);
-      trace(crossed.edge, l);
-    }
+// The loop over the rings from `first` on that the layer crosses: along the
+// falls to the last of them, and back along the rises.
+void SweepSectioner::cut_run(std::uint32_t first, std::uint32_t layer) {
+  std::uint32_t rise = find_rise(first);
+  std::uint32_t fall = find_fall(first);
+  if (has_previous(first)) {
+    const std::uint32_t before = previous_ring(first);
+    const bool is_above = layer < ranges_[before].low;
+    add_spoke_points(before, rise + (is_above ? spoke_count_ : 0), fall);
   }
-}
-
-void SweepSectioner::find_crossed_edges() {
-  crossed_edges_.clear();
-  edge_indices_.resize(std::size_t{ring_count_} * spoke_count_);
-  std::uint32_t flags = 0;
-  for (std::uint32_t i = 0; i < ring_count_; ++i) {
-    if (ranges_[i].low >= ranges_[i].high) continue;
-    const auto layers_below = [&](std::uint32_t j) {
-      return layers_->layers_below(rings_[i].vertex(spokes_[j]).z);
-    };
-    std::uint32_t here = layers_below(0);
-    for (std::uint32_t j = 0; j < spoke_count_; ++j) {
-      const std::uint32_t next = layers_below(next_spoke(j));
-      const RingRange range{std::min(here, next), std::max(here, next)};
-      here = next;
-      if (range.low == range.high) continue;
-      edge_indices_[std::size_t{i} * spoke_count_ + j] =
-          static_cast<std::uint32_t>(crossed_edges_.size());
-      crossed_edges_.push_back({{i, j}, range, flags});
-      flags += range.high - range.low;
-    }
+  add_ring_point({first, fall});
+  std::uint32_t ring = first;
+  for (; has_next(ring) && ranges_[next_ring(ring)].holds(layer);
+       ring = next_ring(ring)) {
+    fall = pass_falls(ring, fall);
   }
-  is_passed_.assign(flags, false);
-}
-
-void SweepSectioner::mark(RingEdge edge, std::uint32_t layer) {
-  const CrossedEdge& crossed =
-      crossed_edges_[edge_indices_[std::size_t{edge.ring} * spoke_count_ +
-                                   edge.spoke]];
-  is_passed_[crossed.first_flag + layer - crossed.range.low] = true;
-}
-
-// Walks from a crossing of a ring edge until it comes back. The solid of an
-// outward sweep is on the left. An edge whose first vertex is below is passed
-// towards the previous ring, one whose first vertex is above towards the next.
-void SweepSectioner::trace(RingEdge start, std::uint32_t layer) {
-  RingEdge edge = start;
-  bool is_towards_next = is_above(edge.ring, edge.spoke);
-  do {
-    if (is_towards_next) {
-      if (edge.ring + 1 == ring_count_ && !is_closed_) {
-        edge.spoke = leave_last_cap(edge.spoke);
-        is_towards_next = false;
-      } else {
-        is_towards_next = pass_strip(edge, edge.ring, Side::kLowerRing);
-      }
-    } else if (edge.ring == 0 && !is_closed_) {
-      edge.spoke = leave_first_cap(edge.spoke);
-      is_towards_next = true;
-    } else {
-      is_towards_next =
-          pass_strip(edge, previous_ring(edge.ring), Side::kUpperRing);
-    }
-    add_ring_point(edge);
-    if (!is_nested_) mark(edge, layer);
-  } while (edge != start);
+  if (ring != first) rise = find_rise(ring);
+  if (has_next(ring)) {
+    const bool is_above = layer < ranges_[next_ring(ring)].low;
+    add_spoke_points(ring, fall, rise + (is_above ? spoke_count_ : 0));
+  }
+  add_ring_point({ring, rise});
+  for (; ring != first; ring = previous_ring(ring)) {
+    rise = pass_rises(ring, rise);
+  }
   close(layer);
 }
 
-// Walks through the quads of a strip from `edge`, on its lower or upper ring,
-// to the next crossing of a ring; returns whether that leads to the next ring.
-//
-// Seen from outside, a quad has corners a b on the lower ring (this spoke, the
-// next) and d c above them. Entered by an edge, counter-clockwise a vertex
-// above and one below, it is left at the first edge backwards, over vertices
-// above, that ends below.
-bool SweepSectioner::pass_strip(RingEdge& edge, std::uint32_t strip,
-                                Side entry) {
-  const std::uint32_t upper = next_ring(strip);
-  // Copies, which no point added can change for the compiler.
-  const Ring lower_ring = rings_[strip];
-  const Ring upper_ring = rings_[upper];
-  const Vec3* spokes = spokes_.data();
-  const double threshold = threshold_;
-  const auto is_below = [&](const Ring& ring, std::uint32_t spoke) {
-    return !(ring.vertex(spokes[spoke]).z > threshold);
-  };
-  std::vector<Vec2>& loop = builder_->loop();
-  std::uint32_t j = edge.spoke;
-  for (;;) {
-    const std::uint32_t k = next_spoke(j);
-    Side exit = Side::kLowerRing;
-    switch (entry) {
-      case Side::kLowerRing:
-        exit = is_below(upper_ring, j)   ? Side::kSpoke
-               : is_below(upper_ring, k) ? Side::kUpperRing
-                                         : Side::kNextSpoke;
-        break;
-      case Side::kNextSpoke:
-        exit = is_below(lower_ring, j)   ? Side::kLowerRing
-               : is_below(upper_ring, j) ? Side::kSpoke
-                                         : Side::kUpperRing;
-        break;
-      case Side::kUpperRing:
-        exit = is_below(lower_ring, k)   ? Side::kNextSpoke
-               : is_below(lower_ring, j) ? Side::kLowerRing
-                                         : Side::kSpoke;
-        break;
-      case Side::kSpoke:
-        exit = is_below(upper_ring, k)   ? Side::kUpperRing
-               : is_below(lower_ring, k) ? Side::kNextSpoke
-                                         : Side::kLowerRing;
-        break;
-    }
-    switch (exit) {
-      case Side::kLowerRing:
-        edge = {strip, j};
-        return false;
-      case Side::kUpperRing:
-        edge = {upper, j};
-        return true;
-      case Side::kNextSpoke:
-        entry = Side::kSpoke;
-        break;
-      case Side::kSpoke:
-        entry = Side::kNextSpoke;
-        break;
-    }
-    const Vec3& spoke = spokes[exit == Side::kNextSpoke ? k : j];
-    loop.push_back(
-        crossing(lower_ring.vertex(spoke), upper_ring.vertex(spoke), height_));
-    j = exit == Side::kNextSpoke ? k : previous_spoke(j);
+// A closed profile crossed all the way round gives two loops.
+void SweepSectioner::cut_round(std::uint32_t layer) {
+  std::uint32_t fall = find_fall(0);
+  for (std::uint32_t i = 0; i < ring_count_; ++i) {
+    fall = pass_falls(i, fall);
   }
+  close(layer);
+  std::uint32_t rise = find_rise(0);
+  for (std::uint32_t i = ring_count_; i-- > 0;) {
+    rise = pass_rises(next_ring(i), rise);
+  }
+  close(layer);
 }
 
-// Spoke of the last vertex below the layer before the ring rises above it.
+// From the fall of a ring to that of the next one, which it returns.
+std::uint32_t SweepSectioner::pass_falls(std::uint32_t ring,
+                                         std::uint32_t from) {
+  const std::uint32_t next = next_ring(ring);
+  std::uint32_t fall = from;
+  if (is_above(next, fall)) {
+    while (is_above(next, fall + 1)) add_spoke_point(ring, next, ++fall);
+  } else {
+    while (!is_above(next, fall)) add_spoke_point(ring, next, fall--);
+  }
+  add_ring_point({next, fall});
+  return fall;
+}
+
+// From the rise of a ring to that of the previous one, which it returns.
+std::uint32_t SweepSectioner::pass_rises(std::uint32_t ring,
+                                         std::uint32_t from) {
+  const std::uint32_t previous = previous_ring(ring);
+  std::uint32_t rise = from;
+  if (is_above(previous, rise)) {
+    while (is_above(previous, rise)) add_spoke_point(previous, ring, rise--);
+  } else {
+    while (!is_above(previous, rise + 1)) {
+      add_spoke_point(previous, ring, ++rise);
+    }
+  }
+  add_ring_point({previous, rise});
+  return rise;
+}
+
+// The edge where a ring rises above the layer: its first spoke is below.
 std::uint32_t SweepSectioner::find_rise(std::uint32_t ring) const {
-  std::uint32_t below = 0;  // spokes from the lowest one on
-  std::uint32_t above = (highest_ + spoke_count_ - lowest_) % spoke_count_;
+  std::uint32_t below = 0;
+  std::uint32_t above = highest_;
   while (above - below > 1) {
     const std::uint32_t middle = (below + above) / 2;
-    const bool is_middle_above =
-        is_above(ring, (lowest_ + middle) % spoke_count_);
-    (is_middle_above ? above : below) = middle;
+    (is_above(ring, middle) ? above : below) = middle;
   }
-  return (lowest_ + below) % spoke_count_;
+  return below;
 }
 
-// Spoke of the last vertex above the layer before the ring falls below it.
+// The edge where a ring falls below the layer: its first spoke is above.
 std::uint32_t SweepSectioner::find_fall(std::uint32_t ring) const {
-  std::uint32_t above = 0;  // spokes from the highest one on
-  std::uint32_t below = (lowest_ + spoke_count_ - highest_) % spoke_count_;
+  std::uint32_t above = highest_;
+  std::uint32_t below = spoke_count_;
   while (below - above > 1) {
     const std::uint32_t middle = (above + below) / 2;
-    const bool is_middle_above =
-        is_above(ring, (highest_ + middle) % spoke_count_);
-    (is_middle_above ? above : below) = middle;
+    (is_above(ring, middle) ? above : below) = middle;
   }
-  return (highest_ + above) % spoke_count_;
-}
-
-// The first cap is seen from the other side: its boundary runs against the
-// spokes. Entered at a rise, it is left at the next fall.
-std::uint32_t SweepSectioner::leave_first_cap(std::uint32_t spoke) const {
-  if (is_nested_) return find_fall(0);
-  spoke = next_spoke(spoke);
-  while (is_above(0, next_spoke(spoke))) spoke = next_spoke(spoke);
-  return spoke;
-}
-
-// Entered at a fall, the last cap is left at the rise before it.
-std::uint32_t SweepSectioner::leave_last_cap(std::uint32_t spoke) const {
-  const std::uint32_t ring = ring_count_ - 1;
-  if (is_nested_) return find_rise(ring);
-  spoke = previous_spoke(spoke);
-  while (is_above(ring, spoke)) spoke = previous_spoke(spoke);
-  return spoke;
+  return above;
 }
 
 }  // namespace lamina::ldni::detail

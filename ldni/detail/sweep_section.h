@@ -14,10 +14,12 @@
 //   and fall once (every convex outline), the parts of two rings above the
 //   layer are nested, since both are {j : spoke_j.z > limit}; so neighbouring
 //   rings that the layer crosses share one loop, and the first ring of such a
-//   run gives its seed. For other outlines every crossing is a seed, and the
-//   walk marks those it passed.
+//   run gives its seed. The loop leads along the falls of these rings to the
+//   last of them and back along their rises, over the spokes between: the fall
+//   of a ring is found a few spokes from that of the one before. For other
+//   outlines every crossing is a seed of a walk, which marks those it passed.
 //
-// The walk goes from quad to quad. Sides are planar (csg/scene.h), so a quad
+// That walk goes from quad to quad. Sides are planar (csg/scene.h), so a quad
 // is one face and gives one edge of the loop: no diagonal, half the points. A
 // cap is one polygon: the walk leaves it at the next change of side on the
 // cap's ring. That pairs crossings even where a cap is not convex; stretches
@@ -26,10 +28,12 @@
 // Whether a vertex is above is decided by LayerGrid's threshold alone, so a
 // walk is a permutation of crossings and always returns to its seed.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "csg/lanes.h"
 #include "csg/scene.h"
 #include "ldni/detail/chain_builder.h"
 
@@ -61,16 +65,27 @@ class SweepSectioner {
   struct RingRange {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
+
+    bool holds(std::uint32_t layer) const {
+      return layer >= low && layer < high;
+    }
   };
   // Side of a quad that a walk enters by: its lower ring (scale_i, height_i),
   // its next spoke, its upper ring, its own spoke.
   enum class Side : std::uint8_t { kLowerRing, kNextSpoke, kUpperRing, kSpoke };
+  struct Vertex {
+    Lanes xy;
+    double z;
+  };
   // A ring in the world: from a spoke to its vertex.
   struct Ring {
     double scale;
-    Vec3 centre;
+    Vertex centre;
 
-    Vec3 vertex(const Vec3& spoke) const { return scale * spoke + centre; }
+    Vertex vertex(const Vertex& spoke) const {
+      return {both_lanes(scale) * spoke.xy + centre.xy,
+              scale * spoke.z + centre.z};
+    }
   };
   // A place on ring `ring` between spokes `spoke` and the next one.
   struct RingEdge {
@@ -84,13 +99,26 @@ class SweepSectioner {
   bool rises_and_falls_once() const;
   void find_ranges();
   void cut_strips();
-  void cut_strip(std::uint32_t ring, std::uint32_t next_ring);
-  void add_strip_points(std::uint32_t ring, std::uint32_t upper);
+  void cut_strip(std::uint32_t ring, std::uint32_t upper);
+  void add_spoke_points(std::uint32_t strip, std::uint32_t from,
+                        std::uint32_t to);
   void cut_runs();
+  void cut_run(std::uint32_t first, std::uint32_t layer);
+  void cut_round(std::uint32_t layer);
+  std::uint32_t pass_falls(std::uint32_t ring, std::uint32_t from);
+  std::uint32_t pass_rises(std::uint32_t ring, std::uint32_t from);
+  std::uint32_t find_rise(std::uint32_t ring) const;
+  std::uint32_t find_fall(std::uint32_t ring) const;
+
+  // The walk (sweep_walk.cpp).
   void cut_all_crossings();
   void find_crossed_edges();
   void trace(RingEdge start, std::uint32_t layer);
   bool pass_strip(RingEdge& edge, std::uint32_t strip, Side entry);
+  std::uint32_t leave_first_cap(std::uint32_t spoke) const;
+  std::uint32_t leave_last_cap(std::uint32_t spoke) const;
+  void mark(RingEdge edge, std::uint32_t layer);
+
   void begin(std::uint32_t layer);
   void close(std::uint32_t layer);
 
@@ -109,22 +137,37 @@ class SweepSectioner {
   std::uint32_t previous_ring(std::uint32_t ring) const {
     return (ring == 0 ? ring_count_ : ring) - 1;
   }
-  std::uint32_t find_rise(std::uint32_t ring) const;
-  std::uint32_t find_fall(std::uint32_t ring) const;
-  std::uint32_t leave_first_cap(std::uint32_t spoke) const;
-  std::uint32_t leave_last_cap(std::uint32_t spoke) const;
-  void add_ring_point(RingEdge edge);
-  void mark(RingEdge edge, std::uint32_t layer);
+  bool has_previous(std::uint32_t ring) const { return ring > 0 || is_closed_; }
+  bool has_next(std::uint32_t ring) const {
+    return ring + 1 < ring_count_ || is_closed_;
+  }
+  // Where the section crosses the line between two vertices. A vertex within
+  // kOnPlaneDistance of the section is on it: clamp.
+  static Vec2 crossing(const Vertex& from, const Vertex& to, double height) {
+    const double t =
+        std::min(1.0, std::max(0.0, (height - from.z) / (to.z - from.z)));
+    return point_of(from.xy + both_lanes(t) * (to.xy - from.xy));
+  }
+  void add_spoke_point(std::uint32_t ring, std::uint32_t upper,
+                       std::uint32_t spoke) {
+    builder_->loop().push_back(crossing(rings_[ring].vertex(spokes_[spoke]),
+                                        rings_[upper].vertex(spokes_[spoke]),
+                                        height_));
+  }
+  void add_ring_point(RingEdge edge) {
+    const Ring& ring = rings_[edge.ring];
+    builder_->loop().push_back(crossing(ring.vertex(spokes_[edge.spoke]),
+                                        ring.vertex(spokes_[edge.spoke + 1]),
+                                        height_));
+  }
 
   // The sweep in hand, placed in the world.
-  std::vector<Vec3> spokes_;
+  std::vector<Vertex> spokes_;  // round twice, the lowest first
   std::vector<Ring> rings_;
   std::uint32_t spoke_count_ = 0;
   std::uint32_t ring_count_ = 0;
   bool is_closed_ = false;
-  std::uint32_t lowest_ = 0;  // spoke
-  std::uint32_t highest_ = 0;
-  bool is_nested_ = false;  // rises_and_falls_once()
+  std::uint32_t highest_ = 0;  // spoke
   std::vector<RingRange> ranges_;
 
   // The loop in hand.
