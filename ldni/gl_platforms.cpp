@@ -34,7 +34,7 @@ class Library {
       if (reason.empty()) reason = dlerror();
     }
     fail(
-        fmt::format("Can't open OpenGL for --sampler gl: {}. Install the "
+        fmt::format("Can't open OpenGL: {}. Install the "
                     "package {}.",
                     reason, package));
   }

@@ -14,7 +14,7 @@ LAMINA_BUILD_PACKAGES=(
 # To build and run the tests: the oracles above all.
 LAMINA_TEST_PACKAGES=(
   libgtest-dev libbenchmark-dev libcgal-dev
-  openscad openscad-testing-data openscad-mcad libgl1-mesa-dri
+  openscad openscad-testing-data openscad-mcad libgl1-mesa-dri xvfb xauth
   fonts-dejavu-core fonts-hosny-amiri
   slic3r python3 chromium
   man-db bash-completion zsh fish

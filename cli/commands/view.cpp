@@ -9,19 +9,20 @@
 
 #include <fmt/format.h>
 
+#include "cli/camera_options.h"
 #include "cli/command.h"
 #include "cli/commands/commands.h"
 #include "cli/contradictions.h"
 #include "cli/design_options.h"
 #include "cli/option_values.h"
 #include "cli/run.h"
+#include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_file.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/formats/slc_reader.h"
 #include "slicer/image.h"
 #include "slicer/layer_picture.h"
-#include "slicer/relief.h"
 #include "slicer/sheet_picture.h"
+#include "slicer/stack_picture.h"
 #include "slicer/viewer_page.h"
 
 namespace lamina::cli {
@@ -31,7 +32,7 @@ constexpr std::string_view kViewHelp =
     R"(Usage: lamina view FILE -o PICTURE.png [OPTION]...
        lamina view FILE -o PAGE.html [OPTION]...
 
-Draws the layers of a .slc file, or of a .scad or .csg design with any option
+Draws the layers of a .slc, .cli, .svg or .layers.json file, or of a .scad or .csg design with any option
 of Design and Slicing (see 'lamina --help'). A page shows all layers in any
 browser, to leaf through, zoom and measure; it is one file and needs no network.
 
@@ -43,7 +44,21 @@ browser, to leaf through, zoom and measure; it is one file and needs no network.
   --at Z            the layer at this height alone
   --min-feature MM  of a layer alone or a page: marks walls and gaps thinner
                     than this
-  --width PIXELS    width of the picture [1600; of a layer alone 1200]
+  --width PIXELS    width of a sheet [1600] or of a layer alone [1200]
+
+Of a stack, as in openscad (any of these asks for --style stack):
+  --camera NUMBERS  translation, rotation and distance: x,y,z,rx,ry,rz,d, or
+                    where the eye is and what it looks at: x,y,z,x,y,z
+                    [the whole part from 55,0,25]
+  --autocenter      look at the middle of the part
+  --viewall         go where all of the part is seen
+  --imgsize W,H     size of the picture [512,512]
+  --projection P    p: perspective, o: orthogonal [p]
+  --colorscheme N   gold, rose, silver, platinum, wax, resin, or one of
+                    openscad's: Cornfield, Metallic, Sunset, Starnight,
+                    BeforeDawn, Nature, DeepOcean, Solarized, Tomorrow,
+                    "Tomorrow Night", Monotone [gold]
+
   -q, --quiet       say nothing but errors
   -h, --help        print this help
 )";
@@ -56,6 +71,7 @@ struct ViewOptions {
   Style style = Style::kSheet;
   slicer::SheetOptions sheet;
   slicer::LayerPictureOptions layer;
+  slicer::StackOptions stack;
   std::optional<std::size_t> layer_number;  // from 1
   std::optional<double> layer_height;       // [mm]
   std::optional<unsigned> width;            // [pixels]
@@ -72,10 +88,10 @@ class LayerList : public slicer::LayerSink {
 // All layers of a file or of a design; no value where the design failed.
 std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
   LayerList list;
-  if (run.options.design.ends_with(".slc")) {
-    slicer::SlcReader reader(run.options.design);
-    slicer::SlcLayer layer;
-    while (reader.read_layer(layer)) list.take(to_layer(layer));
+  if (slicer::is_readable_layer_file(run.options.design)) {
+    slicer::read_layers(run.options.design, [&](slicer::Layer& layer) {
+      list.layers.push_back(std::move(layer));
+    });
     return std::move(list.layers);
   }
   const Loaded loaded = load(run);
@@ -118,9 +134,9 @@ slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
     return draw_layer_picture(layers, find_layer(layers, options), title,
                               layer);
   }
+  if (options.style == Style::kStack) return draw_stack(layers, options.stack);
   slicer::SheetOptions sheet = options.sheet;
   sheet.width = options.width.value_or(sheet.width);
-  if (options.style == Style::kStack) return draw_relief(layers, sheet.width);
   return draw_sheet(layers, title, sheet);
 }
 
@@ -169,6 +185,7 @@ class ViewCommand : public Command {
       options_.layer_height = require_number("--at", text);
     })->excludes(number);
     add_thin_width(app, options_.layer.min_feature);
+    camera_.add_to(app);
     app.add_option("--width", options_.width)
         ->check(CLI::Range(200U, 8000U))
         ->type_name("number");
@@ -177,22 +194,34 @@ class ViewCommand : public Command {
   }
 
   void check() override {
+    if (camera_.is_given()) options_.style = Style::kStack;
+    options_.stack = camera_.stack();
+
     if (!is_page(design_.output) && !design_.output.ends_with(".png")) {
       throw UsageError(fmt::format(
           "view writes .png pictures and .html pages; '{}' is neither",
           design_.output));
     }
     const std::string& file = design_.design;
-    if (slicer::is_named_as_layers(file) && !file.ends_with(".slc")) {
-      throw UsageError(fmt::format(
-          "view reads layers from .slc only, and designs; not '{}'", file));
+    if (slicer::is_named_as_layers(file) &&
+        !slicer::is_readable_layer_file(file)) {
+      throw UsageError(
+          fmt::format("view reads .slc, .cli, .svg and .layers.json, and "
+                      "designs; not '{}'",
+                      file));
     }
     if (options_.layer.min_feature > 0 && !is_page(design_.output) &&
         !options_.is_of_one_layer()) {
       throw UsageError("--min-feature needs --layer-number, --at or .html");
     }
     if (options_.style == Style::kStack && options_.is_of_one_layer()) {
-      throw UsageError("--style stack shows all layers, not one");
+      throw UsageError("a stack shows all layers, not one");
+    }
+    if (options_.style == Style::kStack && options_.width) {
+      throw UsageError("a stack needs --imgsize W,H, not --width");
+    }
+    if (camera_.is_given() && is_page(design_.output)) {
+      throw UsageError("the options of openscad's camera need a .png");
     }
     if (const char* contradiction = find_contradiction(design_.settings)) {
       throw UsageError(contradiction);
@@ -208,6 +237,7 @@ class ViewCommand : public Command {
  private:
   DesignOptions design_;  // also names a .slc
   ViewOptions options_;
+  CameraOptions camera_;
 };
 
 }  // namespace

@@ -1,39 +1,18 @@
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include "tests/cli/lamina.h"
+#include "tests/cli/png_picture.h"
 
 namespace lamina::cli {
 namespace {
 
 using support::TemporaryFolder;
-
-struct Picture {
-  unsigned width = 0;
-  unsigned height = 0;
-  std::vector<unsigned char> rgb;
-};
-
-// As libpng's simple reader sees the file.
-Picture read_png(const std::string& path) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  Picture picture;
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) return {};
-  image.format = PNG_FORMAT_RGB;
-  picture.rgb.resize(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr) ==
-      0) {
-    return {};
-  }
-  picture.width = image.width;
-  picture.height = image.height;
-  return picture;
-}
 
 // Pixels of gold: much more red than blue.
 double golden_share(const Picture& picture) {
@@ -48,16 +27,77 @@ double golden_share(const Picture& picture) {
 TEST(View, DrawsASheetAndAStackOfAFile) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cylinder(r = 5, h = 3, $fn = 60);");
-  ASSERT_EQ(run(folder, {"a.scad"}).status, 0);
-  for (const char* const style : {"sheet", "stack"}) {
-    const auto result = run(folder, {"view", "a.slc", "-o", "a.png", "--style",
-                                     style, "--width", "400"});
-    ASSERT_EQ(result.status, 0) << result.errors;
-    const Picture picture = read_png(folder.file("a.png"));
-    EXPECT_EQ(picture.width, 400U);
-    EXPECT_GT(golden_share(picture), 0.15) << style;
-    EXPECT_LT(golden_share(picture), 0.8) << style;
+  for (const char* const file : {"a.slc", "a.cli", "a.svg", "a.layers.json"}) {
+    ASSERT_EQ(run(folder, {"a.scad", "-o", file}).status, 0);
+    for (const bool is_stack : {false, true}) {
+      std::vector<std::string> words = {"view", file, "-o", "a.png"};
+      if (is_stack) {
+        words.insert(words.end(), {"--imgsize", "400,300"});
+      } else {
+        words.insert(words.end(), {"--width", "400"});
+      }
+      const auto result = run(folder, words);
+      ASSERT_EQ(result.status, 0) << result.errors;
+      const Picture picture = read_png(folder.file("a.png"));
+      EXPECT_EQ(picture.width, 400U);
+      EXPECT_GT(golden_share(picture), 0.1) << file;
+      EXPECT_LT(golden_share(picture), 0.8) << file;
+    }
   }
+}
+
+// The faces of a pyramid have one direction each, however thick the layers are.
+TEST(View, SlopesOfAStackAreSmooth) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cylinder(r1 = 10, r2 = 0, h = 12, $fn = 4);");
+  const auto result =
+      run(folder, {"view", "a.scad", "-o", "a.png", "--layer", "0.25",
+                   "--camera=0,0,4,60,0,45,60", "--projection=o"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Picture picture = read_png(folder.file("a.png"));
+  // A patch of the face towards the viewer, 14 layers high.
+  const std::array<int, 3> middle = picture.at(256, 240);
+  for (unsigned y = 200; y < 280; ++y) {
+    for (unsigned x = 240; x < 272; ++x) {
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        ASSERT_NEAR(picture.at(x, y)[channel], middle[channel], 8)
+            << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(View, CamerasThatAreNoneAreAUsageFault) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (const auto& [option, value] :
+       {std::pair("--camera", "1,2,3"), std::pair("--camera", "1,1,1,1,1,1"),
+        std::pair("--imgsize", "100"), std::pair("--imgsize", "100,5000"),
+        std::pair("--projection", "x"), std::pair("--colorscheme", "Golden")}) {
+    const auto result =
+        run(folder, {"view", "a.scad", "-o", "a.png", option, value});
+    EXPECT_EQ(result.status, 2) << option << value;
+    EXPECT_NE(result.errors.find(option), std::string::npos) << result.errors;
+  }
+}
+
+TEST(View, AStackSaysWhichPackageIsMissing) {
+  // Stand-ins that are no libraries hide the installed ones.
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (const char* const name : {"libOSMesa.so.6", "libOSMesa.so.8"}) {
+    folder.write(name, "no library");
+  }
+  std::vector<std::string> words =
+      command({"view", "a.scad", "-o", "a.png", "--style", "stack"});
+  words.insert(words.begin(),
+               {"/usr/bin/env", "LD_LIBRARY_PATH=" + folder.path()});
+  const auto result = support::run_process(words, folder.path());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find("Install the package libosmesa6."),
+            std::string::npos)
+      << result.errors;
+  EXPECT_EQ(folder.entry_count(), 3U);
 }
 
 TEST(View, AFileWithoutContoursIsAnError) {
