@@ -40,6 +40,9 @@ const char* find_misfit(const DesignOptions& options) {
   if (format == kSl1 && !settings.heights.empty()) {
     return ".sl1 needs layers of one thickness, not --heights";
   }
+  if (format == kThreemf && !settings.heights.empty()) {
+    return ".3mf needs layers, not --heights";
+  }
   return nullptr;
 }
 

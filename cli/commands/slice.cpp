@@ -32,6 +32,7 @@ Output:
                                          outline of a 2D design
                         .png             a folder of images
                         .sl1             images for Prusa's resin printers
+                        .3mf             a stack of slices
                         .layers.json     layers with every digit
                         .csg .echo .ast  what the design makes, says, and is
   --export-format F   one of these formats, whatever the output's name
