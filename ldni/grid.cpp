@@ -26,6 +26,19 @@ LayerGrid LayerGrid::uniform(double bottom, double top, double thickness) {
   return grid;
 }
 
+LayerGrid LayerGrid::stacked(double bottom, double unit,
+                             const std::vector<std::uint32_t>& borders) {
+  LayerGrid grid;
+  for (std::size_t i = 0; i < borders.size(); ++i) {
+    grid.borders_.push_back(bottom + borders[i] * unit);
+    if (i == 0) continue;
+    const double middle = 0.5 * borders[i - 1] + 0.5 * borders[i];
+    grid.heights_.push_back(bottom + middle * unit);
+  }
+  grid.layer_count_ = static_cast<std::uint32_t>(grid.heights_.size());
+  return grid;
+}
+
 LayerGrid LayerGrid::at_heights(std::vector<double> heights) {
   LayerGrid grid;
   grid.layer_count_ = static_cast<std::uint32_t>(heights.size());
@@ -41,11 +54,13 @@ double LayerGrid::section_z(std::uint32_t layer) const {
 }
 
 double LayerGrid::layer_bottom(std::uint32_t layer) const {
+  if (!borders_.empty()) return borders_[layer];
   if (thickness_ == 0) return heights_[layer];
   return bottom_ + layer * thickness_;
 }
 
 double LayerGrid::layer_top(std::uint32_t layer) const {
+  if (!borders_.empty()) return borders_[layer + 1];
   if (thickness_ == 0) return heights_[layer];
   return bottom_ + (layer + 1.0) * thickness_;
 }

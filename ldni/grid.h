@@ -1,8 +1,9 @@
 #pragma once
 // Heights of the sections and, for rays, positions in x.
 //
-// Layers stand at z_k = bottom + (k + 1/2)·thickness, by multiplication, or at
-// heights given one by one. One rule decides whether a vertex is above a
+// Layers stand at z_k = bottom + (k + 1/2)·thickness, by multiplication, in the
+// middle of layers that are several units thick each, or at heights given one
+// by one. One rule decides whether a vertex is above a
 // section, for every sampler: it is where z > threshold(section). Comparing
 // with one threshold and counting layers are the same decision bit by bit, so
 // that a sampler may do either.
@@ -19,11 +20,16 @@ class LayerGrid {
  public:
   // Layers of equal thickness [mm] that cover [bottom, top].
   static LayerGrid uniform(double bottom, double top, double thickness);
+  // Layers from border to border, which are counted in units [mm] from the
+  // bottom and rise.
+  static LayerGrid stacked(double bottom, double unit,
+                           const std::vector<std::uint32_t>& borders);
   // Sections at exactly these heights (ascending, checked by the caller).
   static LayerGrid at_heights(std::vector<double> heights);
 
   std::uint32_t layer_count() const;
-  double thickness() const { return thickness_; }  // 0 for heights
+  // Of all layers; 0 where they are of several, or have none.
+  double thickness() const { return thickness_; }
   double section_z(std::uint32_t layer) const;
   double layer_bottom(std::uint32_t layer) const;  // = section_z for heights
   double layer_top(std::uint32_t layer) const;
@@ -43,6 +49,7 @@ class LayerGrid {
   double thickness_ = 0;  // 0: heights_ rules
   std::uint32_t layer_count_ = 0;
   std::vector<double> heights_;
+  std::vector<double> borders_;  // of stacked layers, one more than layers
 };
 
 }  // namespace lamina::ldni

@@ -1,6 +1,7 @@
 #include "slicer/formats/image_stack_writer.h"
 
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -99,12 +100,16 @@ std::string index_of(const StackSummary& summary) {
   index["units"] = "mm";
   index["pixels"] = {summary.panel.width, summary.panel.height};
   index["pixel_mm"] = {summary.panel.pixel.x, summary.panel.pixel.y};
-  index["layer_thickness"] = summary.layer_thickness;
+  const auto& all = summary.thicknesses;
+  const bool is_uniform = std::adjacent_find(all.begin(), all.end(),
+                                             std::not_equal_to()) == all.end();
+  index["layer_thickness"] = is_uniform ? summary.layer_thickness : 0;
   index["volume_mm3"] = summary.volume;
   auto& layers = index["layers"] = nlohmann::ordered_json::array();
   for (std::uint32_t i = 0; i < summary.layers; ++i) {
     layers.push_back({{"file", image_name(OutputFormat::kPng, summary, i)},
-                      {"z", summary.heights[i]}});
+                      {"z", summary.heights[i]},
+                      {"thickness", summary.thicknesses[i]}});
   }
   return index.dump(1) + "\n";
 }
@@ -185,6 +190,7 @@ void ImageStackWriter::take(const Layer& layer) {
   summary_.layer_thickness = thickness_of(layer);
   summary_.volume += area_of(layer.contours) * (layer.top - layer.bottom);
   summary_.heights.push_back(layer.section_z);
+  summary_.thicknesses.push_back(summary_.layer_thickness);
 }
 
 void ImageStackWriter::finish(Diagnostics& /*diagnostics*/) {

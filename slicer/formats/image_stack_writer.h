@@ -32,9 +32,11 @@ struct StackSummary {
   std::string job;  // name of the design's output, without folder and ending
   Panel panel;
   std::uint32_t layers = 0;
-  double layer_thickness = 0;   // [mm]
-  double volume = 0;            // of the layers [mm³]
-  std::vector<double> heights;  // of the sections [mm]
+  // Of the last layer, which is that of all but in folders [mm].
+  double layer_thickness = 0;
+  double volume = 0;                // of the layers [mm³]
+  std::vector<double> heights;      // of the sections [mm]
+  std::vector<double> thicknesses;  // of the layers [mm]
 };
 
 class ImageStackWriter : public LayerWriter {

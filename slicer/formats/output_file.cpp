@@ -176,6 +176,31 @@ void OutputFile::patch(std::uint64_t offset, std::string_view bytes) {
   if (error != 0) fail(error);
 }
 
+void OutputFile::insert(std::uint64_t offset, std::string_view bytes) {
+  flush();
+  // Move what stands behind piece by piece, the last one first.
+  for (std::uint64_t end = flushed_; end > offset;) {
+    const auto size = std::min<std::uint64_t>(end - offset, kBufferSize);
+    end -= size;
+    patch(end + bytes.size(), read(end, size));
+  }
+  patch(offset, bytes);
+  flushed_ += bytes.size();
+  if (::lseek(file_, 0, SEEK_END) < 0) fail(errno);
+}
+
+std::string OutputFile::read(std::uint64_t offset, std::size_t size) {
+  std::string bytes(size, '\0');
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = ::pread(file_, bytes.data() + done, size - done,
+                                  static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) fail(count < 0 ? errno : EIO);
+    done += static_cast<std::size_t>(count);
+  }
+  return bytes;
+}
+
 void OutputFile::commit() {
   flush();
   if (temporary_path_.empty()) {

@@ -69,6 +69,10 @@ class OutputFile {
   // Replaces bytes written before.
   void patch(std::uint64_t offset, std::string_view bytes);
 
+  // Puts bytes between bytes written before. Cost: all that stand behind them
+  // are moved.
+  void insert(std::uint64_t offset, std::string_view bytes);
+
   // Makes the output visible under its name.
   void commit();
 
@@ -80,6 +84,7 @@ class OutputFile {
   static constexpr std::size_t kBufferSize = 1 << 18;
 
   void flush();
+  std::string read(std::uint64_t offset, std::size_t size);
   void copy_to(int target);
   void close_file();
   [[noreturn]] void fail(int error) const;

@@ -1,6 +1,9 @@
 #include "slicer/formats/slc_writer.h"
 
+#include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,6 +16,17 @@ namespace {
 
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
+// Of the sampling table: they are counted in one byte.
+constexpr std::size_t kMostRows = 255;
+
+// Thicknesses nearer than this [mm] are one. Far above what subtracting heights
+// leaves of rounding, far below what a machine can set.
+constexpr double kSameThickness = 1e-6;
+
+template <typename Row>
+std::string_view bytes_of(std::span<const Row> rows) {
+  return {reinterpret_cast<const char*>(rows.data()), rows.size_bytes()};
+}
 
 }  // namespace
 
@@ -44,13 +58,35 @@ void SlcWriter::write_header() {
 void SlcWriter::begin_file(const Layer& first) {
   write_header();
   output_.write(std::string(kReservedSize, '\0'));
-  // One row rules them all: layers are of equal thickness. Sections at given
-  // heights have none.
+  table_offset_ = output_.size();
   append(output_, std::uint8_t{1});
-  append(output_, static_cast<float>(first.bottom));
-  append(output_, static_cast<float>(first.top - first.bottom));
-  append(output_, static_cast<float>(first.compensation));
-  append(output_, 0.0F);  // reserved
+  add_row(first);
+  append(output_, rows_.front());
+}
+
+// Layers from this one upwards. Sections at given heights have no thickness.
+void SlcWriter::add_row(const Layer& layer) {
+  if (rows_.size() == kMostRows) {
+    throw FileError(
+        {Severity::kError,
+         {},
+         fmt::format("Can't write '{}': the thickness of layers changes more "
+                     "often than SLC's table, which holds {} rows, can tell",
+                     output_.path(), kMostRows)});
+  }
+  thickness_ = layer.top - layer.bottom;
+  rows_.push_back({static_cast<float>(layer.bottom),
+                   static_cast<float>(thickness_),
+                   static_cast<float>(layer.compensation), 0.0F});
+}
+
+void SlcWriter::finish_table() {
+  if (rows_.size() == 1) return;
+  const std::uint64_t second_row = table_offset_ + 1 + sizeof(SamplingRow);
+  output_.insert(second_row,
+                 bytes_of(std::span<const SamplingRow>(rows_).subspan(1)));
+  const char count = static_cast<char>(rows_.size());
+  output_.patch(table_offset_, {&count, 1});
 }
 
 void SlcWriter::take(const Layer& layer) {
@@ -60,6 +96,9 @@ void SlcWriter::take(const Layer& layer) {
     bottom_z_ = z;
   } else {
     check_rise(last_z_, layer.bottom, "SLC");
+    if (std::abs(layer.top - layer.bottom - thickness_) > kSameThickness) {
+      add_row(layer);
+    }
   }
   has_layers_ = true;
   last_z_ = z;
@@ -76,8 +115,7 @@ void SlcWriter::take(const Layer& layer) {
 void SlcWriter::write_loop(std::span<const FloatPoint> loop) {
   append(output_, static_cast<std::uint32_t>(loop.size()));
   append(output_, std::uint32_t{0});  // gaps
-  output_.write(
-      {reinterpret_cast<const char*>(loop.data()), loop.size_bytes()});
+  output_.write(bytes_of(loop));
 }
 
 void SlcWriter::finish(Diagnostics& diagnostics) {
@@ -86,6 +124,7 @@ void SlcWriter::finish(Diagnostics& diagnostics) {
   append(output_, top_z_);
   append(output_, kEndOfLayers);
   write_header();
+  finish_table();
   contours_.warn_of_coarse_numbers("SLC", diagnostics);
 }
 

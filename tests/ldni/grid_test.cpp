@@ -42,6 +42,30 @@ TEST(LayerGrid, ComparingWithTheThresholdAndCountingLayersAreOneDecision) {
   }
 }
 
+TEST(LayerGrid, StackedLayersReachFromBorderToBorder) {
+  const LayerGrid grid = LayerGrid::stacked(-1, 0.1, {0, 1, 2, 5, 9});
+  ASSERT_EQ(grid.layer_count(), 4U);
+  EXPECT_EQ(grid.thickness(), 0);
+  EXPECT_EQ(grid.layer_bottom(2), -1 + 2 * 0.1);
+  EXPECT_EQ(grid.layer_top(2), -1 + 5 * 0.1);
+  EXPECT_EQ(grid.section_z(2), -1 + 3.5 * 0.1);
+  EXPECT_EQ(grid.layer_bottom(3), grid.layer_top(2));
+  for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
+    EXPECT_EQ(grid.layers_below(grid.section_z(l)), l);
+    EXPECT_EQ(grid.layers_below(std::nextafter(grid.threshold(l), 1e9)), l + 1);
+  }
+}
+
+TEST(LayerGrid, StackedLayersOfOneUnitAreUniformOnes) {
+  const LayerGrid uniform = LayerGrid::uniform(-0.3, 1.7, 0.1);
+  const LayerGrid stacked = LayerGrid::stacked(-0.3, 0.1, {0, 1, 2, 3, 4, 5});
+  for (std::uint32_t l = 0; l < stacked.layer_count(); ++l) {
+    EXPECT_EQ(stacked.section_z(l), uniform.section_z(l));
+    EXPECT_EQ(stacked.layer_bottom(l), uniform.layer_bottom(l));
+    EXPECT_EQ(stacked.layer_top(l), uniform.layer_top(l));
+  }
+}
+
 TEST(LayerGrid, AVertexOnTheSectionCountsAsBelow) {
   const LayerGrid grid = LayerGrid::at_heights({-1, 0.5, 2});
   EXPECT_EQ(grid.layers_below(-1), 0U);

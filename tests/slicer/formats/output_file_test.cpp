@@ -57,6 +57,24 @@ TEST(OutputFile, PatchesWhatWasWrittenBeforeAcrossItsBuffer) {
   EXPECT_EQ(read_file(folder.file("a")), expected);
 }
 
+TEST(OutputFile, InsertsBetweenWhatWasWrittenBefore) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  std::string expected;
+  for (int i = 0; i < 200'000; ++i) expected += std::to_string(i);
+  OutputFile output(folder.file("a"), files);
+  output.write(expected);
+  const std::string piece(1000, '-');
+  output.insert(7, piece);
+  output.insert(output.size(), "behind");
+  output.write("end");
+  expected.insert(7, piece);
+  expected += "behindend";
+  EXPECT_EQ(output.size(), expected.size());
+  output.commit();
+  EXPECT_EQ(read_file(folder.file("a")), expected);
+}
+
 TEST(OutputFile, WritesThroughASymbolicLink) {
   const TemporaryFolder folder;
   TemporaryFiles files;

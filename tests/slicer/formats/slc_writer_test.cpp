@@ -104,6 +104,53 @@ TEST(SlcWriter, NotesInTheHeaderWhatContoursDeviateBy) {
               1e-11);
 }
 
+TEST(SlcWriter, TellsEachRunOfLayersOfOneThicknessInARowOfItsOwn) {
+  const std::vector<std::vector<Vec2>> square = {
+      {{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  std::vector<Layer> layers;
+  double z = -1;
+  // 0.1 three times, 0.3 twice, an empty one, 0.1 again.
+  for (const double thickness : {0.1, 0.1, 0.1, 0.3, 0.3, 0.2, 0.1}) {
+    layers.push_back(layer_at(z, z + thickness, square));
+    z += thickness;
+  }
+  layers[5].contours.clear();
+  const TemporaryFolder folder;
+  SlcReader reader(folder.write("a.slc", write_slc(layers)));
+  const auto& rows = reader.sampling();
+  ASSERT_EQ(rows.size(), 4U);
+  const double starts[] = {-1, -0.7, -0.1, 0.1};
+  const double thicknesses[] = {0.1, 0.3, 0.2, 0.1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(rows[i].min_z, starts[i], 1e-6);
+    EXPECT_NEAR(rows[i].thickness, thicknesses[i], 1e-6);
+  }
+  SlcLayer layer;
+  for (const Layer& written : layers) {
+    ASSERT_TRUE(reader.read_layer(layer));
+    EXPECT_NEAR(layer.z, written.bottom, 1e-6);
+    EXPECT_NEAR(layer.thickness, written.top - written.bottom, 1e-6);
+    EXPECT_EQ(layer.boundaries.size(), written.contours.loop_count());
+  }
+  EXPECT_FALSE(reader.read_layer(layer));
+  EXPECT_NEAR(reader.top(), z, 1e-6);
+}
+
+TEST(SlcWriter, RefusesMoreRunsThanItsTableHasRows) {
+  std::vector<Layer> layers;
+  double z = 0;
+  for (int i = 0; i < 256; ++i) {
+    const double thickness = i % 2 == 0 ? 0.1 : 0.2;
+    layers.push_back(layer_at(z, z + thickness, {{{0, 0}, {4, 0}, {0, 4}}}));
+    z += thickness;
+  }
+  EXPECT_THROW(write_slc(layers), FileError);
+  layers.pop_back();
+  const TemporaryFolder folder;
+  const SlcReader reader(folder.write("a.slc", write_slc(layers)));
+  EXPECT_EQ(reader.sampling().size(), 255U);
+}
+
 TEST(SlcWriter, NotesTheCompensationInTheTable) {
   Layer layer = layer_at(0, 1, {{{0, 0}, {4, 0}, {0, 4}}});
   layer.compensation = -0.25;
