@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "ldni/grid.h"
+#include "slicer/adaptive.h"
 #include "slicer/block_slicer.h"
 #include "slicer/compensate.h"
 #include "slicer/slice_job.h"
@@ -21,6 +22,7 @@ ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
   if (!settings.heights.empty()) {
     return ldni::LayerGrid::at_heights(settings.heights);
   }
+  if (settings.cusp > 0) return adaptive_grid(scene, settings);
   return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
                                   settings.layer_thickness);
 }
@@ -74,16 +76,27 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
                        {}});
 }
 
+[[noreturn]] void throw_out_of_range(const SliceReport& report,
+                                     const LayerRange& wanted) {
+  throw GeometryError({Severity::kError,
+                       {},
+                       fmt::format("There is no layer {}: the layers are 1 to "
+                                   "{}",
+                                   wanted.first, report.layers_there)});
+}
+
 }  // namespace
 
 SliceReport slice(const csg::Scene& scene, const Settings& settings,
                   LayerSink& sink, Diagnostics& diagnostics) {
   SliceReport report;
   if (scene.box.is_empty() && settings.heights.empty()) throw_empty(report);
-  const ldni::LayerGrid grid = make_grid(scene, settings);
+  ldni::LayerGrid grid;
   Plan plan;
-  report.section_seconds =
-      measure([&] { plan = plan_blocks(scene, settings, grid); });
+  report.section_seconds = measure([&] {
+    grid = make_grid(scene, settings);
+    plan = plan_blocks(scene, settings, grid);
+  });
   report.renderer = plan.renderer;
   std::optional<FeatureCollector> features;
   if (settings.min_feature > 0) {
@@ -97,7 +110,10 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   warn_of_broken_promises(report, diagnostics);
   warn_of_repairs(report, diagnostics);
   warn_of_losses(report.losses, settings.compensation, diagnostics);
-  if (report.layers == 0) throw_empty(report);
+  if (report.layers == 0) {
+    if (report.layers_there > 0) throw_out_of_range(report, settings.written);
+    throw_empty(report);
+  }
   return report;
 }
 
@@ -132,7 +148,10 @@ SliceReport slice_outline(const planar::Region& outline,
   }
   Compensator compensator(settings.compensation);
   compensator.compensate(layer.contours);
-  report.layers = 1;
+  report.layers = report.layers_there = 1;
+  if (!settings.written.contains(1)) {
+    throw_out_of_range(report, settings.written);
+  }
   report.loops = layer.contours.loop_count();
   report.points = layer.contours.points.size();
   report.losses = compensator.counts();

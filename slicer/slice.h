@@ -31,6 +31,7 @@ struct SliceReport {
   double feature_seconds = 0;  // search for thin places
   double output_seconds = 0;   // compensation, simplification and writing
   std::uint32_t layers = 0;    // written
+  std::uint32_t layers_there = 0;  // with those that were not wanted
   std::uint64_t loops = 0;
   std::uint64_t holes = 0;   // of the loops
   std::uint64_t points = 0;  // written
@@ -40,8 +41,9 @@ struct SliceReport {
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
 };
 
-// Same layers for any number of threads. Throws GeometryError if no layer has
-// a contour (unless heights were given). Warns of what compensation lost.
+// Same layers for any number of threads. Throws GeometryError if no layer that
+// is wanted has a contour (unless heights were given). Warns of what
+// compensation lost.
 SliceReport slice(const csg::Scene& scene, const Settings& settings,
                   LayerSink& sink, Diagnostics& diagnostics);
 

@@ -162,6 +162,7 @@ class OrderedOutput {
                 SliceReport& report)
       : grid_(grid),
         keeps_empty_(!settings.heights.empty()),
+        wanted_(settings.written),
         sink_(sink),
         features_(features),
         report_(report) {
@@ -170,7 +171,7 @@ class OrderedOutput {
 
   void take(std::uint32_t index, Draft& draft) {
     if (draft.contours.is_empty() && !keeps_empty_) {
-      if (report_.layers > 0) ++held_back_;
+      if (report_.layers_there > 0) ++held_back_;
       return;
     }
     for (; held_back_ > 0; --held_back_) emit(index - held_back_, empty_);
@@ -179,6 +180,7 @@ class OrderedOutput {
 
  private:
   void emit(std::uint32_t index, Draft& draft) {
+    if (!wanted_.contains(++report_.layers_there)) return;
     ++report_.layers;
     report_.loops += draft.contours.loop_count();
     report_.holes += draft.holes;
@@ -197,6 +199,7 @@ class OrderedOutput {
 
   const ldni::LayerGrid& grid_;
   bool keeps_empty_;
+  LayerRange wanted_;
   LayerSink& sink_;
   FeatureCollector* features_;
   SliceReport& report_;

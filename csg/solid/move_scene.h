@@ -1,0 +1,14 @@
+#pragma once
+// A scene in another place.
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// Turns the scene, then shifts it.
+//
+// turn  one that maps axes to axes, so that boxes stay tight and no coordinate
+//       is rounded
+void move_scene(Scene& scene, const Affine& turn, Vec3 shift);
+
+}  // namespace lamina::csg

@@ -1,0 +1,56 @@
+#pragma once
+// The direction of building (`--axis`), and the choice of a good one.
+//
+// After Byun and Lee, Determination of the optimal build direction for
+// different rapid prototyping processes using multi-criterion decision making,
+// Robotics and Computer-Integrated Manufacturing 22 (2006): the direction whose
+// steps deviate least from the surface, then the one that is built soonest.
+// What deviates is the sum over the surface of area times cusp (adaptive.h);
+// facets square to the direction make no step. The time is the height, for
+// layers take the same time whatever is in them.
+//
+// Both are the same upside down. What decides between those is, theirs too, the
+// least surface that hangs over and wants supports, and then the most that lies
+// on the bed.
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "csg/scene.h"
+
+namespace lamina::slicer {
+
+// In the order in which they are preferred, all else being equal.
+inline constexpr std::array<std::string_view, 6> kAxes = {"z",  "x",  "y",
+                                                          "-x", "-y", "-z"};
+
+// The right-handed turn that makes `axis`, one of kAxes, the building
+// direction.
+Affine turn_to_axis(std::string_view axis);
+
+// What a direction is like.
+struct Orientation {
+  std::string_view axis;
+  double cusp_error = 0;  // area · cusp [mm³]
+  double height = 0;      // of the surface [mm]
+  // Surface that looks down by more than 45° and does not lie on the bed [mm²].
+  double overhang = 0;
+  double footing = 0;  // surface that lies on the bed [mm²]
+};
+
+struct OrientationChoice {
+  std::array<Orientation, 6> all;  // as kAxes
+  std::size_t best = 0;            // into `all`
+  std::string reason;              // for the user: what it is best in
+};
+
+// thickness  of layers [mm]
+OrientationChoice choose_orientation(const csg::Scene& scene, double thickness);
+
+// For the user: which and why, and a line for each direction. Without the last
+// '\n'.
+std::string orientation_table(const OrientationChoice& choice);
+
+}  // namespace lamina::slicer

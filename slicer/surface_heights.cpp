@@ -1,0 +1,36 @@
+#include "slicer/surface_heights.h"
+
+#include <algorithm>
+
+#include "csg/solid/boundary_faces.h"
+#include "csg/solid/move_scene.h"
+
+namespace lamina::slicer {
+
+SurfaceHeights surface_heights(const csg::Scene& scene) {
+  SurfaceHeights heights;
+  csg::visit_boundary_faces(
+      scene,
+      [&](const Box3& box) {
+        return box.low.z < heights.low || box.high.z > heights.high;
+      },
+      [&](const csg::BoundaryFace& face) {
+        for (const auto& contour : face.contours) {
+          for (const Vec3& point : contour) {
+            heights.low = std::min(heights.low, point.z);
+            heights.high = std::max(heights.high, point.z);
+          }
+        }
+      });
+  return heights;
+}
+
+void place_on_bed(csg::Scene& scene) {
+  const SurfaceHeights heights = surface_heights(scene);
+  if (heights.is_empty()) return;
+  csg::move_scene(scene, Affine(1.0), Vec3(0, 0, -heights.low));
+  // Layers are counted from the bed, though leaves may reach below it.
+  scene.box.low.z = 0;
+}
+
+}  // namespace lamina::slicer
