@@ -10,11 +10,22 @@ const char* find_contradiction(const slicer::Settings& settings) {
   if (settings.boxes == slicer::BoxMode::kGlobal && !is_paper) {
     return "--boxes global needs --contour paper";
   }
+  const bool is_adaptive = settings.cusp > 0;
+  if (is_adaptive && !settings.heights.empty()) {
+    return "--adaptive and --heights say different things";
+  }
+  if (settings.greatest_thickness > 0 && !is_adaptive) {
+    return "--max-layer needs --adaptive";
+  }
+  if (is_adaptive && settings.greatest_thickness > 0 &&
+      settings.greatest_thickness < settings.layer_thickness) {
+    return "--max-layer must not be less than --layer";
+  }
   if (settings.sampler == slicer::SamplerKind::kScanline) return nullptr;
   if (!is_paper) return "--sampler gl and gl-peeling need --contour paper";
-  if (!settings.heights.empty()) {
+  if (is_adaptive || !settings.heights.empty()) {
     return "--sampler gl and gl-peeling need layers of one thickness, not "
-           "--heights";
+           "--heights or --adaptive";
   }
   return nullptr;
 }
@@ -37,11 +48,8 @@ const char* find_misfit(const DesignOptions& options) {
     return "--mirror needs images: .png or .sl1";
   }
   if (options.cli_encoding && format != kCli) return "--cli needs .cli output";
-  if (format == kSl1 && !settings.heights.empty()) {
-    return ".sl1 needs layers of one thickness, not --heights";
-  }
-  if (format == kThreemf && !settings.heights.empty()) {
-    return ".3mf needs layers, not --heights";
+  if (format == kSl1 && (settings.cusp > 0 || !settings.heights.empty())) {
+    return ".sl1 needs layers of one thickness, not --heights or --adaptive";
   }
   return nullptr;
 }

@@ -45,21 +45,6 @@ double parse_scale(const std::string& text) {
   return require_within("--scale", text, kLeastScale, kGreatestScale, "");
 }
 
-// The right-handed turn that makes `axis` the building direction.
-Affine turn_to_axis(std::string_view axis) {
-  const Vec3 x(1, 0, 0);
-  const Vec3 y(0, 1, 0);
-  const Vec3 z(0, 0, 1);
-  const Vec3 no_shift(0);
-  // Columns: where x, y and z of the design go.
-  if (axis == "x") return Affine(z, x, y, no_shift);
-  if (axis == "y") return Affine(y, z, x, no_shift);
-  if (axis == "-x") return Affine(-z, y, x, no_shift);
-  if (axis == "-y") return Affine(x, -z, y, no_shift);
-  if (axis == "-z") return Affine(x, -y, -z, no_shift);
-  return Affine(1.0);
-}
-
 slicer::SamplerKind sampler_kind(std::string_view word) {
   if (word == "gl") return slicer::SamplerKind::kGl;
   if (word == "gl-peeling") return slicer::SamplerKind::kGlPeeling;
@@ -98,6 +83,12 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
   add_text(app, "--layer", "length", [&](const std::string& text) {
     settings.layer_thickness = require_positive("--layer", text);
   });
+  add_text(app, "--adaptive", "length", [&](const std::string& text) {
+    settings.cusp = require_positive("--adaptive", text);
+  });
+  add_text(app, "--max-layer", "length", [&](const std::string& text) {
+    settings.greatest_thickness = require_positive("--max-layer", text);
+  });
   add_text(app, "--heights", "list", [&](const std::string& text) {
     settings.heights = parse_heights("--heights", text);
   });
@@ -126,10 +117,9 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
   add_text(app, "--ray", "length", [&](const std::string& text) {
     settings.ray_pitch = text == "auto" ? 0 : require_positive("--ray", text);
   });
-  add_choice(app, "--axis", {"z", "x", "y", "-x", "-y", "-z"},
-             [&](const std::string& axis) {
-               options.world_from_design = turn_to_axis(axis);
-             });
+  add_choice(app, "--axis", {"z", "x", "y", "-x", "-y", "-z", "auto"},
+             [&](const std::string& axis) { options.axis = axis; });
+  app.add_flag("--place-on-bed", options.is_placed_on_bed);
   add_choice(
       app, "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
         settings.contour = mode == "paper" ? slicer::ContourMode::kPaper

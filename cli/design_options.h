@@ -4,14 +4,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/App.hpp>
 
-#include "csg/vec.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/settings.h"
 
 namespace lamina::cli {
+
+// Of --axis: the program chooses.
+inline constexpr std::string_view kAutomaticAxis = "auto";
 
 // From a design to layers, or to one of the stages on the way.
 struct DesignOptions {
@@ -22,10 +25,11 @@ struct DesignOptions {
   std::string printer;     // name or profile of its panel; empty: the format's
   bool mirrors_x = false;  // the image
   bool mirrors_y = false;
-  std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
-  std::string parameter_file;     // -p; empty: none
-  std::string parameter_set;      // -P
-  Affine world_from_design{1.0};  // --axis
+  std::string definitions;     // of all -D, as text: "a=1;\nb=2;\n"
+  std::string parameter_file;  // -p; empty: none
+  std::string parameter_set;   // -P
+  std::string axis = "z";      // of slicer::kAxes, or kAutomaticAxis
+  bool is_placed_on_bed = false;
   double scale = 1;
   double chordal_error = 0;  // [mm]; 0: $fa and $fs decide
   slicer::Settings settings;

@@ -1,7 +1,10 @@
 #include "cli/option_values.h"
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <CLI/App.hpp>
@@ -38,6 +41,36 @@ double require_thin_width(const std::string& option, std::string_view text) {
                     slicer::kGreatestThinWidth, text));
   }
   return value;
+}
+
+// "3:7", "3:", ":7" or "3".
+slicer::LayerRange parse_layers(const std::string& text) {
+  const auto number = [&](std::string_view word, std::uint32_t otherwise) {
+    if (word.empty()) return otherwise;
+    std::uint32_t value = 0;
+    const auto [end, fault] =
+        std::from_chars(word.data(), word.data() + word.size(), value);
+    if (fault != std::errc() || end != word.data() + word.size() ||
+        value == 0) {
+      throw CLI::ValidationError(
+          "--layers", fmt::format("layers from 1 were expected, such as 3:7, "
+                                  "3: or :7, not '{}'",
+                                  text));
+    }
+    return value;
+  };
+  const std::string_view all = text;
+  const std::size_t colon = all.find(':');
+  slicer::LayerRange range;
+  range.first = number(all.substr(0, colon), range.first);
+  range.last = colon == std::string_view::npos
+                   ? range.first
+                   : number(all.substr(colon + 1), range.last);
+  if (all.empty() || range.last < range.first) {
+    throw CLI::ValidationError("--layers",
+                               fmt::format("'{}' has no layers", text));
+  }
+  return range;
 }
 
 }  // namespace
@@ -96,6 +129,11 @@ void add_thin_width(CLI::App& app, double& width) {
   add_text(app, "--min-feature", "length", [&width](const std::string& text) {
     width = require_thin_width("--min-feature", text);
   });
+}
+
+void add_layer_range(CLI::App& app, slicer::LayerRange& range) {
+  add_text(app, "--layers", "range",
+           [&range](const std::string& text) { range = parse_layers(text); });
 }
 
 }  // namespace lamina::cli

@@ -10,6 +10,8 @@
 
 #include <CLI/App.hpp>
 
+#include "slicer/settings.h"
+
 namespace lamina::cli {
 
 // A finite number and nothing else.
@@ -39,5 +41,8 @@ void add_switch(CLI::App& app, const std::string& name, bool& target);
 
 // --min-feature: the width of walls and gaps to be told of.
 void add_thin_width(CLI::App& app, double& width);
+
+// --layers: which of them are written.
+void add_layer_range(CLI::App& app, slicer::LayerRange& range);
 
 }  // namespace lamina::cli

@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "csg/solid/move_scene.h"
 #include "parser/parameter_set.h"
+#include "slicer/orientation.h"
 #include "slicer/slice.h"
+#include "slicer/surface_heights.h"
 #include "slicer/thread_clock.h"
 
 namespace lamina::cli {
@@ -135,17 +138,45 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   });
 }
 
+namespace {
+
+csg::LowerOptions lower_options(Run& run) {
+  const DesignOptions& options = run.options;
+  csg::LowerOptions how;
+  if (options.axis != kAutomaticAxis) {
+    how.world_from_design = slicer::turn_to_axis(options.axis);
+  }
+  how.chordal_error = options.chordal_error;
+  how.typesetter = &run.typesetter;
+  how.scale = options.scale;
+  return how;
+}
+
+// What is asked of the scene as a whole, and needs its surface.
+void place(Run& run, csg::Scene& scene) {
+  if (run.options.axis == kAutomaticAxis) {
+    const slicer::OrientationChoice choice =
+        slicer::choose_orientation(scene, run.options.settings.layer_thickness);
+    csg::move_scene(scene, slicer::turn_to_axis(choice.all[choice.best].axis),
+                    Vec3(0));
+    run.terminal.say(slicer::orientation_table(choice));
+  }
+  if (run.options.is_placed_on_bed) slicer::place_on_bed(scene);
+}
+
+}  // namespace
+
 csg::Lowered lower(Run& run, csg::Tree& tree) {
   // Lowering comes before slicing because transforms, 2D parts and hulls need
   // the whole tree, layers only the leaves.
   csg::Lowered lowered = timed(run.report.lower_seconds, [&] {
-    return csg::lower(tree,
-                      {run.options.world_from_design, run.options.chordal_error,
-                       &run.typesetter, run.options.scale},
-                      run.diagnostics);
+    return csg::lower(tree, lower_options(run), run.diagnostics);
   });
   tree.drop_nodes();
   if (lowered.is_empty()) refuse_geometry("Current top level object is empty.");
+  if (auto* scene = std::get_if<csg::Scene>(&lowered.geometry)) {
+    place(run, *scene);
+  }
   return lowered;
 }
 
