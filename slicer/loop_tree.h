@@ -95,7 +95,7 @@ class LoopTree {
   bool has_near(Vec2 a, Vec2 b, double reach, const IsHit& is_hit) const;
 
  private:
-  static constexpr std::uint32_t kEdgesPerLeaf = 4;
+  static constexpr std::uint32_t kEdgesPerLeaf = 3;
   static constexpr std::uint32_t kNone = 0xffffffff;
   // Looks at pairs, for each leaf, before visit_near() gives up; 14 are usual.
   static constexpr std::size_t kMostLooks = 32;
