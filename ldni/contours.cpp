@@ -11,15 +11,15 @@ double signed_area(std::span<const Vec2> loop) {
   if (loop.empty()) return 0;
   // Relative to the first point, so that a loop far from the origin keeps its
   // digits.
-  const Vec2 origin = loop.front();
-  double doubled = 0;
-  Vec2 previous = loop.back() - origin;
+  const Lanes origin = lanes_of(loop.front());
+  Lanes products = both_lanes(0);
+  Lanes previous = lanes_of(loop.back()) - origin;
   for (const Vec2& point : loop) {
-    const Vec2 current = point - origin;
-    doubled += previous.x * current.y - previous.y * current.x;
+    const Lanes current = lanes_of(point) - origin;
+    products += previous * Lanes{current[1], current[0]};
     previous = current;
   }
-  return doubled / 2;
+  return (products[0] - products[1]) / 2;
 }
 
 double perimeter(std::span<const Vec2> loop) {

@@ -1,5 +1,7 @@
 #include "ldni/detail/band.h"
 
+#include "csg/lanes.h"
+
 namespace lamina::ldni::detail {
 
 void Band::enclose(const Vec2* first, const Vec2* last, double limit) {
@@ -12,11 +14,22 @@ void Band::enclose(const Vec2* first, const Vec2* last, double limit) {
   ends_chain = end == last;
   const double steepness = (end->y - first->y) / (right - left);
   if (std::abs(steepness) <= kSteepest) slope = steepness;
-  for (const Vec2* point = first + 1; point <= end; ++point) {
-    const double distance = point->y - (y + (point->x - left) * slope);
-    low = std::min(low, distance);
-    high = std::max(high, distance);
+  // Two vertices at a time; the last one may be taken twice.
+  Lanes lowest = both_lanes(0);
+  Lanes highest = lowest;
+  const auto take = [&](const Vec2& a, const Vec2& b) {
+    const Lanes x = Lanes{a.x, b.x} - both_lanes(left);
+    const Lanes distance =
+        Lanes{a.y, b.y} - (both_lanes(y) + x * both_lanes(slope));
+    lowest = least(lowest, distance);
+    highest = greatest(highest, distance);
+  };
+  for (const Vec2* point = first + 1; point < end; point += 2) {
+    take(point[0], point[1]);
   }
+  take(*end, *end);
+  low = std::min(lowest[0], lowest[1]);
+  high = std::max(highest[0], highest[1]);
 }
 
 }  // namespace lamina::ldni::detail
