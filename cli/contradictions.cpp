@@ -51,6 +51,9 @@ const char* find_misfit(const DesignOptions& options) {
   if (format == kSl1 && (settings.cusp > 0 || !settings.heights.empty())) {
     return ".sl1 needs layers of one thickness, not --heights or --adaptive";
   }
+  if (format == kThreemf && !settings.heights.empty()) {
+    return ".3mf needs layers, not --heights";
+  }
   return nullptr;
 }
 

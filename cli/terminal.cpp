@@ -1,5 +1,6 @@
 #include "cli/terminal.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -88,7 +89,12 @@ void Terminal::end_echoes() {
 
 void Terminal::write(std::string_view text) {
   if (inbox_ != nullptr) {
-    inbox_->text += inbox_->prefix;
+    // A place in the design that the prefix names tells as much by itself.
+    std::string_view place = inbox_->prefix;
+    place.remove_suffix(std::min<std::size_t>(place.size(), 1));
+    if (place.empty() || !text.starts_with(place)) {
+      inbox_->text += inbox_->prefix;
+    }
     inbox_->text += text;
     return;
   }

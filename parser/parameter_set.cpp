@@ -237,4 +237,22 @@ bool apply_parameter_set(const std::string& path, const std::string& set,
   return false;
 }
 
+std::vector<std::string> parameter_set_names(const std::string& path) {
+  const auto refuse = [&](std::string_view why) {
+    throw FileError(
+        {Severity::kError, {}, fmt::format("Cannot open '{}': {}", path, why)});
+  };
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse("no such file");
+  using Json = nlohmann::ordered_json;
+  const Json json = Json::parse(file, nullptr, false);
+  const auto sets = json.is_object() ? json.find("parameterSets") : json.end();
+  if (sets == json.end() || !sets->is_object()) {
+    refuse("it has no sets of OpenSCAD's customizer");
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, values] : sets->items()) names.push_back(name);
+  return names;
+}
+
 }  // namespace lamina

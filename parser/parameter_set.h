@@ -14,6 +14,7 @@
 // arithmetic on literals, can be set.
 
 #include <string>
+#include <vector>
 
 #include "parser/ast.h"
 #include "parser/diagnostic.h"
@@ -26,5 +27,9 @@ namespace lamina {
 //          cannot be used; that is reported, and the values before it stay set
 bool apply_parameter_set(const std::string& path, const std::string& set,
                          ast::Program& program, Diagnostics& diagnostics);
+
+// The names of all sets of a file, in the order in which they stand there.
+// Throws FileError where it cannot be read.
+std::vector<std::string> parameter_set_names(const std::string& path);
 
 }  // namespace lamina

@@ -10,6 +10,7 @@
 namespace lamina::cli {
 
 std::unique_ptr<Command> make_slice_command();
+std::unique_ptr<Command> make_batch_command();
 std::unique_ptr<Command> make_inspect_command();
 std::unique_ptr<Command> make_view_command();
 
@@ -20,6 +21,7 @@ struct NamedCommand {
 
 // Where none of these comes first, the words are those of slicing a design.
 inline constexpr std::array kNamedCommands = {
+    NamedCommand{"batch", make_batch_command},
     NamedCommand{"inspect", make_inspect_command},
     NamedCommand{"view", make_view_command}};
 

@@ -1,15 +1,20 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
+#include <set>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
 #include "cli/compile.h"
-#include "cli/contradictions.h"
 #include "cli/design_options.h"
 #include "cli/option_values.h"
+#include "cli/output_options.h"
+#include "cli/output_pattern.h"
+#include "cli/pieces.h"
+#include "cli/run.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
@@ -19,19 +24,23 @@ constexpr std::string_view kHelp =
     R"(lamina compiles OpenSCAD designs straight to the layers of a 3D printer.
 
 Usage:
-  lamina DESIGN [-o FILE] [OPTION]...     slice a .scad or .csg design
+  lamina DESIGN... [-o FILE] [OPTION]...  slice .scad or .csg designs
+  lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
+                                          a piece for every row of a table
   lamina inspect FILE.slc [OPTION]...     check a layer file and list it
   lamina view FILE -o PICTURE.png         draw a layer file or a design
 
 Output:
   -o FILE             the output, by its extension; '-' is standard output;
-                      without it, ring.slc beside ring.scad
+                      without it, ring.slc beside ring.scad; of several
+                      designs a folder (out/) or pattern (out/{name}.slc)
                         .slc             layers for wax and resin printers
                         .cli             Common Layer Interface
                         .svg             a group of polygons per layer, or the
                                          outline of a 2D design
                         .png             a folder of images
                         .sl1             images for Prusa's resin printers
+                        .3mf             a stack of slices
                         .layers.json     layers with every digit
                         .csg .echo .ast  what the design makes, says, and is
   --export-format F   one of these formats, whatever the output's name
@@ -112,47 +121,48 @@ std::string without_extension(const std::string& path) {
   return has_extension ? path.substr(0, dot) : path;
 }
 
+void refuse_layers(const std::string& file) {
+  if (!slicer::is_named_as_layers(file)) return;
+  throw UsageError(
+      file.ends_with(".slc")
+          ? fmt::format("'{0}' holds layers already; try 'lamina inspect "
+                        "{0}' or 'lamina view {0}'",
+                        file)
+          : fmt::format("'{}' holds layers already", file));
+}
+
 class SliceCommand : public Command {
  public:
   std::string_view help() const override { return kHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("design", options_.design);
+    app.add_option("design", designs_);
     app.add_option("-o", options_.output)->type_name("file");
-    app.add_option("--export-format", export_format_)->type_name("format");
-    add_choice(app, "--cli", {"binary", "ascii"},
-               [this](const std::string& word) {
-                 options_.cli_encoding = word == "ascii"
-                                             ? slicer::CliEncoding::kAscii
-                                             : slicer::CliEncoding::kBinary;
-               });
-    app.add_option("--printer", options_.printer)->type_name("printer");
-    add_choice(app, "--mirror", {"x", "y", "xy"},
-               [this](const std::string& axes) {
-                 options_.mirrors_x = axes != "y";
-                 options_.mirrors_y = axes != "x";
-               });
-    app.add_option("--report", options_.report)->type_name("file");
     app.add_option("-d", options_.dependencies)->type_name("file");
+    add_output_options(app, options_, export_format_);
     add_design_options(app, options_);
     add_slicing_options(app, options_);
     add_layer_range(app, options_.settings.written);
-    add_thin_width(app, options_.settings.min_feature);
   }
 
   void check() override {
-    if (options_.design.empty()) throw UsageError("no design was given");
-    if (slicer::is_named_as_layers(options_.design)) refuse_layers();
-    choose_output();
-    if (const char* contradiction = find_contradiction(options_.settings)) {
-      throw UsageError(contradiction);
+    if (designs_.empty()) throw UsageError("no design was given");
+    for (const std::string& design : designs_) refuse_layers(design);
+    if (options_.output == "-" && export_format_.empty()) {
+      throw UsageError("-o - needs --export-format");
     }
-    if (const char* misfit = find_misfit(options_)) throw UsageError(misfit);
+    if (designs_.size() > 1) return check_several();
+    options_.design = designs_.front();
+    makes_folder_ = is_folder() || is_pattern();
+    options_.output = output_of(options_.design);
+    choose_format(options_, export_format_, options_.output);
   }
 
   int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+    if (designs_.size() > 1) return run_several(temporary_files, stack);
     Run run(options_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics, [&] {
+      if (makes_folder_) make_folder_of(options_.output);
       const int status = compile(run);
       if (status == kDone) show_report(run);
       return status;
@@ -160,36 +170,77 @@ class SliceCommand : public Command {
   }
 
  private:
-  [[noreturn]] void refuse_layers() const {
-    const std::string& file = options_.design;
-    throw UsageError(
-        file.ends_with(".slc")
-            ? fmt::format("'{0}' holds layers already; try 'lamina inspect "
-                          "{0}' or 'lamina view {0}'",
-                          file)
-            : fmt::format("'{}' holds layers already", file));
+  std::string extension() const {
+    return export_format_.empty() ? "slc" : export_format_;
   }
 
-  // The output's name where none was given, and its format.
-  void choose_output() {
+  // A name such as "ring.png/" is that of an output that is a folder.
+  bool is_folder() const {
+    const std::string& output = options_.output;
+    return output.ends_with('/') &&
+           !slicer::choose_output_format(output.substr(0, output.size() - 1))
+                .format;
+  }
+
+  bool is_pattern() const {
+    return options_.output.find("{name}") != std::string::npos;
+  }
+
+  std::string output_of(const std::string& design) const {
     if (options_.output.empty()) {
-      options_.output = without_extension(options_.design) + "." +
-                        (export_format_.empty() ? "slc" : export_format_);
+      return fmt::format("{}.{}", without_extension(design), extension());
     }
-    if (options_.output == "-" && export_format_.empty()) {
-      throw UsageError("-o - needs --export-format");
+    if (is_folder()) {
+      return fmt::format("{}{}.{}", options_.output, stem(design), extension());
     }
-    const slicer::FormatChoice choice = slicer::choose_output_format(
-        export_format_.empty() ? options_.output : export_format_);
-    if (!choice.format) {
-      throw UsageError(choice.complaint,
-                       choice.is_known ? kFault : kUsageFault);
-    }
-    options_.format = *choice.format;
+    return fill_pattern(options_.output, [&](const std::string& word) {
+      return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
+    });
   }
 
-  DesignOptions options_;
+  void check_several() {
+    if (!options_.output.empty() && !is_folder() && !is_pattern()) {
+      throw UsageError(
+          "-o names one file; for several designs give it a folder, such as "
+          "'out/', or a pattern, such as 'out/{name}.slc'");
+    }
+    if (!options_.dependencies.empty()) {
+      throw UsageError("-d tells of one design");
+    }
+    choose_format(options_, export_format_, output_of(designs_.front()));
+    std::set<std::string> outputs;
+    for (const std::string& design : designs_) {
+      const std::string output = output_of(design);
+      if (!outputs.insert(normal_path(output)).second) {
+        throw UsageError(
+            fmt::format("two designs have the output '{}'", output));
+      }
+    }
+  }
+
+  int run_several(slicer::TemporaryFiles& temporary_files, std::size_t stack) {
+    std::vector<Piece> pieces;
+    for (const std::string& design : designs_) {
+      Piece& piece = pieces.emplace_back();
+      piece.options = options_;
+      piece.options.design = design;
+      piece.options.output = output_of(design);
+      piece.name = design;
+      piece.prefix = fmt::format("{}: ", design);
+    }
+    Terminal terminal(options_.is_quiet);
+    return run_caught(terminal, Diagnostics(), [&] {
+      return make_pieces(pieces,
+                         {"designs", options_.report, options_.settings.threads,
+                          options_.is_quiet},
+                         temporary_files, stack);
+    });
+  }
+
+  std::vector<std::string> designs_;
+  DesignOptions options_;  // of each
   std::string export_format_;
+  bool makes_folder_ = false;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "slicer/formats/layers_json_writer.h"
 #include "slicer/formats/slc_writer.h"
 #include "slicer/formats/svg_writer.h"
+#include "slicer/formats/threemf_writer.h"
 
 namespace lamina::slicer {
 
@@ -19,6 +20,8 @@ std::unique_ptr<LayerWriter> make_layer_writer(const WriterOptions& options,
       return std::make_unique<CliWriter>(path, files, options.cli);
     case OutputFormat::kSvg:
       return std::make_unique<SvgWriter>(path, files);
+    case OutputFormat::kThreemf:
+      return std::make_unique<ThreemfWriter>(path, files, options.deviation);
     case OutputFormat::kPng:
     case OutputFormat::kSl1:
       return std::make_unique<ImageStackWriter>(options.format, options.panel,

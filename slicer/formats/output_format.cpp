@@ -12,19 +12,20 @@ struct Written {
   std::string_view extension;
   OutputFormat format;
 };
-constexpr std::array<Written, 9> kWritten = {{
+constexpr std::array<Written, 10> kWritten = {{
     {"slc", OutputFormat::kSlc},
     {"cli", OutputFormat::kCli},
     {"svg", OutputFormat::kSvg},
     {"png", OutputFormat::kPng},
     {"sl1", OutputFormat::kSl1},
+    {"3mf", OutputFormat::kThreemf},
     {"layers.json", OutputFormat::kLayersJson},
     {"ast", OutputFormat::kAst},
     {"echo", OutputFormat::kEcho},
     {"csg", OutputFormat::kCsg},
 }};
 
-constexpr std::array<std::string_view, 2> kNotYetWritten = {"zip", "3mf"};
+constexpr std::array<std::string_view, 1> kNotYetWritten = {"zip"};
 
 // What openscad writes and lamina has no mesh for, with what comes nearest.
 struct Refused {
@@ -87,7 +88,7 @@ FormatChoice choose_output_format(std::string_view name) {
   }
   return {{},
           fmt::format("'{}' has no extension that lamina knows (.slc .cli "
-                      ".svg .png .sl1 .layers.json .csg .echo .ast)",
+                      ".svg .png .sl1 .3mf .layers.json .csg .echo .ast)",
                       name),
           false};
 }

@@ -72,27 +72,36 @@ ZipOutput::~ZipOutput() {
 }
 
 void ZipOutput::add_packed(const std::string& name, std::string_view bytes) {
-  add(name, bytes, 0);
+  begin(name, 0);
+  write(bytes);
+  end_entry();
 }
 
 void ZipOutput::add_text(const std::string& name, std::string_view bytes) {
-  add(name, bytes, Z_DEFLATED);
+  begin_text(name);
+  write(bytes);
+  end_entry();
 }
 
-void ZipOutput::add(const std::string& name, std::string_view bytes,
-                    int method) {
+void ZipOutput::begin_text(const std::string& name) { begin(name, Z_DEFLATED); }
+
+void ZipOutput::begin(const std::string& name, int method) {
   zip_fileinfo info = {};
   info.tmz_date.tm_year = 1980;
   info.tmz_date.tm_mday = 1;
   constexpr uLong kNamesAreUtf8 = 1 << 11;  // a flag of the entry
-  check(zipOpenNewFileInZip4(archive_, name.c_str(), &info, nullptr, 0, nullptr,
-                             0, nullptr, method, Z_DEFAULT_COMPRESSION, 0,
-                             -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
-                             nullptr, 0, 0, kNamesAreUtf8));
+  check(zipOpenNewFileInZip4(
+      archive_, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, method,
+      Z_DEFAULT_COMPRESSION, 0, -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
+      nullptr, 0, 0, kNamesAreUtf8));
+}
+
+void ZipOutput::write(std::string_view bytes) {
   check(zipWriteInFileInZip(archive_, bytes.data(),
                             static_cast<unsigned>(bytes.size())));
-  check(zipCloseFileInZip(archive_));
 }
+
+void ZipOutput::end_entry() { check(zipCloseFileInZip(archive_)); }
 
 void ZipOutput::finish() {
   const int status = zipClose(archive_, nullptr);

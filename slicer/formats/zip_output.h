@@ -25,6 +25,11 @@ class ZipOutput {
   void add_packed(const std::string& name, std::string_view bytes);
   void add_text(const std::string& name, std::string_view bytes);
 
+  // A text in pieces; below 4 GB in all. Throw FileError.
+  void begin_text(const std::string& name);
+  void write(std::string_view bytes);
+  void end_entry();
+
   // Writes the directory; nothing may be added then. Throws FileError.
   void finish();
 
@@ -36,7 +41,7 @@ class ZipOutput {
   };
 
  private:
-  void add(const std::string& name, std::string_view bytes, int method);
+  void begin(const std::string& name, int method);
   void check(int status);
 
   Stream stream_;

@@ -126,7 +126,13 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"a.scad", "-o", "-"},
       {"a.scad", "--export-format", "gcode"},
       {"a.slc"},
-      {"a.scad", "b.scad"},
+      {"a.scad", "b.scad", "-o", "c.slc"},
+      {"batch", "a.scad", "-o", "{row}.slc"},
+      {"batch", "a.scad", "--table", "t.csv"},
+      {"batch", "a.scad", "--table", "t.csv", "-o", "b.slc"},
+      {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.abc"},
+      {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc", "-p", "s.json",
+       "-P", "a"},
       {"view", "a.scad", "-o", "a.jpg"},
       {"view", "a.scad"},
       {"inspect"},
@@ -145,7 +151,7 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
 TEST(Usage, KnownFormatsThatAreNotWrittenSaySo) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");
-  for (const char* const extension : {"zip", "3mf"}) {
+  for (const char* const extension : {"zip"}) {
     const auto result =
         run(folder, {"a.scad", "-o", "a." + std::string(extension)});
     EXPECT_EQ(result.status, 1);

@@ -45,9 +45,10 @@ std::string must_run(const std::vector<std::string>& arguments) {
   return result.output;
 }
 
-std::vector<LayerFacts> read_independently(const std::string& path) {
+std::vector<LayerFacts> read_independently(
+    const std::string& path, const std::string& reader = "read_layers.py") {
   std::istringstream lines(must_run(
-      {"/usr/bin/python3", kSource + "/tests/formats/read_layers.py", path}));
+      {"/usr/bin/python3", kSource + "/tests/formats/" + reader, path}));
   std::vector<LayerFacts> layers;
   LayerFacts layer;
   while (lines >> layer.height >> layer.loops >> layer.holes >> layer.area >>
@@ -135,7 +136,8 @@ TEST_P(Formats, TellTheSameLayers) {
   const Format formats[] = {{".slc", {}, 0},
                             {".cli", {"--cli", "binary"}, 0},
                             {".cli", {"--cli", "ascii"}, 0},
-                            {".svg", {}, -0.05}};
+                            {".svg", {}, -0.05},
+                            {".3mf", {}, 0}};
   for (const Format& format : formats) {
     SCOPED_TRACE(format.ending);
     const std::vector<LayerFacts> found = read_independently(
@@ -145,6 +147,18 @@ TEST_P(Formats, TellTheSameLayers) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_NEAR(found[i].height, expected[i].height + format.height, 2e-6);
     }
+  }
+}
+
+TEST_P(Formats, Lib3mfReadsTheSameSlices) {
+  const TemporaryFolder folder;
+  const std::vector<LayerFacts> expected =
+      read_json(slice(GetParam(), folder, ".layers.json"));
+  const std::vector<LayerFacts> found = read_independently(
+      slice(GetParam(), folder, ".3mf"), "read_by_lib3mf.py");
+  expect_same_layers(found, expected, 1e-6);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i].height, expected[i].height, 2e-6);
   }
 }
 

@@ -191,6 +191,88 @@ def read_svg(data):
     return layers
 
 
+SLICE = "{http://schemas.microsoft.com/3dmanufacturing/slice/2015/07}"
+CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+
+
+def read_3mf(path):
+    archive = zipfile.ZipFile(path)
+    demand(archive.testzip() is None, "a broken entry")
+    demand(set(archive.namelist()) == {"[Content_Types].xml", "_rels/.rels",
+                                       "3D/3dmodel.model"}, "parts")
+    types = xml.etree.ElementTree.fromstring(
+        archive.read("[Content_Types].xml"))
+    demand({t.get("Extension"): t.get("ContentType") for t in types} == {
+        "rels": "application/vnd.openxmlformats-package.relationships+xml",
+        "model": "application/vnd.ms-package.3dmanufacturing-3dmodel+xml"},
+        "content types")
+    relation, = xml.etree.ElementTree.fromstring(archive.read("_rels/.rels"))
+    demand(relation.get("Target") == "/3D/3dmodel.model" and
+           relation.get("Type") ==
+           "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel",
+           "the relationship")
+    model = xml.etree.ElementTree.fromstring(archive.read("3D/3dmodel.model"))
+    demand(model.tag == CORE + "model" and model.get("unit") == "millimeter" and
+           model.get("requiredextensions") == "s", "the model")
+    stack, part = model.find(CORE + "resources")
+    item, = model.find(CORE + "build")
+    demand(part.tag == CORE + "object" and item.attrib == {
+        "objectid": part.get("id")}, "the object is not built")
+    demand(part.get(SLICE + "slicestackid") == stack.get("id") and
+           part.get(SLICE + "meshresolution") == "lowres", "no stack")
+    demand(re.fullmatch(r"contours within [0-9.e-]+ mm", part.get("name", "")),
+           "no bound on the contours")
+    layers = [(float(piece.get("ztop")), slice_loops(piece))
+              for piece in stack]
+    bottom = float(stack.get("zbottom"))
+    heights = [bottom] + [top for top, _ in layers]
+    demand(all(a < b for a, b in zip(heights, heights[1:])), "slices sink")
+    check_box_mesh(part.find(CORE + "mesh"), layers, bottom)
+    return [(top, statistics(loops)) for top, loops in layers]
+
+
+def slice_loops(piece):
+    demand(piece.tag == SLICE + "slice", "no slice")
+    if len(piece) == 0:
+        return []
+    vertices, *polygons = piece
+    demand(vertices.tag == SLICE + "vertices" and polygons, "an odd slice")
+    points = [(float(v.get("x")), float(v.get("y"))) for v in vertices]
+    loops = []
+    for polygon in polygons:
+        demand(polygon.tag == SLICE + "polygon", "no polygon")
+        indices = [int(polygon.get("startv"))]
+        indices += [int(segment.get("v2")) for segment in polygon]
+        demand(all(a != b for a, b in zip(indices, indices[1:])), "repeats")
+        demand(all(0 <= i < len(points) for i in indices), "no such vertex")
+        demand(indices[0] == indices[-1], "an open polygon")
+        loops.append(open_loop([points[i] for i in indices]))
+    return loops
+
+
+def check_box_mesh(mesh, layers, bottom):
+    """The box of all layers, its triangles counter-clockwise from outside."""
+    points = [p for _, loops in layers for loop in loops for p in loop]
+    sides = [(min(p[i] for p in points), max(p[i] for p in points))
+             for i in (0, 1)] + [(bottom, layers[-1][0])]
+    corners = [tuple(float(v.get(a)) for a in "xyz")
+               for v in mesh.find(CORE + "vertices")]
+    demand(len(set(corners)) == 8 and
+           all(c[i] in sides[i] for c in corners for i in range(3)),
+           "the mesh is not the box")
+    triangles = [[int(t.get(v)) for v in ("v1", "v2", "v3")]
+                 for t in mesh.find(CORE + "triangles")]
+    edges = {(t[i], t[(i + 1) % 3]) for t in triangles for i in range(3)}
+    demand(len(edges) == 36 and all((b, a) in edges for a, b in edges),
+           "the box is not closed")
+    volume = sum(
+        sum(a[i] * (b[(i + 1) % 3] * c[(i + 2) % 3] -
+                    b[(i + 2) % 3] * c[(i + 1) % 3]) for i in range(3)) / 6
+        for a, b, c in ([corners[i] for i in t] for t in triangles))
+    demand(math.isclose(volume, math.prod(b - a for a, b in sides),
+                        rel_tol=1e-6), "the box is inside out")
+
+
 def grey_rows(png):
     """The rows of an 8-bit grey PNG whose rows are stored as they are."""
     demand(png[:8] == b"\x89PNG\r\n\x1a\n", "no PNG")
@@ -259,6 +341,8 @@ def read(path):
         return read_sl1(path)
     if suffix == ".png":
         return read_folder(path)
+    if suffix == ".3mf":
+        return read_3mf(path)
     demand(suffix in READERS, f"{path}: no format of this name")
     with open(path, "rb") as file:
         return [(height, statistics(loops))
@@ -272,10 +356,14 @@ def statistics(loops):
     return len(loops), sum(a < 0 for a in areas), sum(areas), perimeter
 
 
+def print_layers(layers):
+    for height, (count, holes, area, perimeter) in layers:
+        print(f"{height:.6f} {count} {holes} {area:.9g} {perimeter:.9g}")
+
+
 def main():
     for path in sys.argv[1:]:
-        for height, (count, holes, area, perimeter) in read(path):
-            print(f"{height:.6f} {count} {holes} {area:.9g} {perimeter:.9g}")
+        print_layers(read(path))
 
 
 if __name__ == "__main__":

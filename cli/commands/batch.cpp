@@ -1,0 +1,105 @@
+// lamina batch: one design, a piece for every row of a table.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/commands.h"
+#include "cli/design_options.h"
+#include "cli/output_options.h"
+#include "cli/piece_table.h"
+#include "cli/pieces.h"
+#include "cli/run.h"
+#include "cli/terminal.h"
+#include "parser/source.h"
+
+namespace lamina::cli {
+namespace {
+
+constexpr std::string_view kBatchHelp =
+    R"(Usage: lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
+
+Makes a piece for every row of a table: the header of a .csv file names
+variables of the design, every row gives their values. Of a .json file of
+OpenSCAD's customizer, every parameter set is a piece. A bad row never stops
+the rest.
+
+  --table TABLE   the table: .csv (with commas, semicolons or tabs) or .json
+  -o PATTERN      the outputs: {name} or any other column, {row} the number of
+                  the row, as in out/{name}.slc
+  --skip COLUMN   pass over a column; may be repeated
+  --report FILE   what came of every piece: as JSON or, named .csv, as a table
+  -q, --quiet     say nothing but errors
+  -h, --help      print this help
+
+All other options of Output, Design and Slicing are those of 'lamina --help'
+and go for all pieces; cells go before -D.
+
+Exit status: 0 all pieces are done, 1 a piece or the table is at fault, 2 usage,
+130 interrupted.
+)";
+
+class BatchCommand : public Command {
+ public:
+  std::string_view help() const override { return kBatchHelp; }
+
+  void add_options(CLI::App& app) override {
+    app.add_option("design", table_.design.design)->required();
+    app.add_option("--table", table_.table)->type_name("file")->required();
+    app.add_option("-o", table_.design.output)
+        ->type_name("pattern")
+        ->required();
+    app.add_option("--skip", skipped_)
+        ->type_name("column")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_output_options(app, table_.design, export_format_);
+    add_design_options(app, table_.design);
+    add_slicing_options(app, table_.design);
+  }
+
+  void check() override {
+    if (!table_.design.parameter_file.empty()) {
+      throw UsageError("batch takes values from --table, not from -p and -P");
+    }
+    if (table_.design.output.find('{') == std::string::npos) {
+      throw UsageError(
+          "-o needs a pattern, such as 'out/{name}.slc' or 'out/{row}.slc'");
+    }
+    choose_format(table_.design, export_format_, table_.design.output);
+    table_.skipped.insert(skipped_.begin(), skipped_.end());
+  }
+
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+    const DesignOptions& design = table_.design;
+    Terminal terminal(design.is_quiet);
+    SourceStore sources;
+    Diagnostics diagnostics([&](const Diagnostic& d) { terminal.show(d); });
+    return run_caught(terminal, diagnostics, [&] {
+      const std::vector<Piece> pieces =
+          read_pieces(table_, sources, diagnostics);
+      if (diagnostics.has_errors()) return kFault;
+      return make_pieces(
+          pieces,
+          {"pieces", design.report, design.settings.threads, design.is_quiet},
+          temporary_files, stack);
+    });
+  }
+
+ private:
+  TableOptions table_;
+  std::vector<std::string> skipped_;
+  std::string export_format_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_batch_command() {
+  return std::make_unique<BatchCommand>();
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,172 @@
+#include "cli/pieces.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pthread.h>
+
+#include "cli/command.h"
+#include "cli/compile.h"
+#include "cli/large_stack.h"
+#include "cli/output_pattern.h"
+#include "cli/pieces_report.h"
+#include "cli/run.h"
+#include "cli/terminal.h"
+
+namespace lamina::cli {
+namespace {
+
+class Workshop {
+ public:
+  Workshop(std::span<const Piece> pieces, const PiecesOptions& options,
+           slicer::TemporaryFiles& temporary_files)
+      : pieces_(pieces),
+        options_(options),
+        temporary_files_(temporary_files),
+        outcomes_(pieces.size()) {
+    const unsigned threads =
+        options.threads != 0
+            ? options.threads
+            : std::max(1U, std::thread::hardware_concurrency());
+    worker_count_ = pieces.size() < threads ? 1 : threads;
+    threads_per_piece_ = worker_count_ == 1 ? threads : 1;
+    line_ =
+        std::make_unique<ProgressLine>(!options.is_quiet && worker_count_ > 1);
+    line_->begin(pieces.size(), options.unit);
+  }
+
+  // The calling thread works too.
+  std::vector<Outcome> run(std::size_t stack) {
+    std::vector<Worker> workers(worker_count_ - 1);
+    std::size_t started = 0;
+    for (Worker& worker : workers) {
+      worker.workshop = this;
+      if (!worker.stack.start(worker.thread, &work_in_thread, &worker)) break;
+      ++started;
+    }
+    work(stack);
+    for (std::size_t i = 0; i < started; ++i) {
+      ::pthread_join(workers[i].thread, nullptr);
+    }
+    line_->erase();
+    return std::move(outcomes_);
+  }
+
+ private:
+  struct Worker {
+    Workshop* workshop = nullptr;
+    LargeStack stack;
+    pthread_t thread{};
+  };
+
+  static void* work_in_thread(void* argument) {
+    const Worker& worker = *static_cast<Worker*>(argument);
+    worker.workshop->work(worker.stack.size());
+    return nullptr;
+  }
+
+  void work(std::size_t stack) {
+    while (const Piece* piece = next()) {
+      const auto index = static_cast<std::size_t>(piece - pieces_.data());
+      Inbox inbox{piece->prefix, worker_count_ == 1, "", ""};
+      Outcome outcome = make(*piece, stack, inbox);
+      take(index, std::move(outcome), std::move(inbox.text));
+    }
+  }
+
+  const Piece* next() {
+    const std::lock_guard lock(mutex_);
+    return next_ < pieces_.size() ? &pieces_[next_++] : nullptr;
+  }
+
+  Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
+    DesignOptions options = piece.options;
+    options.settings.threads = threads_per_piece_;
+    Outcome outcome;
+    {
+      Run run(options, temporary_files_, stack, &inbox);
+      const int status = run_caught(run.terminal, run.diagnostics, [&] {
+        if (!piece.fault.empty()) refuse_geometry(piece.fault);
+        make_folder_of(options.output);
+        return compile(run);
+      });
+      outcome = outcome_of(run.report, status == kDone);
+      if (status == kDone && run.report.min_feature > 0) {
+        run.terminal.say(feature_lines(run.report));
+      }
+      if (!options_.report.empty() && status == kDone) {
+        outcome.json = piece_json(run.report);
+      }
+      // Under hard warnings no error tells.
+      outcome.error = inbox.first_error;
+      if (status != kDone && outcome.error.empty()) {
+        outcome.error = run.diagnostics.all().back().message;
+      }
+    }
+    return outcome;
+  }
+
+  // Shows the messages of all pieces that no unfinished one precedes.
+  void take(std::size_t index, Outcome outcome, std::string text) {
+    const std::lock_guard lock(mutex_);
+    outcomes_[index] = std::move(outcome);
+    held_back_.resize(pieces_.size());
+    held_back_[index] = std::make_unique<std::string>(std::move(text));
+    for (; shown_ < pieces_.size() && held_back_[shown_]; ++shown_) {
+      const std::string& next_text = *held_back_[shown_];
+      if (!next_text.empty()) {
+        line_->erase();
+        std::fwrite(next_text.data(), 1, next_text.size(), stderr);
+      }
+      held_back_[shown_].reset();
+    }
+    line_->show(++done_);
+  }
+
+  std::span<const Piece> pieces_;
+  const PiecesOptions& options_;
+  slicer::TemporaryFiles& temporary_files_;
+  unsigned worker_count_ = 1;
+  unsigned threads_per_piece_ = 1;
+
+  std::mutex mutex_;  // for all below
+  std::unique_ptr<ProgressLine> line_;
+  std::size_t next_ = 0;
+  std::size_t done_ = 0;
+  std::size_t shown_ = 0;
+  std::vector<Outcome> outcomes_;
+  std::vector<std::unique_ptr<std::string>> held_back_;
+};
+
+}  // namespace
+
+int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
+                slicer::TemporaryFiles& temporary_files, std::size_t stack) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<Outcome> outcomes =
+      Workshop(pieces, options, temporary_files).run(stack);
+  const std::chrono::duration<double> seconds =
+      std::chrono::steady_clock::now() - begin;
+  Terminal terminal(options.is_quiet);
+  terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
+  if (!options.report.empty()) {
+    slicer::OutputFile report(options.report, temporary_files);
+    report.write(options.report.ends_with(".csv")
+                     ? outcomes_csv(pieces, outcomes)
+                     : outcomes_json(pieces, outcomes, seconds.count()));
+    report.commit();
+  }
+  const bool is_good =
+      std::all_of(outcomes.begin(), outcomes.end(),
+                  [](const Outcome& outcome) { return outcome.is_done; });
+  return is_good ? kDone : kFault;
+}
+
+}  // namespace lamina::cli

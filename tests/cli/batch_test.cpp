@@ -1,0 +1,374 @@
+// Several pieces in one run: `lamina batch`, and several designs.
+
+#include <chrono>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+
+#include "parser/csv.h"
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using support::read_file;
+using support::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::size_t count_lines(const std::string& text, const std::string& begin) {
+  std::istringstream lines(text);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    count += line.starts_with(begin) ? 1 : 0;
+  }
+  return count;
+}
+
+std::size_t count_files(const std::string& path) {
+  const auto begin = fs::directory_iterator(path);
+  return static_cast<std::size_t>(
+      std::distance(begin, fs::directory_iterator()));
+}
+
+// What the rows of a table make a design echo.
+class Echoes {
+ public:
+  Echoes(const std::string& design, const std::string& table) {
+    folder_.write("a.scad", design);
+    folder_.write("t.csv", table);
+    result_ = run(folder_, {"batch", "a.scad", "--table", "t.csv", "-o",
+                            "{row}.echo", "-q"});
+  }
+  std::string of_row(int row) const {
+    return read_file(folder_.file(fmt::format("{}.echo", row)));
+  }
+  std::string errors() const { return result_.errors; }
+
+ private:
+  TemporaryFolder folder_;
+  support::ProcessResult result_;
+};
+
+// --- Rings ------------------------------------------------------------------
+
+const char* const kBand =
+    "use <" LAMINA_EXAMPLES
+    "/lib/jewelry.scad>\n"
+    "size = 54;\n"
+    "width = 3;\n"
+    "engraving = \"\";\n"
+    "difference() {\n"
+    "  cylinder(d = ring_diameter_iso(size) + 4, h = width, $fn = 90);\n"
+    "  translate([0, 0, -1])\n"
+    "    cylinder(d = ring_diameter_iso(size), h = width + 2, $fn = 90);\n"
+    "  translate([9, 0, width - 0.4]) linear_extrude(1)\n"
+    "    text(engraving, size = 1.5);\n"
+    "}\n";
+
+// 200 rows, of which the 17th, 50th and 120th are bad.
+std::string orders() {
+  std::string table = "name,size,width,engraving\r\n";
+  for (int i = 1; i <= 200; ++i) {
+    const std::string size = i == 17   ? "30"
+                             : i == 50 ? "fifty"
+                                       : fmt::format("{}", 40 + i * 0.15);
+    const std::string name = i == 120 ? "../ring" : fmt::format("ring-{}", i);
+    table += fmt::format("{},{},{},\"No. {}, {}\"\r\n", name, size,
+                         2 + i % 4 * 0.5, i, size);
+  }
+  return table;
+}
+
+std::vector<std::string> batch(const std::string& pattern) {
+  return {"batch", "band.scad", "--table", "orders.csv",
+          "-o",    pattern,     "--layer", "0.1"};
+}
+
+TEST(Batch, OfTwoHundredRingsThreeBadOnesAreToldOfAndTheRestIsMade) {
+  const TemporaryFolder folder;
+  folder.write("band.scad", kBand);
+  folder.write("orders.csv", orders());
+  const auto result = run(folder, batch("out/{name}.slc"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(count_files(folder.file("out")), 197U);
+  EXPECT_EQ(count_lines(result.errors, "orders.csv:"), 3U) << result.errors;
+  EXPECT_TRUE(has(result.errors, "orders.csv:18: ring-17: ")) << result.errors;
+  EXPECT_TRUE(has(result.errors,
+                  "ISO ring size is a circumference of 38 to "
+                  "80 mm, got 30"));
+  EXPECT_TRUE(has(result.errors,
+                  "orders.csv:51: ring-50: error: size: a number was expected, "
+                  "not 'fifty'\n"));
+  EXPECT_TRUE(has(result.errors,
+                  "orders.csv:121: ../ring: error: name: '../ring' has a '/' "
+                  "in it and can be no part of a file's name\n"));
+  EXPECT_TRUE(has(result.errors, "197 of 200 pieces done, 3 failed, in "));
+  EXPECT_EQ(count_lines(result.errors, "ring-"), 199U);  // the closing table
+}
+
+TEST(Batch, MakesTheBytesOfSingleRuns) {
+  const TemporaryFolder folder;
+  folder.write("band.scad", kBand);
+  folder.write("orders.csv", orders());
+  run(folder, batch("{name}.slc"));
+  for (const int i : {1, 86, 200}) {
+    const std::string size = fmt::format("{}", 40 + i * 0.15);
+    run(folder, {"band.scad", "-o", "single.slc", "--layer", "0.1", "-D",
+                 "size=" + size, "-D", fmt::format("width={}", 2 + i % 4 * 0.5),
+                 "-D", fmt::format("engraving=\"No. {}, {}\"", i, size)});
+    EXPECT_EQ(read_file(folder.file(fmt::format("ring-{}.slc", i))),
+              read_file(folder.file("single.slc")))
+        << i;
+  }
+}
+
+TEST(Batch, IsTheSameForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "r = 1; echo(r); assert(r != 4); unknown(); sphere(r);");
+  std::string table = "r\n";
+  for (int i = 1; i < 20; ++i) table += fmt::format("{}\n", i);
+  folder.write("t.csv", table);
+  std::string messages[2];
+  for (const std::string threads : {"1", "8"}) {
+    const auto result =
+        run(folder, {"batch", "a.scad", "--table", "t.csv", "-o",
+                     threads + "-{row}.slc", "--threads", threads});
+    EXPECT_EQ(result.status, 1);
+    messages[threads == "8"] =
+        result.errors.substr(0, result.errors.find("\npieces "));
+  }
+  EXPECT_EQ(messages[0], messages[1]);
+  EXPECT_EQ(count_lines(messages[0], "t.csv:20: ECHO: 19"), 1U) << messages[0];
+  for (int i = 1; i < 20; ++i) {
+    if (i == 4) continue;
+    EXPECT_EQ(read_file(folder.file(fmt::format("1-{}.slc", i))),
+              read_file(folder.file(fmt::format("8-{}.slc", i))));
+  }
+}
+
+// --- Tables -----------------------------------------------------------------
+
+TEST(Batch, CellsHaveTheKindOfTheVariable) {
+  const Echoes echoes(
+      "size = 1; text = \"\"; open = true; v = [0]; any = undef;\n"
+      "echo(size, text, open, v, any);",
+      "size,text,open,v,any\n"
+      "2.5,2024,FALSE,\"[1, 2]\",x y\n"
+      ",,,,\n"
+      "3,\"say \"\"yes\"\"\",true,[],\"\"\"10\"\"\"\n");
+  EXPECT_EQ(echoes.of_row(1), "ECHO: 2.5, \"2024\", false, [1, 2], \"x y\"\n");
+  EXPECT_EQ(echoes.of_row(2), "ECHO: 1, \"\", true, [0], undef\n");
+  EXPECT_EQ(echoes.of_row(3), "ECHO: 3, \"say \"yes\"\", true, [], \"10\"\n");
+}
+
+TEST(Batch, ReadsWhatAGermanSpreadsheetWrites) {
+  const Echoes echoes("size = 1; text = \"\"; echo(size, text, $fn);",
+                      "\xef\xbb\xbfsize;text;$fn\r\n"
+                      "54,5;\"Anna; J\xc3\xbcrgen\";90\r\n");
+  EXPECT_EQ(echoes.of_row(1), "ECHO: 54.5, \"Anna; J\xc3\xbcrgen\", 90\n");
+}
+
+TEST(Batch, RefusesAColumnThatIsNoVariable) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; cube(size);");
+  folder.write("t.csv", "name,sise,customer\na,2,Ada\n");
+  std::vector<std::string> words = {"batch", "a.scad", "--table",
+                                    "t.csv", "-o",     "{name}.slc"};
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors,
+                  "t.csv:1:1: error: 'sise' is no variable of 'a.scad' (--skip "
+                  "sise passes over it)\n"))
+      << result.errors;
+  EXPECT_TRUE(has(result.errors, "'customer' is no variable"));
+  EXPECT_EQ(folder.entry_count(), 2U);
+  for (const std::string column : {"sise", "customer"}) {
+    words.insert(words.end(), {"--skip", column});
+  }
+  EXPECT_EQ(run(folder, words).status, 0);
+  EXPECT_EQ(folder.entry_count(), 3U);
+}
+
+TEST(Batch, RefusesTablesThatItCannotFollow) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; cube(size);");
+  const auto message = [&](const std::string& table, const std::string& file) {
+    folder.write(file, table);
+    const auto result =
+        run(folder, {"batch", "a.scad", "--table", file, "-o", "{name}.slc"});
+    EXPECT_EQ(result.status, 1);
+    return result.errors;
+  };
+  EXPECT_TRUE(has(message("", "t.csv"), "'t.csv' has no rows"));
+  EXPECT_TRUE(has(message("name,size\n", "t.csv"), "'t.csv' has no rows"));
+  EXPECT_TRUE(has(message("size\n1\n", "t.csv"),
+                  "'name' in '{name}.slc' is no column of 't.csv'"));
+  EXPECT_TRUE(has(message("name,size,size\na,1,2\n", "t.csv"),
+                  "two columns are called 'size'"));
+  EXPECT_TRUE(
+      has(message("name,size,\na,1,2\n", "t.csv"), "a column has no name"));
+  EXPECT_TRUE(has(message("name,size\na,1\nb,2\na,3\n", "t.csv"),
+                  "t.csv:2: a: and t.csv:4: a: have one output, 'a.slc'"));
+  EXPECT_TRUE(has(message("name\n\"a\n", "t.csv"), "t.csv:2:1: error: this"));
+  EXPECT_TRUE(has(message("{}", "t.json"), "has no sets of OpenSCAD"));
+  EXPECT_EQ(folder.entry_count(), 3U);  // design and tables
+}
+
+TEST(Batch, RefusesRowsThatItCannotFollow) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; cube(size);");
+  folder.write("t.csv",
+               "name,size\n"
+               "a,1,2\n"
+               "b\n"
+               ",1\n"
+               "c..d,1\n"
+               "\"e\nf\",1\n"
+               "g,1,,\n");
+  const auto result = run(
+      folder, {"batch", "a.scad", "--table", "t.csv", "-o", "o/{name}.slc"});
+  EXPECT_EQ(result.status, 1);
+  for (const char* const message :
+       {"t.csv:2: a: error: the row has 3 cells, the header has 2\n",
+        "t.csv:3: b: error: the row has 1 cells, the header has 2\n",
+        "t.csv:4: error: name: '' is empty and can be no part",
+        "t.csv:5: c..d: error: name: 'c..d' has '..' in it",
+        "error: name: 'e\nf' has a line break", "1 of 6 pieces done"}) {
+    EXPECT_TRUE(has(result.errors, message)) << message << result.errors;
+  }
+  EXPECT_EQ(count_files(folder.file("o")), 1U);
+}
+
+TEST(Batch, MakesAPieceOfEveryParameterSet) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; echo(size);");
+  folder.write("sets.json",
+               R"({"fileFormatVersion": "1", "parameterSets":
+                   {"wide": {"size": "4"}, "../x": {}, "thin": {"size": "2"}}})");
+  const auto result = run(folder, {"batch", "a.scad", "--table", "sets.json",
+                                   "-o", "{row}-{name}.echo"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "sets.json: ../x: error: '../x' has a '/'"));
+  EXPECT_EQ(read_file(folder.file("1-wide.echo")), "ECHO: 4\n");
+  EXPECT_EQ(read_file(folder.file("3-thin.echo")), "ECHO: 2\n");
+}
+
+TEST(Batch, ReportsEveryPiece) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "size = 1; assert(size < 5, \"large, too\");"
+               "cube(size);");
+  folder.write("t.csv", "name,size\na,2\nb,9\n");
+  std::vector<std::string> words = {"batch",    "a.scad", "--table",
+                                    "t.csv",    "-o",     "{name}.slc",
+                                    "--report", "r.json"};
+  EXPECT_EQ(run(folder, words).status, 1);
+  const auto report = nlohmann::json::parse(read_file(folder.file("r.json")));
+  EXPECT_EQ(report["done"], 1);
+  EXPECT_EQ(report["failed"], 1);
+  const auto& piece = report["pieces"][0];
+  EXPECT_EQ(piece["line"], 2);
+  EXPECT_EQ(piece["name"], "a");
+  EXPECT_EQ(piece["output"], "a.slc");
+  EXPECT_TRUE(piece["error"].is_null());
+  EXPECT_EQ(piece["report"]["layers"], 40);
+  EXPECT_NEAR(piece["report"]["volume_mm3"], 8, 1e-9);
+  EXPECT_TRUE(has(report["pieces"][1]["error"], "large, too"));
+
+  words.back() = "r.csv";
+  run(folder, words);
+  const Source source("r.csv", read_file(folder.file("r.csv")));
+  const Csv csv = read_csv(source);
+  ASSERT_EQ(csv.rows.size(), 3U);
+  EXPECT_EQ(csv.rows[1].cells.at(3), "40");
+  EXPECT_TRUE(has(csv.rows[2].cells.at(6), "large, too"));
+}
+
+TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; cylinder(r = 9, h = size, $fn = 300);");
+  folder.write("t.csv", "size\n0.1\n900\n901\n");
+  support::BackgroundProcess process(
+      command({"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc",
+               "--layer", "0.001", "--threads", "2"}),
+      folder.path());
+  for (int i = 0; i < 1000 && folder.entry_count() < 5; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  process.send(SIGINT);
+  EXPECT_EQ(process.wait(), 130);
+  EXPECT_EQ(folder.entry_count(), 3U);
+  EXPECT_TRUE(fs::exists(folder.file("1.slc")));
+}
+
+// --- Several designs --------------------------------------------------------
+
+TEST(SeveralDesigns, AreMadeBesideThemselvesAndOneFaultStopsNoOther) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  folder.write("b.scad", "cube(1;");
+  folder.write("c.csg", "sphere(r = 1);");
+  folder.write("d.scad", "x = y;");
+  const auto result =
+      run(folder, {"a.scad", "b.scad", "none.scad", "c.csg", "d.scad"});
+  EXPECT_EQ(result.status, 1);
+  for (const char* const message :
+       {"b.scad:1:7: error: ", "none.scad: error: Can't open input file",
+        "\nd.scad:1:5: warning: ", "d.scad: error: Current top level object",
+        "2 of 5 designs done, 3 failed"}) {
+    EXPECT_TRUE(has(result.errors, message)) << message << result.errors;
+  }
+  EXPECT_EQ(folder.entry_count(), 6U);
+  run(folder, {"a.scad", "-o", "single.slc"});
+  EXPECT_EQ(read_file(folder.file("a.slc")),
+            read_file(folder.file("single.slc")));
+}
+
+TEST(SeveralDesigns, GoToAFolderOrAPattern) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  folder.write("b.scad", "cube(2);");
+  EXPECT_EQ(run(folder, {"a.scad", "b.scad", "-o", "new/out/"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder.file("new/out/b.slc")));
+  EXPECT_EQ(run(folder, {"a.scad", "b.scad", "-o", "x-{name}.svg"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder.file("x-a.svg")));
+  EXPECT_EQ(
+      run(folder, {"a.scad", "-o", "one/", "--export-format", "cli"}).status,
+      0);
+  EXPECT_TRUE(fs::exists(folder.file("one/a.cli")));
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "{name}-{x}.csg"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder.file("a-{x}.csg")));
+}
+
+TEST(SeveralDesigns, RefuseWhatIsForOne) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("in"));
+  folder.write("a.scad", "cube(1);");
+  folder.write("in/a.scad", "cube(2);");
+  const std::vector<std::vector<std::string>> mistakes = {
+      {"-o", "x.slc"},
+      {"-o", "-", "--export-format", "slc"},
+      {"-o", "out/"},
+      {"-d", "rule"},
+  };
+  for (const auto& mistake : mistakes) {
+    std::vector<std::string> words = {"a.scad", "in/a.scad"};
+    words.insert(words.end(), mistake.begin(), mistake.end());
+    EXPECT_EQ(run(folder, words).status, 2) << mistake.back();
+  }
+  EXPECT_EQ(folder.entry_count(), 2U);
+}
+
+}  // namespace
+}  // namespace lamina::cli
