@@ -149,7 +149,7 @@ struct Design::State {
   }
 
   // From the syntax tree to the scene.
-  void build(const DesignOptions& options, ast::Program program) {
+  void build(const DesignOptions& options, const ast::Program& program) {
     Diagnostics& diagnostics = messages.diagnostics();
     std::vector<std::string> folders = text::module_folders();
     folders.insert(folders.begin(), options.module_folder);
