@@ -19,6 +19,7 @@ class Viewer {
     this.view = new View();
     this.drawing = new Drawing(byId("drawing"), part, this.view);
     this.plot = new Plot(byId("plot"), part);
+    this.solid = new Solid(byId("solid"), part);
     this.state = {
       index: 0, below: false, thin: part.minFeature > 0, pointer: null, ends: [],
     };
@@ -29,10 +30,12 @@ class Viewer {
     this.bindButtons();
     this.bindKeys();
     this.bindPointers();
-    new ResizeObserver(() => this.resize()).observe(byId("drawing"));
+    this.bindOrbit();
+    new ResizeObserver(() => this.resize()).observe(document.querySelector("main"));
     const asked = /layer=(\d+)/.exec(location.hash);
     this.choose(asked ? +asked[1] - 1 : this.fullestLayer());
     this.fit();
+    if (/view=3d/.test(location.hash)) this.toggleSolid();
   }
 
   fullestLayer() {
@@ -80,11 +83,11 @@ class Viewer {
 
   // Goes where the feature is thinnest.
   visit(feature) {
+    if (this.isSolid) this.toggleSolid();
     this.choose(feature.layer - 1);
     const reach = Math.max(1, 6 * feature.width);
     const [x, y] = feature.place;
-    this.view.show([x - reach, y - reach], [x + reach, y + reach],
-        this.drawing.canvas.clientWidth, this.drawing.canvas.clientHeight);
+    this.view.show([x - reach, y - reach], [x + reach, y + reach], ...this.room());
     this.draw();
   }
 
@@ -112,15 +115,22 @@ class Viewer {
     if (this.frame) return;
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
-      this.drawing.draw(this.state);
+      if (this.isSolid) this.solid.draw(this.state.index);
+      else this.drawing.draw(this.state);
       this.plot.draw(this.state.index);
     });
   }
 
+  // Width and height of what is drawn, be it hidden.
+  room() {
+    const {clientWidth, clientHeight} = this.drawing.canvas.parentElement;
+    return [clientWidth, clientHeight];
+  }
+
   fit() {
     const {size} = this.part;
-    this.view.show([0, 0], size, this.drawing.canvas.clientWidth,
-        this.drawing.canvas.clientHeight);
+    this.solid.reset();
+    this.view.show([0, 0], size, ...this.room());
     this.isFitted = true;
     this.draw();
   }
@@ -166,6 +176,25 @@ class Viewer {
     this.draw();
   }
 
+  toggleSolid() {
+    try {
+      this.solid.open();
+    } catch (error) {
+      byId("orbit").disabled = true;
+      byId("orbit").title = error.message;
+      return;
+    }
+    this.isSolid = !this.isSolid;
+    byId("orbit").setAttribute("aria-pressed", this.isSolid);
+    byId("solid").hidden = !this.isSolid;
+    byId("drawing").hidden = this.isSolid;
+    byId("pointer").textContent = "";
+    if (this.isMeasuring) this.toggleMeasure();
+    byId("measure").disabled = this.isSolid;
+    byId("below").disabled = this.isSolid;
+    this.draw();
+  }
+
   toggleTheme() {
     const root = document.documentElement;
     root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
@@ -195,14 +224,18 @@ class Viewer {
     byId("measure").onclick = () => this.toggleMeasure();
     byId("below").onclick = () => this.toggle("below");
     byId("thin").onclick = () => this.toggle("thin");
+    byId("orbit").onclick = () => this.toggleSolid();
     byId("theme").onclick = () => this.toggleTheme();
     byId("play").onclick = () => this.play();
   }
 
   bindKeys() {
-    const middle = () => [this.drawing.canvas.clientWidth / 2,
-      this.drawing.canvas.clientHeight / 2];
+    const middle = () => this.room().map((length) => length / 2);
     const zoom = (factor) => {
+      if (this.isSolid) {
+        this.zoomSolid(factor);
+        return;
+      }
       this.isFitted = false;
       this.view.zoom(factor, middle());
       this.draw();
@@ -215,8 +248,9 @@ class Viewer {
       Home: () => this.choose(0), End: () => this.choose(Infinity),
       "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(.8),
       f: () => this.fit(), 0: () => this.fit(),
-      m: () => this.toggleMeasure(), b: () => this.toggle("below"),
+      m: () => this.isSolid || this.toggleMeasure(), b: () => this.toggle("below"),
       t: () => this.part.minFeature && this.toggle("thin"),
+      s: () => this.toggleSolid(),
       d: () => this.toggleTheme(), " ": () => this.play(),
       Escape: () => this.isMeasuring && this.toggleMeasure(),
     };
@@ -271,6 +305,43 @@ class Viewer {
       byId("pointer").textContent = "";
       this.draw();
     };
+  }
+
+  zoomSolid(factor) {
+    this.solid.zoomed = Math.min(50, Math.max(.2, this.solid.zoomed * factor));
+    this.draw();
+  }
+
+  bindOrbit() {
+    const {canvas} = this.solid;
+    const held = new Map();
+    const place = (event) => [event.offsetX, event.offsetY];
+    canvas.onwheel = (event) => {
+      event.preventDefault();
+      if (event.shiftKey) {
+        this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
+      } else {
+        this.zoomSolid(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 30 : 1) * .0016));
+      }
+    };
+    canvas.onpointerdown = (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      held.set(event.pointerId, place(event));
+    };
+    canvas.onpointermove = (event) => {
+      if (!held.has(event.pointerId)) return;
+      const from = held.get(event.pointerId);
+      const to = place(event);
+      const other = [...held].find(([id]) => id !== event.pointerId);
+      const apart = (a, b) => Math.max(1, Math.hypot(a[0] - b[0], a[1] - b[1]));
+      if (other) this.zoomSolid(apart(to, other[1]) / apart(from, other[1]));
+      else this.solid.turn(to[0] - from[0], to[1] - from[1]);
+      held.set(event.pointerId, to);
+      this.draw();
+    };
+    canvas.onpointerup = canvas.onpointercancel =
+        (event) => held.delete(event.pointerId);
+    canvas.ondblclick = () => this.fit();
   }
 
   // One pointer moves the part, two of them stretch it.

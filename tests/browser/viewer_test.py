@@ -230,6 +230,31 @@ class ViewerTest(unittest.TestCase):
         picture = self.browser.screenshot()
         self.assertEqual(picture.at(*self.on_page(11.125, 23)), LIGHT["solid"])
 
+    def test_the_solid_is_cut_at_the_layer_and_turns(self):
+        self.open("plate.html", "theme=light&layer=5&view=3d")
+        left, top, width, height = self.browser.place_of("solid")
+
+        def golden_pixels():
+            picture = self.browser.screenshot()
+            pixels = [picture.at(x, y)
+                      for y in range(int(top), int(top + height), 7)
+                      for x in range(int(left), int(left + width), 7)]
+            return [p for p in pixels if p[0] > p[2] + 60]
+
+        # The section is of one colour, the sides of many.
+        pixels = golden_pixels()
+        section = max(set(pixels), key=pixels.count)
+        self.assertGreater(pixels.count(section), 200)
+        self.assertGreater(len(pixels), 1.1 * pixels.count(section))
+        # From below there is no section.
+        middle = (left + width / 2, top + height / 2)
+        self.browser.drag(middle, (middle[0], middle[1] - 150))
+        self.browser.settle()
+        self.assertEqual(golden_pixels().count(section), 0)
+        self.browser.press("s")
+        self.assertTrue(self.browser.evaluate(
+            "document.getElementById('solid').hidden"))
+
     def test_the_page_asks_for_nothing(self):
         self.open("plate.html")
         self.assertEqual([url for url in self.browser.requests

@@ -1,0 +1,379 @@
+// The part as a solid up to the layer in hand, on WebGL. Layers are drawn as the
+// plates that they are, but lit by the slope from layer to layer, so that steps
+// do not show.
+
+const kMostCorners = 60000;  // of all layers drawn: of more, some are left out
+const kSlopeReach = 12;      // layers; tops that are level so far are level
+const kSmoothCosine = .8;    // of the angle between edges that make a curve
+const kPieces = 40;          // across the part: larger ones are divided
+
+// How deep places lie in a layer, as far as `reach`; less than 0 outside.
+class Depths {
+  constructor(contours, reach) {
+    this.reach = reach;
+    this.rows = [];
+    const ys = contours.flatMap((loop) => Array.from(loop).filter((_, i) => i % 2));
+    this.low = ys.reduce((a, b) => Math.min(a, b), Infinity);
+    const high = ys.reduce((a, b) => Math.max(a, b), -Infinity);
+    const count = Math.min(256, Math.max(1, ys.length >> 1));
+    this.height = Math.max((high - this.low) / count, 1e-9);
+    if (ys.length === 0) return;
+    this.rows = Array.from({length: count}, () => []);
+    forEdges(contours, (ax, ay, bx, by) => {
+      const rows = [this.rowOf(ay), this.rowOf(by)].sort((a, b) => a - b);
+      for (let row = rows[0]; row <= rows[1]; ++row) {
+        this.rows[row].push(ax, ay, bx, by);
+      }
+    });
+  }
+
+  rowOf(y) {
+    return Math.min(this.rows.length - 1,
+        Math.max(0, Math.floor((y - this.low) / this.height)));
+  }
+
+  at(x, y) {
+    if (this.rows.length === 0) return -this.reach;
+    const middle = this.rowOf(y);
+    let nearest = this.reach ** 2;
+    let winding = 0;
+    const look = (row, isOwn) => {
+      const edges = this.rows[row];
+      for (let i = 0; i < edges.length; i += 4) {
+        const ax = edges[i];
+        const ay = edges[i + 1];
+        const dx = edges[i + 2] - ax;
+        const dy = edges[i + 3] - ay;
+        const t = Math.min(1, Math.max(0,
+            ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+        nearest = Math.min(nearest, (x - ax - t * dx) ** 2 + (y - ay - t * dy) ** 2);
+        if (isOwn && (ay <= y) !== (ay + dy <= y) && ax + dx * (y - ay) / dy < x) {
+          winding += dy > 0 ? 1 : -1;
+        }
+      }
+    };
+    look(middle, true);
+    for (let row = middle - 1; row >= 0; --row) {
+      const gap = y - this.low - (row + 1) * this.height;
+      if (gap > 0 && gap * gap >= nearest) break;
+      look(row, false);
+    }
+    for (let row = middle + 1; row < this.rows.length; ++row) {
+      const gap = this.low + row * this.height - y;
+      if (gap > 0 && gap * gap >= nearest) break;
+      look(row, false);
+    }
+    return Math.sqrt(nearest) * (winding === 0 ? -1 : 1);
+  }
+}
+
+function forEdges(contours, visit) {
+  for (const loop of contours) {
+    const count = loop.length / 2;
+    for (let i = 0; i < count; ++i) {
+      const j = (i + 1) % count;
+      visit(loop[2 * i], loop[2 * i + 1], loop[2 * j], loop[2 * j + 1], loop, i);
+    }
+  }
+}
+
+// Calls visit(edge, edge, bottom, top) for trapezoids that cover what the edges
+// enclose: {x, y, x1, y1, …} with y < y1 and their winding.
+function sweep(edges, heights, visit) {
+  edges.sort((a, b) => a.y - b.y);
+  heights.sort((a, b) => a - b);
+  const xAt = (edge, y) => edge.x + (edge.x1 - edge.x) * (y - edge.y) / (edge.y1 - edge.y);
+  let active = [];
+  let strips = [];
+  let next = 0;
+  const replace = (fresh, height) => {
+    for (const old of strips) {
+      const same = fresh.find((s) => s.left === old.left && s.right === old.right);
+      if (same) same.bottom = old.bottom;
+      else visit(old.left, old.right, old.bottom, height);
+    }
+    strips = fresh;
+  };
+  for (let i = 0; i + 1 < heights.length; ++i) {
+    const bottom = heights[i];
+    if (heights[i + 1] === bottom) continue;
+    const middle = (bottom + heights[i + 1]) / 2;
+    active = active.filter((edge) => edge.y1 > bottom);
+    while (next < edges.length && edges[next].y <= bottom) active.push(edges[next++]);
+    for (const edge of active) edge.at = xAt(edge, middle);
+    active.sort((a, b) => a.at - b.at);
+    const fresh = [];
+    let winding = 0;
+    for (const edge of active) {
+      if (winding === 0) fresh.push({left: edge, right: edge, bottom});
+      winding += edge.winding;
+      if (winding === 0) fresh[fresh.length - 1].right = edge;
+    }
+    replace(fresh, bottom);
+  }
+  replace([], heights[heights.length - 1]);
+}
+
+// Loops with no edge longer than `longest`.
+function divideEdges(contours, longest) {
+  return contours.map((loop) => {
+    const points = [];
+    forEdges([loop], (ax, ay, bx, by) => {
+      const count = Math.ceil(Math.hypot(bx - ax, by - ay) / longest) || 1;
+      for (let i = 0; i < count; ++i) {
+        points.push(ax + (bx - ax) * i / count, ay + (by - ay) * i / count);
+      }
+    });
+    return points;
+  });
+}
+
+// Corners of all plates: place, and direction of the surface; ordered by layer:
+// sides, then what is seen of the bottom, then of the top. The section, all of
+// it, is apart: it is drawn of the last layer only.
+class PlateMesh {
+  constructor(part) {
+    this.part = part;
+    this.places = [];
+    this.normals = [];
+    this.indices = [];
+    this.sections = [];
+    this.ends = [];  // of a layer: {bottoms, tops, section}, in indices
+    const corners = part.layers.reduce((sum, layer) => sum + layer.vertices, 0);
+    this.stride = Math.max(1, Math.ceil(corners / kMostCorners));
+    const chosen = part.layers.filter((_, i) => i % this.stride === 0);
+    this.thickness = part.size[2] / chosen.length || 1;
+    this.piece = Math.max(...part.size) / kPieces;
+    const reach = kSlopeReach * this.thickness;
+    const depths = [new Depths([], reach)];
+    chosen.forEach((layer, i) => {
+      const next = chosen[i + 1];
+      if (i === 0) depths.push(new Depths(layer.contours, reach));
+      depths.push(new Depths(next ? next.contours : [], reach));
+      this.add(layer, next ? next.bottom : layer.top, depths[0], depths[2]);
+      depths.shift();
+    });
+    this.places = new Float32Array(this.places);
+    this.normals = new Float32Array(this.normals);
+    this.sectionBegin = this.indices.length;
+    this.indices = new Uint32Array([this.indices, this.sections].flat());
+  }
+
+  add(layer, top, below, above) {
+    const base = this.part.layers[0].bottom;
+    const low = layer.bottom - base;
+    const high = top - base;
+    const slopeAt = (x, y) =>
+      (below.at(x, y) - above.at(x, y)) / (2 * this.thickness);
+    const edges = [];
+    const heights = [];
+    for (const loop of divideEdges(layer.contours, this.piece)) {
+      const slopes = Array.from({length: loop.length / 2},
+          (_, i) => slopeAt(loop[2 * i], loop[2 * i + 1]));
+      forEdges([loop], (ax, ay, bx, by, _, i) => {
+        const a = this.direction(loop, i, i, slopes);
+        const b = this.direction(loop, i, (i + 1) % slopes.length, slopes);
+        this.quad(this.indices, [ax, ay, low], a, [bx, by, low], b,
+            [bx, by, high], b, [ax, ay, high], a);
+        heights.push(ay);
+        if (ay < by) edges.push({x: ax, y: ay, x1: bx, y1: by, n: a, n1: b, winding: -1});
+        if (ay > by) edges.push({x: bx, y: by, x1: ax, y1: ay, n: b, n1: a, winding: 1});
+      });
+    }
+    const caps = [];
+    if (heights.length) sweep(edges, heights, (...cap) => caps.push(cap));
+    for (const cap of caps) this.addCap(cap, low, below, slopeAt);
+    const bottoms = this.indices.length;
+    for (const cap of caps) this.addCap(cap, high, above, slopeAt);
+    for (const [left, right, y0, y1] of caps) {
+      this.quad(this.sections, ...[[left, y0], [right, y0], [right, y1], [left, y1]]
+          .flatMap(([edge, y]) => [[...this.onEdge(edge, y).slice(0, 2), high], [0, 0, 1]]));
+    }
+    this.ends.push({bottoms, tops: this.indices.length, section: this.sections.length});
+  }
+
+  // Where an edge is at a height, and its surface's direction there: x, y, nx, ny.
+  onEdge(edge, y) {
+    const t = (y - edge.y) / (edge.y1 - edge.y);
+    return [edge.x + t * (edge.x1 - edge.x), y,
+      edge.n[0] + t * (edge.n1[0] - edge.n[0]), edge.n[1] + t * (edge.n1[1] - edge.n[1])];
+  }
+
+  // What the neighbouring layer leaves free of a trapezoid, in pieces.
+  addCap([left, right, y0, y1], z, cover, slopeAt) {
+    const ends = [y0, y1].map((y) => [this.onEdge(left, y), this.onEdge(right, y)]);
+    const width = Math.max(...ends.map(([a, b]) => b[0] - a[0]));
+    const count = Math.ceil(width / this.piece) || 1;
+    const reach = Math.min(Math.hypot(width / count, y1 - y0), .999 * cover.reach);
+    const columns = Array.from({length: count + 1}, (_, i) => ends.map(([a, b]) => {
+      const [x, y, nx, ny] = a.map((value, k) => value + (b[k] - value) * i / count);
+      return {place: [x, y, z], normal: [nx, ny, slopeAt(x, y)],
+        isCovered: cover.at(x, y) >= reach};
+    }));
+    for (let i = 0; i < count; ++i) {
+      const corners = [columns[i][0], columns[i + 1][0], columns[i + 1][1], columns[i][1]];
+      if (corners.every((corner) => corner.isCovered)) continue;
+      this.quad(this.indices, ...corners.flatMap(({place, normal}) => [place, normal]));
+    }
+  }
+
+  // Of the surface at a corner of edge i: the edge's, or that of the curve.
+  direction(loop, i, corner, slopes) {
+    const count = loop.length / 2;
+    const outward = (k) => {
+      const j = (k + 1) % count;
+      const dx = loop[2 * j] - loop[2 * k];
+      const dy = loop[2 * j + 1] - loop[2 * k + 1];
+      const length = Math.hypot(dx, dy) || 1;
+      return [dy / length, -dx / length];
+    };
+    let [x, y] = outward(i);
+    const [ox, oy] = outward(corner === i ? (i + count - 1) % count : corner);
+    if (x * ox + y * oy > kSmoothCosine) {
+      const length = Math.hypot(x + ox, y + oy);
+      [x, y] = [(x + ox) / length, (y + oy) / length];
+    }
+    return [x, y, slopes[corner]];
+  }
+
+  quad(indices, ...corners) {
+    const first = this.places.length / 3;
+    for (let i = 0; i < 8; i += 2) {
+      this.places.push(...corners[i]);
+      this.normals.push(...corners[i + 1]);
+    }
+    indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
+  }
+}
+
+const kVertexShader = `#version 300 es
+in vec3 place;
+in vec3 normal;
+uniform mat3 turn;
+uniform vec3 center;
+uniform vec4 lens;  // distance, focal length, aspect, radius
+out vec3 direction;
+void main() {
+  vec3 at = turn * (place - center);
+  direction = turn * normalize(normal);
+  float depth = lens.x - at.z;
+  float near = max(lens.x - lens.w, .02 * lens.x);
+  float far = lens.x + lens.w;
+  gl_Position = vec4(lens.y * at.x / lens.z, lens.y * at.y,
+      (depth * (far + near) - 2. * far * near) / (far - near), depth);
+}`;
+
+// The studio of lamina's pictures.
+const kFragmentShader = `#version 300 es
+precision highp float;
+in vec3 direction;
+uniform vec3 solid;
+uniform bool isSection;
+out vec4 color;
+const vec3 key = vec3(-.5994, -.3384, .7251);
+const vec3 fill = vec3(.8552, -.4528, .2515);
+void main() {
+  if (isSection) {
+    color = vec4(mix(pow(solid, vec3(1. / 2.2)), vec3(1), .25), 1);
+    return;
+  }
+  vec3 n = normalize(direction);
+  if (n.z < 0.) n.z = -n.z;
+  const float s = .581, c = .8139;
+  vec3 inRoom = vec3(n.x, s * n.y - c * n.z, c * n.y + s * n.z);
+  vec3 viewer = vec3(0, -c, s);
+  float facing = max(0., dot(inRoom, viewer));
+  vec3 to = 2. * facing * inRoom - viewer;
+  float room = .08 + .44 * smoothstep(-.35, 1., to.z) +
+      .10 * smoothstep(.2, 1., -to.z) + .10 * smoothstep(.1, .9, -to.x) +
+      .85 * smoothstep(.72, .97, dot(to, key)) +
+      .35 * smoothstep(.80, .98, dot(to, fill));
+  float diffuse = .75 * max(0., dot(inRoom, key)) +
+      .15 * max(0., dot(inRoom, fill)) + .14 + .14 * inRoom.z;
+  vec3 light = solid * diffuse * .4 +
+      mix(solid, vec3(1), .7 * pow(1. - facing, 5.)) * room;
+  light += .7 * max(0., max(light.r, max(light.g, light.b)) - .9);
+  color = vec4(pow(light, vec3(1. / 2.2)), 1);
+}`;
+
+class Solid {
+  constructor(canvas, part) {
+    this.canvas = canvas;
+    this.part = part;
+    this.reset();
+  }
+
+  reset() {
+    this.yaw = -.43;
+    this.pitch = .6;
+    this.zoomed = 1;
+  }
+
+  // Makes the mesh when it is first shown. Throws where there is no WebGL.
+  open() {
+    if (this.gl) return;
+    const gl = this.canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
+    if (!gl) throw new Error("This browser has no WebGL.");
+    this.mesh = new PlateMesh(this.part);
+    this.program = gl.createProgram();
+    for (const [kind, text] of [[gl.VERTEX_SHADER, kVertexShader],
+      [gl.FRAGMENT_SHADER, kFragmentShader]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(this.program, shader);
+    }
+    gl.linkProgram(this.program);
+    gl.useProgram(this.program);
+    for (const [name, data] of [["place", this.mesh.places], ["normal", this.mesh.normals]]) {
+      const at = gl.getAttribLocation(this.program, name);
+      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+      gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 0, 0);
+      gl.enableVertexAttribArray(at);
+    }
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, this.mesh.indices, gl.STATIC_DRAW);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    this.gl = gl;
+  }
+
+  turn(dx, dy) {
+    this.yaw += dx * .008;
+    this.pitch = Math.min(1.57, Math.max(-1.57, this.pitch + dy * .008));
+  }
+
+  draw(index) {
+    const {gl, canvas, part, mesh} = this;
+    const ratio = window.devicePixelRatio || 1;
+    canvas.width = Math.round(canvas.clientWidth * ratio);
+    canvas.height = Math.round(canvas.clientHeight * ratio);
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    const uniform = (name) => gl.getUniformLocation(this.program, name);
+    const [c, s] = [Math.cos(this.yaw), Math.sin(this.yaw)];
+    const [e, f] = [Math.cos(this.pitch), Math.sin(this.pitch)];
+    // Columns: where x, y and z go; right, up, towards the viewer.
+    gl.uniformMatrix3fv(uniform("turn"), false,
+        [c, s * f, -s * e, -s, c * f, -c * e, 0, e, f]);
+    gl.uniform3fv(uniform("center"), part.size.map((length) => length / 2));
+    const radius = Math.hypot(...part.size) / 2;
+    const aspect = canvas.width / canvas.height;
+    const focal = 4;
+    const distance = radius * focal / this.zoomed / Math.min(1, aspect) * 1.02;
+    gl.uniform4f(uniform("lens"), distance, focal, aspect, radius * 1.01);
+    gl.uniform3fv(uniform("solid"), [.92, .58, .16]);
+    gl.uniform1i(uniform("isSection"), 0);
+    const at = Math.min(mesh.ends.length - 1, Math.floor(index / mesh.stride));
+    const end = mesh.ends[at];
+    const isCut = at + 1 < mesh.ends.length;
+    gl.drawElements(gl.TRIANGLES, isCut ? end.bottoms : end.tops, gl.UNSIGNED_INT, 0);
+    if (!isCut) return;
+    const begin = at > 0 ? mesh.ends[at - 1].section : 0;
+    gl.uniform1i(uniform("isSection"), 1);
+    gl.drawElements(gl.TRIANGLES, end.section - begin, gl.UNSIGNED_INT,
+        4 * (mesh.sectionBegin + begin));
+  }
+}
