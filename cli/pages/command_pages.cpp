@@ -24,6 +24,10 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+std::string without_blanks(const std::string& text) {
+  return text.substr(std::min(text.find_first_not_of(' '), text.size()));
+}
+
 // An entry's text in one line, without tables and without the default.
 std::string in_one_line(const HelpEntry& entry) {
   std::string text;
@@ -120,19 +124,23 @@ std::vector<std::string> extensions_of(const std::string& usage) {
   return {"slc", "cli", "svg", "json", "stl", "scad", "csg"};
 }
 
-// "  lamina inspect FILE.slc [OPTION]...     check a layer file and list it"
+// "  lamina inspect FILE.slc [OPTION]...     check a layer file and list it",
+// where the text may stand on a line of its own below.
 void read_usage(const std::vector<HelpBlock>& main_help, CommandPage& page) {
   const std::string begin =
       page.name.empty() ? "  lamina " : "  lamina " + page.name + " ";
   for (const HelpBlock& block : main_help) {
     if (block.heading != "Usage") continue;
-    for (const std::string& line : block.lines) {
-      if (!line.starts_with(begin)) continue;
-      const std::size_t end = line.find("  ", begin.size());
-      page.extensions = extensions_of(line.substr(0, end));
-      const std::size_t text = line.find_first_not_of(' ', end);
-      if (text != std::string::npos) page.text = line.substr(text);
-      return;
+    const std::vector<std::string>& lines = block.lines;
+    const auto usage = std::find_if(
+        lines.begin(), lines.end(),
+        [&](const std::string& line) { return line.starts_with(begin); });
+    if (usage == lines.end()) continue;
+    const std::size_t end = std::min(usage->find("  ", 2), usage->size());
+    page.extensions = extensions_of(usage->substr(0, end));
+    page.text = without_blanks(usage->substr(end));
+    if (page.text.empty() && usage + 1 != lines.end()) {
+      page.text = without_blanks(*(usage + 1));
     }
   }
 }
