@@ -18,13 +18,11 @@ namespace {
 
 using slicer::OutputFormat;
 
-// The rule for make, if one is asked for. `tree` is null before evaluation.
-void write_dependencies(Run& run, const csg::Tree* tree) {
+// The rule for make, if one is asked for.
+void write_dependencies(Run& run) {
   if (run.options.dependencies.empty()) return;
   std::vector<std::string> files = run.loader.files();
-  if (tree != nullptr) {
-    files.insert(files.end(), tree->files.begin(), tree->files.end());
-  }
+  files.insert(files.end(), run.named_files.begin(), run.named_files.end());
   write_text(run, run.options.dependencies,
              make_rule(run.options.output, files));
 }
@@ -86,13 +84,14 @@ int compile(Run& run) {
   // The syntax tree is written before anything is evaluated: what a design
   // does is no matter of its syntax.
   if (run.options.format == OutputFormat::kAst) {
-    write_dependencies(run, nullptr);
+    write_dependencies(run);
     write_text(run, run.options.output, ast::print(loaded.program));
     return kDone;
   }
   Evaluated evaluated = evaluate(run, loaded.program);
+  run.named_files = evaluated.tree.files;
   // A run that hard warnings cut short does not know them all.
-  if (evaluated.tree.root != nullptr) write_dependencies(run, &evaluated.tree);
+  if (evaluated.tree.root != nullptr) write_dependencies(run);
   // Texts end well even where the design failed, as openscad's do.
   if (run.options.format == OutputFormat::kEcho) {
     // For what it warns of.

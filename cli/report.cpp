@@ -142,7 +142,7 @@ std::uint64_t peak_memory_bytes() {
 std::string report_json(const RunReport& report) {
   JsonObject json;
   add_passes(report, json);
-  json.add("total_seconds", process_seconds());
+  json.add("total_seconds", process_seconds() - report.earlier_seconds);
   json.add("wall_seconds", report.wall_seconds);
   json.add("peak_memory_bytes", peak_memory_bytes());
   add_layers(report, json);
@@ -172,9 +172,10 @@ std::string summary_line(const std::string& output, const RunReport& report) {
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
       output == "-" ? "standard output" : output, slice.layers, slice.loops,
-      slice.points, memory_text(report.output_bytes), process_seconds(),
-      report.load_seconds, report.evaluate_seconds, report.lower_seconds,
-      slice.section_seconds, slice.sweep_seconds, slice.output_seconds,
+      slice.points, memory_text(report.output_bytes),
+      process_seconds() - report.earlier_seconds, report.load_seconds,
+      report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
+      slice.sweep_seconds, slice.output_seconds,
       memory_text(peak_memory_bytes()), report.wall_seconds);
 }
 

@@ -32,7 +32,8 @@ struct RunReport {
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
   std::uint64_t warnings = 0;
   std::uint64_t output_bytes = 0;
-  double wall_seconds = 0;  // of the whole run
+  double wall_seconds = 0;     // of the whole run
+  double earlier_seconds = 0;  // of processor time, before this run
   // --sampler, where contours are the paper's; else empty.
   std::string sampler;
 };

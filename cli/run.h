@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/design_options.h"
 #include "cli/report.h"
@@ -38,6 +39,9 @@ struct Run {
   Loader loader;
   text::Typesetter typesetter{text::module_folders(), diagnostics};
   RunReport report;
+  // Files that modules of the design name: drawings, meshes, images. Known
+  // when the design has been evaluated.
+  std::vector<std::string> named_files;
   const std::chrono::steady_clock::time_point begin =
       std::chrono::steady_clock::now();
 };

@@ -15,6 +15,7 @@
 #include "cli/output_pattern.h"
 #include "cli/pieces.h"
 #include "cli/run.h"
+#include "cli/watch.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
@@ -61,6 +62,8 @@ Design:
   --render            $preview is false, whatever the output
   --preview           undoes --render
   -d FILE             write what the output depends on, as a rule for make
+  --watch             slice again whenever the design, or a file that it depends
+                      on, changes; Ctrl-C ends
 
 Slicing (lengths in millimetres):
   --layer MM          thickness of a layer [0.05]
@@ -139,6 +142,7 @@ class SliceCommand : public Command {
     app.add_option("design", designs_);
     app.add_option("-o", options_.output)->type_name("file");
     app.add_option("-d", options_.dependencies)->type_name("file");
+    app.add_flag("--watch", watches_);
     add_output_options(app, options_, export_format_);
     add_design_options(app, options_);
     add_slicing_options(app, options_);
@@ -150,6 +154,9 @@ class SliceCommand : public Command {
     for (const std::string& design : designs_) refuse_layers(design);
     if (options_.output == "-" && export_format_.empty()) {
       throw UsageError("-o - needs --export-format");
+    }
+    if (watches_ && (designs_.size() > 1 || options_.output == "-")) {
+      throw UsageError("--watch needs one design and a file to write");
     }
     if (designs_.size() > 1) return check_several();
     options_.design = designs_.front();
@@ -163,6 +170,7 @@ class SliceCommand : public Command {
     Run run(options_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics, [&] {
       if (makes_folder_) make_folder_of(options_.output);
+      if (watches_) compile_and_watch(options_, temporary_files, stack);
       const int status = compile(run);
       if (status == kDone) show_report(run);
       return status;
@@ -241,6 +249,7 @@ class SliceCommand : public Command {
   DesignOptions options_;  // of each
   std::string export_format_;
   bool makes_folder_ = false;
+  bool watches_ = false;
 };
 
 }  // namespace

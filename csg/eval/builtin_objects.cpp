@@ -147,6 +147,7 @@ Value builtin_import(const CallCode& code, Frame& frame) {
   const fs::path caller = fs::absolute(code.range.source->path());
   const std::string path =
       find_file(name, caller.parent_path().string(), frame.in);
+  frame.in.add_file(path);
   JsonResult result = read_json(path);
   if (!result.can_read) {
     return warn(code, frame, fmt::format("Could not read file '{}'", path));

@@ -1,0 +1,20 @@
+#pragma once
+// `--watch`: makes an output anew whenever the design or a file that it depends
+// on changes.
+
+#include <cstddef>
+
+#include "cli/design_options.h"
+#include "slicer/formats/output_file.h"
+
+namespace lamina::cli {
+
+// Goes on until an interrupt ends the process. Where the design fails, the
+// output stays as it was.
+//
+// throws  FileError where files cannot be watched
+[[noreturn]] void compile_and_watch(const DesignOptions& options,
+                                    slicer::TemporaryFiles& temporary_files,
+                                    std::size_t stack);
+
+}  // namespace lamina::cli

@@ -1,0 +1,129 @@
+// Outputs that are made anew when the design changes.
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::TemporaryFolder;
+
+// A run of `a.scad --watch`.
+class Watched {
+ public:
+  Watched(const TemporaryFolder& folder, const std::string& output,
+          std::vector<std::string> more = {})
+      : path_(folder.file(output)),
+        process_(words(output, std::move(more)), folder.path()) {}
+  ~Watched() { stop(); }
+
+  // Waits until the output is this text; false after some seconds.
+  bool comes_to(const std::string& text) const {
+    for (int i = 0; i < 500; ++i) {
+      if (output() == text) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ADD_FAILURE() << "it stays '" << output() << "'";
+    return false;
+  }
+
+  std::string output() const {
+    return std::filesystem::exists(path_) ? support::read_file(path_) : "";
+  }
+
+  int stop() {
+    if (!is_stopped_) {
+      process_.send(SIGINT);
+      status_ = process_.wait();
+    }
+    is_stopped_ = true;
+    return status_;
+  }
+
+ private:
+  static std::vector<std::string> words(const std::string& output,
+                                        std::vector<std::string> more) {
+    more.insert(more.begin(), {"a.scad", "-o", output, "--watch"});
+    return command(std::move(more));
+  }
+
+  std::string path_;
+  support::BackgroundProcess process_;
+  bool is_stopped_ = false;
+  int status_ = 0;
+};
+
+TEST(Watch, FollowsEveryWayToSaveADesign) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "echo(1);");
+  Watched watched(folder, "a.echo");
+  ASSERT_TRUE(watched.comes_to("ECHO: 1\n"));
+  folder.write("a.scad", "echo(2);");
+  ASSERT_TRUE(watched.comes_to("ECHO: 2\n"));
+  folder.write("other", "echo(3);");
+  std::filesystem::rename(folder.file("other"), folder.file("a.scad"));
+  ASSERT_TRUE(watched.comes_to("ECHO: 3\n"));
+  std::filesystem::remove(folder.file("a.scad"));
+  folder.write("a.scad", "echo(4);");
+  ASSERT_TRUE(watched.comes_to("ECHO: 4\n"));
+  EXPECT_EQ(watched.stop(), 130);
+  EXPECT_EQ(folder.entry_count(), 2U);
+}
+
+TEST(Watch, FollowsAllThatTheDesignDependsOn) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.file("lib"));
+  folder.write("lib/u.scad", "function f() = 1;");
+  folder.write("i.scad", "i = 1;");
+  folder.write("s.json", R"({"parameterSets": {"s": {"p": "1"}}})");
+  folder.write("d.json", "[1]");
+  folder.write("a.scad",
+               "use <lib/u.scad>\ninclude <i.scad>\np = 0;\n"
+               "echo(f(), i, p, import(\"d.json\"));");
+  Watched watched(folder, "a.echo", {"-p", "s.json", "-P", "s"});
+  ASSERT_TRUE(watched.comes_to("ECHO: 1, 1, 1, [1]\n"));
+  folder.write("lib/u.scad", "function f() = 2;");
+  ASSERT_TRUE(watched.comes_to("ECHO: 2, 1, 1, [1]\n"));
+  folder.write("i.scad", "i = 2;");
+  ASSERT_TRUE(watched.comes_to("ECHO: 2, 2, 1, [1]\n"));
+  folder.write("s.json", R"({"parameterSets": {"s": {"p": "2"}}})");
+  ASSERT_TRUE(watched.comes_to("ECHO: 2, 2, 2, [1]\n"));
+  folder.write("d.json", "[2]");
+  ASSERT_TRUE(watched.comes_to("ECHO: 2, 2, 2, [2]\n"));
+}
+
+TEST(Watch, KeepsTheOutputWhereTheDesignFails) {
+  const TemporaryFolder folder;
+  folder.write("i.scad", "i = 1;");
+  folder.write("a.scad", "include <i.scad>\ncube(i);");
+  Watched watched(folder, "a.csg");
+  const std::string one = "cube(size = [1, 1, 1], center = false);\n\n";
+  ASSERT_TRUE(watched.comes_to(one));
+  folder.write("a.scad", "cube(2;");
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(watched.output(), one);
+  // What the design depended on when it was good is still watched.
+  folder.write("i.scad", "i = 3;");
+  folder.write("a.scad", "include <i.scad>\ncube(i);");
+  ASSERT_TRUE(watched.comes_to("cube(size = [3, 3, 3], center = false);\n\n"));
+}
+
+TEST(Watch, IsForOneDesignAndAFile) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  EXPECT_EQ(run(folder, {"a.scad", "a.scad", "--watch"}).status, 2);
+  EXPECT_EQ(
+      run(folder, {"a.scad", "-o", "-", "--export-format", "slc", "--watch"})
+          .status,
+      2);
+}
+
+}  // namespace
+}  // namespace lamina::cli
