@@ -1,26 +1,34 @@
-// lamina inspect: a layer file checked and listed.
+// lamina inspect: layers of a file or of a design checked, measured and listed.
 
 #include "slicer/inspect.h"
 
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
+#include "cli/contradictions.h"
+#include "cli/design_options.h"
 #include "cli/option_values.h"
 #include "cli/run.h"
+#include "slicer/formats/layer_reader.h"
+#include "slicer/inspection_text.h"
 
 namespace lamina::cli {
 namespace {
 
 constexpr std::string_view kInspectHelp =
-    R"(Usage: lamina inspect FILE.slc [OPTION]...
+    R"(Usage: lamina inspect FILE [OPTION]...
 
-Shows the header, the layers and the totals of a .slc file and checks its
-loops: closed, without repeats, crossings and empty loops, turned as their
-nesting asks for, layers rising. Ends with 1 if there is a defect.
+Shows the header, the layers, the box, the volume and the weight in usual
+metals of a file of layers (.slc, .cli, .svg, .layers.json), or of a .scad or
+.csg design with any option that slicing has. Checks the loops: closed, without
+repeats, crossings and empty loops, turned as their nesting asks for, layers
+rising. Ends with 1 if there is a defect.
 
   --all       list every layer of a long file
+  --json      print all of it as JSON
   --min-feature MM
               tell of walls and gaps thinner than this
   -h, --help  print this help
@@ -31,29 +39,60 @@ class InspectCommand : public Command {
   std::string_view help() const override { return kInspectHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("file", file_)->required();
+    app.add_option("file", options_.design)->required();
     app.add_flag("--all", lists_all_layers_);
+    app.add_flag("--json", is_json_);
+    // In the layers as they are written, not by the slicer on its way.
     add_thin_width(app, min_feature_);
+    add_design_options(app, options_);
+    add_slicing_options(app, options_);
+    add_layer_range(app, options_.settings.written);
   }
 
-  int run(slicer::TemporaryFiles&, std::size_t) override {
-    Terminal terminal(false);
-    return run_caught(terminal, Diagnostics(), [this] { return inspect(); });
+  void check() override {
+    if (const char* contradiction = find_contradiction(options_.settings)) {
+      throw UsageError(contradiction);
+    }
+  }
+
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+    Run run(options_, temporary_files, stack);
+    return run_caught(run.terminal, run.diagnostics,
+                      [&] { return inspect(run); });
   }
 
  private:
-  int inspect() const {
-    const slicer::Inspection inspection =
-        slicer::inspect_slc(file_,
-                            lists_all_layers_ ? slicer::LayerList::kAll
-                                              : slicer::LayerList::kSummary,
-                            min_feature_);
-    std::fwrite(inspection.text.data(), 1, inspection.text.size(), stdout);
-    return inspection.defects == 0 ? kDone : kFault;
+  // No value where the design failed.
+  std::optional<slicer::Inspection> look(Run& run) const {
+    if (slicer::is_readable_layer_file(options_.design)) {
+      return slicer::inspect_file(options_.design, min_feature_);
+    }
+    const Loaded loaded = load(run);
+    Evaluated evaluated = evaluate(run, loaded.program);
+    if (loaded.has_failed || evaluated.has_failed) return std::nullopt;
+    slicer::Inspector inspector(min_feature_);
+    make_layers(run, std::move(evaluated.tree), inspector);
+    slicer::Inspection found = inspector.finish();
+    found.name = options_.design;
+    found.is_float32 = false;
+    return found;
   }
 
-  std::string file_;
+  int inspect(Run& run) const {
+    const auto found = look(run);
+    if (!found) return kFault;
+    const std::string text =
+        is_json_ ? inspection_json(*found)
+                 : inspection_text(*found, lists_all_layers_
+                                               ? slicer::LayerList::kAll
+                                               : slicer::LayerList::kSummary);
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return found->defects == 0 ? kDone : kFault;
+  }
+
+  DesignOptions options_;
   bool lists_all_layers_ = false;
+  bool is_json_ = false;
   double min_feature_ = 0;  // [mm]; 0: thin places are not looked for
 };
 

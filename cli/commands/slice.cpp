@@ -28,7 +28,7 @@ Usage:
   lamina DESIGN... [-o FILE] [OPTION]...  slice .scad or .csg designs
   lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
                                           a piece for every row of a table
-  lamina inspect FILE.slc [OPTION]...     check a layer file and list it
+  lamina inspect FILE [OPTION]...         check layers, list and weigh them
   lamina view FILE -o PICTURE.png         draw a layer file or a design
 
 Output:

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/lamina.h"
 
 namespace lamina::cli {
 namespace {
 
+using nlohmann::json;
 using support::TemporaryFolder;
 
 bool has(const std::string& text, const std::string& part) {
@@ -54,6 +56,80 @@ TEST(Inspect, WhatIsNoSlcEndsWithOne) {
   const auto result = run(folder, {"inspect", "a.slc"});
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(has(result.errors, "Stratasys")) << result.errors;
+}
+
+constexpr const char* kPlate =
+    "translate([1, 2, 3]) difference() { cube([20, 10, 5]);"
+    "translate([5, 2, -1]) cube([5, 5, 9]); }";
+
+json inspected(const TemporaryFolder& folder, std::vector<std::string> words) {
+  words.insert(words.begin(), "inspect");
+  words.push_back("--json");
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return json::parse(result.output);
+}
+
+TEST(Inspect, WeighsAndMeasuresThePart) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kPlate);
+  ASSERT_EQ(run(folder, {"a.scad", "--layer", "0.5"}).status, 0);
+  const json found = inspected(folder, {"a.slc"});
+  const double volume = (20 * 10 - 5 * 5) * 5;  // mm³
+  EXPECT_NEAR(found.at("volume_mm3").get<double>(), volume, 1e-3);
+  EXPECT_EQ(found.at("box_mm").at("low"), json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(found.at("box_mm").at("high"), json({21.0, 12.0, 8.0}));
+  EXPECT_EQ(found.at("layers").size(), 10U);
+  EXPECT_NEAR(found.at("layers")[3].at("area_mm2").get<double>(), 175, 1e-4);
+  EXPECT_NEAR(found.at("layers")[3].at("perimeter_mm").get<double>(), 80, 1e-4);
+  EXPECT_EQ(found.at("defects"), 0);
+  // 0.875 cm³ of each.
+  const json& weights = found.at("weight_g");
+  EXPECT_NEAR(weights.at("gold 18k yellow").get<double>(), 13.475, 1e-4);
+  EXPECT_NEAR(weights.at("sterling silver").get<double>(), 9.065, 1e-4);
+  EXPECT_NEAR(weights.at("platinum 950").get<double>(), 18.1125, 1e-4);
+  const auto text = run(folder, {"inspect", "a.slc"}).output;
+  EXPECT_TRUE(has(text, "weight        13.475 g  gold 18k yellow (15.4 g/cm³)"))
+      << text;
+  EXPECT_TRUE(has(text, "(20.0000 x 10.0000 x 5.0000 mm)")) << text;
+}
+
+TEST(Inspect, AllFormatsAndTheDesignItselfTellTheSame) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "sphere(4, $fn = 40);");
+  const std::vector<std::string> options = {"--layer", "0.1", "--adaptive",
+                                            "0.2"};
+  std::vector<std::string> words = {"a.scad"};
+  words.insert(words.end(), options.begin(), options.end());
+  const json design = inspected(folder, words);
+  ASSERT_GT(design.at("layers").size(), 20U);
+  for (const std::string format : {"slc", "cli", "svg", "layers.json"}) {
+    std::vector<std::string> slice = words;
+    slice.insert(slice.end(), {"-o", "b." + format});
+    ASSERT_EQ(run(folder, slice).status, 0);
+    const json file = inspected(folder, {"b." + format});
+    ASSERT_EQ(file.at("layers").size(), design.at("layers").size()) << format;
+    EXPECT_EQ(file.at("vertices"), design.at("vertices")) << format;
+    for (std::size_t i = 0; i < design.at("layers").size(); ++i) {
+      EXPECT_NEAR(file.at("layers")[i].at("area_mm2").get<double>(),
+                  design.at("layers")[i].at("area_mm2").get<double>(), 1e-3)
+          << format << ' ' << i;
+    }
+    // .svg has no sides, so its volume is a guess.
+    EXPECT_NEAR(file.at("volume_mm3").get<double>(),
+                design.at("volume_mm3").get<double>(),
+                format == "svg" ? 10 : 0.01)
+        << format;
+  }
+}
+
+TEST(Inspect, ADesignThatFailsEndsWithOne) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "assert(false); cube(1);");
+  const auto result = run(folder, {"inspect", "a.scad"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.output, "");
+  EXPECT_TRUE(has(result.errors, "Assertion")) << result.errors;
 }
 
 }  // namespace
