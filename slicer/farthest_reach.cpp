@@ -63,34 +63,34 @@ class Cone {
 std::uint32_t farthest_reach(std::span<const Vec2> points, std::uint32_t anchor,
                              std::uint32_t end, double tolerance) {
   if (end < anchor + 2) return end;
-  // Most runs of a coarse section end at once; that is cheap to see: no line
-  // passes both vertices.
+  // Most runs of a coarse section end at once; that is cheap to see: the line
+  // to the second vertex misses the first.
   const Vec2 first = points[anchor + 1] - points[anchor];
   const Vec2 second = points[anchor + 2] - points[anchor];
   const double area = cross(first, second);
-  if (area * area >
-      2 * tolerance * tolerance * (dot(first, first) + dot(second, second))) {
+  const double first_squared = dot(first, first);
+  const double second_squared = dot(second, second);
+  if (area * area > tolerance * tolerance * second_squared ||
+      first_squared == 0) {
     return anchor + 1;
   }
-  const double first_squared = dot(first, first);
-  if (first_squared == 0) return anchor + 1;
   std::uint32_t reach = anchor + 1;
   double farthest = first_squared;
-  Cone cone(dot(second, second) > first_squared ? second : first, tolerance);
+  Cone cone(second_squared > first_squared ? second : first, tolerance);
   cone.narrow(first);
   for (std::uint32_t i = anchor + 2; i <= end; ++i) {
     const Vec2 to = points[i] - points[anchor];
-    const double squared = dot(to, to);
     const bool is_held = cone.narrow(to);
+    if (cone.is_empty()) break;
+    if (!is_held && i - reach > kPatience + 2 * (reach - anchor)) break;
     // The end of a shortcut is its farthest vertex.
+    const double squared = dot(to, to);
     if (squared >= farthest) {
       farthest = squared;
       if (is_held) reach = i;
     } else if (std::sqrt(squared) < std::sqrt(farthest) - tolerance) {
       break;  // it turns back
     }
-    if (cone.is_empty()) break;
-    if (i - reach > kPatience + 2 * (reach - anchor)) break;
   }
   return reach;
 }
