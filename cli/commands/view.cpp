@@ -68,8 +68,8 @@ bool is_page(const std::string& output) { return output.ends_with(".html"); }
 enum class Style { kSheet, kStack };
 
 struct ViewOptions {
-  Style style = Style::kSheet;
-  slicer::SheetOptions sheet;
+  std::optional<Style> style;  // a sheet, unless told
+  std::optional<unsigned> layer_count;
   slicer::LayerPictureOptions layer;
   slicer::StackOptions stack;
   std::optional<std::size_t> layer_number;  // from 1
@@ -77,6 +77,10 @@ struct ViewOptions {
   std::optional<unsigned> width;            // [pixels]
 
   bool is_of_one_layer() const { return layer_number || layer_height; }
+  // Whether anything is asked for that means nothing to a page.
+  bool are_for_pictures() const {
+    return style || layer_count || is_of_one_layer() || width;
+  }
 };
 
 class LayerList : public slicer::LayerSink {
@@ -135,8 +139,9 @@ slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
                               layer);
   }
   if (options.style == Style::kStack) return draw_stack(layers, options.stack);
-  slicer::SheetOptions sheet = options.sheet;
+  slicer::SheetOptions sheet;
   sheet.width = options.width.value_or(sheet.width);
+  sheet.layer_count = options.layer_count.value_or(sheet.layer_count);
   return draw_sheet(layers, title, sheet);
 }
 
@@ -175,7 +180,7 @@ class ViewCommand : public Command {
         app, "--style", {"sheet", "stack"}, [this](const std::string& style) {
           options_.style = style == "stack" ? Style::kStack : Style::kSheet;
         });
-    app.add_option("--layers", options_.sheet.layer_count)
+    app.add_option("--layers", options_.layer_count)
         ->check(CLI::Range(1U, 400U))
         ->type_name("number");
     auto* const number = app.add_option("--layer-number", options_.layer_number)
@@ -220,8 +225,8 @@ class ViewCommand : public Command {
     if (options_.style == Style::kStack && options_.width) {
       throw UsageError("a stack needs --imgsize W,H, not --width");
     }
-    if (camera_.is_given() && is_page(design_.output)) {
-      throw UsageError("the options of openscad's camera need a .png");
+    if (is_page(design_.output) && options_.are_for_pictures()) {
+      throw UsageError("of view's own options a page takes --min-feature only");
     }
     if (const char* contradiction = find_contradiction(design_.settings)) {
       throw UsageError(contradiction);

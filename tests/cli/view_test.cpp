@@ -81,6 +81,24 @@ TEST(View, CamerasThatAreNoneAreAUsageFault) {
   }
 }
 
+TEST(View, APageTakesNoOptionsOfPictures) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (const auto& [option, value] :
+       {std::pair("--style", "stack"), std::pair("--layers", "3"),
+        std::pair("--width", "400"), std::pair("--at", "0.5"),
+        std::pair("--camera", "1,2,3,4,5,6")}) {
+    const auto result =
+        run(folder, {"view", "a.scad", "-o", "a.html", option, value});
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_NE(result.errors.find("a page takes --min-feature only"),
+              std::string::npos)
+        << result.errors;
+  }
+  EXPECT_EQ(run(folder, {"view", "a.scad", "-o", "a.html"}).status, 0);
+  EXPECT_EQ(folder.entry_count(), 2U);
+}
+
 TEST(View, AStackSaysWhichPackageIsMissing) {
   // Stand-ins that are no libraries hide the installed ones.
   const TemporaryFolder folder;
