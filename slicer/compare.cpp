@@ -107,6 +107,8 @@ const ldni::Contours& contours_of(const Layer* layer) {
   return layer != nullptr ? layer->contours : none;
 }
 
+}  // namespace
+
 LayerDifference compare_pair(const LayerPair& pair, Vec2 shift) {
   LayerDifference difference;
   if (pair.b != nullptr && shift != Vec2(0)) {
@@ -116,13 +118,14 @@ LayerDifference compare_pair(const LayerPair& pair, Vec2 shift) {
   } else {
     difference = compare_layers(contours_of(pair.a), contours_of(pair.b));
   }
-  const Layer& layer = pair.a != nullptr ? *pair.a : *pair.b;
-  difference.z = layer.section_z;
-  difference.thickness = layer.top - layer.bottom;
+  difference.z = pair.a != nullptr ? pair.a->section_z : pair.b->section_z;
+  for (const Layer* layer : {pair.a, pair.b}) {
+    if (layer == nullptr) continue;
+    difference.thickness =
+        std::max(difference.thickness, layer->top - layer->bottom);
+  }
   return difference;
 }
-
-}  // namespace
 
 void require_rising(const std::vector<Layer>& layers, const std::string& name) {
   for (std::size_t i = 1; i < layers.size(); ++i) {

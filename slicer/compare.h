@@ -27,15 +27,15 @@ struct LoopCount {
 
 struct LayerDifference {
   std::size_t number = 0;  // from 1
-  double z = 0;            // of the section in a [mm]
-  double thickness = 0;    // [mm]
+  double z = 0;            // of the section in a, else in b [mm]
+  double thickness = 0;    // 0: not known [mm]
   RegionAreas areas;
   LoopCount loops_a;
   LoopCount loops_b;
   // Infinite where only one of them has contours.
   ContourDistance distance;
-  // b was cut this much higher, to be on the same side of a horizontal face
-  // that lies in the plane of the section [mm].
+  // What was cut to be compared was cut this much higher than z, to be on the
+  // same side of a horizontal face that lies in the plane of the section [mm].
   double moved = 0;
 
   double area() const { return areas.only_a + areas.only_b; }
@@ -72,9 +72,10 @@ std::vector<LayerPair> pair_layers(const std::vector<Layer>& a,
                                    const std::string& name_b);
 constexpr double kSameHeight = 1e-4;  // [mm], float32's rounding included
 
-// All pairs, on all processors.
-//
 // shift  of b in the plane [mm]
+LayerDifference compare_pair(const LayerPair& pair, Vec2 shift);
+
+// All pairs, on all processors, numbered.
 std::vector<LayerDifference> compare(const std::vector<LayerPair>& pairs,
                                      Vec2 shift);
 

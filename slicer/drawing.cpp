@@ -1,7 +1,11 @@
 #include "slicer/drawing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "slicer/lettering.h"
 
@@ -71,6 +75,29 @@ PixelMap fit(const Bounds& bounds, const Rectangle& area, double padding) {
   PixelMap map{Vec2(0), {scale, 0}, {0, -scale}};
   map.origin = Vec2(area.width, area.height) / 2.0 - map(bounds.center());
   return map;
+}
+
+double round_length(double longest) {
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= longest) return digit * power;
+  }
+  return power;
+}
+
+double draw_scale(Image& image, Vec2 at, double longest, double pixels_per_mm,
+                  double size) {
+  const double length = round_length(longest / pixels_per_mm);
+  const Vec2 to = at + Vec2(length * pixels_per_mm, 0);
+  Coverage bar(image.width, image.height);
+  bar.add_stroke(at, to, 3);
+  for (const Vec2& end : {at, to}) {
+    bar.add_stroke(end - Vec2(0, 6), end + Vec2(0, 6), 2);
+  }
+  blend(image, bar, 0, 0, kInk);
+  const std::string words = fmt::format("{:g} mm", length);
+  draw_text(image, words, to + Vec2(14, size / 2), size);
+  return to.x + 14 + text_width(words, size);
 }
 
 void draw_layer(Image& image, const ldni::Contours& contours,

@@ -55,6 +55,17 @@ double fitting_size(std::string_view text, double size, double room);
 // pixels on every side; from the area's corner.
 PixelMap fit(const Bounds& bounds, const Rectangle& area, double padding);
 
+// The largest of 1, 2, 5, 10, … (and 0.5, 0.2, …) that is no longer.
+double round_length(double longest);
+
+// A bar of a round length, `longest` pixels at most, with its length beside it.
+//
+// at       its left end [pixels]
+// size     of a capital [pixels]
+// returns  where the words end [pixels]
+double draw_scale(Image& image, Vec2 at, double longest, double pixels_per_mm,
+                  double size);
+
 // The layer, solid with an outline.
 //
 // map            from the area's corner

@@ -32,15 +32,6 @@ constexpr Rgb kGap = {0.10F, 0.32F, 0.75F};
 // Labels of thin places, the thinnest first: more would hide the layer.
 constexpr std::size_t kMostLabels = 12;
 
-// The largest of 1, 2, 5, 10, … (and 0.5, 0.2, …) that is no longer.
-double round_length(double longest) {
-  const double power = std::pow(10.0, std::floor(std::log10(longest)));
-  for (const double digit : {5.0, 2.0}) {
-    if (digit * power <= longest) return digit * power;
-  }
-  return power;
-}
-
 class LayerPicture {
  public:
   LayerPicture(const std::vector<Layer>& layers, std::size_t index,
@@ -59,7 +50,9 @@ class LayerPicture {
     draw_tile(image_, field_);
     draw_grid();
     draw_layer(image_, layer_.contours, field_, map_, kOutlineWidth);
-    const double end = draw_scale();
+    const double end =
+        draw_scale(image_, {kMargin, image_.height - 20.0}, 0.25 * field_.width,
+                   pixels_per_mm(), kTextSize);
     if (options_.min_feature > 0) mark_thin_places(end);
     return std::move(image_);
   }
@@ -123,23 +116,6 @@ class LayerPicture {
                        map_({corner.x + reach_x, y}), 1);
     }
     blend(image_, lines, field_.x, field_.y, kGridLine);
-  }
-
-  // Returns where it ends [pixels].
-  double draw_scale() {
-    const double length = round_length(0.25 * field_.width / pixels_per_mm());
-    const double y = image_.height - 20.0;
-    const Vec2 from(kMargin, y);
-    const Vec2 to(kMargin + length * pixels_per_mm(), y);
-    Coverage bar(image_.width, image_.height);
-    bar.add_stroke(from, to, 3);
-    for (const Vec2& end : {from, to}) {
-      bar.add_stroke(end - Vec2(0, 6), end + Vec2(0, 6), 2);
-    }
-    blend(image_, bar, 0, 0, kInk);
-    const std::string words = fmt::format("{:g} mm", length);
-    draw_text(image_, words, to + Vec2(14, kTextSize / 2), kTextSize);
-    return to.x + 14 + text_width(words, kTextSize);
   }
 
   // from  where the words about them may begin [pixels]

@@ -11,6 +11,7 @@ namespace lamina::cli {
 
 std::unique_ptr<Command> make_slice_command();
 std::unique_ptr<Command> make_batch_command();
+std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_inspect_command();
 std::unique_ptr<Command> make_view_command();
 
@@ -22,6 +23,7 @@ struct NamedCommand {
 // Where none of these comes first, the words are those of slicing a design.
 inline constexpr std::array kNamedCommands = {
     NamedCommand{"batch", make_batch_command},
+    NamedCommand{"compare", make_compare_command},
     NamedCommand{"inspect", make_inspect_command},
     NamedCommand{"view", make_view_command}};
 

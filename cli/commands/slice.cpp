@@ -29,6 +29,7 @@ Usage:
   lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
                                           a piece for every row of a table
   lamina inspect FILE [OPTION]...         check layers, list and weigh them
+  lamina compare A B [OPTION]...          tell two files or designs apart
   lamina view FILE -o PICTURE.png         draw a layer file or a design
 
 Output:

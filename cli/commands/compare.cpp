@@ -1,0 +1,225 @@
+// lamina compare: how far two files, designs or meshes are from each other.
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/commands.h"
+#include "cli/compared.h"
+#include "cli/comparison.h"
+#include "cli/comparison_text.h"
+#include "cli/contradictions.h"
+#include "cli/design_options.h"
+#include "cli/option_values.h"
+#include "cli/run.h"
+#include "slicer/difference_picture.h"
+
+namespace lamina::cli {
+namespace {
+
+constexpr std::string_view kCompareHelp =
+    R"(Usage: lamina compare A B [OPTION]...
+       lamina compare DESIGN --against openscad [OPTION]...
+
+Compares layers: of files (.slc .cli .svg .layers.json), designs (.scad .csg)
+and meshes (.stl .off .obj .amf .3mf), in any pairing. Designs and meshes are
+cut at the heights of the other one; two designs at those of the first. Shows
+for each layer the areas that only one of them covers, regions and holes, and
+the greatest distance of their contours: no point of one is farther from the
+other's. Ends with 0 if all layers are within the tolerance, with 1 if not.
+
+  --tolerance MM      greatest distance that counts as equal [the sum of what
+                      both say of their precision, 0.001 at least]
+  --align             moves B first, so that the lower left corners of their
+                      boxes and their lowest layers agree
+  --all               list every layer, not only those that differ most
+  --png FILE          draw the layer that differs most
+  --layer-number N    draw this layer of the table instead
+  --report FILE       write all numbers as JSON
+  --against openscad  compare with what the installed openscad makes of it
+  --time-limit S      seconds for openscad, after which it is ended [600]
+  -q, --quiet         say nothing but errors
+  -h, --help          print this help
+
+Options of Design and Slicing are those of slicing (see 'lamina --help'), but
+for --tolerance. Contours of designs keep all vertices.
+)";
+
+// A shift that is less is none [mm].
+constexpr double kLeastShift = 1e-6;
+
+constexpr double kUsualTimeLimit = 600;  // seconds
+constexpr double kGreatestTimeLimit = 1e6;
+constexpr double kGreatestTolerance = 1e6;  // mm
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+class CompareCommand : public Command {
+ public:
+  std::string_view help() const override { return kCompareHelp; }
+
+  void add_options(CLI::App& app) override {
+    app.add_option("A", a_)->required();
+    app.add_option("B", b_);
+    add_design_options(app, design_);
+    add_slicing_options(app, design_);
+    // The words are the comparison's here.
+    app.remove_option(app.get_option("--tolerance"));
+    design_.settings.tolerance = 0;
+    add_text(app, "--tolerance", "length", [this](const std::string& text) {
+      tolerance_ =
+          require_within("--tolerance", text, 0, kGreatestTolerance, " mm");
+    });
+    app.add_flag("--align", aligns_);
+    app.add_flag("--all", lists_all_);
+    app.add_option("--png", picture_)->type_name("file");
+    app.add_option("--layer-number", layer_number_)
+        ->check(CLI::PositiveNumber)
+        ->type_name("number")
+        ->needs("--png");
+    app.add_option("--report", report_)->type_name("file");
+    add_choice(app, "--against", {"openscad"},
+               [this](const std::string&) { is_against_openscad_ = true; });
+    add_text(app, "--time-limit", "seconds", [this](const std::string& text) {
+      time_limit_ =
+          require_within("--time-limit", text, 0, kGreatestTimeLimit, " s");
+    })->needs("--against");
+  }
+
+  void check() override {
+    if (is_against_openscad_ != b_.empty()) {
+      throw UsageError(b_.empty()
+                           ? "compare needs two files, or --against openscad"
+                           : "--against openscad stands for the second file");
+    }
+    for (const std::string& path : {a_, b_}) {
+      if (!path.empty() && !can_compare(path)) {
+        throw UsageError(fmt::format(
+            "'{}' is nothing that compare knows (.slc .cli .svg .layers.json "
+            ".scad .csg .stl .off .obj .amf .3mf .dxf)",
+            path));
+      }
+    }
+    if (is_against_openscad_) check_openscad();
+    if (design_.settings.sampler != slicer::SamplerKind::kScanline) {
+      throw UsageError("compare cuts at heights, which --sampler gl cannot");
+    }
+    if (!picture_.empty() && !picture_.ends_with(".png")) {
+      throw UsageError(
+          fmt::format("--png draws .png pictures; '{}' is none", picture_));
+    }
+    if (const char* contradiction = find_contradiction(design_.settings)) {
+      throw UsageError(contradiction);
+    }
+  }
+
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+    Terminal terminal(design_.is_quiet);
+    return run_caught(terminal, Diagnostics(), [&] {
+      try {
+        const auto a = open_compared(a_, design_, temporary_files, stack);
+        const auto b = is_against_openscad_
+                           ? open_openscad(a_, design_, time_limit_,
+                                           temporary_files, stack)
+                           : open_compared(b_, design_, temporary_files, stack);
+        return compare(*a, *b, temporary_files);
+      } catch (const ShownFault&) {
+        return kFault;
+      }
+    });
+  }
+
+ private:
+  void check_openscad() const {
+    if (!a_.ends_with(".scad") && !a_.ends_with(".csg")) {
+      throw UsageError("--against openscad compares a design");
+    }
+    if (design_.chordal_error > 0) {
+      throw UsageError(
+          "--chordal-error makes other facets than openscad's: give $fa and "
+          "$fs by -D");
+    }
+  }
+
+  int compare(Compared& a, Compared& b,
+              slicer::TemporaryFiles& temporary_files) const {
+    Comparison comparison(a, b, aligns_);
+    ComparisonResult result =
+        comparison.run(tolerance_.value_or(comparison.usual_tolerance()));
+    if (!result.is_equal() && !aligns_) result.hint = find_hint(a, b, result);
+    if (!design_.is_quiet) {
+      const std::string text = comparison_text(result, lists_all_);
+      std::fwrite(text.data(), 1, text.size(), stdout);
+    }
+    if (!report_.empty()) {
+      slicer::OutputFile output(report_, temporary_files);
+      output.write(comparison_json(result));
+      output.commit();
+    }
+    if (!picture_.empty()) draw(comparison, result, temporary_files);
+    return result.is_equal() ? kDone : kFault;
+  }
+
+  // A shift that makes them equal, if there is one.
+  static Vec3 find_hint(Compared& a, Compared& b,
+                        const ComparisonResult& result) {
+    try {
+      const ComparisonResult aligned =
+          Comparison(a, b, true).run(result.tolerance);
+      const Vec3 shift = aligned.shift;
+      const bool is_moved = std::abs(shift.x) > kLeastShift ||
+                            std::abs(shift.y) > kLeastShift ||
+                            std::abs(shift.z) > kLeastShift;
+      if (is_moved && aligned.is_equal()) return shift;
+    } catch (const GeometryError&) {
+      // Heights do not match then: no hint.
+    }
+    return Vec3(0);
+  }
+
+  void draw(const Comparison& comparison, const ComparisonResult& result,
+            slicer::TemporaryFiles& temporary_files) const {
+    if (result.layers.empty()) refuse_geometry("there is no layer to draw");
+    const std::size_t index =
+        layer_number_ ? *layer_number_ - 1 : *result.totals.worst;
+    if (index >= result.layers.size()) {
+      refuse_geometry(fmt::format("there is no layer {} to draw: there are {}",
+                                  index + 1, result.layers.size()));
+    }
+    const slicer::Image picture = slicer::draw_difference(
+        comparison.layer_a(index).contours, comparison.layer_b(index).contours,
+        result.layers[index],
+        {file_name(result.a.name), file_name(result.b.name)});
+    slicer::OutputFile output(picture_, temporary_files);
+    write_png(picture, output);
+    output.commit();
+  }
+
+  DesignOptions design_;
+  std::string a_;
+  std::string b_;                    // empty: openscad
+  std::optional<double> tolerance_;  // [mm]
+  bool aligns_ = false;
+  bool lists_all_ = false;
+  std::string picture_;                      // path; empty: none
+  std::optional<std::size_t> layer_number_;  // from 1
+  std::string report_;                       // path; empty: none
+  bool is_against_openscad_ = false;
+  double time_limit_ = kUsualTimeLimit;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_compare_command() {
+  return std::make_unique<CompareCommand>();
+}
+
+}  // namespace lamina::cli

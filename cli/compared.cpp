@@ -1,0 +1,305 @@
+#include "cli/compared.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/openscad.h"
+#include "cli/run.h"
+#include "parser/check.h"
+#include "slicer/compensate.h"
+#include "slicer/deviation.h"
+#include "slicer/formats/layer_reader.h"
+
+namespace lamina::cli {
+namespace {
+
+using slicer::Layer;
+
+// What is assumed of files that do not tell: --tolerance of lamina unless it is
+// given [mm].
+const double kUsualSimplification = slicer::Settings().tolerance;
+
+// OpenSCAD unites and offsets outlines on a grid of 2^-16 mm.
+constexpr double kOpenScadGrid = 1.0 / 65536;
+
+double greatest_coordinate(const std::vector<Layer>& layers) {
+  double greatest = 0;
+  for (const Layer& layer : layers) {
+    for (const Vec2& point : layer.contours.points) {
+      greatest = std::max({greatest, std::abs(point.x), std::abs(point.y)});
+    }
+  }
+  return greatest;
+}
+
+class LayerList : public slicer::LayerSink {
+ public:
+  void take(const Layer& layer) override { layers.push_back(layer); }
+  std::vector<Layer> layers;
+};
+
+class ComparedFile : public Compared {
+ public:
+  explicit ComparedFile(const std::string& path) : Compared(path) {}
+
+  std::string description() const override {
+    return facts_.writer.empty()
+               ? facts_.format
+               : fmt::format("{} by {}", facts_.format, facts_.writer);
+  }
+
+  const std::vector<Layer>& layers() override {
+    if (!layers_) {
+      layers_.emplace();
+      facts_ = slicer::read_layers(
+          name(), [&](Layer& layer) { layers_->push_back(std::move(layer)); });
+    }
+    return *layers_;
+  }
+
+  bool has_sides() const override { return facts_.has_sides; }
+
+  double precision() const override {
+    slicer::Deviation deviation;
+    deviation.simplification = kUsualSimplification;
+    const double rounding =
+        facts_.is_float32
+            ? slicer::float32_rounding(greatest_coordinate(*layers_))
+            : 0;
+    return facts_.deviation.value_or(deviation.from_section()) + rounding;
+  }
+  bool is_precision_assumed() const override { return !facts_.deviation; }
+
+ private:
+  slicer::LayerFileFacts facts_;
+  std::optional<std::vector<Layer>> layers_;
+};
+
+// How a mesh rounds the coordinates of the design that it came from [mm]; sees
+// the greatest coordinate.
+using Rounding = double (*)(double greatest);
+
+double no_rounding(double /*greatest*/) { return 0; }
+
+double openscad_rounding(double greatest) {
+  return kOpenScadGrid + slicer::float32_rounding(greatest);
+}
+
+class ComparedDesign : public Compared {
+ public:
+  // text  of the design; none: the file's
+  ComparedDesign(std::string name, DesignOptions options,
+                 std::optional<std::string> text, Rounding rounding,
+                 slicer::TemporaryFiles& temporary_files, std::size_t stack)
+      : Compared(std::move(name)),
+        options_(std::move(options)),
+        text_(std::move(text)),
+        rounding_(rounding),
+        run_(options_, temporary_files, stack) {}
+
+  std::string description() const override { return text_ ? "mesh" : "design"; }
+
+  const std::vector<Layer>& layers() override {
+    if (!layers_) layers_ = sliced(options_.settings);
+    return *layers_;
+  }
+
+  bool can_be_cut() const override { return true; }
+
+  std::vector<Layer> cut(const std::vector<double>& heights) override {
+    if (heights.empty()) return {};
+    slicer::Settings settings = options_.settings;
+    settings.heights = heights;
+    return sliced(settings);
+  }
+
+  double precision() const override {
+    slicer::Deviation deviation;
+    deviation.simplification = options_.settings.tolerance;
+    if (options_.settings.compensation != 0) {
+      deviation.compensation = slicer::Compensator::kArcTolerance;
+    }
+    deviation.rounding = rounding_(greatest_coordinate_);
+    return deviation.from_section();
+  }
+
+ private:
+  std::vector<Layer> sliced(const slicer::Settings& settings) {
+    LayerList list;
+    const int status = run_caught(run_.terminal, run_.diagnostics, [&] {
+      if (!lowered_) prepare();
+      slice(run_, *lowered_, settings, list);
+      return kDone;
+    });
+    if (status != kDone) throw ShownFault();
+    greatest_coordinate_ =
+        std::max(greatest_coordinate_, greatest_coordinate(list.layers));
+    return std::move(list.layers);
+  }
+
+  void prepare() {
+    const Loaded loaded =
+        text_ ? Loaded{run_.loader.load_text(options_.design, *text_)}
+              : load(run_);
+    Evaluated evaluated = evaluate(run_, loaded.program);
+    if (loaded.has_failed || evaluated.has_failed) throw ShownFault();
+    tree_ = std::move(evaluated.tree);
+    lowered_ = lower(run_, tree_);
+  }
+
+  const DesignOptions options_;
+  const std::optional<std::string> text_;
+  const Rounding rounding_;
+  Run run_;
+  csg::Tree tree_;
+  std::optional<csg::Lowered> lowered_;
+  std::optional<std::vector<Layer>> layers_;
+  double greatest_coordinate_ = 0;
+};
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return extension;
+}
+
+bool is_design(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".scad" || extension == ".csg";
+}
+
+// What import() reads and is no file of layers.
+bool is_imported(const std::string& path) {
+  constexpr std::array<std::string_view, 6> kExtensions = {
+      ".stl", ".off", ".obj", ".amf", ".3mf", ".dxf"};
+  return std::find(kExtensions.begin(), kExtensions.end(),
+                   lower_extension(path)) != kExtensions.end();
+}
+
+// A design that imports the file beside it.
+std::string import_of(const std::string& path) {
+  std::string text = "import(\"";
+  for (const char c : std::filesystem::path(path).filename().string()) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + "\");\n";
+}
+
+// What goes for a mesh, too.
+DesignOptions mesh_options(const std::string& path,
+                           const DesignOptions& options) {
+  DesignOptions own = options;
+  own.design = path;
+  own.definitions.clear();
+  own.parameter_file.clear();
+  own.parameter_set.clear();
+  own.chordal_error = 0;
+  return own;
+}
+
+class ComparedOpenScad : public Compared {
+ public:
+  ComparedOpenScad(const std::string& design, const DesignOptions& options,
+                   double time_limit, slicer::TemporaryFiles& temporary_files,
+                   std::size_t stack)
+      : Compared("openscad"),
+        options_(options),
+        time_limit_(time_limit),
+        temporary_files_(temporary_files),
+        stack_(stack) {
+    options_.design = design;
+  }
+
+  std::string description() const override {
+    return fmt::format("{}, rendered in {:.1f} s", version_, render_seconds_);
+  }
+  const std::vector<Layer>& layers() override { return mesh().layers(); }
+  bool can_be_cut() const override { return true; }
+  std::vector<Layer> cut(const std::vector<double>& heights) override {
+    return mesh().cut(heights);
+  }
+  double precision() const override { return mesh_->precision(); }
+
+ private:
+  Compared& mesh() {
+    if (!mesh_) {
+      const ScratchFolder folder(temporary_files_);
+      version_ = openscad_version(folder);
+      const OpenScadMesh rendered =
+          render_with_openscad(options_, time_limit_, folder);
+      render_seconds_ = rendered.seconds;
+      mesh_ = std::make_unique<ComparedDesign>(
+          name(), mesh_options(rendered.path, options_),
+          import_of(rendered.path), openscad_rounding, temporary_files_,
+          stack_);
+      // Has it read while it is there.
+      mesh_->cut({0});
+    }
+    return *mesh_;
+  }
+
+  DesignOptions options_;
+  double time_limit_;
+  slicer::TemporaryFiles& temporary_files_;
+  std::size_t stack_;
+  std::string version_;
+  double render_seconds_ = 0;
+  std::unique_ptr<ComparedDesign> mesh_;
+};
+
+}  // namespace
+
+std::vector<Layer> Compared::cut(const std::vector<double>& /*heights*/) {
+  LAMINA_CHECK_EQ(can_be_cut(), true);
+  return {};
+}
+
+bool can_compare(const std::string& path) {
+  return slicer::is_readable_layer_file(path) || is_design(path) ||
+         is_imported(path);
+}
+
+std::unique_ptr<Compared> open_compared(const std::string& path,
+                                        const DesignOptions& options,
+                                        slicer::TemporaryFiles& temporary_files,
+                                        std::size_t stack) {
+  if (slicer::is_readable_layer_file(path)) {
+    return std::make_unique<ComparedFile>(path);
+  }
+  if (is_imported(path)) {
+    const Rounding rounding = lower_extension(path) == ".stl"
+                                  ? slicer::float32_rounding
+                                  : no_rounding;
+    return std::make_unique<ComparedDesign>(path, mesh_options(path, options),
+                                            import_of(path), rounding,
+                                            temporary_files, stack);
+  }
+  DesignOptions own = options;
+  own.design = path;
+  return std::make_unique<ComparedDesign>(path, std::move(own), std::nullopt,
+                                          no_rounding, temporary_files, stack);
+}
+
+std::unique_ptr<Compared> open_openscad(const std::string& design,
+                                        const DesignOptions& options,
+                                        double time_limit,
+                                        slicer::TemporaryFiles& temporary_files,
+                                        std::size_t stack) {
+  return std::make_unique<ComparedOpenScad>(design, options, time_limit,
+                                            temporary_files, stack);
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,105 @@
+// lamina compare --against openscad, and what openscad makes of the examples.
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/lamina.h"
+#include "tests/support/openscad_cache.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::ProcessResult;
+using support::TemporaryFolder;
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDesign =
+    "r = 2; difference() { sphere(r, $fn = 24); cylinder(r = 1, h = 9); }";
+
+bool contains(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(CompareWithOpenscad, RendersTheDesignWithItsDefinitions) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kDesign);
+  folder.write("sets.json", R"({"parameterSets": {"large": {"r": "2.5"}}})");
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{},
+                                             {"-D", "r=3"},
+                                             {"-p", "sets.json", "-P", "large"},
+                                             {"--axis", "x"}}) {
+    std::vector<std::string> words = {"compare",  "a.scad",      "--against",
+                                      "openscad", "--tolerance", "2e-5"};
+    words.insert(words.end(), options.begin(), options.end());
+    const ProcessResult result = run(folder, words);
+    EXPECT_EQ(result.status, 0) << result.output << result.errors;
+    EXPECT_TRUE(contains(result.output, "OpenSCAD version 2021.01"));
+  }
+  // Nothing is left behind.
+  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path())) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".lamina."))
+        << entry.path();
+  }
+}
+
+TEST(CompareWithOpenscad, ALimitEndsIt) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "minkowski() { sphere(2, $fn = 90); cube(1); sphere(1, $fn = "
+               "60); }");
+  const ProcessResult result =
+      run(folder, {"compare", "a.scad", "--against", "openscad", "--time-limit",
+                   "0.2", "--heights", "0"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.errors, "openscad took more than 0.2 s"))
+      << result.errors;
+}
+
+// Changes with what the examples share.
+std::string libraries_of(const fs::path& examples) {
+  std::string all;
+  for (const auto& entry : fs::directory_iterator(examples / "lib")) {
+    all += support::read_file(entry.path().string());
+  }
+  return fmt::format("libraries=\"{:016x}\"", std::hash<std::string>()(all));
+}
+
+class Example : public ::testing::TestWithParam<const char*> {};
+
+// OpenSCAD unites outlines on a grid of 2^-16 mm, in two steps of them here and
+// there, and writes float32 numbers; walls that lean multiply both.
+TEST_P(Example, IsWhatOpenscadMakesOfItToATenThousandth) {
+  const fs::path examples = LAMINA_EXAMPLES;
+  const fs::path design = examples / (std::string(GetParam()) + ".scad");
+  const support::OpenScadResult mesh = support::ask_openscad(
+      design, "stl",
+      {"--export-format", "binstl", "-D", libraries_of(examples)});
+  ASSERT_FALSE(mesh.output.empty()) << mesh.words;
+  const TemporaryFolder folder;
+  const ProcessResult result =
+      run(folder, {"compare", design.string(), mesh.output.string(),
+                   "--tolerance", "0.0001"});
+  EXPECT_EQ(result.status, 0) << result.output << result.errors;
+  EXPECT_TRUE(
+      contains(result.output, "as many regions and holes in every layer"))
+      << result.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(Compare, Example,
+                         ::testing::Values("hoop", "solitaire", "eternity",
+                                           "signet", "pendant"),
+                         [](const auto& example) {
+                           return std::string(example.param);
+                         });
+
+}  // namespace
+}  // namespace lamina::cli
