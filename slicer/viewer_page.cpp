@@ -130,18 +130,18 @@ std::string escape_html(std::string_view text) {
 
 class PageMaker {
  public:
-  PageMaker(const std::vector<Layer>& layers, double min_feature)
+  PageMaker(const std::vector<Layer>& layers, const ViewerOptions& options)
       : layers_(layers),
-        min_feature_(min_feature),
+        options_(options),
         step_(choose_step()),
         corners_(low_, step_),
         marks_(low_, step_) {}
 
-  std::string make(const std::string& title) {
+  std::string make() {
     Json facts = describe();
-    facts["title"] = title;
+    facts["title"] = options_.title;
     for (const Layer& layer : layers_) add_contours(layer);
-    if (min_feature_ > 0) facts["thin"] = find_thin_places();
+    if (options_.min_feature > 0) facts["thin"] = find_thin_places();
     // Every piece of the template ends where the next begins.
     std::string page;
     std::string_view rest = kViewerPage;
@@ -151,7 +151,7 @@ class PageMaker {
       page.append(rest.substr(0, place)).append(text);
       rest.remove_prefix(place + mark.size());
     };
-    put("{{title}}", escape_html(title));
+    put("{{title}}", escape_html(options_.title));
     put("{{style}}", kViewerStyle);
     put("{{facts}}", script_text(facts));
     put("{{contours}}", base64(deflate(numbers_.bytes())));
@@ -189,7 +189,7 @@ class PageMaker {
             {"step", step_},
             {"low", {low_.x, low_.y}},
             {"high", {high_.x, high_.y}},
-            {"minFeature", min_feature_}};
+            {"minFeature", options_.min_feature}};
   }
 
   void add_contours(const Layer& layer) {
@@ -204,8 +204,8 @@ class PageMaker {
   // Adds the middle lines of each layer behind all contours. Returns the
   // features that they make.
   Json find_thin_places() {
-    ThinFinder finder(min_feature_);
-    FeatureCollector collector(min_feature_, {});
+    ThinFinder finder(options_.min_feature);
+    FeatureCollector collector(options_.min_feature, {});
     std::vector<ThinStretch> stretches;
     for (const Layer& layer : layers_) {
       finder.find(layer.contours, stretches);
@@ -217,35 +217,39 @@ class PageMaker {
         marks_.add(numbers_, stretch.to);
       }
     }
-    return list(collector.finish());
+    return list(options_.features.empty() ? collector.finish()
+                                          : options_.features);
   }
 
   // What feature_table() would list, in its order; low ones are counted.
-  Json list(std::vector<ThinFeature> features) const {
-    const auto low = std::partition(features.begin(), features.end(),
-                                    [&](const ThinFeature& feature) {
-                                      return !is_low(feature, min_feature_);
-                                    });
-    const auto low_count = features.end() - low;
-    features.erase(low, features.end());
-    std::stable_sort(features.begin(), features.end(),
-                     [](const ThinFeature& a, const ThinFeature& b) {
-                       return std::pair(is_edge(a), a.width) <
-                              std::pair(is_edge(b), b.width);
-                     });
+  Json list(const std::vector<ThinFeature>& features) const {
+    std::vector<std::size_t> told;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (!is_low(features[i], options_.min_feature)) told.push_back(i);
+    }
+    std::stable_sort(
+        told.begin(), told.end(), [&](std::size_t a, std::size_t b) {
+          return std::pair(is_edge(features[a]), features[a].width) <
+                 std::pair(is_edge(features[b]), features[b].width);
+        });
     Json rows = Json::array();
-    for (const ThinFeature& feature : features) {
+    for (const std::size_t i : told) {
+      const ThinFeature& feature = features[i];
       rows.push_back({feature.kind == ThinKind::kGap ? 1 : 0,
                       feature.first_layer, feature.last_layer, feature.layer,
                       is_edge(feature) ? 0 : rounded(feature.width, 1e-6),
                       rounded(feature.place.x, step_),
                       rounded(feature.place.y, step_)});
+      if (i < options_.origins.size()) {
+        rows.back().push_back(options_.origins[i]);
+      }
     }
-    return {{"low", low_count}, {"features", std::move(rows)}};
+    return {{"low", features.size() - told.size()},
+            {"features", std::move(rows)}};
   }
 
   const std::vector<Layer>& layers_;
-  const double min_feature_;
+  const ViewerOptions& options_;
   Vec2 low_ = Vec2(1e300);
   Vec2 high_ = Vec2(-1e300);
   const double step_;
@@ -257,8 +261,8 @@ class PageMaker {
 }  // namespace
 
 std::string viewer_page(const std::vector<Layer>& layers,
-                        const std::string& title, double min_feature) {
-  return PageMaker(layers, min_feature).make(title);
+                        const ViewerOptions& options) {
+  return PageMaker(layers, options).make();
 }
 
 }  // namespace lamina::slicer

@@ -13,13 +13,21 @@
 #include <vector>
 
 #include "slicer/layer.h"
+#include "slicer/thin_features.h"
 
 namespace lamina::slicer {
 
-// layers       ascending; at least one of them with a contour
-// title        of the page: the part's name
-// min_feature  marks walls and gaps that are thinner [mm]; 0: none
+struct ViewerOptions {
+  std::string title;       // the part's name
+  double min_feature = 0;  // marks walls and gaps that are thinner [mm]
+  // Thin features that were found before, and what made each. Where there is
+  // none, they are looked for in the layers.
+  std::vector<ThinFeature> features;
+  std::vector<std::string> origins;
+};
+
+// layers  ascending; at least one of them with a contour
 std::string viewer_page(const std::vector<Layer>& layers,
-                        const std::string& title, double min_feature);
+                        const ViewerOptions& options);
 
 }  // namespace lamina::slicer

@@ -14,6 +14,7 @@
 #include "cli/commands/commands.h"
 #include "cli/contradictions.h"
 #include "cli/design_options.h"
+#include "cli/feature_report.h"
 #include "cli/option_values.h"
 #include "cli/run.h"
 #include "slicer/formats/layer_reader.h"
@@ -158,8 +159,12 @@ int draw(Run& run, const ViewOptions& options) {
   const std::string title =
       run.options.design.substr(slash == std::string::npos ? 0 : slash + 1);
   if (is_page(run.options.output)) {
-    write_text(run, run.options.output,
-               viewer_page(*layers, title, options.layer.min_feature));
+    slicer::ViewerOptions page;
+    page.title = title;
+    page.min_feature = options.layer.min_feature;
+    page.features = run.report.slice.features;
+    page.origins = origin_texts(run.report.origins);
+    write_text(run, run.options.output, viewer_page(*layers, page));
     return kDone;
   }
   const slicer::Image picture = draw_picture(*layers, title, options);
@@ -227,6 +232,10 @@ class ViewCommand : public Command {
     }
     if (is_page(design_.output) && options_.are_for_pictures()) {
       throw UsageError("of view's own options a page takes --min-feature only");
+    }
+    // What a design's thin places are made of is told on the page.
+    if (is_page(design_.output)) {
+      design_.settings.min_feature = options_.layer.min_feature;
     }
     if (const char* contradiction = find_contradiction(design_.settings)) {
       throw UsageError(contradiction);

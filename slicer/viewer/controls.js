@@ -70,6 +70,11 @@ class Viewer {
             `${feature.first}–${feature.last}`;
           button.innerHTML = `<span class="${feature.kind}">${feature.kind} ` +
             `${feature.width ? `${feature.width.toFixed(3)} mm` : "edge"}</span><small>layer ${range}</small>`;
+          if (feature.origin) {
+            const origin = document.createElement("em");
+            origin.textContent = feature.origin;
+            button.append(origin);
+          }
           button.onclick = () => this.visit(feature);
           item.append(button);
           return item;

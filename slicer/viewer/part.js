@@ -88,9 +88,9 @@ async function readPart() {
     layers,
     lowFeatures: facts.thin ? facts.thin.low : 0,
     features: (facts.thin ? facts.thin.features : []).map(
-        ([kind, first, last, layer, width, px, py]) => ({
+        ([kind, first, last, layer, width, px, py, origin]) => ({
           kind: kind ? "gap" : "wall", first, last, layer, width,
-          place: [px - x, py - y],
+          place: [px - x, py - y], origin,
         })),
   };
 }

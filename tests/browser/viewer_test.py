@@ -230,6 +230,14 @@ class ViewerTest(unittest.TestCase):
         picture = self.browser.screenshot()
         self.assertEqual(picture.at(*self.on_page(11.125, 23)), LIGHT["solid"])
 
+    def test_thin_places_of_a_design_name_what_made_them(self):
+        lamina("view", self.path("plate.scad"), "--layer", "0.1", "-o",
+               self.path("design.html"), "--min-feature", "0.4")
+        self.open("design.html")
+        self.assertIn("wall 0.250 mm", self.browser.text("thin-list"))
+        # The pin's line.
+        self.assertIn("plate.scad:7:", self.browser.text("thin-list"))
+
     def test_the_solid_is_cut_at_the_layer_and_turns(self):
         self.open("plate.html", "theme=light&layer=5&view=3d")
         left, top, width, height = self.browser.place_of("solid")
