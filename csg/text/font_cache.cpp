@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <new>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <hb-ft.h>
@@ -85,6 +87,51 @@ std::string describe_substitution(const FcPattern& asked,
                      from_fc(family), from_fc(taken));
 }
 
+// Where OpenSCAD looks for fonts, besides the system's.
+std::vector<std::string> font_folders() {
+  std::vector<std::string> folders = {kBundledFonts};
+  if (const char* home = std::getenv("HOME")) {
+    folders.push_back(std::string(home) + "/.fonts");
+  }
+  if (const char* more = std::getenv("OPENSCAD_FONT_PATH")) {
+    std::string_view rest = more;
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find(':'), rest.size());
+      folders.emplace_back(rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+  return folders;
+}
+
+Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
+  Owned<FcConfig> config(FcInitLoadConfig());
+  if (!config) throw std::bad_alloc();
+  for (const std::string& path : folders) {
+    std::error_code error;
+    const fs::path folder = fs::absolute(path, error);
+    if (!fs::is_directory(folder, error)) continue;
+    FcConfigAppFontAddDir(config.get(), to_fc(folder.c_str()));
+  }
+  if (!FcConfigBuildFonts(config.get())) throw std::bad_alloc();
+  return config;
+}
+
+// Looking for all fonts takes longer than many a design, and finds the same
+// for each. Fontconfig lets threads share what it found.
+Owned<FcConfig> shared_config() {
+  static std::mutex mutex;
+  static std::vector<std::string> known_folders;
+  static Owned<FcConfig> config;
+  const std::lock_guard lock(mutex);
+  std::vector<std::string> folders = font_folders();
+  if (!config || folders != known_folders) {
+    config = load_config(folders);
+    known_folders = std::move(folders);
+  }
+  return Owned<FcConfig>(FcConfigReference(config.get()));
+}
+
 // --- FreeType ---------------------------------------------------------------
 
 bool select_charmap(FT_FaceRec& face, int platform, int encoding) {
@@ -122,33 +169,15 @@ bool has_symbols(FT_FaceRec& face) {
 
 }  // namespace
 
-FontCache::FontCache() : config_(FcInitLoadConfig()) {
+FontCache::FontCache() : config_(shared_config()) {
   FT_Library library = nullptr;
-  if (!config_ || FT_Init_FreeType(&library) != 0) throw std::bad_alloc();
+  if (FT_Init_FreeType(&library) != 0) throw std::bad_alloc();
   library_.reset(library);
-  add_folder(kBundledFonts);
-  if (const char* home = std::getenv("HOME")) {
-    add_folder(std::string(home) + "/.fonts");
-  }
-  if (const char* folders = std::getenv("OPENSCAD_FONT_PATH")) {
-    std::string_view rest = folders;
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find(':'), rest.size());
-      add_folder(std::string(rest.substr(0, end)));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-  }
-  if (!FcConfigBuildFonts(config_.get())) throw std::bad_alloc();
-}
-
-void FontCache::add_folder(const std::string& path) {
-  std::error_code error;
-  const fs::path folder = fs::absolute(path, error);
-  if (!fs::is_directory(folder, error)) return;
-  FcConfigAppFontAddDir(config_.get(), to_fc(folder.c_str()));
 }
 
 bool FontCache::add_font(const char* path) {
+  if (!has_own_config_) config_ = load_config(font_folders());
+  has_own_config_ = true;
   return FcConfigAppFontAddFile(config_.get(), to_fc(path)) == FcTrue;
 }
 

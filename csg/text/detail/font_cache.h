@@ -41,21 +41,22 @@ struct Font {
   static constexpr int kSize = 100000;
 };
 
+// Caches share what Fontconfig finds, until a design brings fonts along.
 class FontCache {
  public:
   FontCache();
 
-  // False if Fontconfig finds no font in the file.
+  // Before the first find(). False if Fontconfig finds no font in the file.
   bool add_font(const char* path);
 
   // The best match for a Fontconfig name ("Liberation Sans:style=Bold").
   const Font& find(const std::string& name);
 
  private:
-  void add_folder(const std::string& path);
   Font load(const std::string& name) const;
 
   Owned<FcConfig> config_;
+  bool has_own_config_ = false;  // with fonts that no other design sees
   Owned<FT_LibraryRec_> library_;
   std::map<std::string, Font> fonts_;  // must go before the library
 };
