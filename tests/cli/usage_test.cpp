@@ -69,7 +69,6 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"a.slc"},
       {"a.cli", "-o", "b.slc"},
       {"view", "a.sl1", "-o", "b.png"},
-      {"view", "a.svg", "-o", "b.png"},
       {"a.scad", "--layer", "0"},
       {"a.scad", "--layer", "-1"},
       {"a.scad", "--layer", "thick"},
