@@ -42,11 +42,15 @@ def inspected_layers(path):
     """
     lines = lamina("inspect", path, "--all").splitlines()
     begin = next(i for i, line in enumerate(lines) if "perimeter mm" in line)
+    names = [name for name in lines[begin].split()
+             if name not in ("mm", "mm²")]
+    wanted = ["z", "loops", "holes", "vertices", "area", "perimeter"]
     rows = []
     for line in lines[begin + 1:]:
         if not line.strip():
             break
-        rows.append([float(word) for word in line.split()[1:7]])
+        values = dict(zip(names, line.split(), strict=True))
+        rows.append([float(values[name]) for name in wanted])
     return rows
 
 
