@@ -59,8 +59,10 @@ std::string sampler_name(const slicer::Settings& settings) {
 // The panel of the printer; of formats without images an empty one.
 slicer::Panel chosen_panel(const DesignOptions& options) {
   if (!slicer::is_of_images(options.format)) return {};
-  const std::string usual =
-      options.format == OutputFormat::kSl1 ? "prusa-sl1" : "plain";
+  const std::string usual = options.format == OutputFormat::kSl1 ? "prusa-sl1"
+                            : options.format == OutputFormat::kNanoDlp
+                                ? "wanhao-d7"
+                                : "plain";
   slicer::Panel panel =
       slicer::find_panel(options.printer.empty() ? usual : options.printer);
   if (options.mirrors_x) panel.right = -panel.right;

@@ -42,14 +42,16 @@ const char* find_misfit(const DesignOptions& options) {
   const bool has_images = slicer::is_of_images(format);
   const bool is_mirrored = options.mirrors_x || options.mirrors_y;
   if (!has_images && !options.printer.empty()) {
-    return "--printer needs images: .png or .sl1";
+    return "--printer needs images: .png, .sl1 or .zip";
   }
   if (!has_images && is_mirrored) {
-    return "--mirror needs images: .png or .sl1";
+    return "--mirror needs images: .png, .sl1 or .zip";
   }
   if (options.cli_encoding && format != kCli) return "--cli needs .cli output";
-  if (format == kSl1 && (settings.cusp > 0 || !settings.heights.empty())) {
-    return ".sl1 needs layers of one thickness, not --heights or --adaptive";
+  const bool is_archive = format == kSl1 || format == kNanoDlp;
+  if (is_archive && (settings.cusp > 0 || !settings.heights.empty())) {
+    return ".sl1 and .zip need layers of one thickness, not --heights or "
+           "--adaptive";
   }
   if (format == kThreemf && !settings.heights.empty()) {
     return ".3mf needs layers, not --heights";

@@ -36,6 +36,19 @@ Vec2 read_direction(const Json& json) {
       fmt::format("a direction is +x, -x, +y or -y, not '{}'", word));
 }
 
+PixelLayout read_layout(const Json& json, unsigned width) {
+  const std::string word = json.get<std::string>();
+  if (word == "grey") return PixelLayout::kGrey;
+  if (word != "rgb") {
+    throw std::runtime_error(
+        fmt::format("nanodlp_pixels are grey or rgb, not '{}'", word));
+  }
+  if (width % 3 != 0) {
+    throw std::runtime_error("rgb takes three pixels at a time");
+  }
+  return PixelLayout::kThreeInOne;
+}
+
 unsigned read_pixels(const Json& json) {
   const double pixels = json.get<double>();
   if (!(pixels >= 1 && pixels <= kMostPixels) || pixels != std::floor(pixels)) {
@@ -55,6 +68,9 @@ Panel read_panel(std::string_view text) {
                  json.at("pixel_mm").at(1).get<double>()};
   panel.right = read_direction(json.at("right"));
   panel.up = read_direction(json.at("up"));
+  if (json.contains("nanodlp_pixels")) {
+    panel.nanodlp_layout = read_layout(json.at("nanodlp_pixels"), panel.width);
+  }
   if (!(panel.pixel.x > 0) || !(panel.pixel.y > 0)) {
     throw std::runtime_error("pixel_mm must be positive");
   }

@@ -6,6 +6,7 @@
 
 #include "csg/vec.h"
 #include "slicer/coverage.h"
+#include "slicer/grey_png.h"
 
 namespace lamina::slicer {
 
@@ -18,6 +19,12 @@ struct Panel {
   // image: ±x and ±y. Panels seen from below show a mirrored part.
   Vec2 right = Vec2(1, 0);
   Vec2 up = Vec2(0, 1);
+
+  // How NanoDLP hands pixels to its display.
+  PixelLayout nanodlp_layout = PixelLayout::kGrey;
+
+  // Whether it shows a part turned over.
+  bool is_mirrored() const { return right.x * up.y - right.y * up.x < 0; }
 
   // Where places go if `middle` [mm] is in the middle of the panel.
   PixelMap map_around(Vec2 middle) const;

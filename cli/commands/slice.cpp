@@ -42,12 +42,14 @@ Output:
                                          outline of a 2D design
                         .png             a folder of images
                         .sl1             images for Prusa's resin printers
+                        .zip .nanodlp    images for printers with NanoDLP
                         .3mf             a stack of slices
                         .layers.json     layers with every digit
                         .csg .echo .ast  what the design makes, says, and is
   --export-format F   one of these formats, whatever the output's name
   --printer P         of images: whose panel they are for: a name or a file of
-                      profile (see docs/formats.md) [plain; of .sl1 prusa-sl1]
+                      profile (see docs/formats.md) [plain; of .sl1
+                      prusa-sl1; of .zip wanhao-d7]
   --mirror x|y|xy     of images: turned over
   --cli ENCODING      of .cli: binary or ascii [binary]
 

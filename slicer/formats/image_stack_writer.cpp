@@ -1,21 +1,21 @@
 #include "slicer/formats/image_stack_writer.h"
 
 #include <cmath>
-#include <functional>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "parser/diagnostic.h"
 #include "slicer/formats/output_folder.h"
 #include "slicer/formats/zip_output.h"
 #include "slicer/grey_png.h"
-#include "slicer/version.h"
+#include "slicer/regions.h"
 
 namespace lamina::slicer {
 namespace {
-
-constexpr const char* kContents = "index.json";
 
 // A part as large as the panel fits, whatever rounding its numbers saw.
 constexpr double kSlack = 1e-3;  // [pixels]
@@ -23,7 +23,7 @@ constexpr double kSlack = 1e-3;  // [pixels]
 class FolderStack : public StackOutput {
  public:
   FolderStack(const std::string& path, TemporaryFiles& files)
-      : folder_(path, kContents, files) {}
+      : folder_(path, kFolderContents, files) {}
 
   void add_image(const std::string& name, std::string_view bytes) override {
     folder_.add(name, bytes);
@@ -66,54 +66,6 @@ std::string job_name(const std::string& path) {
   return name.empty() || name == "-" ? "lamina" : name;
 }
 
-std::string image_name(OutputFormat format, const StackSummary& summary,
-                       std::uint32_t layer) {
-  return fmt::format("{}{:05}.png",
-                     format == OutputFormat::kSl1 ? summary.job : "", layer);
-}
-
-// What Prusa's printers and UVtools read; times are set on the printer.
-std::string sl1_config(const StackSummary& summary) {
-  constexpr double kExposure = 8;  // [s]
-  constexpr double kFirstExposure = 35;
-  return fmt::format(
-      "action = print\n"
-      "expTime = {}\n"
-      "expTimeFirst = {}\n"
-      "jobDir = {}\n"
-      "layerHeight = {:.6g}\n"
-      "numFade = 10\n"
-      "numFast = {}\n"
-      "numSlow = 0\n"
-      "printerModel = {}\n"
-      "printerVariant = default\n"
-      "prusaSlicerVersion = lamina-{}\n"
-      "usedMaterial = {:.6f}\n",
-      kExposure, kFirstExposure, summary.job, summary.layer_thickness,
-      summary.layers, summary.panel.name == "prusa-sl1s" ? "SL1S" : "SL1",
-      version(), summary.volume / 1000);
-}
-
-std::string index_of(const StackSummary& summary) {
-  nlohmann::ordered_json index;
-  index["software"] = fmt::format("lamina {}", version());
-  index["units"] = "mm";
-  index["pixels"] = {summary.panel.width, summary.panel.height};
-  index["pixel_mm"] = {summary.panel.pixel.x, summary.panel.pixel.y};
-  const auto& all = summary.thicknesses;
-  const bool is_uniform = std::adjacent_find(all.begin(), all.end(),
-                                             std::not_equal_to()) == all.end();
-  index["layer_thickness"] = is_uniform ? summary.layer_thickness : 0;
-  index["volume_mm3"] = summary.volume;
-  auto& layers = index["layers"] = nlohmann::ordered_json::array();
-  for (std::uint32_t i = 0; i < summary.layers; ++i) {
-    layers.push_back({{"file", image_name(OutputFormat::kPng, summary, i)},
-                      {"z", summary.heights[i]},
-                      {"thickness", summary.thicknesses[i]}});
-  }
-  return index.dump(1) + "\n";
-}
-
 std::unique_ptr<StackOutput> open_stack(OutputFormat format,
                                         const std::string& path,
                                         TemporaryFiles& files) {
@@ -129,75 +81,92 @@ double thickness_of(const Layer& layer) {
   return std::round((layer.top - layer.bottom) * kPerMm) / kPerMm;
 }
 
-double area_of(const ldni::Contours& contours) {
-  double area = 0;
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    area += ldni::signed_area(contours.loop(i));
-  }
-  return area;
-}
-
 }  // namespace
 
 ImageStackWriter::ImageStackWriter(OutputFormat format, const Panel& panel,
                                    const std::string& path,
                                    TemporaryFiles& temporary_files)
-    : format_(format), output_(open_stack(format, path, temporary_files)) {
-  summary_.job = job_name(path);
-  summary_.panel = panel;
+    : output_(open_stack(format, path, temporary_files)) {
+  stack_.format = format;
+  stack_.job = job_name(path);
+  stack_.panel = panel;
   map_ = panel.map_around(Vec2(0));
 }
 
 ImageStackWriter::~ImageStackWriter() = default;
 
 void ImageStackWriter::begin(const Box3& box) {
-  map_ = summary_.panel.map_around((Vec2(box.low) + Vec2(box.high)) / 2.0);
+  map_ = stack_.panel.map_around((Vec2(box.low) + Vec2(box.high)) / 2.0);
 }
 
-void ImageStackWriter::check_reach(const Layer& layer) const {
-  const Panel& panel = summary_.panel;
+// Throws where the layer reaches beyond the panel.
+ImageLayer ImageStackWriter::measure(const Layer& layer) const {
+  const Panel& panel = stack_.panel;
+  const Vec2 size(panel.width, panel.height);
+  ImageLayer measures;
+  measures.z = layer.section_z;
+  measures.thickness = thickness_of(layer);
+  measures.regions = areas_of_regions(layer.contours);
+  if (layer.contours.points.empty()) return measures;
+  measures.low = measures.high = map_(layer.contours.points.front());
   for (const Vec2& point : layer.contours.points) {
-    const Vec2 place = map_(point);
-    if (place.x >= -kSlack && place.x <= panel.width + kSlack &&
-        place.y >= -kSlack && place.y <= panel.height + kSlack) {
-      continue;
-    }
-    throw GeometryError(
-        {Severity::kError,
-         {},
-         fmt::format(
-             "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
-             "({}): the layer at {:.6g} mm reaches beyond it",
-             panel.width * panel.pixel.x, panel.height * panel.pixel.y,
-             panel.name, layer.section_z)});
+    measures.low = glm::min(measures.low, map_(point));
+    measures.high = glm::max(measures.high, map_(point));
   }
+  const bool fits =
+      glm::all(glm::greaterThanEqual(measures.low, Vec2(-kSlack))) &&
+      glm::all(glm::lessThanEqual(measures.high, size + kSlack));
+  if (fits) {
+    measures.low = glm::max(measures.low, Vec2(0));
+    measures.high = glm::min(measures.high, size);
+    return measures;
+  }
+  throw GeometryError(
+      {Severity::kError,
+       {},
+       fmt::format(
+           "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
+           "({}): the layer at {:.6g} mm reaches beyond it",
+           panel.width * panel.pixel.x, panel.height * panel.pixel.y,
+           panel.name, layer.section_z)});
 }
 
 std::string ImageStackWriter::encode(const Layer& layer) const {
-  return draw_grey_png(layer.contours, summary_.panel.width,
-                       summary_.panel.height, map_);
+  const Panel& panel = stack_.panel;
+  return draw_grey_png(layer.contours, panel.width, panel.height, map_,
+                       stack_.format == OutputFormat::kNanoDlp
+                           ? panel.nanodlp_layout
+                           : PixelLayout::kGrey);
+}
+
+void ImageStackWriter::note_thickness(double thickness) {
+  if (stack_.layers.empty()) stack_.layer_thickness = thickness;
+  if (stack_.layer_thickness == thickness) return;
+  if (stack_.format != OutputFormat::kPng) {
+    throw GeometryError(
+        {Severity::kError, {}, ".sl1 and .zip need layers of one thickness"});
+  }
+  stack_.layer_thickness = 0;
 }
 
 void ImageStackWriter::take(const Layer& layer) {
-  check_reach(layer);
-  const std::string name = image_name(format_, summary_, summary_.layers);
+  ImageLayer measures = measure(layer);
+  const std::string name = image_name(stack_, stack_.layers.size());
   if (layer.encoded.empty()) {
     output_->add_image(name, encode(layer));
   } else {
     output_->add_image(name, layer.encoded);
   }
-  ++summary_.layers;
-  summary_.layer_thickness = thickness_of(layer);
-  summary_.volume += area_of(layer.contours) * (layer.top - layer.bottom);
-  summary_.heights.push_back(layer.section_z);
-  summary_.thicknesses.push_back(summary_.layer_thickness);
+  note_thickness(measures.thickness);
+  stack_.volume +=
+      std::accumulate(measures.regions.begin(), measures.regions.end(), 0.0) *
+      (layer.top - layer.bottom);
+  stack_.layers.push_back(std::move(measures));
 }
 
 void ImageStackWriter::finish(Diagnostics& /*diagnostics*/) {
-  if (format_ == OutputFormat::kSl1) {
-    output_->add_text("config.ini", sl1_config(summary_));
-  } else {
-    output_->add_text(kContents, index_of(summary_));
+  for (const StackText& text : stack_texts(stack_)) {
+    output_->add_text(text.name, text.text);
   }
   output_->finish();
 }

@@ -24,6 +24,7 @@ std::unique_ptr<LayerWriter> make_layer_writer(const WriterOptions& options,
       return std::make_unique<ThreemfWriter>(path, files, options.deviation);
     case OutputFormat::kPng:
     case OutputFormat::kSl1:
+    case OutputFormat::kNanoDlp:
       return std::make_unique<ImageStackWriter>(options.format, options.panel,
                                                 path, files);
     default:

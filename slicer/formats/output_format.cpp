@@ -12,20 +12,20 @@ struct Written {
   std::string_view extension;
   OutputFormat format;
 };
-constexpr std::array<Written, 10> kWritten = {{
+constexpr std::array<Written, 12> kWritten = {{
     {"slc", OutputFormat::kSlc},
     {"cli", OutputFormat::kCli},
     {"svg", OutputFormat::kSvg},
     {"png", OutputFormat::kPng},
     {"sl1", OutputFormat::kSl1},
+    {"zip", OutputFormat::kNanoDlp},
+    {"nanodlp", OutputFormat::kNanoDlp},
     {"3mf", OutputFormat::kThreemf},
     {"layers.json", OutputFormat::kLayersJson},
     {"ast", OutputFormat::kAst},
     {"echo", OutputFormat::kEcho},
     {"csg", OutputFormat::kCsg},
 }};
-
-constexpr std::array<std::string_view, 1> kNotYetWritten = {"zip"};
 
 // What openscad writes and lamina has no mesh for, with what comes nearest.
 struct Refused {
@@ -61,7 +61,8 @@ bool is_of_layers(OutputFormat format) {
 }
 
 bool is_of_images(OutputFormat format) {
-  return format == OutputFormat::kPng || format == OutputFormat::kSl1;
+  using enum OutputFormat;
+  return format == kPng || format == kSl1 || format == kNanoDlp;
 }
 
 FormatChoice choose_output_format(std::string_view name) {
@@ -69,12 +70,6 @@ FormatChoice choose_output_format(std::string_view name) {
   for (const Written& written : kWritten) {
     if (has_extension(lower, written.extension)) {
       return {written.format, "", true};
-    }
-  }
-  for (const std::string_view extension : kNotYetWritten) {
-    if (has_extension(lower, extension)) {
-      return {
-          {}, fmt::format(".{} output is not supported yet", extension), true};
     }
   }
   for (const Refused& refused : kRefused) {
@@ -87,9 +82,10 @@ FormatChoice choose_output_format(std::string_view name) {
     }
   }
   return {{},
-          fmt::format("'{}' has no extension that lamina knows (.slc .cli "
-                      ".svg .png .sl1 .3mf .layers.json .csg .echo .ast)",
-                      name),
+          fmt::format(
+              "'{}' has no extension that lamina knows (.slc .cli "
+              ".svg .png .sl1 .zip .nanodlp .3mf .layers.json .csg .echo .ast)",
+              name),
           false};
 }
 

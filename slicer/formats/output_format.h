@@ -14,6 +14,7 @@ enum class OutputFormat {
   kSvg,
   kPng,  // a folder of images
   kSl1,
+  kNanoDlp,
   kThreemf,
   kLayersJson,
   kAst,   // the parser's product

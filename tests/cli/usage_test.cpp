@@ -150,12 +150,6 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
 TEST(Usage, KnownFormatsThatAreNotWrittenSaySo) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");
-  for (const char* const extension : {"zip"}) {
-    const auto result =
-        run(folder, {"a.scad", "-o", "a." + std::string(extension)});
-    EXPECT_EQ(result.status, 1);
-    EXPECT_TRUE(has(result.errors, "not supported yet")) << result.errors;
-  }
   for (const char* const extension : {"stl", "off", "amf", "dxf", "STL"}) {
     const auto result =
         run(folder, {"a.scad", "-o", "a." + std::string(extension)});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <span>
 #include <sstream>
@@ -176,7 +177,7 @@ TEST_P(Formats, ImagesCoverTheAreaOfTheContours) {
   const std::vector<LayerFacts> contours =
       read_json(slice(GetParam(), folder, ".layers.json", {"--layer", "0.5"}));
   constexpr double kPixel = 0.04725;
-  for (const std::string ending : {".sl1", ".png"}) {
+  for (const std::string ending : {".sl1", ".png", ".zip"}) {
     SCOPED_TRACE(ending);
     const std::vector<LayerFacts> images = read_independently(
         slice(GetParam(), folder, ending, {"--layer", "0.5"}));
@@ -190,6 +191,62 @@ TEST_P(Formats, ImagesCoverTheAreaOfTheContours) {
     }
   }
 }
+
+// Three pixels of the panel are one of the image.
+TEST(NanoDlp, PacksPixelsAsThePanelWants) {
+  const TemporaryFolder folder;
+  const std::string profile = folder.write(
+      "rgb.json", R"({"name":"rgb","pixels":[1200,900],"pixel_mm":[0.04,0.06],)"
+                  R"("right":"-x","up":"+y","nanodlp_pixels":"rgb"})");
+  const std::vector<LayerFacts> images = read_independently(slice(
+      "signet", folder, ".nanodlp", {"--layer", "0.5", "--printer", profile}));
+  const std::vector<LayerFacts> contours =
+      read_json(slice("signet", folder, ".layers.json", {"--layer", "0.5"}));
+  ASSERT_EQ(images.size(), contours.size());
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const double crossed = 4 + 2 * contours[i].perimeter / 0.04;
+    EXPECT_NEAR(images[i].area, contours[i].area,
+                crossed * 0.04 * 0.06 / 2 / 255);
+  }
+}
+
+class Bytes : public testing::TestWithParam<const char*> {};
+
+TEST_P(Bytes, AreTheSameForAnyNumberOfThreads) {
+  std::string expected;
+  for (const char* const threads : {"1", "2", "3"}) {
+    const TemporaryFolder folder;
+    std::string path =
+        slice("solitaire", folder, GetParam(), {"--threads", threads});
+    // Of a folder, its last image.
+    if (std::filesystem::is_directory(path)) path += "/00239.png";
+    const std::string bytes = support::read_file(path);
+    EXPECT_GT(bytes.size(), 1000U);
+    if (expected.empty()) expected = bytes;
+    EXPECT_TRUE(bytes == expected) << threads << " threads";
+  }
+}
+
+// As of a disk with room for 2 KB.
+TEST_P(Bytes, ThatFindNoRoomLeaveNothing) {
+  const TemporaryFolder folder;
+  const std::string output = folder.file(std::string("a") + GetParam());
+  const ProcessResult result = run_process(
+      {"/bin/bash", "-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "-",
+       LAMINA_PROGRAM, design_path("solitaire"), "-o", output, "-q"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors,
+            "error: Can't write '" + output + "': File too large\n");
+  EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFormats, Bytes,
+                         testing::Values(".slc", ".cli", ".svg", ".png", ".sl1",
+                                         ".zip", ".3mf", ".layers.json"),
+                         [](const auto& ending) {
+                           const std::string name = ending.param;
+                           return name.substr(name.rfind('.') + 1);
+                         });
 
 // Designs that begin at z = 0, where slic3r sets every part, and that have no
 // gap below 0.1 mm, which it closes.

@@ -8,7 +8,7 @@ of lamina's writers and readers shows. Prints one line a layer,
 
     <height> <loops> <holes> <area> <perimeter>
 
-with millimetres; the height is that of the layer's upper side. Of images, .sl1
+with millimetres; the height is that of the layer's upper side. Of images, in
 archives and folders, only the area is known: the grey of all pixels. Whatever
 breaks a rule of the format ends it with a message and status 1.
 """
@@ -273,8 +273,9 @@ def check_box_mesh(mesh, layers, bottom):
                         rel_tol=1e-6), "the box is inside out")
 
 
-def grey_rows(png):
-    """The rows of an 8-bit grey PNG whose rows are stored as they are."""
+def png_rows(png):
+    """(bytes a pixel, rows of bytes) of a PNG whose rows are stored as they
+    are: 8 bits of grey or of red, green and blue."""
     demand(png[:8] == b"\x89PNG\r\n\x1a\n", "no PNG")
     packed, place = b"", 8
     while place < len(png):
@@ -285,19 +286,26 @@ def grey_rows(png):
         demand(zlib.crc32(kind + body) == check, "a broken chunk")
         if kind == b"IHDR":
             width, height, *form = struct.unpack(">IIBBBBB", body)
-            demand(form == [8, 0, 0, 0, 0], "not 8 bits of grey")
+            demand(form in ([8, 0, 0, 0, 0], [8, 2, 0, 0, 0]), "an odd PNG")
         elif kind == b"IDAT":
             packed += body
         place += 12 + size
+    channels = 3 if form[1] == 2 else 1
     raw = zlib.decompress(packed)
-    demand(len(raw) == (width + 1) * height, "pixels do not count up")
-    rows = [raw[y * (width + 1):(y + 1) * (width + 1)] for y in range(height)]
+    line = channels * width + 1
+    demand(len(raw) == line * height, "pixels do not count up")
+    rows = [raw[y * line:(y + 1) * line] for y in range(height)]
     demand(all(row[0] == 0 for row in rows), "a filtered row")
-    return [row[1:] for row in rows]
+    return channels, [row[1:] for row in rows]
 
 
-def image_statistics(png, pixels, pixel_area):
-    rows = grey_rows(png)
+def grey_rows(png):
+    channels, rows = png_rows(png)
+    demand(channels == 1, "not grey")
+    return rows
+
+
+def image_statistics(rows, pixels, pixel_area):
     demand((len(rows[0]), len(rows)) == tuple(pixels), "not the panel's size")
     return 0, 0, sum(map(sum, rows)) / 255 * pixel_area, 0
 
@@ -312,8 +320,50 @@ def read_sl1(path):
     demand(images == [f"{config['jobDir']}{i:05}.png"
                       for i in range(len(images))], "images do not count up")
     return [((i + 1) * thickness,
-             image_statistics(archive.read(name), (1440, 2560), 0.04725 ** 2))
+             image_statistics(grey_rows(archive.read(name)), (1440, 2560), 0.04725 ** 2))
             for i, name in enumerate(images)]
+
+
+def read_nanodlp(path):
+    archive = zipfile.ZipFile(path)
+    demand(archive.testzip() is None, "a broken entry")
+    texts = {name: json.loads(archive.read(f"{name}.json")) for name in
+             ("meta", "slicer", "plate", "profile", "info")}
+    count = texts["plate"]["LayersCount"]
+    demand(count == len(texts["info"]) == texts["slicer"]["LayerCount"] and
+           set(archive.namelist()) == {f"{name}.json" for name in texts} |
+           {f"{i + 1}.png" for i in range(count)}, "entries do not count up")
+    demand(texts["meta"]["FormatVersion"] == 1 and
+           not texts["meta"]["Profile"], "the meta text")
+    slicer = texts["slicer"]
+    pixels = slicer["PWidth"], slicer["PHeight"]
+    pixel_area = slicer["XPixelSize"] * slicer["YPixelSize"]
+    demand(texts["profile"]["Depth"] == slicer["Thickness"], "thicknesses")
+    layers = []
+    for i, info in enumerate(texts["info"]):
+        _, rows = png_rows(archive.read(f"{i + 1}.png"))
+        facts = image_statistics(rows, pixels, pixel_area)
+        demand(abs(facts[2] - info["TotalSolidArea"]) <
+               1e-3 * (1 + facts[2]), "the area told of a layer")
+        check_pixel_box(rows, info)
+        layers.append(((i + 1) * slicer["Thickness"] / 1000, facts))
+    return layers
+
+
+def check_pixel_box(rows, info):
+    """What a layer covers lies in the box told of it, and fills it."""
+    ys = [y for y, row in enumerate(rows) if any(row)]
+    xs = [x for y in ys for x in (len(rows[y]) - len(rows[y].lstrip(b"\0")),
+                                  len(rows[y].rstrip(b"\0")))]
+    found = [min(xs), max(xs), ys[0], ys[-1] + 1] if ys else [0, 0, 0, 0]
+    told = [info["MinX"], info["MaxX"], info["MinY"], info["MaxY"]]
+    # A pixel that is covered by less than 1/510 is black.
+    demand(all(0 <= sign * (b - a) <= 1 for a, b, sign in
+               zip(found, told, (-1, 1, -1, 1))), f"box {told}, not {found}")
+    smallest, largest = info["SmallestArea"], info["LargestArea"]
+    demand(smallest <= largest and info["AreaCount"] * smallest - 1e-5 <=
+           info["TotalSolidArea"] <= info["AreaCount"] * largest + 1e-5,
+           "areas of regions")
 
 
 def read_folder(path):
@@ -326,7 +376,8 @@ def read_folder(path):
     for layer in index["layers"]:
         with open(os.path.join(path, layer["file"]), "rb") as file:
             layers.append((layer["z"] + index["layer_thickness"] / 2,
-                           image_statistics(file.read(), index["pixels"],
+                           image_statistics(grey_rows(file.read()),
+                                            index["pixels"],
                                             math.prod(index["pixel_mm"]))))
     return layers
 
@@ -341,6 +392,8 @@ def read(path):
         return read_sl1(path)
     if suffix == ".png":
         return read_folder(path)
+    if suffix in (".zip", ".nanodlp"):
+        return read_nanodlp(path)
     if suffix == ".3mf":
         return read_3mf(path)
     demand(suffix in READERS, f"{path}: no format of this name")

@@ -161,6 +161,25 @@ TEST(ImageStackWriter, TellsTheThicknessWithoutRounding) {
   EXPECT_EQ(index.at("layer_thickness"), 0.05);
 }
 
+TEST(ImageStackWriter, ArchivesHoldLayersOfOneThickness) {
+  const TemporaryFolder folder;
+  Layer thicker = layer_of(kBar);
+  thicker.top = 1;
+  const std::vector<Layer> layers = {layer_of(kBar), thicker};
+  for (const auto format : {OutputFormat::kSl1, OutputFormat::kNanoDlp}) {
+    TemporaryFiles files;
+    ImageStackWriter writer(format, small_panel(), folder.file("a"), files);
+    writer.begin(kBox);
+    writer.take(layers[0]);
+    EXPECT_THROW(writer.take(layers[1]), GeometryError);
+  }
+  EXPECT_EQ(folder.entry_count(), 0U);
+  write_folder(folder.file("a.png"), small_panel(), layers, kBox);
+  const auto index =
+      nlohmann::json::parse(read_file(folder.file("a.png/index.json")));
+  EXPECT_EQ(index.at("layer_thickness"), 0);
+}
+
 TEST(ImageStackWriter, FollowsLinksToFolders) {
   const TemporaryFolder folder;
   const Layer layer = layer_of(kBar);

@@ -1,0 +1,47 @@
+#pragma once
+// What is known of a stack of images when its last layer is drawn, and the
+// texts that its formats tell of it.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "csg/vec.h"
+#include "slicer/formats/output_format.h"
+#include "slicer/panel.h"
+
+namespace lamina::slicer {
+
+struct ImageLayer {
+  double z = 0;          // height of the section [mm]
+  double thickness = 0;  // [mm]
+  // The pixels that can be covered, y down; equal where none is.
+  Vec2 low = Vec2(0);
+  Vec2 high = Vec2(0);
+  std::vector<double> regions;  // their areas [mm²]
+};
+
+struct ImageStack {
+  OutputFormat format = OutputFormat::kPng;
+  std::string job;  // name of the design's output, without folder and ending
+  Panel panel;
+  double layer_thickness = 0;  // [mm]; 0 if they have not one
+  double volume = 0;           // of the layers [mm³]
+  std::vector<ImageLayer> layers;
+};
+
+// Of a folder: the text that tells what it holds.
+inline constexpr const char* kFolderContents = "index.json";
+
+// Of the layer with that index, from 0.
+std::string image_name(const ImageStack& stack, std::size_t layer);
+
+struct StackText {
+  std::string name;
+  std::string text;
+};
+
+// The format's texts, each a file of the folder or an entry of the archive.
+std::vector<StackText> stack_texts(const ImageStack& stack);
+
+}  // namespace lamina::slicer
