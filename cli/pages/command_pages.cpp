@@ -1,6 +1,7 @@
 #include "cli/pages/command_pages.h"
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <sstream>
 
@@ -113,7 +114,8 @@ OptionPage option_page(const CLI::Option& option,
   return page;
 }
 
-// By what the usage calls the first word: DESIGN, FILE.slc, FILE.
+// By what the usage calls the first word: DESIGN; FILE.slc; FILE, of layers or
+// a design; anything else is a mesh, too.
 std::vector<std::string> extensions_of(const std::string& usage) {
   if (usage.find(" DESIGN") != std::string::npos) return {"scad", "csg"};
   const std::size_t dot = usage.find("FILE.");
@@ -121,7 +123,14 @@ std::vector<std::string> extensions_of(const std::string& usage) {
     const std::size_t begin = dot + 5;
     return {usage.substr(begin, usage.find_first_of(" ]", begin) - begin)};
   }
-  return {"slc", "cli", "svg", "json", "stl", "scad", "csg"};
+  std::vector<std::string> extensions = {"slc",  "cli",  "svg",
+                                         "json", "scad", "csg"};
+  if (usage.find(" FILE") == std::string::npos) {
+    for (const char* mesh : {"stl", "off", "obj", "amf", "3mf"}) {
+      extensions.emplace_back(mesh);
+    }
+  }
+  return extensions;
 }
 
 // "  lamina inspect FILE.slc [OPTION]...     check a layer file and list it",

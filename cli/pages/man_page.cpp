@@ -1,7 +1,6 @@
 #include "cli/pages/man_page.h"
 
-#include <cctype>
-#include <sstream>
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -117,20 +116,32 @@ std::string paragraph_of(const std::vector<std::string>& lines) {
   return text;
 }
 
+// "Usage: lamina compare A B", and further ways set in below it.
+bool is_usage(const HelpBlock& block) {
+  return !block.lines.empty() && block.lines.front().starts_with("Usage: ");
+}
+
+std::string usage_of(const HelpBlock& block) {
+  std::string text;
+  for (const std::string& line : block.lines) {
+    text += fmt::format(
+        "{}.B {}\n", text.empty() ? "" : ".br\n",
+        escaped(line.substr(std::min(line.find("lamina"), line.size()))));
+  }
+  return text;
+}
+
 std::string section_of(const CommandPage& page) {
-  constexpr std::string_view kUsage = "Usage: ";
   std::string text = fmt::format(".SS lamina {}\n", page.name);
   for (const HelpBlock& block : page.help) {
-    std::vector<std::string> lines = block.lines;
-    if (!lines.empty() && lines.front().starts_with(kUsage)) {
-      text +=
-          fmt::format(".B {}\n", escaped(lines.front().substr(kUsage.size())));
-      lines.erase(lines.begin());
+    if (is_usage(block)) {
+      text += usage_of(block);
+      continue;
     }
     if (!block.heading.empty()) {
       text += fmt::format(".PP\n{}:\n", escaped(block.heading));
     }
-    if (!lines.empty()) text += paragraph_of(lines);
+    if (!block.lines.empty()) text += paragraph_of(block.lines);
     text += entries_of(block);
   }
   return text;
