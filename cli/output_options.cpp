@@ -23,6 +23,7 @@ void add_output_options(CLI::App& app, DesignOptions& options,
              });
   app.add_option("--report", options.report)->type_name("file");
   add_thin_width(app, options.settings.min_feature);
+  add_layer_range(app, options.settings.written);
 }
 
 void choose_format(DesignOptions& options, const std::string& export_format,

@@ -10,7 +10,6 @@
 #include "cli/commands/commands.h"
 #include "cli/compile.h"
 #include "cli/design_options.h"
-#include "cli/option_values.h"
 #include "cli/output_options.h"
 #include "cli/output_pattern.h"
 #include "cli/pieces.h"
@@ -149,7 +148,6 @@ class SliceCommand : public Command {
     add_output_options(app, options_, export_format_);
     add_design_options(app, options_);
     add_slicing_options(app, options_);
-    add_layer_range(app, options_.settings.written);
   }
 
   void check() override {
