@@ -24,7 +24,7 @@ enum class DecimalSign : std::uint8_t { kPoint, kPointOrComma };
 // `cell` as OpenSCAD writes the value.
 //
 // cell    not empty
-// throws  FileError without a place: "a number was expected, not 'x'"
+// throws  FileError without a place: "a number was expected, not 'x' …"
 std::string value_of_cell(std::string_view cell, VariableKind kind,
                           DecimalSign decimal);
 

@@ -108,7 +108,7 @@ TEST(Batch, OfTwoHundredRingsThreeBadOnesAreToldOfAndTheRestIsMade) {
                   "80 mm, got 30"));
   EXPECT_TRUE(has(result.errors,
                   "orders.csv:51: ring-50: error: size: a number was expected, "
-                  "not 'fifty'\n"));
+                  "not 'fifty' (text would stand in quotes: \"fifty\")\n"));
   EXPECT_TRUE(has(result.errors,
                   "orders.csv:121: ../ring: error: name: '../ring' has a '/' "
                   "in it and can be no part of a file's name\n"));
@@ -310,6 +310,15 @@ TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {
   EXPECT_EQ(process.wait(), 130);
   EXPECT_EQ(folder.entry_count(), 3U);
   EXPECT_TRUE(fs::exists(folder.file("1.slc")));
+}
+
+TEST(Batch, MakesTheSignetsOfTheExamples) {
+  const TemporaryFolder folder;
+  const auto result = run(folder, {"batch", LAMINA_EXAMPLES "/signet.scad",
+                                   "--table", LAMINA_EXAMPLES "/signets.csv",
+                                   "-o", "{name}.slc", "--layer", "0.2"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(folder.entry_count(), 4U);
 }
 
 // --- Several designs --------------------------------------------------------

@@ -23,6 +23,11 @@ std::string value(const std::string& cell, VariableKind kind = kAny,
   }
 }
 
+bool is_refused(const std::string& cell, VariableKind kind,
+                const std::string& words) {
+  return value(cell, kind).starts_with(words);
+}
+
 TEST(Cell, LooksLikeWhatItIs) {
   for (const char* const number : {"57", "-1.5", "1e3", "0.25", "1E-2", ".5"}) {
     EXPECT_EQ(value(number), number);
@@ -57,22 +62,22 @@ TEST(Cell, IsTextForAVariableThatIsText) {
 
 TEST(Cell, HasTheKindOfTheVariable) {
   EXPECT_EQ(value("57", kNumber), "57");
-  EXPECT_EQ(value("fifty", kNumber), "a number was expected, not 'fifty'");
-  EXPECT_EQ(value("true", kNumber), "a number was expected, not 'true'");
+  EXPECT_EQ(value("fifty", kNumber),
+            "a number was expected, not 'fifty' (text would stand in quotes: "
+            "\"fifty\")");
+  EXPECT_TRUE(is_refused("true", kNumber, "a number was expected"));
   EXPECT_EQ(value("\"auto\"", kNumber), "\"auto\"");
-  EXPECT_EQ(value("1", kBool), "true or false was expected, not '1'");
+  EXPECT_TRUE(is_refused("1", kBool, "true or false was expected"));
   EXPECT_EQ(value("True", kBool), "true");
-  EXPECT_EQ(value("3", kVector),
-            "a vector such as [1, 2.5] was expected, not '3'");
+  EXPECT_TRUE(is_refused("3", kVector, "a vector such as [1, 2.5] was"));
   EXPECT_EQ(value("[3]", kVector), "[3]");
 }
 
 TEST(Cell, IsAVectorAsAWholeOrNotAtAll) {
   for (const char* const cell :
        {"[1", "[1]]", "[x]", "[1] + [2]", "[1]; cube(1); y = [2]"}) {
-    EXPECT_EQ(value(cell), std::string("a vector such as [1, 2.5] was "
-                                       "expected, not '") +
-                               cell + "'");
+    EXPECT_TRUE(is_refused(cell, kAny, "a vector such as [1, 2.5] was"))
+        << cell;
   }
 }
 
@@ -84,8 +89,7 @@ TEST(Cell, MayHaveADecimalCommaWhereCellsAreSeparatedOtherwise) {
   EXPECT_EQ(with_comma("-0,25", kNumber), "-0.25");
   EXPECT_EQ(with_comma("54.5", kNumber), "54.5");
   EXPECT_EQ(with_comma("54,5", kString), "\"54,5\"");
-  EXPECT_EQ(with_comma("1,234.5", kNumber),
-            "a number was expected, not '1,234.5'");
+  EXPECT_EQ(with_comma("1,234.5", kNumber).find("a number was expected"), 0U);
 }
 
 TEST(Variables, AreThoseThatDefinitionsSet) {
