@@ -137,7 +137,9 @@ TEST(Layers, WhatCannotHoldSeveralThicknessesSaysSo) {
     EXPECT_TRUE(has(result.errors, words)) << result.errors;
   };
   refused({"--adaptive", "0.05", "-o", "a.sl1"},
-          ".sl1 needs layers of one thickness");
+          "need layers of one thickness");
+  refused({"--adaptive", "0.05", "-o", "a.zip"},
+          "need layers of one thickness");
   refused({"--adaptive", "0.05", "--heights", "1,2"}, "different things");
   refused({"--max-layer", "0.2"}, "--max-layer needs --adaptive");
   refused({"--adaptive", "0.05", "--max-layer", "0.01"},
