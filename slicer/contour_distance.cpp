@@ -74,10 +74,18 @@ class EdgeTree {
                             segments_[segment].to);
   }
 
-  // guess  any edge: the nearer, the faster
-  std::size_t nearest(Vec2 point, std::size_t guess) const {
+  // The nearest edge, or any that is no farther than `enough`.
+  //
+  // guess  any edge: the nearer it or the one behind it, the faster
+  std::size_t nearest(Vec2 point, std::size_t guess, double enough) const {
     double best = distance(guess, point);
     std::size_t found = guess;
+    const std::size_t behind = guess + 1 < segments_.size() ? guess + 1 : 0;
+    if (best > enough && distance(behind, point) < best) {
+      best = distance(behind, point);
+      found = behind;
+    }
+    if (best <= enough) return found;
     stack_.assign(1, {levels_.size() - 1, 0});
     while (!stack_.empty()) {
       const auto [level, index] = stack_.back();
@@ -88,6 +96,7 @@ class EdgeTree {
         if (here < best) {
           best = here;
           found = index;
+          if (best <= enough) return found;
         }
         continue;
       }
@@ -140,16 +149,17 @@ class Search {
  private:
   struct End {
     Vec2 point = Vec2(kInfinity);
-    std::size_t nearest = 0;
-    double distance = 0;
+    std::size_t nearest = 0;  // or near enough
+    double distance = 0;      // from that
   };
   struct Part {
     End begin;
     End end;
   };
 
+  // What is no farther than what has been found need not be told exactly.
   End end_at(Vec2 point, std::size_t guess) {
-    const std::size_t nearest = to_.nearest(point, guess);
+    const std::size_t nearest = to_.nearest(point, guess, greatest_.distance);
     const double distance = to_.distance(nearest, point);
     if (distance > greatest_.distance) greatest_ = {distance, point};
     return {point, nearest, distance};
