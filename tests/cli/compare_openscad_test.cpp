@@ -38,7 +38,7 @@ TEST(CompareWithOpenscad, RendersTheDesignWithItsDefinitions) {
                                              {"-p", "sets.json", "-P", "large"},
                                              {"--axis", "x"}}) {
     std::vector<std::string> words = {"compare",  "a.scad",      "--against",
-                                      "openscad", "--tolerance", "2e-5"};
+                                      "openscad", "--tolerance", "1e-4"};
     words.insert(words.end(), options.begin(), options.end());
     const ProcessResult result = run(folder, words);
     EXPECT_EQ(result.status, 0) << result.output << result.errors;
