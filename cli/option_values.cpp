@@ -1,35 +1,19 @@
 #include "cli/option_values.h"
 
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include <CLI/App.hpp>
-#include <double-conversion/double-conversion.h>
 #include <fmt/format.h>
 
+#include "parser/number.h"
 #include "slicer/thin_finder.h"
 
 namespace lamina::cli {
 namespace {
-
-// A number and nothing else; finite.
-std::optional<double> parse_number(std::string_view text) {
-  const double_conversion::StringToDoubleConverter converter(
-      double_conversion::StringToDoubleConverter::NO_FLAGS, NAN, NAN, nullptr,
-      nullptr);
-  int used = 0;
-  const double value = converter.StringToDouble(
-      text.data(), static_cast<int>(text.size()), &used);
-  if (text.empty() || used != static_cast<int>(text.size()) ||
-      !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
-}
 
 double require_thin_width(const std::string& option, std::string_view text) {
   const double value = require_number(option, text);

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <optional>
 #include <variant>
 
-#include <double-conversion/double-conversion.h>
 #include <fmt/format.h>
 
 #include "parser/detail/literal.h"
 #include "parser/diagnostic.h"
 #include "parser/loader.h"
+#include "parser/number.h"
 #include "parser/parser.h"
 #include "parser/text.h"
 
@@ -37,15 +36,7 @@ std::optional<std::string> read_number(std::string_view cell,
     text[text.find(',')] = '.';
   }
   if (text.starts_with('+')) text.erase(0, 1);
-  const double_conversion::StringToDoubleConverter converter(
-      double_conversion::StringToDoubleConverter::NO_FLAGS, NAN, NAN, nullptr,
-      nullptr);
-  int used = 0;
-  const double value = converter.StringToDouble(
-      text.data(), static_cast<int>(text.size()), &used);
-  const bool is_number = !text.empty() && std::isfinite(value) &&
-                         used == static_cast<int>(text.size());
-  if (!is_number) return std::nullopt;
+  if (!parse_number(text)) return std::nullopt;
   return text;
 }
 
