@@ -1,8 +1,6 @@
 #include "cli/compared.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -13,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/imported_design.h"
 #include "cli/openscad.h"
 #include "cli/run.h"
 #include "parser/check.h"
@@ -97,17 +96,16 @@ double openscad_rounding(double greatest) {
 
 class ComparedDesign : public Compared {
  public:
-  // text  of the design; none: the file's
-  ComparedDesign(std::string name, DesignOptions options,
-                 std::optional<std::string> text, Rounding rounding,
+  ComparedDesign(std::string name, DesignOptions options, Rounding rounding,
                  slicer::TemporaryFiles& temporary_files, std::size_t stack)
       : Compared(std::move(name)),
         options_(std::move(options)),
-        text_(std::move(text)),
         rounding_(rounding),
         run_(options_, temporary_files, stack) {}
 
-  std::string description() const override { return text_ ? "mesh" : "design"; }
+  std::string description() const override {
+    return is_imported(options_.design) ? "mesh" : "design";
+  }
 
   const std::vector<Layer>& layers() override {
     if (!layers_) layers_ = sliced(options_.settings);
@@ -148,9 +146,7 @@ class ComparedDesign : public Compared {
   }
 
   void prepare() {
-    const Loaded loaded =
-        text_ ? Loaded{run_.loader.load_text(options_.design, *text_)}
-              : load(run_);
+    const Loaded loaded = load(run_);
     Evaluated evaluated = evaluate(run_, loaded.program);
     if (loaded.has_failed || evaluated.has_failed) throw ShownFault();
     tree_ = std::move(evaluated.tree);
@@ -158,7 +154,6 @@ class ComparedDesign : public Compared {
   }
 
   const DesignOptions options_;
-  const std::optional<std::string> text_;
   const Rounding rounding_;
   Run run_;
   csg::Tree tree_;
@@ -167,35 +162,9 @@ class ComparedDesign : public Compared {
   double greatest_coordinate_ = 0;
 };
 
-std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return extension;
-}
-
 bool is_design(const std::string& path) {
   const std::string extension = lower_extension(path);
   return extension == ".scad" || extension == ".csg";
-}
-
-// What import() reads and is no file of layers.
-bool is_imported(const std::string& path) {
-  constexpr std::array<std::string_view, 6> kExtensions = {
-      ".stl", ".off", ".obj", ".amf", ".3mf", ".dxf"};
-  return std::find(kExtensions.begin(), kExtensions.end(),
-                   lower_extension(path)) != kExtensions.end();
-}
-
-// A design that imports the file beside it.
-std::string import_of(const std::string& path) {
-  std::string text = "import(\"";
-  for (const char c : std::filesystem::path(path).filename().string()) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\");\n";
 }
 
 // What goes for a mesh, too.
@@ -242,9 +211,8 @@ class ComparedOpenScad : public Compared {
           render_with_openscad(options_, time_limit_, folder);
       render_seconds_ = rendered.seconds;
       mesh_ = std::make_unique<ComparedDesign>(
-          name(), mesh_options(rendered.path, options_),
-          import_of(rendered.path), openscad_rounding, temporary_files_,
-          stack_);
+          name(), mesh_options(rendered.path, options_), openscad_rounding,
+          temporary_files_, stack_);
       // Has it read while it is there.
       mesh_->cut({0});
     }
@@ -284,13 +252,12 @@ std::unique_ptr<Compared> open_compared(const std::string& path,
                                   ? slicer::float32_rounding
                                   : no_rounding;
     return std::make_unique<ComparedDesign>(path, mesh_options(path, options),
-                                            import_of(path), rounding,
-                                            temporary_files, stack);
+                                            rounding, temporary_files, stack);
   }
   DesignOptions own = options;
   own.design = path;
-  return std::make_unique<ComparedDesign>(path, std::move(own), std::nullopt,
-                                          no_rounding, temporary_files, stack);
+  return std::make_unique<ComparedDesign>(path, std::move(own), no_rounding,
+                                          temporary_files, stack);
 }
 
 std::unique_ptr<Compared> open_openscad(const std::string& design,

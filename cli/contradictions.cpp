@@ -1,5 +1,12 @@
 #include "cli/contradictions.h"
 
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/imported_design.h"
+#include "slicer/formats/layer_reader.h"
+#include "slicer/formats/output_format.h"
+
 namespace lamina::cli {
 
 const char* find_contradiction(const slicer::Settings& settings) {
@@ -57,6 +64,17 @@ const char* find_misfit(const DesignOptions& options) {
     return ".3mf needs layers, not --heights";
   }
   return nullptr;
+}
+
+void require_readable(std::string_view command, const std::string& file) {
+  if (!slicer::is_named_as_layers(file) ||
+      slicer::is_readable_layer_file(file) || is_imported(file)) {
+    return;
+  }
+  throw UsageError(
+      fmt::format("{} reads .slc, .cli, .svg and .layers.json, designs and "
+                  "meshes; not '{}'",
+                  command, file));
 }
 
 }  // namespace lamina::cli

@@ -3,6 +3,9 @@
 // nobody takes for done what was not. Only options of slicing may stand idle:
 // one set of them goes for layers and texts of a design.
 
+#include <string>
+#include <string_view>
+
 #include "cli/design_options.h"
 #include "slicer/settings.h"
 
@@ -13,5 +16,9 @@ const char* find_contradiction(const slicer::Settings& settings);
 
 // Likewise of the options with the output's format.
 const char* find_misfit(const DesignOptions& options);
+
+// Throws UsageError if `file` is named as layers that are written only, such
+// as ring.sl1. `command` is what would have read it.
+void require_readable(std::string_view command, const std::string& file);
 
 }  // namespace lamina::cli

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/imported_design.h"
 #include "csg/solid/move_scene.h"
 #include "parser/parameter_set.h"
 #include "slicer/orientation.h"
@@ -93,7 +94,10 @@ Loaded load(Run& run) {
   const DesignOptions& options = run.options;
   try {
     return timed(run.report.load_seconds, [&]() -> Loaded {
-      ast::Program program = run.loader.load(options.design);
+      ast::Program program =
+          is_imported(options.design)
+              ? run.loader.load_text(options.design, import_of(options.design))
+              : run.loader.load(options.design);
       const bool is_good =
           options.parameter_file.empty() ||
           apply_parameter_set(options.parameter_file, options.parameter_set,

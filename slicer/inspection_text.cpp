@@ -1,5 +1,6 @@
 #include "slicer/inspection_text.h"
 
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -33,6 +34,14 @@ Totals totals_of(const Inspection& found) {
     totals.empty += row.measures.loops == 0 ? 1 : 0;
   }
   return totals;
+}
+
+// What would be shown as "-0.0000" is 0.
+Vec3 without_minus_zero(Vec3 place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(place[axis]) < 0.00005) place[axis] = 0;
+  }
+  return place;
 }
 
 class Text {
@@ -119,13 +128,13 @@ class Text {
     print("loops     {}, {} of them holes; {} vertices\n", totals.loops,
           totals.holes, totals.vertices);
     if (!found_.box.is_empty()) {
-      const Vec3 size = found_.box.high - found_.box.low;
+      const Vec3 low = without_minus_zero(found_.box.low);
+      const Vec3 high = without_minus_zero(found_.box.high);
+      const Vec3 size = high - low;
       print(
           "box       x {:.4f} … {:.4f}   y {:.4f} … {:.4f}   z {:.4f} … "
           "{:.4f}   ({:.4f} x {:.4f} x {:.4f} mm)\n",
-          found_.box.low.x, found_.box.high.x, found_.box.low.y,
-          found_.box.high.y, found_.box.low.z, found_.box.high.z, size.x,
-          size.y, size.z);
+          low.x, high.x, low.y, high.y, low.z, high.z, size.x, size.y, size.z);
     }
     print("volume    {:.6f} mm³\n", found_.volume);
   }

@@ -50,6 +50,7 @@ class InspectCommand : public Command {
   }
 
   void check() override {
+    require_readable("inspect", options_.design);
     if (const char* contradiction = find_contradiction(options_.settings)) {
       throw UsageError(contradiction);
     }

@@ -10,6 +10,7 @@
 #include "cli/commands/commands.h"
 #include "cli/compile.h"
 #include "cli/design_options.h"
+#include "cli/imported_design.h"
 #include "cli/output_options.h"
 #include "cli/output_pattern.h"
 #include "cli/pieces.h"
@@ -24,7 +25,7 @@ constexpr std::string_view kHelp =
     R"(lamina compiles OpenSCAD designs straight to the layers of a 3D printer.
 
 Usage:
-  lamina DESIGN... [-o FILE] [OPTION]...  slice .scad or .csg designs
+  lamina DESIGN... [-o FILE] [OPTION]...  slice .scad, .csg or meshes
   lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
                                           a piece for every row of a table
   lamina inspect FILE [OPTION]...         check layers, list and weigh them
@@ -127,7 +128,7 @@ std::string without_extension(const std::string& path) {
 }
 
 void refuse_layers(const std::string& file) {
-  if (!slicer::is_named_as_layers(file)) return;
+  if (!slicer::is_named_as_layers(file) || is_imported(file)) return;
   throw UsageError(
       file.ends_with(".slc")
           ? fmt::format("'{0}' holds layers already; try 'lamina inspect "

@@ -212,14 +212,7 @@ class ViewCommand : public Command {
           "view writes .png pictures and .html pages; '{}' is neither",
           design_.output));
     }
-    const std::string& file = design_.design;
-    if (slicer::is_named_as_layers(file) &&
-        !slicer::is_readable_layer_file(file)) {
-      throw UsageError(
-          fmt::format("view reads .slc, .cli, .svg and .layers.json, and "
-                      "designs; not '{}'",
-                      file));
-    }
+    require_readable("view", design_.design);
     if (options_.layer.min_feature > 0 && !is_page(design_.output) &&
         !options_.is_of_one_layer()) {
       throw UsageError("--min-feature needs --layer-number, --at or .html");

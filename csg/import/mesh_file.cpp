@@ -117,6 +117,13 @@ std::vector<RawMesh> read_mesh_file(const std::string& path,
     report_broken(path, format, fault, range, diagnostics);
     return {};
   }
+  if (std::any_of(bodies.begin(), bodies.end(),
+                  [](const RawMesh& raw) { return raw.is_stand_in; })) {
+    diagnostics.warning(
+        range, fmt::format("'{}' shows its part by slices, and its mesh only "
+                           "stands in for them, import() at line {}",
+                           path, line_of(range)));
+  }
   std::size_t dropped = 0;
   for (RawMesh& raw : bodies) dropped += drop_infinite(raw);
   if (dropped > 0) {

@@ -16,6 +16,8 @@ struct RawMesh {
   std::vector<std::vector<std::uint32_t>> polygons;  // faces of 4 corners up
   // No two vertices are equal, and each is a corner of a triangle.
   bool is_joined = false;
+  // Of a 3MF whose slices are the part: about where that is, and no more.
+  bool is_stand_in = false;
 };
 
 }  // namespace lamina::csg

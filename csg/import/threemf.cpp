@@ -69,6 +69,17 @@ RawMesh read_mesh(const pugi::xml_node& mesh) {
   return raw;
 }
 
+// What the slice extension says of an object whose slices count.
+bool has_low_resolution(const pugi::xml_node& object) {
+  for (const pugi::xml_attribute& attribute : object.attributes()) {
+    const std::string_view name = attribute.name();
+    if (name.substr(name.rfind(':') + 1) == "meshresolution") {
+      return attribute.value() == std::string_view("lowres");
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<RawMesh> parse_3mf(std::string_view bytes) {
@@ -82,6 +93,7 @@ std::vector<RawMesh> parse_3mf(std::string_view bytes) {
   const auto read_object = [&](const pugi::xml_node& object) {
     for_each_child(object, "mesh", [&](const pugi::xml_node& mesh) {
       bodies.push_back(read_mesh(mesh));
+      bodies.back().is_stand_in = has_low_resolution(object);
     });
   };
   for_each_child(document.document_element(), "resources",

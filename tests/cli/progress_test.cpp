@@ -34,7 +34,7 @@ TEST(ProgressText, KnowsNoRateBeforeTheFirstIsDone) {
 // Some seconds of work.
 std::vector<std::string> long_run(const TemporaryFolder& folder) {
   folder.write("a.scad", "cylinder(r = 30, h = 60, $fn = 500);");
-  return command({"a.scad", "--layer", "0.002", "--threads", "1"});
+  return command({"a.scad", "--layer", "0.0005", "--threads", "1"});
 }
 
 // What stands on the last line of a terminal in the end.
@@ -57,7 +57,7 @@ TEST(Progress, IsShownOnATerminalAndErasedAtTheEnd) {
   const TemporaryFolder folder;
   const auto result = support::run_on_terminal(long_run(folder), folder.path());
   EXPECT_EQ(result.status, 0);
-  EXPECT_NE(result.output.find(" of 30000 layers, "), std::string::npos)
+  EXPECT_NE(result.output.find(" of 120000 layers, "), std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find(" s left"), std::string::npos);
   const std::size_t end =
@@ -82,7 +82,7 @@ TEST(Progress, IsNotForPipesQuietRunsAndShortOnes) {
 TEST(Progress, LeavesNothingBehindAnInterrupt) {
   const TemporaryFolder folder;
   const auto result = support::run_on_terminal(long_run(folder), folder.path(),
-                                               " of 30000 layers");
+                                               " of 120000 layers");
   EXPECT_EQ(result.status, 130);
   EXPECT_EQ(last_line(result.output), "");
   EXPECT_EQ(folder.entry_count(), 1U);  // the design

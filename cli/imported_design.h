@@ -1,0 +1,19 @@
+#pragma once
+// Meshes and drawings in the place of a design: `lamina ring.stl` slices what
+// `import("ring.stl");` makes.
+
+#include <string>
+
+namespace lamina::cli {
+
+// By its name: what import() reads and is no design and no file of layers, in
+// any letter case. (A .3mf may hold either; import() takes its mesh.)
+bool is_imported(const std::string& path);
+
+// ".stl" of "Ring.STL"; empty if there is none.
+std::string lower_extension(const std::string& path);
+
+// The text of a design that imports the file beside it.
+std::string import_of(const std::string& path);
+
+}  // namespace lamina::cli
