@@ -17,6 +17,7 @@
 #include "csg/program_state.h"
 #include "csg/solid/detail/box_tree.h"
 #include "csg/solid/detail/plane_section.h"
+#include "csg/solid/detail/program_range.h"
 #include "csg/solid/detail/program_region.h"
 
 namespace lamina::csg {
@@ -54,7 +55,11 @@ std::vector<std::uint32_t> outermost_first(const Scene& scene) {
 class Finder {
  public:
   Finder(const Scene& scene, const IsWanted& is_wanted, const Take& take)
-      : scene_(scene), is_wanted_(is_wanted), take_(take), state_(scene) {
+      : scene_(scene),
+        is_wanted_(is_wanted),
+        take_(take),
+        state_(scene),
+        range_(scene) {
     std::vector<Box3> boxes;
     for (const Instance& instance : scene.instances) {
       leaves_.emplace_back(scene.leaves[instance.leaf],
@@ -64,13 +69,18 @@ class Finder {
     const BoxTree tree(boxes);
     for (const std::uint32_t instance : outermost_first(scene)) {
       self_ = instance;
-      if (!is_wanted(boxes[self_])) continue;
+      if (!is_wanted(boxes[self_]) || leaf().tree.nodes().empty()) continue;
       std::vector<std::uint32_t> near;
       tree.visit([&](const Box3& box) { return do_meet(box, boxes[self_]); },
                  [&](std::uint32_t other) {
+                   range_.set(other, Knowledge::kUnknown);
                    if (other != self_) near.push_back(other);
                  });
-      if (!leaf().tree.nodes().empty()) descend(0, near);
+      descend(0, near);
+      range_.set(self_, Knowledge::kOutside);
+      for (const std::uint32_t other : near) {
+        range_.set(other, Knowledge::kOutside);
+      }
     }
   }
 
@@ -85,7 +95,9 @@ class Finder {
     const BoxTree::Node& node = leaf().tree.nodes()[index];
     if (!is_wanted_(node.box)) return;
     const Settled settled = settle(node.box, unknown);
-    if (settled.unknown.empty() && is_embedded()) {
+    if (range_.is_decided()) {
+      // Solid on both sides, or empty.
+    } else if (settled.unknown.empty() && is_embedded()) {
       take_all(node);
     } else if (node.size > 1) {
       descend(index + 1, settled.unknown);
@@ -100,25 +112,37 @@ class Finder {
 
   struct Settled {
     std::vector<std::uint32_t> unknown;
-    std::vector<std::uint32_t> around;  // entered into the state
+    std::vector<std::uint32_t> around;
+    std::vector<std::uint32_t> apart;
   };
 
   Settled settle(const Box3& box, std::span<const std::uint32_t> unknown) {
     Settled settled;
     const Box3 reach = expand(box);
     for (const std::uint32_t other : unknown) {
+      if (range_.is_decided()) break;
       if (has_face_in(other, reach)) {
         settled.unknown.push_back(other);
       } else if (contains(leaves_[other], box.low)) {
         settled.around.push_back(other);
         state_.flip(other, true);
+        range_.set(other, Knowledge::kInside);
+      } else {
+        settled.apart.push_back(other);
+        range_.set(other, Knowledge::kOutside);
       }
     }
     return settled;
   }
 
   void forget(const Settled& settled) {
-    for (const std::uint32_t other : settled.around) state_.flip(other, false);
+    for (const std::uint32_t other : settled.around) {
+      state_.flip(other, false);
+      range_.set(other, Knowledge::kUnknown);
+    }
+    for (const std::uint32_t other : settled.apart) {
+      range_.set(other, Knowledge::kUnknown);
+    }
   }
 
   bool has_face_in(std::uint32_t other, const Box3& box) const {
@@ -134,31 +158,15 @@ class Finder {
     return !scene_.leaves[scene_.instances[self_].leaf].may_overlap_itself;
   }
 
-  // The value of the program just inside and just outside of the surface.
-  struct Values {
-    bool inside = false;
-    bool outside = false;
-  };
-  Values values_at_surface() {
-    Values values;
-    values.outside = state_.value();
-    state_.flip(self_, true);
-    values.inside = state_.value();
-    state_.flip(self_, false);
-    return values;
-  }
-
   void take_all(const BoxTree::Node& node) {
-    const Values values = values_at_surface();
-    if (values.inside == values.outside) return;
-    for (const std::uint32_t face : leaf().tree.items(node)) {
-      take_whole(face, values.outside);
-    }
+    for (const std::uint32_t face : leaf().tree.items(node)) take_whole(face);
   }
 
-  void take_whole(std::uint32_t face, bool is_reversed) {
+  // Only this leaf is unknown, and decides the program.
+  void take_whole(std::uint32_t face) {
     const Vec3 normal = leaf().faces.normal_of(face);
     if (normal == Vec3(0)) return;
+    const bool is_reversed = state_.value();  // solid outside of the leaf
     BoundaryFace result{is_reversed ? -normal : normal,
                         leaf().faces.contours_of(face)};
     if (is_reversed) {
@@ -175,9 +183,10 @@ class Finder {
     const Box3 box = leaf().faces.box_of(face);
     if (normal == Vec3(0) || !is_wanted_(box)) return;
     const Settled settled = settle(box, unknown);
-    if (settled.unknown.empty() && is_embedded()) {
-      const Values values = values_at_surface();
-      if (values.inside != values.outside) take_whole(face, values.outside);
+    if (range_.is_decided()) {
+      // Solid on both sides, or empty.
+    } else if (settled.unknown.empty() && is_embedded()) {
+      take_whole(face);
     } else {
       cut(face, normal, settled.unknown);
     }
@@ -200,18 +209,12 @@ class Finder {
       }
     }
 
-    std::vector<LiveInstance> below;
-    std::vector<LiveInstance> above;
+    std::vector<Cut> cuts;
     std::vector<Region> earlier;  // faces in this plane whose turn was before
-    bool is_touched = false;
     const auto add = [&](std::uint32_t other) {
       const WindowSection section(leaves_[other], plane, window);
-      below.push_back({other, section.contours(Side::kBelow)});
-      above.push_back({other, section.is_touched()
-                                  ? section.contours(Side::kAbove)
-                                  : below.back().section});
+      cuts.push_back({other, section});
       if (!section.is_touched()) return;
-      is_touched = true;
       add_earlier(other, section.faces(), face, plane, earlier);
     };
     for (const std::uint32_t other : others) add(other);
@@ -222,12 +225,32 @@ class Finder {
       outline = planar::subtract(earlier);
     }
     if (outline.is_empty()) return;
-    const auto outside = evaluate_in_window(scene_, state_, above, outline);
-    if (is_embedded()) state_.flip(self_, true);
-    const auto inside = evaluate_in_window(scene_, state_, below, outline);
+    if (is_embedded()) range_.set(self_, Knowledge::kOutside);
+    const auto outside = evaluate(cuts, Side::kAbove, outline);
+    if (is_embedded()) {
+      state_.flip(self_, true);
+      range_.set(self_, Knowledge::kInside);
+    }
+    const auto inside = evaluate(cuts, Side::kBelow, outline);
     if (is_embedded()) state_.flip(self_, false);
+    range_.set(self_, Knowledge::kUnknown);
     emit(plane, normal, outline, inside, outside, false);
     emit(plane, -normal, outline, outside, inside, true);
+  }
+
+  struct Cut {
+    std::uint32_t instance = 0;
+    WindowSection section;
+  };
+
+  std::optional<Region> evaluate(const std::vector<Cut>& cuts, Side side,
+                                 const Region& outline) const {
+    std::vector<LiveInstance> live;
+    for (const Cut& cut : cuts) {
+      if (!range_.matters(cut.instance)) continue;
+      live.push_back({cut.instance, cut.section.contours(side)});
+    }
+    return evaluate_in_window(scene_, state_, live, outline);
   }
 
   // Of faces that lie in one plane the first one speaks for what they share.
@@ -282,7 +305,8 @@ class Finder {
   const Scene& scene_;
   const IsWanted& is_wanted_;
   const Take& take_;
-  ProgramState state_;
+  ProgramState state_;  // of those known to be inside
+  ProgramRange range_;  // of all; those that are nowhere near are outside
   std::vector<PlacedLeaf> leaves_;
   std::uint32_t self_ = 0;  // the instance whose faces are judged
 };

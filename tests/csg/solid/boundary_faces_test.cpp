@@ -205,5 +205,27 @@ TEST_F(BoundaryFaces, ObeyTheLawsOfVolume) {
   }
 }
 
+// Leaves that cross each other are not taken apart where another hides them.
+TEST_F(BoundaryFaces, OfHiddenLeavesAreNotLookedAt) {
+  TreeBuilder::Children balls;
+  for (int i = 0; i < 8; ++i) {
+    balls.push_back(b.translate({0.2 * i, 0, 0}, {b.sphere(1, 40)}));
+  }
+  balls.push_back(b.translate({-5, -5, -5}, {b.cube({10, 10, 10})}));
+  const Scene scene = run_solid({unite(balls)});
+  int boxes = 0;
+  int taken = 0;
+  visit_boundary_faces(
+      scene,
+      [&](const Box3&) {
+        ++boxes;
+        return true;
+      },
+      [&](const BoundaryFace&) { ++taken; });
+  EXPECT_EQ(taken, 6);
+  // Two of each ball: its own and that of its faces. A ball has 800 faces.
+  EXPECT_LE(boxes, 50);
+}
+
 }  // namespace
 }  // namespace lamina::csg
