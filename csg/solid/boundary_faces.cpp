@@ -123,16 +123,22 @@ class Finder {
       if (range_.is_decided()) break;
       if (has_face_in(other, reach)) {
         settled.unknown.push_back(other);
-      } else if (contains(leaves_[other], box.low)) {
-        settled.around.push_back(other);
-        state_.flip(other, true);
-        range_.set(other, Knowledge::kInside);
       } else {
-        settled.apart.push_back(other);
-        range_.set(other, Knowledge::kOutside);
+        note(other, contains(leaves_[other], box.low), settled);
       }
     }
     return settled;
+  }
+
+  void note(std::uint32_t other, bool is_around, Settled& settled) {
+    if (is_around) {
+      settled.around.push_back(other);
+      state_.flip(other, true);
+      range_.set(other, Knowledge::kInside);
+    } else {
+      settled.apart.push_back(other);
+      range_.set(other, Knowledge::kOutside);
+    }
   }
 
   void forget(const Settled& settled) {
@@ -244,13 +250,21 @@ class Finder {
   };
 
   std::optional<Region> evaluate(const std::vector<Cut>& cuts, Side side,
-                                 const Region& outline) const {
+                                 const Region& outline) {
+    Settled settled;
+    for (const Cut& cut : cuts) {
+      if (!range_.matters(cut.instance)) continue;
+      const auto value = cut.section.uniform_value(side);
+      if (value) note(cut.instance, *value, settled);
+    }
     std::vector<LiveInstance> live;
     for (const Cut& cut : cuts) {
       if (!range_.matters(cut.instance)) continue;
       live.push_back({cut.instance, cut.section.contours(side)});
     }
-    return evaluate_in_window(scene_, state_, live, outline);
+    auto value = evaluate_in_window(scene_, state_, live, outline);
+    forget(settled);
+    return value;
   }
 
   // Of faces that lie in one plane the first one speaks for what they share.

@@ -260,6 +260,23 @@ int section_winding(const PlacedLeaf& leaf, const Plane& plane, Side side,
   return sum;
 }
 
+// Whether the line between the points passes the window by less than the
+// rounding of the points.
+bool is_near(const Window& window, Vec2 from, Vec2 to) {
+  const Vec2 middle = 0.5 * (window.low + window.high);
+  const Vec2 reach = 0.5 * (window.high - window.low) + kCoplanarDistance;
+  const Vec2 low = glm::min(from, to) - middle;
+  const Vec2 high = glm::max(from, to) - middle;
+  if (low.x > reach.x || low.y > reach.y || high.x < -reach.x ||
+      high.y < -reach.y) {
+    return false;
+  }
+  const Vec2 along = to - from;
+  const Vec2 across(-along.y, along.x);
+  return std::abs(glm::dot(across, middle - from)) <=
+         glm::dot(glm::abs(across), reach);
+}
+
 }  // namespace
 
 Plane::Plane(Vec3 point, Vec3 normal) : point_(point), normal_(normal) {
@@ -329,8 +346,10 @@ WindowSection::WindowSection(const PlacedLeaf& leaf, const Plane& plane,
                              const Window& window)
     : leaf_(leaf), plane_(plane), window_(window) {
   const Box3 box = box_of(plane, window);
-  leaf.tree.visit([&](const Box3& other) { return do_meet(box, other); },
-                  [&](std::uint32_t face) { faces_.push_back(face); });
+  const auto is_met = [&](const Box3& other) {
+    return do_meet(box, other) && plane.meets(other);
+  };
+  leaf.tree.visit(is_met, [&](std::uint32_t face) { faces_.push_back(face); });
   for (const std::uint32_t face : faces_) {
     for (const auto& t : leaf.faces.triangles_of(face)) {
       for (const std::uint32_t corner : t) {
@@ -339,6 +358,17 @@ WindowSection::WindowSection(const PlacedLeaf& leaf, const Plane& plane,
       }
     }
   }
+}
+
+std::optional<bool> WindowSection::uniform_value(Side side) const {
+  const Cutter cutter(leaf_.faces, plane_, side);
+  std::vector<Segment> segments;
+  for (const std::uint32_t face : faces_) cutter.cut(face, segments);
+  const auto comes_near = [&](const Segment& segment) {
+    return is_near(window_, segment.begin, segment.end);
+  };
+  if (std::any_of(segments.begin(), segments.end(), comes_near)) return {};
+  return section_winding(leaf_, plane_, side, window_.low) != 0;
 }
 
 planar::Region WindowSection::contours(Side side) const {

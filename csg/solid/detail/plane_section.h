@@ -9,6 +9,7 @@
 // sections are closed by construction.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "csg/planar/region.h"
@@ -68,15 +69,20 @@ class WindowSection {
   WindowSection(const PlacedLeaf& leaf, const Plane& plane,
                 const Window& window);
 
-  // Faces whose boxes meet the window.
+  // Faces whose boxes meet the plane where the window is.
   const std::vector<std::uint32_t>& faces() const { return faces_; }
 
   // Whether a vertex of them lies on the plane; if not, both sides are equal.
   bool is_touched() const { return is_touched_; }
 
+  enum class Side { kBelow, kAbove };
+
+  // Whether all of the window is inside, or nothing of it. No value where the
+  // border of the section comes near, and all of it has to be looked at.
+  std::optional<bool> uniform_value(Side side) const;
+
   // Contours that have, at each point of the window, the leaf's winding number.
   // Outside of the window they mean nothing.
-  enum class Side { kBelow, kAbove };
   planar::Region contours(Side side) const;
 
  private:
