@@ -53,7 +53,14 @@ std::string last_line(const std::string& shown) {
   return line.substr(0, line.find_last_not_of(' ') + 1);
 }
 
-TEST(Progress, IsShownOnATerminalAndErasedAtTheEnd) {
+class Progress : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!support::has_terminals()) GTEST_SKIP() << "no terminals here";
+  }
+};
+
+TEST_F(Progress, IsShownOnATerminalAndErasedAtTheEnd) {
   const TemporaryFolder folder;
   const auto result = support::run_on_terminal(long_run(folder), folder.path());
   EXPECT_EQ(result.status, 0);
@@ -66,7 +73,7 @@ TEST(Progress, IsShownOnATerminalAndErasedAtTheEnd) {
   EXPECT_EQ(last_line(result.output), "");
 }
 
-TEST(Progress, IsNotForPipesQuietRunsAndShortOnes) {
+TEST_F(Progress, IsNotForPipesQuietRunsAndShortOnes) {
   const TemporaryFolder folder;
   std::vector<std::string> words = long_run(folder);
   EXPECT_EQ(support::run_process(words, folder.path()).errors.find('\r'),
@@ -79,7 +86,7 @@ TEST(Progress, IsNotForPipesQuietRunsAndShortOnes) {
   EXPECT_EQ(small.output.find("left"), std::string::npos);
 }
 
-TEST(Progress, LeavesNothingBehindAnInterrupt) {
+TEST_F(Progress, LeavesNothingBehindAnInterrupt) {
   const TemporaryFolder folder;
   const auto result = support::run_on_terminal(long_run(folder), folder.path(),
                                                " of 120000 layers");

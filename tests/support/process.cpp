@@ -64,6 +64,17 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
           read_file(streams.file("err")), usage.ru_maxrss};
 }
 
+bool has_terminals() {
+  int terminal = -1;
+  int other_end = -1;
+  if (::openpty(&terminal, &other_end, nullptr, nullptr, nullptr) != 0) {
+    return false;
+  }
+  ::close(terminal);
+  ::close(other_end);
+  return true;
+}
+
 ProcessResult run_on_terminal(const std::vector<std::string>& arguments,
                               const std::string& folder,
                               const std::string& cue) {

@@ -19,8 +19,12 @@ struct ProcessResult {
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::string& folder = ".");
 
-// The same on a terminal of 80 columns; `output` is all that it shows. When it
-// shows `cue`, Ctrl-C is pressed.
+// Whether this machine has terminals to run programs on; some containers have
+// none.
+bool has_terminals();
+
+// run_process() on a terminal of 80 columns; `output` is all that it shows.
+// When it shows `cue`, Ctrl-C is pressed.
 ProcessResult run_on_terminal(const std::vector<std::string>& arguments,
                               const std::string& folder,
                               const std::string& cue = "");
