@@ -90,10 +90,10 @@ void ZipOutput::begin(const std::string& name, int method) {
   info.tmz_date.tm_year = 1980;
   info.tmz_date.tm_mday = 1;
   constexpr uLong kNamesAreUtf8 = 1 << 11;  // a flag of the entry
-  check(zipOpenNewFileInZip4(
-      archive_, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, method,
-      Z_DEFAULT_COMPRESSION, 0, -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
-      nullptr, 0, 0, kNamesAreUtf8));
+  check(zipOpenNewFileInZip4(archive_, name.c_str(), &info, nullptr, 0, nullptr,
+                             0, nullptr, method, Z_DEFAULT_COMPRESSION, 0,
+                             -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
+                             nullptr, 0, 0, kNamesAreUtf8));
 }
 
 void ZipOutput::write(std::string_view bytes) {
