@@ -18,6 +18,7 @@
 #include "slicer/compensate.h"
 #include "slicer/deviation.h"
 #include "slicer/formats/layer_reader.h"
+#include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
 namespace {
@@ -34,18 +35,11 @@ constexpr double kOpenScadGrid = 1.0 / 65536;
 double greatest_coordinate(const std::vector<Layer>& layers) {
   double greatest = 0;
   for (const Layer& layer : layers) {
-    for (const Vec2& point : layer.contours.points) {
-      greatest = std::max({greatest, std::abs(point.x), std::abs(point.y)});
-    }
+    greatest =
+        std::max(greatest, ldni::greatest_coordinate(layer.contours.points));
   }
   return greatest;
 }
-
-class LayerList : public slicer::LayerSink {
- public:
-  void take(const Layer& layer) override { layers.push_back(layer); }
-  std::vector<Layer> layers;
-};
 
 class ComparedFile : public Compared {
  public:
@@ -146,10 +140,9 @@ class ComparedDesign : public Compared {
   }
 
   void prepare() {
-    const Loaded loaded = load(run_);
-    Evaluated evaluated = evaluate(run_, loaded.program);
-    if (loaded.has_failed || evaluated.has_failed) throw ShownFault();
-    tree_ = std::move(evaluated.tree);
+    auto tree = load_tree(run_);
+    if (!tree) throw ShownFault();
+    tree_ = std::move(*tree);
     lowered_ = lower(run_, tree_);
   }
 
@@ -163,8 +156,7 @@ class ComparedDesign : public Compared {
 };
 
 bool is_design(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".scad" || extension == ".csg";
+  return slicer::is_named(path, ".scad") || slicer::is_named(path, ".csg");
 }
 
 // What goes for a mesh, too.
@@ -248,9 +240,8 @@ std::unique_ptr<Compared> open_compared(const std::string& path,
     return std::make_unique<ComparedFile>(path);
   }
   if (is_imported(path)) {
-    const Rounding rounding = lower_extension(path) == ".stl"
-                                  ? slicer::float32_rounding
-                                  : no_rounding;
+    const Rounding rounding =
+        slicer::is_named(path, ".stl") ? slicer::float32_rounding : no_rounding;
     return std::make_unique<ComparedDesign>(path, mesh_options(path, options),
                                             rounding, temporary_files, stack);
   }

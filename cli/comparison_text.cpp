@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "slicer/printed_text.h"
 
 namespace lamina::cli {
 namespace {
@@ -50,7 +51,7 @@ std::vector<std::size_t> choose_rows(const std::vector<LayerDifference>& layers,
   return rows;
 }
 
-class Writer {
+class Writer : slicer::PrintedText {
  public:
   explicit Writer(const ComparisonResult& result) : result_(result) {}
 
@@ -68,12 +69,6 @@ class Writer {
   }
 
  private:
-  template <typename... Values>
-  void print(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), format,
-                   std::forward<Values>(values)...);
-  }
-
   void side(char letter, const SideText& side) {
     print("{}         {} ({})\n", letter, side.name, side.description);
   }
@@ -166,7 +161,6 @@ class Writer {
   }
 
   const ComparisonResult& result_;
-  std::string text_;
 };
 
 nlohmann::ordered_json side_json(const SideText& side) {

@@ -2,25 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 
-namespace lamina::cli {
+#include "slicer/formats/output_format.h"
 
-std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return extension;
-}
+namespace lamina::cli {
 
 bool is_imported(const std::string& path) {
   constexpr std::array<std::string_view, 6> kExtensions = {
       ".stl", ".off", ".obj", ".amf", ".3mf", ".dxf"};
-  return std::find(kExtensions.begin(), kExtensions.end(),
-                   lower_extension(path)) != kExtensions.end();
+  return std::any_of(kExtensions.begin(), kExtensions.end(),
+                     [&](std::string_view extension) {
+                       return slicer::is_named(path, extension);
+                     });
 }
 
 std::string import_of(const std::string& path) {

@@ -10,9 +10,6 @@ namespace lamina::cli {
 // any letter case. (A .3mf may hold either; import() takes its mesh.)
 bool is_imported(const std::string& path);
 
-// ".stl" of "Ring.STL"; empty if there is none.
-std::string lower_extension(const std::string& path);
-
 // The text of a design that imports the file beside it.
 std::string import_of(const std::string& path);
 

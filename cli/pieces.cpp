@@ -90,25 +90,23 @@ class Workshop {
     DesignOptions options = piece.options;
     options.settings.threads = threads_per_piece_;
     Outcome outcome;
-    {
-      Run run(options, temporary_files_, stack, &inbox);
-      const int status = run_caught(run.terminal, run.diagnostics, [&] {
-        if (!piece.fault.empty()) refuse_geometry(piece.fault);
-        make_folder_of(options.output);
-        return compile(run);
-      });
-      outcome = outcome_of(run.report, status == kDone);
-      if (status == kDone && run.report.min_feature > 0) {
-        run.terminal.say(feature_lines(run.report));
-      }
-      if (!options_.report.empty() && status == kDone) {
-        outcome.json = piece_json(run.report);
-      }
-      // Under hard warnings no error tells.
-      outcome.error = inbox.first_error;
-      if (status != kDone && outcome.error.empty()) {
-        outcome.error = run.diagnostics.all().back().message;
-      }
+    Run run(options, temporary_files_, stack, &inbox);
+    const int status = run_caught(run.terminal, run.diagnostics, [&] {
+      if (!piece.fault.empty()) refuse_geometry(piece.fault);
+      make_folder_of(options.output);
+      return compile(run);
+    });
+    outcome = outcome_of(run.report, status == kDone);
+    if (status == kDone && run.report.min_feature > 0) {
+      run.terminal.say(feature_lines(run.report));
+    }
+    if (!options_.report.empty() && status == kDone) {
+      outcome.json = piece_json(run.report);
+    }
+    // Under hard warnings no error tells.
+    outcome.error = inbox.first_error;
+    if (status != kDone && outcome.error.empty()) {
+      outcome.error = run.diagnostics.all().back().message;
     }
     return outcome;
   }

@@ -142,6 +142,13 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   });
 }
 
+std::optional<csg::Tree> load_tree(Run& run) {
+  const Loaded loaded = load(run);
+  Evaluated evaluated = evaluate(run, loaded.program);
+  if (loaded.has_failed || evaluated.has_failed) return std::nullopt;
+  return std::move(evaluated.tree);
+}
+
 namespace {
 
 csg::LowerOptions lower_options(Run& run) {

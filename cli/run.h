@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,6 +73,9 @@ struct Evaluated {
 
 Evaluated evaluate(Run& run, const ast::Program& program);
 
+// Both of these; no value where either failed.
+std::optional<csg::Tree> load_tree(Run& run);
+
 // The solid or the outline that the tree stands for; throws where it is empty.
 // Drops the tree's nodes; the solid needs what is left of it.
 csg::Lowered lower(Run& run, csg::Tree& tree);
@@ -83,6 +87,12 @@ void slice(Run& run, const csg::Lowered& lowered,
 // From the CSG tree to layers in `sink`: both of these. Throws where the
 // format of the output holds no outline and the design is one.
 void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink);
+
+// Keeps all layers.
+struct LayerList : slicer::LayerSink {
+  void take(const slicer::Layer& layer) override { layers.push_back(layer); }
+  std::vector<slicer::Layer> layers;
+};
 
 // Returns what `work` returns; where it throws, shows the message, unless it
 // is among `diagnostics` and so has been shown, and returns kFault.

@@ -130,14 +130,9 @@ class CellLimits {
   }
 
   void take(const csg::BoundaryFace& face) {
-    double low = 1e300;
-    double high = -1e300;
-    for (const auto& contour : face.contours) {
-      for (const Vec3& corner : contour) {
-        low = std::min(low, corner.z);
-        high = std::max(high, corner.z);
-      }
-    }
+    const Box3 box = csg::box_of(face);
+    const double low = box.low.z;
+    const double high = box.high.z;
     if (high - low <= kReach) {
       take_end((low + high) / 2, kReach);
       return;

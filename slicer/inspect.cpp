@@ -1,7 +1,6 @@
 #include "slicer/inspect.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 
 #include "slicer/defects.h"
 #include "slicer/formats/layer_reader.h"
+#include "slicer/formats/output_format.h"
 
 namespace lamina::slicer {
 namespace {
@@ -27,11 +27,6 @@ SlcLayer close_loops(const Layer& layer) {
     if (!loop.empty()) boundary.points.push_back(loop.front());
   }
   return closed;
-}
-
-bool is_slc(const std::string& path) {
-  return path.size() > 4 && path[path.size() - 4] == '.' &&
-         (path.ends_with("slc") || path.ends_with("SLC"));
 }
 
 }  // namespace
@@ -67,9 +62,10 @@ void Inspector::take(const Layer& layer, const SlcLayer& boundaries) {
   for (const Vec2& point : layer.contours.points) {
     found_.box.low = glm::min(found_.box.low, Vec3(point, layer.bottom));
     found_.box.high = glm::max(found_.box.high, Vec3(point, layer.top));
-    found_.greatest_coordinate = std::max(
-        {found_.greatest_coordinate, std::abs(point.x), std::abs(point.y)});
   }
+  found_.greatest_coordinate =
+      std::max(found_.greatest_coordinate,
+               ldni::greatest_coordinate(layer.contours.points));
   found_.layers.push_back(
       {layer.bottom, layer.top - layer.bottom, measure(layer.contours)});
   found_.volume +=
@@ -103,7 +99,7 @@ Inspection inspect_file(const std::string& path, double min_feature) {
   Inspector inspector(min_feature);
   Inspection& found = inspector.found_;
   found.name = path;
-  if (is_slc(path)) {
+  if (is_named(path, ".slc")) {
     // Its boundaries as they are: they may be open.
     SlcReader reader(path);
     describe_header(reader, found);

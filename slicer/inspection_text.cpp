@@ -1,7 +1,6 @@
 #include "slicer/inspection_text.h"
 
 #include <cmath>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "slicer/deviation.h"
 #include "slicer/feature_table.h"
 #include "slicer/materials.h"
+#include "slicer/printed_text.h"
 
 namespace lamina::slicer {
 namespace {
@@ -44,7 +44,7 @@ Vec3 without_minus_zero(Vec3 place) {
   return place;
 }
 
-class Text {
+class Text : PrintedText {
  public:
   explicit Text(const Inspection& found) : found_(found) {}
 
@@ -63,12 +63,6 @@ class Text {
   }
 
  private:
-  template <typename... Values>
-  void print(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), format,
-                   std::forward<Values>(values)...);
-  }
-
   void print_header() {
     print("{}: {}", found_.name,
           found_.format.empty() ? "layers of a design" : found_.format);
@@ -174,7 +168,6 @@ class Text {
   }
 
   const Inspection& found_;
-  std::string text_;
 };
 
 ordered_json number_or_null(const std::optional<double>& value) {

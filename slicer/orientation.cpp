@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csg/solid/boundary_faces.h"
@@ -74,13 +73,7 @@ Surface measure_surface(const csg::Scene& scene) {
   csg::visit_boundary_faces(
       scene, [](const Box3&) { return true; },
       [&](const csg::BoundaryFace& face) {
-        Box3 box;
-        for (const auto& contour : face.contours) {
-          for (const Vec3& corner : contour) {
-            box.low = glm::min(box.low, corner);
-            box.high = glm::max(box.high, corner);
-          }
-        }
+        const Box3 box = csg::box_of(face);
         const double area = area_of(face);
         surface.area += area;
         for (int i = 0; i < 3; ++i) {

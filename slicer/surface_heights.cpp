@@ -15,12 +15,9 @@ SurfaceHeights surface_heights(const csg::Scene& scene) {
         return box.low.z < heights.low || box.high.z > heights.high;
       },
       [&](const csg::BoundaryFace& face) {
-        for (const auto& contour : face.contours) {
-          for (const Vec3& point : contour) {
-            heights.low = std::min(heights.low, point.z);
-            heights.high = std::max(heights.high, point.z);
-          }
-        }
+        const Box3 box = csg::box_of(face);
+        heights.low = std::min(heights.low, box.low.z);
+        heights.high = std::max(heights.high, box.high.z);
       });
   return heights;
 }

@@ -68,11 +68,10 @@ class InspectCommand : public Command {
     if (slicer::is_readable_layer_file(options_.design)) {
       return slicer::inspect_file(options_.design, min_feature_);
     }
-    const Loaded loaded = load(run);
-    Evaluated evaluated = evaluate(run, loaded.program);
-    if (loaded.has_failed || evaluated.has_failed) return std::nullopt;
+    auto tree = load_tree(run);
+    if (!tree) return std::nullopt;
     slicer::Inspector inspector(min_feature_);
-    make_layers(run, std::move(evaluated.tree), inspector);
+    make_layers(run, std::move(*tree), inspector);
     slicer::Inspection found = inspector.finish();
     found.name = options_.design;
     found.is_float32 = false;

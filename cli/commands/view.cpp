@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,9 +34,10 @@ constexpr std::string_view kViewHelp =
     R"(Usage: lamina view FILE -o PICTURE.png [OPTION]...
        lamina view FILE -o PAGE.html [OPTION]...
 
-Draws the layers of a .slc, .cli, .svg or .layers.json file, or of a .scad or .csg design with any option
-of Design and Slicing (see 'lamina --help'). A page shows all layers in any
-browser, to leaf through, zoom and measure; it is one file and needs no network.
+Draws the layers of a .slc, .cli, .svg or .layers.json file, or of a .scad or
+.csg design with any option of Design and Slicing (see 'lamina --help'). A page
+shows all layers in any browser, to leaf through, zoom and measure; it is one
+file and needs no network.
 
   -o FILE           the picture or the page
   --style STYLE     sheet: single layers side by side; stack: all layers on top
@@ -84,12 +86,6 @@ struct ViewOptions {
   }
 };
 
-class LayerList : public slicer::LayerSink {
- public:
-  void take(const slicer::Layer& layer) override { layers.push_back(layer); }
-  std::vector<slicer::Layer> layers;
-};
-
 // All layers of a file or of a design; no value where the design failed.
 std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
   LayerList list;
@@ -99,10 +95,9 @@ std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
     });
     return std::move(list.layers);
   }
-  const Loaded loaded = load(run);
-  Evaluated evaluated = evaluate(run, loaded.program);
-  if (loaded.has_failed || evaluated.has_failed) return std::nullopt;
-  make_layers(run, std::move(evaluated.tree), list);
+  auto tree = load_tree(run);
+  if (!tree) return std::nullopt;
+  make_layers(run, std::move(*tree), list);
   return std::move(list.layers);
 }
 
@@ -155,9 +150,8 @@ int draw(Run& run, const ViewOptions& options) {
     refuse_geometry(
         fmt::format("{} has no contour to draw", run.options.design));
   }
-  const std::size_t slash = run.options.design.rfind('/');
   const std::string title =
-      run.options.design.substr(slash == std::string::npos ? 0 : slash + 1);
+      std::filesystem::path(run.options.design).filename();
   if (is_page(run.options.output)) {
     slicer::ViewerOptions page;
     page.title = title;

@@ -332,6 +332,17 @@ void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
   Finder(scene, is_wanted, take);
 }
 
+Box3 box_of(const BoundaryFace& face) {
+  Box3 box;
+  for (const auto& contour : face.contours) {
+    for (const Vec3& corner : contour) {
+      box.low = glm::min(box.low, corner);
+      box.high = glm::max(box.high, corner);
+    }
+  }
+  return box;
+}
+
 std::vector<BoundaryFace> boundary_faces(const Scene& scene) {
   std::vector<BoundaryFace> faces;
   visit_boundary_faces(

@@ -24,6 +24,8 @@ struct BoundaryFace {
   std::vector<std::vector<Vec3>> contours;
 };
 
+Box3 box_of(const BoundaryFace& face);
+
 // The faces together cover the boundary once, up to kCoplanarDistance; they
 // are not joined: neighbours may have vertices on each other's edges, and an
 // edge's two sides may differ by kClipGrid. A face that the Boolean does not

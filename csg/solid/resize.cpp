@@ -67,12 +67,9 @@ Box3 box_of_result(const Scene& scene) {
            glm::any(glm::greaterThan(part.high, box.high));
   };
   visit_boundary_faces(scene, reaches_out, [&](const BoundaryFace& face) {
-    for (const auto& contour : face.contours) {
-      for (const Vec3 point : contour) {
-        box.low = glm::min(box.low, point);
-        box.high = glm::max(box.high, point);
-      }
-    }
+    const Box3 part = box_of(face);
+    box.low = glm::min(box.low, part.low);
+    box.high = glm::max(box.high, part.high);
   });
   return box;
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "slicer/formats/cli_reader.h"
 #include "slicer/formats/layers_json_reader.h"
+#include "slicer/formats/output_format.h"
 #include "slicer/formats/reading.h"
 #include "slicer/formats/slc_reader.h"
 #include "slicer/formats/svg_reader.h"
@@ -46,18 +46,9 @@ constexpr std::array<Format, 4> kFormats = {{
     {".layers.json", read_layers_json},
 }};
 
-bool ends_with(std::string_view path, std::string_view ending) {
-  return path.size() > ending.size() &&
-         std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
-                    [](char small, char any) {
-                      return small ==
-                             std::tolower(static_cast<unsigned char>(any));
-                    });
-}
-
 Read reader_for(std::string_view path) {
   for (const Format& format : kFormats) {
-    if (ends_with(path, format.ending)) return format.read;
+    if (is_named(path, format.ending)) return format.read;
   }
   return nullptr;
 }

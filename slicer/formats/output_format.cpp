@@ -1,5 +1,6 @@
 #include "slicer/formats/output_format.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 
@@ -95,6 +96,15 @@ std::vector<std::string> written_extensions() {
     extensions.emplace_back(written.extension);
   }
   return extensions;
+}
+
+bool is_named(std::string_view path, std::string_view extension) {
+  return path.size() > extension.size() &&
+         std::equal(extension.rbegin(), extension.rend(), path.rbegin(),
+                    [](char small, char any) {
+                      return small ==
+                             std::tolower(static_cast<unsigned char>(any));
+                    });
 }
 
 bool is_named_as_layers(std::string_view path) {

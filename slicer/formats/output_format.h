@@ -46,6 +46,10 @@ FormatChoice choose_output_format(std::string_view name);
 // What may stand for a format, "slc" to "csg".
 std::vector<std::string> written_extensions();
 
+// Whether a path ends with an extension such as ".layers.json", in any letter
+// case; `extension` is in small letters.
+bool is_named(std::string_view path, std::string_view extension);
+
 // Whether a path is named as a file of layers, and so as no design.
 bool is_named_as_layers(std::string_view path);
 
