@@ -48,7 +48,7 @@ std::span<Parameter> Resolver::make_parameters(ast::Arguments written,
     parameter.name = argument.name;
     parameter.fallback_text = argument.value;
     parameter.has_silent_fallback =
-        argument.value == nullptr || is_literal(*argument.value);
+        argument.value == nullptr || is_silent(*argument.value);
     parameters.push_back(parameter);
   }
   const ParameterIndex index(parameters);

@@ -43,10 +43,32 @@ struct LiteralTest {
   }
 };
 
+// Of the literals, those whose evaluation warns of nothing.
+struct SilentTest {
+  bool operator()(const ast::Unary& unary) const {
+    return std::holds_alternative<ast::Number>(unary.operand->node);
+  }
+  bool operator()(const ast::Vector& vector) const {
+    for (const ast::Expr* element : vector.elements) {
+      if (!is_silent(*element)) return false;
+    }
+    return true;
+  }
+  bool operator()(const ast::Range&) const { return false; }
+  template <typename T>
+  bool operator()(const T& other) const {
+    return LiteralTest()(other);
+  }
+};
+
 }  // namespace
 
 bool is_literal(const ast::Expr& expr) {
   return std::visit(LiteralTest(), expr.node);
+}
+
+bool is_silent(const ast::Expr& expr) {
+  return std::visit(SilentTest(), expr.node);
 }
 
 const Expression* ExpressionResolver::constant(Value value, SourceRange range) {
