@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/oracle/random_design.h"
 #include "tests/oracle/random_suite.h"
+#include "tests/support/random_design.h"
 
 namespace lamina::oracle {
 namespace {
@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(
     Oracle, RandomDesigns,
     ::testing::Values(RandomKind::kGrid, RandomKind::kTurnedGrid,
                       RandomKind::kGeneric, RandomKind::kThin,
-                      RandomKind::kNear),
+                      RandomKind::kNear, RandomKind::kModules),
     [](const auto& kind) { return std::string(name_of(kind.param)); });
 
 }  // namespace

@@ -18,9 +18,11 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/oracle/random_design.h"
+#include "tests/support/random_design.h"
 
 namespace lamina::oracle {
+
+using support::RandomKind;
 
 struct SuiteTally {
   std::uint64_t designs = 0;

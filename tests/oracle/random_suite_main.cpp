@@ -16,7 +16,7 @@ namespace {
 
 int run(const std::string& kind_name, std::uint32_t first,
         std::uint32_t count) {
-  for (int k = 0; k < kRandomKindCount; ++k) {
+  for (int k = 0; k < support::kRandomKindCount; ++k) {
     const auto kind = static_cast<RandomKind>(k);
     if (kind_name != name_of(kind)) continue;
     SuiteTally tally;
