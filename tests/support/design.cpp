@@ -39,6 +39,8 @@ struct Design::State {
       typesetter.add_fonts(loader->fonts());
       options.typesetter = &typesetter;
       lowered = csg::lower(tree, options, diagnostics);
+    } catch (const InternalError&) {
+      throw;
     } catch (const Error& error) {
       throw std::runtime_error(messages() + error.what());
     }

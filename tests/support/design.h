@@ -17,7 +17,8 @@ namespace lamina::support {
 class Design {
  public:
   // Both throw std::runtime_error with all messages where the design has errors
-  // or is 2D. A design of nothing has a scene without instances.
+  // or is 2D, and let InternalError pass. A design of nothing has a scene
+  // without instances.
   static Design from_file(const std::filesystem::path& path);
   // chordal_error  [mm]; 0: $fa and $fs decide
   static Design from_text(const std::string& text, double chordal_error = 0);
