@@ -10,6 +10,7 @@
 
 #include <CLI/App.hpp>
 
+#include "cli/process_watch.h"
 #include "slicer/formats/output_file.h"
 
 namespace lamina::cli {
@@ -49,8 +50,8 @@ class Command {
 
   // Returns the exit status. Faults have been shown.
   // stack  bytes of the thread that calls
-  virtual int run(slicer::TemporaryFiles& temporary_files,
-                  std::size_t stack) = 0;
+  virtual int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+                  ProcessWatch& watch) = 0;
 };
 
 }  // namespace lamina::cli

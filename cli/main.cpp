@@ -16,6 +16,8 @@
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
+#include "cli/process_limits.h"
+#include "cli/process_watch.h"
 #include "cli/run_on_stack.h"
 #include "slicer/version.h"
 
@@ -34,14 +36,16 @@ Exit usage_fault(std::string_view message) {
                                    message)};
 }
 
-// Reads the words into the options of `command`; a value where that was all.
-std::optional<Exit> read_words(Command& command, int argc,
-                               const char* const* argv) {
+// Reads the words into the options of `command` and `limits`; a value where
+// that was all.
+std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
+                               int argc, const char* const* argv) {
   CLI::App app("", "lamina");
   app.set_help_flag("-h,--help");
   app.set_version_flag("-v,--version",
                        fmt::format("lamina {}", slicer::version()));
   command.add_options(app);
+  add_process_limits(app, limits);
   try {
     app.parse(argc, argv);
     command.check();
@@ -70,14 +74,16 @@ int main(int argc, char** argv) {
   // A named command's own words begin behind its name.
   const int skipped = command ? 1 : 0;
   if (!command) command = cli::make_slice_command();
+  cli::ProcessLimits limits;
   if (const auto exit =
-          cli::read_words(*command, argc - skipped, argv + skipped)) {
+          cli::read_words(*command, limits, argc - skipped, argv + skipped)) {
     std::fputs(exit->text.c_str(),
                exit->status == cli::kDone ? stdout : stderr);
     return exit->status;
   }
   slicer::TemporaryFiles temporary_files;
-  return cli::run_on_stack(temporary_files, [&](std::size_t stack) {
-    return command->run(temporary_files, stack);
+  cli::ProcessWatch watch(limits);
+  return cli::run_on_stack(temporary_files, watch, [&](std::size_t stack) {
+    return command->run(temporary_files, stack, watch);
   });
 }

@@ -26,10 +26,11 @@ namespace {
 class Workshop {
  public:
   Workshop(std::span<const Piece> pieces, const PiecesOptions& options,
-           slicer::TemporaryFiles& temporary_files)
+           slicer::TemporaryFiles& temporary_files, ProcessWatch& watch)
       : pieces_(pieces),
         options_(options),
         temporary_files_(temporary_files),
+        watch_(watch),
         outcomes_(pieces.size()) {
     const unsigned threads =
         options.threads != 0
@@ -90,6 +91,7 @@ class Workshop {
     DesignOptions options = piece.options;
     options.settings.threads = threads_per_piece_;
     Outcome outcome;
+    const ProcessWatch::Piece timed(watch_, piece.prefix);
     Run run(options, temporary_files_, stack, &inbox);
     const int status = run_caught(run.terminal, run.diagnostics, [&] {
       if (!piece.fault.empty()) refuse_geometry(piece.fault);
@@ -131,6 +133,7 @@ class Workshop {
   std::span<const Piece> pieces_;
   const PiecesOptions& options_;
   slicer::TemporaryFiles& temporary_files_;
+  ProcessWatch& watch_;
   unsigned worker_count_ = 1;
   unsigned threads_per_piece_ = 1;
 
@@ -146,10 +149,12 @@ class Workshop {
 }  // namespace
 
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
-                slicer::TemporaryFiles& temporary_files, std::size_t stack) {
+                slicer::TemporaryFiles& temporary_files, std::size_t stack,
+                ProcessWatch& watch) {
   const auto begin = std::chrono::steady_clock::now();
+  watch.time_pieces();
   const std::vector<Outcome> outcomes =
-      Workshop(pieces, options, temporary_files).run(stack);
+      Workshop(pieces, options, temporary_files, watch).run(stack);
   const std::chrono::duration<double> seconds =
       std::chrono::steady_clock::now() - begin;
   Terminal terminal(options.is_quiet);

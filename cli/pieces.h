@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "cli/design_options.h"
+#include "cli/process_watch.h"
 #include "slicer/formats/output_file.h"
 
 namespace lamina::cli {
@@ -36,8 +37,10 @@ struct PiecesOptions {
 // Makes all pieces and their folders; returns the exit status.
 //
 // stack   bytes of the thread that calls
+// watch   times each piece by itself
 // throws  FileError where the report cannot be written
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
-                slicer::TemporaryFiles& temporary_files, std::size_t stack);
+                slicer::TemporaryFiles& temporary_files, std::size_t stack,
+                ProcessWatch& watch);
 
 }  // namespace lamina::cli

@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/imported_design.h"
+#include "cli/process_watch.h"
 #include "csg/solid/move_scene.h"
 #include "parser/parameter_set.h"
 #include "slicer/orientation.h"
@@ -226,7 +227,7 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
       terminal.show(error.diagnostic());
     }
   } catch (const std::bad_alloc&) {
-    terminal.show({Severity::kError, {}, "out of memory"});
+    terminal.show({Severity::kError, {}, out_of_memory_text()});
   } catch (const std::exception& error) {
     terminal.show(
         {Severity::kError,

@@ -1,9 +1,18 @@
 #include "cli/run_on_stack.h"
 
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
 #include <pthread.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include "cli/command.h"
 #include "cli/large_stack.h"
 #include "cli/progress.h"
 
@@ -12,8 +21,13 @@ namespace {
 
 constexpr int kInterruptedStatus = 130;
 
-// Sent by the working thread to the waiting one: "done".
+// Sent to the waiting thread: "done", by the working one, and "an exception
+// cannot be passed on", by any.
 constexpr int kDoneSignal = SIGUSR1;
+constexpr int kLostSignal = SIGUSR2;
+
+// With kLostSignal: what was thrown.
+enum Lost { kLostMemory, kLostError };
 
 struct Run {
   const std::function<int(std::size_t)>& work;
@@ -42,32 +56,97 @@ sigset_t ending_signals() {
   return signals;
 }
 
+// Instead of abort(): has the waiting thread end the process.
+[[noreturn]] void tell_lost_exception() {
+  sigval what{};
+  what.sival_int = kLostError;
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    what.sival_int = kLostMemory;
+  } catch (...) {
+  }
+  // To the process: all threads but the waiting one block it.
+  ::sigqueue(::getpid(), kLostSignal, what);
+  while (true) ::pause();
+}
+
+// The end of a process whose other threads still run. Nothing here may throw,
+// be it for lack of memory.
+[[noreturn]] void end_process(slicer::TemporaryFiles& temporary_files,
+                              int status, std::string_view message) noexcept {
+  std::set_terminate([] { ::_exit(kFault); });
+  temporary_files.discard_all();
+  end_progress();
+  std::fwrite(message.data(), 1, message.size(), stderr);
+  ::_exit(status);
+}
+
+std::string lost_text(int what) {
+  return fmt::format("error: {}\n",
+                     what == kLostMemory
+                         ? out_of_memory_text()
+                         : "internal error, please report: an exception that "
+                           "nothing catches");
+}
+
+// What `signals` bring within the time; SI of 0: nothing.
+siginfo_t wait_for(const sigset_t& signals, std::chrono::nanoseconds time) {
+  timespec pause{};
+  pause.tv_nsec = time.count();
+  siginfo_t received{};
+  if (::sigtimedwait(&signals, &received, &pause) < 0) received.si_signo = 0;
+  return received;
+}
+
+// Returns when the work is done.
+void watch_over(const sigset_t& signals,
+                slicer::TemporaryFiles& temporary_files, ProcessWatch& watch) {
+  while (true) {
+    const siginfo_t received = wait_for(signals, watch.pause());
+    switch (received.si_signo) {
+      case kDoneSignal:
+        return;
+      case kLostSignal:
+        end_process(temporary_files, kFault,
+                    lost_text(received.si_value.sival_int));
+      case 0:
+        break;
+      default:
+        end_process(temporary_files, kInterruptedStatus, "");
+    }
+    const std::string exceeded = watch.look();
+    if (!exceeded.empty()) end_process(temporary_files, kFault, exceeded);
+  }
+}
+
 }  // namespace
 
-int run_on_stack(slicer::TemporaryFiles& temporary_files,
+int run_on_stack(slicer::TemporaryFiles& temporary_files, ProcessWatch& watch,
                  const std::function<int(std::size_t)>& work) {
   // A reader that closes its pipe early, and a file larger than the user may
   // write, are failed writes, not a death.
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
-  // All threads inherit the mask: signals reach sigwait() alone.
+  std::set_terminate(tell_lost_exception);
+  // All threads inherit the mask: signals reach the waiting thread alone.
   sigset_t signals = ending_signals();
   ::sigaddset(&signals, kDoneSignal);
+  ::sigaddset(&signals, kLostSignal);
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   const LargeStack stack;
   Run run{work, stack.size(), ::pthread_self()};
   pthread_t thread{};
   if (!stack.start(thread, &work_and_tell, &run)) {
-    // Without a second thread the run is still right, if less deep.
-    return work(LargeStack::kSmallestSize / 2);
+    end_process(temporary_files, kFault,
+                "error: the system grants no second thread, or no stack for "
+                "it (ulimit -u, -v)\n");
   }
-  int received = 0;
-  ::sigwait(&signals, &received);
-  if (received != kDoneSignal) {
-    temporary_files.discard_all();
-    end_progress();
-    ::_exit(kInterruptedStatus);
+  try {
+    watch_over(signals, temporary_files, watch);
+  } catch (const std::bad_alloc&) {
+    end_process(temporary_files, kFault, "error: out of memory\n");
   }
   ::pthread_join(thread, nullptr);
   return run.status;

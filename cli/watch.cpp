@@ -50,7 +50,8 @@ std::string change_line(const std::set<std::string>& files) {
 // Adds what the run found to depend on; true if it ended well.
 bool compile_once(const DesignOptions& options,
                   slicer::TemporaryFiles& temporary_files, std::size_t stack,
-                  std::set<std::string>& files) {
+                  ProcessWatch& watch, std::set<std::string>& files) {
+  const ProcessWatch::Piece timed(watch, "");
   const double earlier_seconds = process_seconds();
   Run run(options, temporary_files, stack);
   run.report.earlier_seconds = earlier_seconds;
@@ -68,7 +69,8 @@ bool compile_once(const DesignOptions& options,
 
 void compile_and_watch(const DesignOptions& options,
                        slicer::TemporaryFiles& temporary_files,
-                       std::size_t stack) {
+                       std::size_t stack, ProcessWatch& watch) {
+  watch.time_pieces();
   FileWatcher watcher;
   Terminal terminal(options.is_quiet);
   std::set<std::string> watched = given_files(options);
@@ -76,7 +78,8 @@ void compile_and_watch(const DesignOptions& options,
   while (true) {
     const auto begin = fs::file_time_type::clock::now() - kClockStep;
     std::set<std::string> files = given_files(options);
-    const bool is_done = compile_once(options, temporary_files, stack, files);
+    const bool is_done =
+        compile_once(options, temporary_files, stack, watch, files);
     // A design that failed half way does not know all that it depends on.
     if (!is_done) files.insert(watched.begin(), watched.end());
     watched = files;

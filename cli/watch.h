@@ -5,16 +5,18 @@
 #include <cstddef>
 
 #include "cli/design_options.h"
+#include "cli/process_watch.h"
 #include "slicer/formats/output_file.h"
 
 namespace lamina::cli {
 
-// Goes on until an interrupt ends the process. Where the design fails, the
-// output stays as it was.
+// Goes on until an interrupt or an exceeded limit ends the process. Where the
+// design fails, the output stays as it was.
 //
+// watch   times each run by itself
 // throws  FileError where files cannot be watched
 [[noreturn]] void compile_and_watch(const DesignOptions& options,
                                     slicer::TemporaryFiles& temporary_files,
-                                    std::size_t stack);
+                                    std::size_t stack, ProcessWatch& watch);
 
 }  // namespace lamina::cli

@@ -35,8 +35,9 @@ the rest.
   -q, --quiet     say nothing but errors
   -h, --help      print this help
 
-All other options of Output, Design and Slicing are those of 'lamina --help'
-and go for all pieces; cells go before -D.
+All other options of Output, Design, Slicing and Limits are those of
+'lamina --help' and go for all pieces; cells go before -D. A piece that exceeds
+--max-time or --max-memory ends the batch; pieces that are done stay.
 
 Exit status: 0 all pieces are done, 1 a piece or the table is at fault, 2 usage,
 130 interrupted.
@@ -74,7 +75,8 @@ class BatchCommand : public Command {
     table_.skipped.insert(skipped_.begin(), skipped_.end());
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+          ProcessWatch& watch) override {
     const DesignOptions& design = table_.design;
     Terminal terminal(design.is_quiet);
     SourceStore sources;
@@ -86,7 +88,7 @@ class BatchCommand : public Command {
       return make_pieces(
           pieces,
           {"pieces", design.report, design.settings.threads, design.is_quiet},
-          temporary_files, stack);
+          temporary_files, stack, watch);
     });
   }
 

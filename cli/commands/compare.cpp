@@ -47,8 +47,8 @@ other's. Ends with 0 if all layers are within the tolerance, with 1 if not.
   -q, --quiet         say nothing but errors
   -h, --help          print this help
 
-Options of Design and Slicing are those of slicing (see 'lamina --help'), but
-for --tolerance. Contours of designs keep all vertices.
+Options of Design, Slicing and Limits are those of slicing (see 'lamina
+--help'), but for --tolerance. Contours of designs keep all vertices.
 )";
 
 // A shift that is less is none [mm].
@@ -121,7 +121,8 @@ class CompareCommand : public Command {
     }
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+          ProcessWatch& /*watch*/) override {
     Terminal terminal(design_.is_quiet);
     return run_caught(terminal, Diagnostics(), [&] {
       try {

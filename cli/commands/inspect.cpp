@@ -56,7 +56,8 @@ class InspectCommand : public Command {
     }
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+          ProcessWatch& /*watch*/) override {
     Run run(options_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics,
                       [&] { return inspect(run); });

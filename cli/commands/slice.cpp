@@ -92,6 +92,12 @@ Slicing (lengths in millimetres):
                       --contour paper [auto]
   --threads N         threads at work [as many as the machine has]
 
+Limits (an exceeded one is an error; see docs/usage.md for all):
+  --max-memory SIZE   memory in use: bytes, or with K, M, G or % of what the
+                      machine has [80%]
+  --max-time SECONDS  time by the clock; of several designs, of pieces and of
+                      runs under --watch each by itself [none]
+
 For comparison, the method of Zeng et al. 2011:
   --contour MODE      faithful: exact contours; paper: linked rays [faithful]
   --boxes MODE        of paper: local or global depth images [local]
@@ -167,12 +173,13 @@ class SliceCommand : public Command {
     choose_format(options_, export_format_, options_.output);
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
-    if (designs_.size() > 1) return run_several(temporary_files, stack);
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+          ProcessWatch& watch) override {
+    if (designs_.size() > 1) return run_several(temporary_files, stack, watch);
     Run run(options_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics, [&] {
       if (makes_folder_) make_folder_of(options_.output);
-      if (watches_) compile_and_watch(options_, temporary_files, stack);
+      if (watches_) compile_and_watch(options_, temporary_files, stack, watch);
       const int status = compile(run);
       if (status == kDone) show_report(run);
       return status;
@@ -228,7 +235,8 @@ class SliceCommand : public Command {
     }
   }
 
-  int run_several(slicer::TemporaryFiles& temporary_files, std::size_t stack) {
+  int run_several(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+                  ProcessWatch& watch) {
     std::vector<Piece> pieces;
     for (const std::string& design : designs_) {
       Piece& piece = pieces.emplace_back();
@@ -243,7 +251,7 @@ class SliceCommand : public Command {
       return make_pieces(pieces,
                          {"designs", options_.report, options_.settings.threads,
                           options_.is_quiet},
-                         temporary_files, stack);
+                         temporary_files, stack, watch);
     });
   }
 

@@ -35,9 +35,9 @@ constexpr std::string_view kViewHelp =
        lamina view FILE -o PAGE.html [OPTION]...
 
 Draws the layers of a .slc, .cli, .svg or .layers.json file, or of a .scad or
-.csg design with any option of Design and Slicing (see 'lamina --help'). A page
-shows all layers in any browser, to leaf through, zoom and measure; it is one
-file and needs no network.
+.csg design with any option of Design, Slicing and Limits (see 'lamina --help').
+A page shows all layers in any browser, to leaf through, zoom and measure; it is
+one file and needs no network.
 
   -o FILE           the picture or the page
   --style STYLE     sheet: single layers side by side; stack: all layers on top
@@ -229,7 +229,8 @@ class ViewCommand : public Command {
     }
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack) override {
+  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+          ProcessWatch& /*watch*/) override {
     Run run(design_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics,
                       [&] { return draw(run, options_); });

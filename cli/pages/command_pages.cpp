@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
+#include "cli/process_limits.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/panel.h"
 
@@ -160,6 +161,8 @@ CommandPage command_page(const std::string& name, Command& command,
   app.set_help_flag("-h,--help");
   app.set_version_flag("-v,--version", "");
   command.add_options(app);
+  ProcessLimits limits;
+  add_process_limits(app, limits);
   CommandPage page;
   page.name = name;
   page.help = read_help(command.help());

@@ -1,0 +1,231 @@
+// What a run may take: time, memory, and what a design may ask for.
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cli/machine_memory.h"
+#include "cli/process_limits.h"
+#include "cli/process_watch.h"
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using support::ProcessResult;
+using support::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// Nothing but the design is in its folder.
+void expect_no_output(const TemporaryFolder& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_EQ(entry.path().extension(), ".scad") << entry.path();
+  }
+}
+
+// Takes more than a minute, and no memory.
+constexpr const char* kEndless =
+    "function f(n) = n == 0 ? 0 : let(s = f(n - 1)) s + f(n - 1);"
+    "echo(f(60)); cube(1);";
+
+// Takes all memory that there is.
+constexpr const char* kHungry =
+    "function grow(s, n) = n == 0 ? s : grow(str(s, s), n - 1);"
+    "echo(len(grow(\"0123456789\", 60))); cube(1);";
+
+// --- The options -------------------------------------------------------------
+
+TEST(MemoryLimit, HasUnitsOf1024) {
+  EXPECT_EQ(parse_memory_limit("123456789").bytes, 123456789U);
+  EXPECT_EQ(parse_memory_limit("800k").bytes, 800U << 10);
+  EXPECT_EQ(parse_memory_limit("500M").bytes, 500U << 20);
+  EXPECT_EQ(parse_memory_limit("1.5G").bytes, 3U << 29);
+  EXPECT_EQ(parse_memory_limit("2g").bytes, std::uint64_t{2} << 30);
+}
+
+TEST(MemoryLimit, MayBeAShareOfTheMachine) {
+  const MemoryLimit limit = parse_memory_limit("50%");
+  EXPECT_EQ(limit.bytes, 0U);
+  EXPECT_EQ(limit.share, 0.5);
+}
+
+TEST(MemoryLimit, IsNothingElse) {
+  for (const char* const text :
+       {"", "G", "%", "0", "-1G", "0%", "101%", "nan", "inf", "1e30", "2 G",
+        "2GB", "2T", "G2", "1G%", "0x10"}) {
+    EXPECT_THROW(parse_memory_limit(text), CLI::ValidationError) << text;
+  }
+}
+
+TEST(MemoryLimit, IsShownInItsUnit) {
+  EXPECT_EQ(memory_size_text(12), "12 bytes");
+  EXPECT_EQ(memory_size_text(800U << 10), "800 KiB");
+  EXPECT_EQ(memory_size_text(500U << 20), "500 MiB");
+  EXPECT_EQ(memory_size_text(std::uint64_t{20} << 30), "20.0 GiB");
+}
+
+TEST(Limits, OptionsTakeNoNonsense) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--max-memory", "much"},
+        {"--max-memory", "0"},
+        {"--max-time", "0"},
+        {"--max-time", "-1"},
+        {"--max-time", "nan"},
+        {"--max-time", "1 min"}}) {
+    const auto result = run(folder, {"a.scad", words[0], words[1]});
+    EXPECT_EQ(result.status, 2) << words[1];
+    EXPECT_TRUE(has(result.errors, words[0])) << result.errors;
+  }
+}
+
+// --- The machine
+// ---------------------------------------------------------------
+
+void make_group(const TemporaryFolder& folder, const std::string& path,
+                const std::string& file, const std::string& text) {
+  std::filesystem::create_directories(folder.path() + "/sys/fs/cgroup" + path);
+  folder.write("sys/fs/cgroup" + path + "/" + file, text);
+}
+
+void make_groups(const TemporaryFolder& folder, const std::string& text) {
+  std::filesystem::create_directories(folder.path() + "/proc/self");
+  folder.write("proc/self/cgroup", text);
+}
+
+TEST(ControlGroups, LimitOfVersion2IsTheLeastOnTheWayUp) {
+  const TemporaryFolder folder;
+  make_groups(folder, "0::/jobs/17\n");
+  make_group(folder, "/jobs", "memory.max", "1000000\n");
+  make_group(folder, "/jobs/17", "memory.max", "max\n");
+  EXPECT_EQ(control_group_memory(folder.path()), 1000000U);
+  make_group(folder, "/jobs/17", "memory.max", "500000\n");
+  EXPECT_EQ(control_group_memory(folder.path()), 500000U);
+}
+
+TEST(ControlGroups, LimitOfVersion1IsFoundBesideOthers) {
+  const TemporaryFolder folder;
+  make_groups(folder, "5:devices:/\n4:memory:/jobs/17\n0::/\n");
+  make_group(folder, "/memory/jobs/17", "memory.limit_in_bytes", "700000\n");
+  EXPECT_EQ(control_group_memory(folder.path()), 700000U);
+}
+
+// What is mounted in a container begins with its own group.
+TEST(ControlGroups, LimitOfAContainerIsAtTheRoot) {
+  const TemporaryFolder folder;
+  make_groups(folder, "4:memory:/docker/0123\n0::/docker/0123\n");
+  make_group(folder, "", "memory.max", "800000\n");
+  EXPECT_EQ(control_group_memory(folder.path()), 800000U);
+}
+
+TEST(ControlGroups, MayHaveNoLimit) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(control_group_memory(folder.path()), 0U);
+  make_groups(folder, "nonsense\n0::/\n");
+  make_group(folder, "", "memory.max", "max\n");
+  EXPECT_EQ(control_group_memory(folder.path()), 0U);
+}
+
+TEST(MachineMemory, IsKnown) {
+  EXPECT_GT(machine_memory(), 1U << 20);
+  EXPECT_GT(resident_memory(), 1U << 20);
+  EXPECT_GT(writable_memory(), 1U << 20);
+}
+
+// --- Time
+// ------------------------------------------------------------------------
+
+TEST(MaxTime, EndsARunAtOnce) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kEndless);
+  const auto begin = Clock::now();
+  const auto result = run(folder, {"a.scad", "--max-time", "0.3"});
+  EXPECT_LT(seconds_since(begin), 0.3 + 0.5);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors,
+            "error: out of time: this takes more than 0.3 s; --max-time gives "
+            "it more\n");
+  expect_no_output(folder);
+}
+
+TEST(MaxTime, HoldsForEveryCommand) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kEndless);
+  folder.write("b.scad", "cube(1);");
+  const std::vector<std::vector<std::string>> commands = {
+      {"inspect", "a.scad"},
+      {"view", "a.scad", "-o", "a.png"},
+      {"compare", "b.scad", "a.scad"},
+      {"a.scad", "--watch"}};
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.end(), {"--max-time", "0.2"});
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, 1) << words[0];
+    EXPECT_TRUE(has(result.errors, "--max-time gives it more")) << words[0];
+    expect_no_output(folder);
+  }
+}
+
+TEST(MaxTime, EndsABatchAndNamesThePiece) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               std::string("n = 0; if (n > 0) echo(f(n)); cube(1);") +
+                   "function f(n) = n == 0 ? 0 : let(s = f(n - 1)) s + "
+                   "f(n - 1);");
+  folder.write("t.csv", "name,n\ngood,0\nbad,60\n");
+  const auto result =
+      run(folder, {"batch", "a.scad", "--table", "t.csv", "-o", "{name}.slc",
+                   "--max-time", "0.4", "--threads", "1"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors,
+                  "t.csv:3: bad: error: out of time: this takes more than 0.4 "
+                  "s; --max-time gives it more"))
+      << result.errors;
+  // What was done before stays.
+  EXPECT_TRUE(std::filesystem::exists(folder.file("good.slc")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("bad.slc")));
+}
+
+// --- Memory
+// ------------------------------------------------------------------------
+
+TEST(MaxMemory, EndsARun) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kHungry);
+  const auto result = run(folder, {"a.scad", "--max-memory", "100M"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "error: out of memory")) << result.errors;
+  EXPECT_TRUE(has(result.errors, "--max-memory")) << result.errors;
+  // What one look may miss, and no more.
+  EXPECT_LT(result.peak_memory_kib, 1024 * 1024);
+  expect_no_output(folder);
+}
+
+TEST(MaxMemory, OfTheSystemIsNamed) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kHungry);
+  const auto result = support::run_process(
+      {"bash", "-c",
+       std::string("ulimit -v 1000000; exec ") + LAMINA_PROGRAM + " a.scad"},
+      folder.path());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "error: out of memory: the system grants"))
+      << result.errors;
+  EXPECT_TRUE(has(result.errors, "ulimit -v")) << result.errors;
+  expect_no_output(folder);
+}
+
+}  // namespace
+}  // namespace lamina::cli
