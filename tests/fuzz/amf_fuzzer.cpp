@@ -1,0 +1,24 @@
+// AMF, plain and zipped, to layers.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "csg/import/amf.h"
+#include "csg/import/format_error.h"
+#include "tests/fuzz/geometry.h"
+#include "tests/fuzz/input.h"
+
+using namespace lamina;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  const auto bytes = fuzz::as_text(data, size);
+  try {
+    csg::parse_amf(bytes, "input.amf");
+  } catch (const csg::FormatError&) {
+    return 0;
+  }
+  fuzz::slice_import(fuzz::write_input("input.amf", bytes),
+                     csg::ImportFormat::kAmf);
+  return 0;
+}

@@ -1,0 +1,12 @@
+#pragma once
+// What becomes of a file of layers.
+
+#include <string>
+
+namespace lamina::fuzz {
+
+// Reads it as `lamina view` does, and looks for its defects as `lamina inspect`
+// does. That it is no such file is no finding.
+void read_layers(const std::string& path);
+
+}  // namespace lamina::fuzz

@@ -1,0 +1,46 @@
+// Lexer, parser and the printer of syntax trees, which takes its own text back:
+// a printed program, parsed and printed again, is the same text.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "parser/ast_printer.h"
+#include "parser/diagnostic.h"
+#include "parser/loader.h"
+#include "parser/source.h"
+#include "tests/fuzz/input.h"
+
+using namespace lamina;
+
+namespace {
+
+// As `-o x.ast` prints it; nothing after a syntax error.
+std::optional<std::string> print(const std::string& text) {
+  SourceStore sources;
+  Diagnostics diagnostics;
+  Loader loader(sources, diagnostics, {});
+  std::optional<std::string> printed;
+  try {
+    printed = ast::print(loader.load_text("x.scad", text));
+  } catch (const SyntaxError&) {
+  }
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    caret_text(diagnostic);
+    openscad_line(diagnostic, "");
+  }
+  return printed;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  // In a module, where the customizer writes no comments.
+  const std::string text(fuzz::as_text(data, size));
+  print(text);
+  const auto printed = print("module m() {" + text + "\n}");
+  if (printed) fuzz::require(print(*printed) == printed, "prints itself");
+  return 0;
+}

@@ -1,0 +1,30 @@
+// SVG drawings, to a layer.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "csg/import/format_error.h"
+#include "csg/import/svg.h"
+#include "tests/fuzz/geometry.h"
+#include "tests/fuzz/input.h"
+
+using namespace lamina;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  const auto bytes = fuzz::as_text(data, size);
+  csg::SvgOptions options;
+  options.center = true;
+  options.outline = [](std::span<const Vec2>, const csg::SvgStroke&) {
+    return csg::SvgContours();
+  };
+  try {
+    csg::parse_svg(bytes, options);
+  } catch (const csg::FormatError&) {
+    return 0;
+  }
+  fuzz::slice_import(fuzz::write_input("input.svg", bytes),
+                     csg::ImportFormat::kSvg);
+  return 0;
+}
