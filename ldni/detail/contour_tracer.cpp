@@ -11,10 +11,6 @@
 namespace lamina::ldni::detail {
 namespace {
 
-// How far [tie distances] a change between tied chains may reach: groups of
-// ties can be a few ties wide.
-constexpr double kMostJump = 4;
-
 // Ends of a stop in one point may be on both sides of its column.
 constexpr double kPinchDistance = 2 * kColumnWidth;
 

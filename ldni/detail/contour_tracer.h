@@ -23,6 +23,10 @@
 
 namespace lamina::ldni::detail {
 
+// How far [tie distances] a change between tied chains may reach: groups of
+// ties can be a few ties wide.
+constexpr double kMostJump = 4;
+
 class ContourTracer {
  public:
   // tie_distance    ends of one side of a stop nearer than this could tie [mm]

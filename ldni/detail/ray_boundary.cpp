@@ -174,20 +174,36 @@ void RaySweep::split_piece(Entry& entry) {
   start_piece(entry);
 }
 
-// Neighbours that both survive may be out of order by less than a tie: on the
-// left of the column, where a chain is about to end, or on its right.
+// Boundary may be out of order with the boundary next to it by less than a tie:
+// on the left of the column, where a chain is about to end, or on its right.
 void RaySweep::note_disorder_before(std::uint32_t lower, std::uint32_t upper) {
-  const Entry& a = status_[lower];
-  const Entry& b = status_[upper];
-  if (!both_survive_apart(a, b)) return;
-  if (y_before(b) - y_before(a) <= -kColumnWidth) tracer_.note_jump();
+  note_disorder(lower, upper, [this](const Entry& e) { return y_before(e); });
 }
 
 void RaySweep::note_disorder_after(std::uint32_t lower, std::uint32_t upper) {
-  Entry& a = status_[lower];
-  Entry& b = status_[upper];
-  if (!both_survive_apart(a, b)) return;
-  if (y_after(b) - y_after(a) <= -kColumnWidth) tracer_.note_jump();
+  note_disorder(lower, upper, [this](Entry& e) { return y_after(e); });
+}
+
+// Between neighbours on the boundary there may be entries that are none: the
+// rest of two groups of ties, or what lies inside of the solid.
+template <typename YOf>
+void RaySweep::note_disorder(std::uint32_t lower, std::uint32_t upper,
+                             const YOf& y_of) {
+  const std::uint32_t sentinel = status_.sentinel();
+  if (lower == sentinel || upper == sentinel) return;
+  const double y = y_of(status_[upper]);
+  const auto is_passed = [&](std::uint32_t e) {
+    return e != sentinel && status_[e].survival == 0 &&
+           std::abs(y_of(status_[e]) - y) <= kMostJump * tie_distance_;
+  };
+  while (is_passed(lower)) lower = status_[lower].below;
+  while (is_passed(upper)) upper = status_[upper].above;
+  if (lower == sentinel || upper == sentinel) return;
+  if (status_[lower].survival == 0 || status_[upper].survival == 0) return;
+  if (y_of(status_[upper]) - y_of(status_[lower]) > -kColumnWidth) return;
+  std::uint32_t e = lower;
+  while (e != upper && status_[e].is_tied) e = status_[e].above;
+  if (e != upper) tracer_.note_jump();
 }
 
 // --- Pieces -----------------------------------------------------------------

@@ -115,6 +115,8 @@ class RaySweep {
   void split_piece(Entry& entry);
   void note_disorder_before(std::uint32_t lower, std::uint32_t upper);
   void note_disorder_after(std::uint32_t lower, std::uint32_t upper);
+  template <typename YOf>
+  void note_disorder(std::uint32_t lower, std::uint32_t upper, const YOf& y_of);
   void end_piece(Entry& entry);
   void start_piece(Entry& entry);
   void note_moved_end(const ChainCursor& cursor, const Vec2& point);
@@ -141,9 +143,6 @@ class RaySweep {
   }
   bool is_in_column(double x) const {
     return x >= column_left_ && x <= column_left_ + kColumnWidth;
-  }
-  bool both_survive_apart(const Entry& lower, const Entry& upper) const {
-    return lower.survival != 0 && upper.survival != 0 && !lower.is_tied;
   }
 
   const double pitch_;
