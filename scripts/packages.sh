@@ -17,7 +17,7 @@ LAMINA_TEST_PACKAGES=(
   openscad openscad-testing-data openscad-mcad libgl1-mesa-dri xvfb xauth
   fonts-dejavu-core fonts-hosny-amiri
   slic3r lib3mf1 python3 chromium
-  man-db bash-completion zsh fish
+  man-db bash-completion zsh fish locales
 )
 
 # install_missing <package>…: installs those that are not there; asks for

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"
+#include "parser/number.h"
 
 namespace lamina::detail {
 
@@ -166,9 +168,11 @@ bool Reader::read_number(const char* begin, const char* end,
                          double& value) const {
   const auto result = std::from_chars(begin, end, value);
   if (result.ec == std::errc()) return true;
-  // Too large or too small: strtod tells which.
-  value = std::strtod(std::string(begin, end).c_str(), nullptr);
-  return value < 1;
+  // Too large or too small.
+  const auto small =
+      parse_number({begin, static_cast<std::size_t>(end - begin)});
+  value = small.value_or(HUGE_VAL);
+  return small.has_value();
 }
 
 void Reader::report_syntax_error(SourceRange range, std::string_view symbol,

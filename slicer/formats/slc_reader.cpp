@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <utility>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "parser/diagnostic.h"
+#include "slicer/formats/reading.h"
 
 namespace lamina::slicer {
 namespace {
@@ -47,16 +47,12 @@ std::string value_of(std::string_view header, std::string_view key) {
 }
 
 // "minx,maxx miny,maxy minz,maxz"
-std::optional<std::array<Vec2, 3>> parse_extents(const std::string& text) {
+std::optional<std::array<Vec2, 3>> parse_extents(std::string_view text) {
   std::array<Vec2, 3> extents{};
-  const char* at = text.c_str();
   for (Vec2& axis : extents) {
     for (double* value : {&axis.x, &axis.y}) {
-      while (*at == ' ' || *at == ',') ++at;
-      char* end = nullptr;
-      *value = std::strtod(at, &end);
-      if (end == at) return std::nullopt;
-      at = end;
+      text.remove_prefix(std::min(text.size(), text.find_first_not_of(" ,")));
+      if (!take_number(text, *value)) return std::nullopt;
     }
   }
   return extents;

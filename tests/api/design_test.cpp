@@ -1,9 +1,12 @@
 // lamina as a library, as another program sees it: by its one header.
 
 #include <cmath>
+#include <cstdlib>
+#include <locale>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -147,6 +150,67 @@ TEST(Design, WritesTheBytesOfTheProgram) {
               lamina::support::read_file(folder.file("program." + extension)))
         << extension;
   }
+}
+
+// Another locale for the whole process, as a program around the library may
+// have set it: decimal points are commas, thousands stand apart.
+class GermanLocale {
+ public:
+  GermanLocale() {
+    const auto made =
+        lamina::support::run_process({"localedef", "-i", "de_DE", "-f", "UTF-8",
+                                      folder_.file("de_DE.UTF-8")});
+    EXPECT_EQ(made.status, 0) << made.errors;  // Debian's package locales
+    ::setenv("LOCPATH", folder_.path().c_str(), 1);
+    before_ = std::locale::global(std::locale("de_DE.UTF-8"));
+  }
+  ~GermanLocale() {
+    std::locale::global(before_);
+    ::unsetenv("LOCPATH");
+  }
+  GermanLocale(const GermanLocale&) = delete;
+  GermanLocale& operator=(const GermanLocale&) = delete;
+
+ private:
+  lamina::support::TemporaryFolder folder_;
+  std::locale before_;
+};
+
+// The same design in each format, and what it echoes.
+std::vector<std::string> everything_of(const std::string& design) {
+  std::vector<std::string> results(1);
+  DesignOptions options;
+  options.definitions = {"size=1234.5"};
+  options.show = [&](std::string_view text) { results[0] += text; };
+  const Design solid = Design::from_file(design, options);
+  const lamina::support::TemporaryFolder folder;
+  for (const std::string extension :
+       {"slc", "cli", "svg", "3mf", "layers.json"}) {
+    const std::string path = folder.file("a." + extension);
+    solid.write(path, layers_of(0.25));
+    results.push_back(lamina::support::read_file(path));
+  }
+  return results;
+}
+
+TEST(Design, TheLocaleOfTheProcessDoesNotMatter) {
+  const lamina::support::TemporaryFolder folder;
+  folder.write("a.json", R"({"side": 2.75})");
+  folder.write("a.svg",
+               R"(<svg width="3.5mm" height="2.5mm" viewBox="0 0 3.5 2.5">)"
+               R"(<path d="M 0.25,0.25 l 1.5 0 0 1.75 z"/></svg>)");
+  folder.write("a.off",
+               "OFF\n4 4 0\n0 0 0\n1.5 0 0\n0 1.25 0\n0 0 2.5\n"
+               "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  const std::string design = folder.write(
+      "a.scad",
+      "echo(size, 1.5e-400, 4.9e-324, 1 / 3, str(1e-7), import(\"a.json\"));"
+      "linear_extrude(1.5) import(\"a.svg\"); import(\"a.off\");"
+      "translate([size / 1000, 1.5e-400, 0.5]) cylinder(r = 1.75);");
+  const std::vector<std::string> expected = everything_of(design);
+  const GermanLocale german;
+  EXPECT_EQ(std::to_string(0.5), "0,500000");
+  EXPECT_EQ(everything_of(design), expected);
 }
 
 }  // namespace
