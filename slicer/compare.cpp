@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "parser/diagnostic.h"
+#include "slicer/parallel.h"
 
 namespace lamina::slicer {
 namespace {
@@ -175,7 +175,7 @@ std::vector<LayerPair> pair_layers(const std::vector<Layer>& a,
 std::vector<LayerDifference> compare(const std::vector<LayerPair>& pairs,
                                      Vec2 shift) {
   std::vector<LayerDifference> differences(pairs.size());
-  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+  for_each_index(pairs.size(), [&](std::size_t i) {
     differences[i] = compare_pair(pairs[i], shift);
     differences[i].number = i + 1;
   });

@@ -17,6 +17,7 @@
 
 #include "slicer/compensate.h"
 #include "slicer/layer.h"
+#include "slicer/parallel.h"
 #include "slicer/simplify.h"
 #include "slicer/thin_finder.h"
 #include "slicer/thread_clock.h"
@@ -282,23 +283,34 @@ void run_together(Job& job, unsigned threads, const MakeWorker& make_worker,
   // Input and output keep the same order and at most blocks.size() blocks are
   // under way, so the oldest block's memory is free again.
   const auto next_block = [&](tbb::flow_control& flow) -> Block* {
+    const Turn turn(&job);
     Block& block = blocks[job.started() % blocks.size()];
+    const Turn block_turn(&block);
     if (job.start(block)) return &block;
     flow.stop();
     return nullptr;
   };
-  tbb::parallel_pipeline(blocks.size(),
-                         tbb::make_filter<void, Block*>(
-                             tbb::filter_mode::serial_in_order, next_block) &
-                             tbb::make_filter<Block*, Block*>(
-                                 tbb::filter_mode::parallel,
-                                 [&](Block* block) {
-                                   workers.local().make_contours(*block);
-                                   return block;
-                                 }) &
-                             tbb::make_filter<Block*, void>(
-                                 tbb::filter_mode::serial_in_order,
-                                 [&](Block* block) { job.hand_on(*block); }));
+  const auto make_contours = [&](Block* block) {
+    const Turn turn(block);
+    workers.local().make_contours(*block);
+    return block;
+  };
+  const auto hand_on = [&](Block* block) {
+    const Turn turn(&report);
+    const Turn block_turn(block);
+    job.hand_on(*block);
+  };
+  {
+    const Lent lent_job(&job);
+    const Lent lent_report(&report);
+    tbb::parallel_pipeline(blocks.size(),
+                           tbb::make_filter<void, Block*>(
+                               tbb::filter_mode::serial_in_order, next_block) &
+                               tbb::make_filter<Block*, Block*>(
+                                   tbb::filter_mode::parallel, make_contours) &
+                               tbb::make_filter<Block*, void>(
+                                   tbb::filter_mode::serial_in_order, hand_on));
+  }
   for (const Worker& worker : workers) worker.report_to(report);
 }
 

@@ -7,15 +7,13 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "slicer/layer_distance.h"
+#include "slicer/parallel.h"
 #include "slicer/stack_points.h"
 
 namespace lamina::slicer {
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 constexpr unsigned kOversampling = 2;  // in x and in y
 
@@ -44,7 +42,7 @@ class Normals {
     half_step_ = static_cast<int>(std::min(length / thickness / 2, 50.0));
     reach_ = kSlopeReach * length;
     depths_.resize(layers.size(), LayerDistance({}, reach_));
-    tbb::parallel_for(std::size_t{0}, layers.size(), [&](std::size_t i) {
+    for_each_index(layers.size(), [&](std::size_t i) {
       depths_[i] = LayerDistance(layers[i].contours, reach_);
     });
   }
@@ -316,7 +314,8 @@ Image draw_stack(const std::vector<Layer>& layers,
 
   const ColorScheme& colors = *options.colors;
   Image image(options.width, options.height, colors.background_top);
-  tbb::parallel_for(0U, image.height, [&](unsigned y) {
+  for_each_index(image.height, [&](std::size_t row) {
+    const auto y = static_cast<unsigned>(row);
     const Rgb background =
         mix(colors.background_top, colors.background_bottom,
             static_cast<float>(y) / static_cast<float>(image.height));
