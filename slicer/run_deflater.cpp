@@ -80,12 +80,12 @@ constexpr std::array<Code, 19> kLengthCodes = codes_of(kLengthLengths);
 constexpr std::array<Code, kLongest + 1> kMatches = [] {
   std::array<Code, kLongest + 1> matches = {};
   std::size_t length = kShortest;
-  for (std::size_t symbol = kFirstLength; symbol < kSymbols - 1; ++symbol) {
+  for (std::size_t symbol = kFirstLength; symbol + 1 < kSymbols; ++symbol) {
     const int group = static_cast<int>(symbol - kFirstLength) / 4;
     const int extra = group < 2 ? 0 : group - 1;
-    for (std::uint32_t i = 0; i < 1U << extra; ++i, ++length) {
+    for (std::uint32_t i = 0; i < (1U << extra); ++i, ++length) {
       const Code code = kCodes[symbol];
-      matches[length] = {code.bits | i << code.count, code.count + extra + 1};
+      matches[length] = {code.bits | (i << code.count), code.count + extra + 1};
     }
   }
   const Code longest = kCodes[kSymbols - 1];

@@ -133,6 +133,7 @@ Value divide(Value&& left, Value&& right, std::string& reason) {
 // What bitwise operators see: the number cut to an integer of 64 bits in two's
 // complement. All that does not fit is the least integer, as x86 converts it.
 std::int64_t to_bits(double number) {
+  // cppcheck-suppress incorrectLogicOperator ; takes 0x1p63 for 0
   const bool fits = number >= -0x1p63 && number < 0x1p63;
   return fits ? static_cast<std::int64_t>(number)
               : std::numeric_limits<std::int64_t>::min();

@@ -59,18 +59,32 @@ namespace {
 
 template <BinaryOp op>
 Value on_numbers(double a, double b) {
-  if constexpr (op == BinaryOp::kEqual) return Value(a == b);
-  if constexpr (op == BinaryOp::kNotEqual) return Value(a != b);
-  if constexpr (op == BinaryOp::kLess) return Value(a < b);
-  if constexpr (op == BinaryOp::kLessEqual) return Value(a <= b);
-  if constexpr (op == BinaryOp::kGreater) return Value(a > b);
-  if constexpr (op == BinaryOp::kGreaterEqual) return Value(a >= b);
-  if constexpr (op == BinaryOp::kAdd) return Value(a + b);
-  if constexpr (op == BinaryOp::kSubtract) return Value(a - b);
-  if constexpr (op == BinaryOp::kMultiply) return Value(a * b);
-  if constexpr (op == BinaryOp::kDivide) return Value(a / b);
-  if constexpr (op == BinaryOp::kModulo) return Value(modulo(a, b));
-  if constexpr (op == BinaryOp::kPower) return Value(std::pow(a, b));
+  if constexpr (op == BinaryOp::kEqual) {
+    return Value(a == b);
+  } else if constexpr (op == BinaryOp::kNotEqual) {
+    return Value(a != b);
+  } else if constexpr (op == BinaryOp::kLess) {
+    return Value(a < b);
+  } else if constexpr (op == BinaryOp::kLessEqual) {
+    return Value(a <= b);
+  } else if constexpr (op == BinaryOp::kGreater) {
+    return Value(a > b);
+  } else if constexpr (op == BinaryOp::kGreaterEqual) {
+    return Value(a >= b);
+  } else if constexpr (op == BinaryOp::kAdd) {
+    return Value(a + b);
+  } else if constexpr (op == BinaryOp::kSubtract) {
+    return Value(a - b);
+  } else if constexpr (op == BinaryOp::kMultiply) {
+    return Value(a * b);
+  } else if constexpr (op == BinaryOp::kDivide) {
+    return Value(a / b);
+  } else if constexpr (op == BinaryOp::kModulo) {
+    return Value(modulo(a, b));
+  } else {
+    static_assert(op == BinaryOp::kPower);
+    return Value(std::pow(a, b));
+  }
 }
 
 // An operand, by the way its value is reached. Most are plain variables,

@@ -72,7 +72,7 @@ struct AsciiStrings {
     StringBuffer buffer;
     char character;
   };
-  Entry entries[128];
+  Entry entries[128] = {};
   AsciiStrings() {
     for (int i = 0; i < 128; ++i) {
       Entry& entry = entries[i];

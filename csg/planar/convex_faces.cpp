@@ -45,6 +45,7 @@ class FaceMerger {
   std::vector<Face> merge() {
     is_gone_.assign(next_.size(), false);
     for (std::uint32_t h = 0; h < next_.size(); ++h) {
+      // cppcheck-suppress arrayIndexThenCheck ; 'h < twins_[h]' takes each once
       if (twins_[h] != kNone && h < twins_[h] && !is_gone_[h]) try_to_join(h);
     }
     std::vector<Face> faces;

@@ -145,6 +145,7 @@ class QhullRun {
     vertexT* vertex = nullptr;
     vertexT** vertexp = nullptr;
     FOREACHvertex_(vertices) {
+      // cppcheck-suppress nullPointer ; Qhull's macro sets it
       const auto index = (vertex->point - &points_[0].x) / 3;
       result.back().push_back(static_cast<std::uint32_t>(index));
     }

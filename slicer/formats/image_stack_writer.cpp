@@ -1,5 +1,6 @@
 #include "slicer/formats/image_stack_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -62,7 +63,7 @@ class ArchiveStack : public StackOutput {
 // "out/ring.sl1": "ring". Printers show it.
 std::string job_name(const std::string& path) {
   std::string name = path.substr(path.rfind('/') + 1);
-  name = name.substr(0, name.rfind('.'));
+  name.resize(std::min(name.size(), name.rfind('.')));
   return name.empty() || name == "-" ? "lamina" : name;
 }
 

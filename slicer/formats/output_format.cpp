@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -92,6 +93,7 @@ FormatChoice choose_output_format(std::string_view name) {
 
 std::vector<std::string> written_extensions() {
   std::vector<std::string> extensions;
+  extensions.reserve(std::size(kWritten));
   for (const Written& written : kWritten) {
     extensions.emplace_back(written.extension);
   }

@@ -45,8 +45,10 @@ void add_samples(std::vector<Sample>& samples, std::uint32_t instance,
   }
 }
 
-std::vector<Interval> evaluate(const Scene& scene,
-                               std::vector<Sample> samples) {
+std::vector<Interval> evaluate(
+    const Scene& scene,
+    // cppcheck-suppress passedByValue ; sorted in place
+    std::vector<Sample> samples) {
   std::vector<Interval> intervals;
   RayBoolean(scene).evaluate(samples, intervals);
   return intervals;

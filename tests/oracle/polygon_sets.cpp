@@ -72,7 +72,8 @@ PolygonSet unite(std::vector<PolygonSet> sets) {
       sets[i + step].clear();
     }
   }
-  return std::move(sets.front());
+  PolygonSet all = std::move(sets.front());
+  return all;
 }
 
 // Evaluates the program from its leaves up.

@@ -25,7 +25,8 @@ class LowerFixture : public ::testing::Test {
     Lowered lowered = run(children);
     EXPECT_NE(lowered.scene(), nullptr);
     if (!lowered.scene()) return {};
-    return std::move(std::get<Scene>(lowered.geometry));
+    Scene scene = std::move(std::get<Scene>(lowered.geometry));
+    return scene;
   }
 
   planar::Region run_flat(const TreeBuilder::Children& children) {

@@ -349,7 +349,7 @@ std::vector<Case> all_cases() {
     p.slices = slices;
     return p;
   };
-  const auto detailed = [](LinearExtrudeParams p, Facets facets) {
+  const auto detailed = [](LinearExtrudeParams p, const Facets& facets) {
     p.facets = facets;
     return p;
   };

@@ -67,6 +67,7 @@ TEST(CliWriter, WritesBinary) {
   const std::string four = "\x00\x00\x80\x40"s;
   const std::string layer = "\x7F\x00"s;
   const auto polyline = [](char direction, char count) {
+    // cppcheck-suppress strPlusChar ; a string, by the s behind it
     return "\x82\x00\x01\x00\x00\x00"s + direction + "\x00\x00\x00"s + count +
            "\x00\x00\x00"s;
   };
