@@ -179,7 +179,7 @@ bool Simplifier::mend() {
     // The last vertex of a loop is followed by the first one of the next.
     if (vertices_[k + 1] <= vertices_[k] + 1) continue;
     const std::uint32_t leaf = tree_.leaf_of(k);
-    if (near_begins_[leaf] == near_begins_[leaf + 1]) continue;
+    if (!is_crowded_ && near_begins_[leaf] == near_begins_[leaf + 1]) continue;
     if (mend_run(k)) {
       is_changed = true;
       loops_[tree_.leaf(leaf).loop].has_spare = true;

@@ -306,6 +306,15 @@ TEST(Simplify, RandomStarsInsideOneAnotherKeepTheirPlaces) {
   }
 }
 
+// More than the tree of boxes tells apart.
+TEST(Simplify, HundredsOfRingsInRingsKeepTheirPlaces) {
+  Contours contours;
+  for (int i = 0; i < 300; ++i) {
+    add_loop(contours, circle({0, 0}, 1 - 0.0005 * i, 150, i % 2 == 1, i));
+  }
+  expect_lawful(contours, 0.002, "rings in rings");
+}
+
 TEST(Simplify, LoopsThatTouchInAPointStillTouchOrPart) {
   Contours contours;  // fine-sided squares, corner to corner
   for (const double shift : {0.0, 1.0}) {
