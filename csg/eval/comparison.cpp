@@ -34,13 +34,12 @@ bool is_less_range(const Range& a, const Range& b, bool or_equal) {
 
 // Lexicographic; nothing where elements cannot be compared.
 std::optional<bool> is_less_vector(std::span<const Value> a,
-                                   std::span<const Value> b,
-                                   std::string& reason) {
+                                   std::span<const Value> b, Reason& reason) {
   const std::size_t common = std::min(a.size(), b.size());
   for (std::size_t i = 0; i < common; ++i) {
     const Value less = compare(BinaryOp::kLess, a[i], b[i], reason);
     if (less.is_undef()) {
-      reason += fmt::format("\n\tin vector comparison at index {}", i);
+      reason.text += fmt::format("\n\tin vector comparison at index {}", i);
       return std::nullopt;
     }
     if (less.is_true()) return true;
@@ -50,7 +49,7 @@ std::optional<bool> is_less_vector(std::span<const Value> a,
 }
 
 Value compare_vectors(BinaryOp op, const Value& left, const Value& right,
-                      std::string& reason) {
+                      Reason& reason) {
   // a > b is b < a; a <= b is not (b < a).
   const bool is_swapped =
       op == BinaryOp::kGreater || op == BinaryOp::kLessEqual;
@@ -80,7 +79,7 @@ bool compare_plain(BinaryOp op, const T& a, const T& b) {
 }  // namespace
 
 Value compare(BinaryOp op, const Value& left, const Value& right,
-              std::string& reason) {
+              Reason& reason) {
   const bool both_undef = left.is_undef() && right.is_undef();
   if (left.type() != right.type() && !both_undef) {
     return undefined(op, left, right, reason);
@@ -104,7 +103,7 @@ Value compare(BinaryOp op, const Value& left, const Value& right,
       return Value(is_less_range(a, b, or_equal));
     }
     default:
-      reason =
+      reason.text =
           fmt::format("operation undefined ({} {} {})", type_name(left.type()),
                       symbol(op), type_name(right.type()));
       return Value();
@@ -145,7 +144,7 @@ bool is_less(const Value& left, const Value& right) {
   if (left.is_number() && right.is_number()) {
     return left.as_number() < right.as_number();
   }
-  std::string unused;
+  Reason unused;
   return compare(BinaryOp::kLess, left, right, unused).is_true();
 }
 

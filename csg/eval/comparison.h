@@ -1,8 +1,7 @@
 #pragma once
 // Which values are equal, and which come before others.
 
-#include <string>
-
+#include "csg/eval/undefined.h"
 #include "csg/eval/value.h"
 #include "parser/ast.h"
 
@@ -16,6 +15,6 @@ bool is_less(const Value& left, const Value& right);
 
 // By `<`, `<=`, `>` or `>=`; undef with its reason where values do not compare.
 Value compare(ast::BinaryOp op, const Value& left, const Value& right,
-              std::string& reason);
+              Reason& reason);
 
 }  // namespace lamina::csg

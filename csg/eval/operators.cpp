@@ -40,12 +40,12 @@ Value map_elements(Value&& vector, std::size_t count,
 }
 
 Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
-                              std::string& reason);
+                              Reason& reason);
 
 // Inlined for the sake of numbers, the elements of most vectors.
 [[gnu::always_inline]] inline Value add_or_subtract(BinaryOp op, Value&& left,
                                                     Value&& right,
-                                                    std::string& reason) {
+                                                    Reason& reason) {
   if (left.is_number() && right.is_number()) {
     return Value(op == BinaryOp::kAdd ? left.as_number() + right.as_number()
                                       : left.as_number() - right.as_number());
@@ -54,14 +54,14 @@ Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
 }
 
 Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
-                              std::string& reason) {
+                              Reason& reason) {
   if (!left.is_vector() || !right.is_vector()) {
     return undefined(op, left, right, reason);
   }
   const std::span<const Value> a = left.as_vector();
   const std::span<const Value> b = right.as_vector();
   const std::size_t count = std::min(a.size(), b.size());
-  std::string unused;
+  Reason unused;
   if (right.own_elements().size() == count) {
     return map_elements(
         std::move(right), count, [&](std::size_t i, Value&& element) {
@@ -74,10 +74,10 @@ Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
       });
 }
 
-Value multiply_any(Value&& left, Value&& right, std::string& reason);
+Value multiply_any(Value&& left, Value&& right, Reason& reason);
 
 [[gnu::always_inline]] inline Value multiply(Value&& left, Value&& right,
-                                             std::string& reason) {
+                                             Reason& reason) {
   if (left.is_number() && right.is_number()) {
     return Value(left.as_number() * right.as_number());
   }
@@ -86,14 +86,14 @@ Value multiply_any(Value&& left, Value&& right, std::string& reason);
 
 Value multiply_elements(Value&& vector, const Value& factor) {
   const std::size_t count = vector.as_vector().size();
-  std::string unused;
+  Reason unused;
   return map_elements(
       std::move(vector), count, [&](std::size_t, Value&& element) {
         return multiply(std::move(element), Value(factor), unused);
       });
 }
 
-Value multiply_any(Value&& left, Value&& right, std::string& reason) {
+Value multiply_any(Value&& left, Value&& right, Reason& reason) {
   if (left.is_vector() && right.is_number()) {
     return multiply_elements(std::move(left), right);
   }
@@ -106,11 +106,11 @@ Value multiply_any(Value&& left, Value&& right, std::string& reason) {
   return undefined(BinaryOp::kMultiply, left, right, reason);
 }
 
-Value divide(Value&& left, Value&& right, std::string& reason) {
+Value divide(Value&& left, Value&& right, Reason& reason) {
   if (left.is_number() && right.is_number()) {
     return Value(left.as_number() / right.as_number());
   }
-  std::string unused;
+  Reason unused;
   if (left.is_vector() && right.is_number()) {
     const std::size_t count = left.as_vector().size();
     return map_elements(
@@ -139,14 +139,13 @@ std::int64_t to_bits(double number) {
               : std::numeric_limits<std::int64_t>::min();
 }
 
-Value apply_bitwise(BinaryOp op, double left, double right,
-                    std::string& reason) {
+Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
   const std::int64_t a = to_bits(left);
   const std::int64_t b = to_bits(right);
   const bool is_shift =
       op == BinaryOp::kShiftLeft || op == BinaryOp::kShiftRight;
   if (is_shift && (b < 0 || b >= 64)) {
-    reason = b < 0 ? "negative shift" : "shift too large";
+    reason.text = b < 0 ? "negative shift" : "shift too large";
     return Value();
   }
   switch (op) {
@@ -161,17 +160,18 @@ Value apply_bitwise(BinaryOp op, double left, double right,
   }
 }
 
-Value invert(const Value& value, std::string& reason) {
+Value invert(const Value& value, Reason& reason) {
   if (value.is_number()) {
     return Value(static_cast<double>(~to_bits(value.as_number())));
   }
-  reason = fmt::format("undefined operation (~{})", type_name(value.type()));
+  reason.text =
+      fmt::format("undefined operation (~{})", type_name(value.type()));
   return Value();
 }
 
 }  // namespace
 
-Value apply_binary(BinaryOp op, Value left, Value right, std::string& reason) {
+Value apply_binary(BinaryOp op, Value left, Value right, Reason& reason) {
   switch (op) {
     case BinaryOp::kEqual:
       return Value(are_equal(left, right));
@@ -202,7 +202,7 @@ Value apply_binary(BinaryOp op, Value left, Value right, std::string& reason) {
   return apply_bitwise(op, a, b, reason);
 }
 
-Value apply_unary(ast::UnaryOp op, Value value, std::string& reason) {
+Value apply_unary(ast::UnaryOp op, Value value, Reason& reason) {
   switch (op) {
     case ast::UnaryOp::kNot:
       return Value(!value.is_true());
@@ -214,17 +214,18 @@ Value apply_unary(ast::UnaryOp op, Value value, std::string& reason) {
   return Value();
 }
 
-Value negate(Value value, std::string& reason) {
+Value negate(Value value, Reason& reason) {
   if (value.is_number()) return Value(-value.as_number());
   if (value.is_vector()) {
     const std::size_t count = value.as_vector().size();
-    std::string unused;
+    Reason unused;
     return map_elements(std::move(value), count,
                         [&](std::size_t, Value&& element) {
                           return negate(std::move(element), unused);
                         });
   }
-  reason = fmt::format("undefined operation (-{})", type_name(value.type()));
+  reason.text =
+      fmt::format("undefined operation (-{})", type_name(value.type()));
   return Value();
 }
 

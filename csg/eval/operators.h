@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 
+#include "csg/eval/undefined.h"
 #include "csg/eval/value.h"
 #include "parser/ast.h"
 
@@ -30,11 +31,10 @@ inline double modulo(double a, double b) {
 // All but `&&` and `||`, which do not evaluate both sides. A vector moved in
 // that no other value holds may become the result: `[..] * 2 + [..]` makes two
 // vectors, not four.
-Value apply_binary(ast::BinaryOp op, Value left, Value right,
-                   std::string& reason);
+Value apply_binary(ast::BinaryOp op, Value left, Value right, Reason& reason);
 
-Value apply_unary(ast::UnaryOp op, Value value, std::string& reason);
-Value negate(Value value, std::string& reason);
+Value apply_unary(ast::UnaryOp op, Value value, Reason& reason);
+Value negate(Value value, Reason& reason);
 
 // object[index], or object["name"] of an object; undef without a word where
 // there is no such element.

@@ -2,8 +2,8 @@
 // The products of vectors and matrices.
 
 #include <span>
-#include <string>
 
+#include "csg/eval/undefined.h"
 #include "csg/eval/value.h"
 
 namespace lamina::csg {
@@ -12,6 +12,6 @@ namespace lamina::csg {
 // vectors) and a vector or a matrix: what is meant depends on the first
 // elements. undef with its reason where sizes or elements do not fit.
 Value multiply_vectors(std::span<const Value> a, std::span<const Value> b,
-                       std::string& reason);
+                       Reason& reason);
 
 }  // namespace lamina::csg

@@ -117,9 +117,9 @@ struct ExpressionVisitor {
   const Expression* operator()(const ast::Unary& unary) const {
     const Expression* operand = self.resolve(*unary.operand);
     if (const Value* value = constant_value(operand)) {
-      std::string reason;
+      Reason reason;
       Value result = apply_unary(unary.op, *value, reason);
-      if (reason.empty()) return self.constant(std::move(result), range);
+      if (reason.text.empty()) return self.constant(std::move(result), range);
     }
     auto* code = make<UnaryCode>(unary_runner(unary.op));
     code->operand = operand;
@@ -232,7 +232,7 @@ const Expression* ExpressionResolver::binary(const ast::Binary& written,
     const Value* a = constant_value(code->left);
     const Value* b = constant_value(code->right);
     if (a == nullptr || b == nullptr) continue;
-    std::string reason;
+    Reason reason;
     Value result;
     if (code->op == ast::BinaryOp::kAnd) {
       result = Value(a->is_true() && b->is_true());
@@ -241,7 +241,7 @@ const Expression* ExpressionResolver::binary(const ast::Binary& written,
     } else {
       result = apply_binary(code->op, *a, *b, reason);
     }
-    if (reason.empty()) left = constant(std::move(result), step.range);
+    if (reason.text.empty()) left = constant(std::move(result), step.range);
   }
   return left;
 }

@@ -25,19 +25,21 @@ Value run_negate(const Expression& expression, Frame& frame) {
   Value spill;
   const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
   if (operand.is_number()) return Value(-operand.as_number());
-  std::string reason;
+  Reason reason;
   Value result = negate(take(operand, spill), reason);
-  if (!reason.empty()) warn(frame, expression.range, std::move(reason));
+  if (!reason.text.empty())
+    warn(frame, expression.range, std::move(reason.text));
   return result;
 }
 
 Value run_bit_not(const Expression& expression, Frame& frame) {
   Value spill;
   const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
-  std::string reason;
+  Reason reason;
   Value result =
       apply_unary(ast::UnaryOp::kBitNot, take(operand, spill), reason);
-  if (!reason.empty()) warn(frame, expression.range, std::move(reason));
+  if (!reason.text.empty())
+    warn(frame, expression.range, std::move(reason.text));
   return result;
 }
 
@@ -157,9 +159,12 @@ class Operand<Reach::kComputed> {
 template <typename Left, typename Right>
 [[gnu::noinline]] Value run_binary_any(const BinaryCode& code, Left& left,
                                        Right& right, Frame& frame) {
-  std::string reason;
+  Reason reason;
   Value result = apply_binary(code.op, left.take(), right.take(), reason);
-  if (!reason.empty()) warn(frame, code.range, std::move(reason));
+  if (!reason.said_before.empty()) {
+    warn(frame, {}, std::move(reason.said_before));
+  }
+  if (!reason.text.empty()) warn(frame, code.range, std::move(reason.text));
   return result;
 }
 

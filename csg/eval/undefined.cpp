@@ -42,9 +42,10 @@ std::string_view symbol(BinaryOp op) {
 }
 
 Value undefined(BinaryOp op, const Value& left, const Value& right,
-                std::string& reason) {
-  reason = fmt::format("undefined operation ({} {} {})", type_name(left.type()),
-                       symbol(op), type_name(right.type()));
+                Reason& reason) {
+  reason.text =
+      fmt::format("undefined operation ({} {} {})", type_name(left.type()),
+                  symbol(op), type_name(right.type()));
   return Value();
 }
 
