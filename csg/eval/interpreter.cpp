@@ -108,10 +108,9 @@ void Interpreter::fail(SourceRange range, std::string message,
 void Interpreter::end_with(Diagnostic diagnostic) {
   // AddressSanitizer does not see that an exception leaves the frames of a
   // stack as large as that of the evaluation; else this does nothing.
-  const auto here =
-      reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
-  ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(here),
-                              stack_begin_ - here);
+  void* const here = __builtin_frame_address(0);
+  ASAN_UNPOISON_MEMORY_REGION(
+      here, stack_begin_ - reinterpret_cast<std::uintptr_t>(here));
   failure_ = std::make_unique<Diagnostic>(std::move(diagnostic));
   throw EvaluationFailure();
 }
@@ -242,6 +241,7 @@ const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
       (std::bit_cast<std::uint64_t>(mix) * 0x9e3779b97f4a7c15u) >> 58;
   const Mat4*& kept = recent_matrices_[slot];
   // The same bits: -0 is not 0 in `.csg`.
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): what is wanted
   if (kept == nullptr || std::memcmp(kept, &matrix, sizeof matrix) != 0) {
     kept = keep(matrix);
   }
@@ -251,7 +251,7 @@ const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
 void Interpreter::make_node(decltype(Node::op) op,
                             const InstantiationCode& code, std::size_t mark) {
   Node* node = new (arena_.allocate(sizeof(Node), alignof(Node))) Node;
-  node->op = std::move(op);
+  node->op = op;
   node->children = keep_all(nodes_since(mark));
   node->range = code.range;
   node->caller = current_call;

@@ -150,7 +150,7 @@ class Interpreter {
   std::span<const T> keep_all(std::span<const T> values) {
     if (values.empty()) return {};
     T* copy =
-        static_cast<T*>(arena_.allocate(values.size() * sizeof(T), alignof(T)));
+        std::pmr::polymorphic_allocator<T>(&arena_).allocate(values.size());
     std::uninitialized_copy(values.begin(), values.end(), copy);
     return {copy, values.size()};
   }
@@ -264,7 +264,7 @@ class DynamicScope {
 //   Value* memory = LAMINA_FRAME_MEMORY(count);
 //   const FrameSlots slots(frame, memory, count);
 #define LAMINA_FRAME_MEMORY(count) \
-  static_cast<Value*>(__builtin_alloca((count) * sizeof(Value)))
+  (static_cast<Value*>(__builtin_alloca((count) * sizeof(Value))))
 class FrameSlots {
  public:
   FrameSlots(Frame& frame, Value* memory, std::uint32_t count)

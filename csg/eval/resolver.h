@@ -168,7 +168,7 @@ class Resolver {
   std::span<const T> keep(const std::vector<T>& values) {
     if (values.empty()) return {};
     T* copy =
-        static_cast<T*>(arena_.allocate(values.size() * sizeof(T), alignof(T)));
+        std::pmr::polymorphic_allocator<T>(&arena_).allocate(values.size());
     std::uninitialized_copy(values.begin(), values.end(), copy);
     return {copy, values.size()};
   }

@@ -51,18 +51,18 @@ void ask_for_rgba(png_structp png) {
   png_set_interlace_handling(png);
 }
 
-// False where it failed; image.fault says why.
+bool is_too_large(const Image& image) {
+  return image.columns * image.rows > kMostPixels;
+}
+
+// False where it failed: image.fault says why, or it is too large.
 bool decode(png_structp png, png_infop info, Image& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &image, read_bytes);
   png_read_info(png, info);
   image.columns = png_get_image_width(png, info);
   image.rows = png_get_image_height(png, info);
-  if (image.columns * image.rows > kMostPixels) {
-    image.fault = fmt::format("{} x {} pixels: {} are the most", image.columns,
-                              image.rows, kMostPixels);
-    return false;
-  }
+  if (is_too_large(image)) return false;
   ask_for_rgba(png);
   png_read_update_info(png, info);
   const std::size_t stride = png_get_rowbytes(png, info);
@@ -88,6 +88,10 @@ Image read_image(std::string_view bytes) {
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   const bool is_read = info != nullptr && decode(png, info, image);
   png_destroy_read_struct(&png, &info, nullptr);
+  if (is_too_large(image)) {
+    image.fault = fmt::format("{} x {} pixels: {} are the most", image.columns,
+                              image.rows, kMostPixels);
+  }
   if (!is_read) throw FormatError("PNG: " + image.fault);
   return image;
 }
