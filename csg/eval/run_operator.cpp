@@ -14,7 +14,8 @@ using ast::BinaryOp;
 
 // What `look` found: itself if it is the spill, else a copy.
 Value take(const Value& value, Value& spill) {
-  return &value == &spill ? std::move(spill) : value;
+  if (&value == &spill) return std::move(spill);
+  return value;
 }
 
 Value run_not(const Expression& expression, Frame& frame) {
