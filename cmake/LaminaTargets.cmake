@@ -4,6 +4,7 @@
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
+include(LaminaHardening)
 
 # Options shared by all of lamina's own targets.
 add_library(lamina_options INTERFACE)
@@ -14,6 +15,7 @@ target_compile_options(lamina_options INTERFACE
   # samplers rely on equal bits for equal expressions.
   -ffp-contract=off)
 target_include_directories(lamina_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_link_libraries(lamina_options INTERFACE lamina_hardening)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
 # lamina_add_library(<name> SOURCES … HEADERS … DEPENDS …)
