@@ -13,6 +13,7 @@
 #include "ldni/detail/layer_index.h"
 #include "ldni/detail/mesh_index.h"
 #include "ldni/detail/mesh_section.h"
+#include "ldni/detail/relevance.h"
 #include "ldni/detail/sweep_section.h"
 
 namespace lamina::ldni {
@@ -45,14 +46,18 @@ bool boxes_meet(const csg::Instance& instance, const Box3& box) {
 }
 
 // Layers that each instance may reach. Outside the scene's box the result is
-// empty whatever the leaves are there, so what lies wholly outside is left out.
+// empty whatever the leaves are there, so what lies wholly outside is left out,
+// as is what others decide.
 std::vector<LayerRange> layer_ranges(const csg::Scene& scene,
                                      const LayerGrid& grid) {
   std::vector<LayerRange> ranges;
   ranges.reserve(scene.instances.size());
-  for (const csg::Instance& instance : scene.instances) {
+  detail::Relevance relevance(scene);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const csg::Instance& instance = scene.instances[i];
     LayerRange range;
-    if (!instance.box.is_empty() && boxes_meet(instance, scene.box)) {
+    if (!instance.box.is_empty() && boxes_meet(instance, scene.box) &&
+        relevance.matters(i)) {
       range.first = grid.layers_below(instance.box.low.z - kBoxMargin);
       range.last = grid.layers_below(instance.box.high.z + kBoxMargin);
     }

@@ -15,6 +15,7 @@
 #include <random>
 #include <string>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include "csg/scene.h"
@@ -22,6 +23,7 @@
 #include "ldni/kinetic_ray.h"
 #include "ldni/leaf_section.h"
 #include "ldni/sample.h"
+#include "tests/ldni/scene_builder.h"
 #include "tests/ldni/section_reference.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/leaf_scenes.h"
@@ -213,6 +215,99 @@ TEST(RandomScenes, SizeAndPlaceDoNotMatter) {
     SceneJudge(seed, style, scale, tally).judge(scene, 0);
   }
   EXPECT_EQ(tally.failures, 0U);
+}
+
+// Leaves that lie apart, touch a neighbour, lie inside or outside of a large
+// one, or cross its boundary: most are decided without a sweep, or not cut.
+class ScatteredScene {
+ public:
+  explicit ScatteredScene(std::uint64_t seed) : random_(seed) {}
+
+  csg::Scene make() {
+    using csg::BooleanOp;
+    const bool is_drilled = random_() % 2 == 0;
+    testing::SceneBuilder builder(is_drilled ? BooleanOp::kDifference
+                                             : BooleanOp::kIntersection);
+    if (is_drilled) add_large(builder, 2.6);
+    const bool is_grouped = random_() % 2 == 0 || !is_drilled;
+    if (is_grouped) builder.begin(BooleanOp::kUnion);
+    const std::uint64_t count = 3 + random_() % 60;
+    for (std::uint64_t i = 0; i < count; ++i) add_small(builder);
+    if (is_grouped) builder.end();
+    if (!is_drilled) {
+      builder.begin(BooleanOp::kDifference);
+      add_large(builder, 2.6);
+      add_large(builder, 1.1);
+      builder.end();
+    }
+    return builder.finish();
+  }
+
+ private:
+  double unit() {
+    return std::uniform_real_distribution<double>(0, 1)(random_);
+  }
+  Affine turn() {
+    if (random_() % 2 == 0) return Affine(1.0);
+    return testing::rotated(360 * unit(), {unit(), unit() - 0.5, 0.3});
+  }
+  // Around the origin.
+  void add_large(testing::SceneBuilder& builder, double radius) {
+    using namespace testing;
+    const double low = -1.5 * radius;
+    switch (random_() % 4) {
+      case 0:
+        return builder.add(sphere_leaf(radius, 16), turn());
+      case 1:
+        return builder.add(cylinder_leaf(radius, 0.8 * radius, -2 * low, 12),
+                           translated({0, 0, low}));
+      case 2:
+        return builder.add(torus_leaf(0.7 * radius, 0.3 * radius, 12, 8),
+                           turn());
+      default:
+        return builder.add(cube_leaf(Vec3(1.6 * radius)),
+                           turn() * translated(Vec3(-0.8 * radius)));
+    }
+  }
+  // On a lattice, so that some touch, or anywhere.
+  void add_small(testing::SceneBuilder& builder) {
+    using namespace testing;
+    Vec3 place(0);
+    for (int axis = 0; axis < 3; ++axis) place[axis] = 6 * unit() - 3;
+    if (random_() % 2 == 0) place = glm::round(2.0 * place) / 2.0;
+    const double size = random_() % 3 == 0 ? 0.5 : 0.1 + 0.5 * unit();
+    const Affine to_place = translated(place);
+    switch (random_() % 5) {
+      case 0:
+        return builder.add(sphere_leaf(size / 2, 8), to_place);
+      case 1:
+        return builder.add(cylinder_leaf(size / 2, size / 2, 2 * size, 6),
+                           to_place);
+      case 2:
+        return builder.add(as_mesh(cylinder_leaf(size / 2, 0, size, 5)),
+                           to_place * turn());
+      case 3:
+        return builder.add(torus_leaf(size / 2, size / 6, 7, 4),
+                           to_place * turn());
+      default:
+        return builder.add(cube_leaf(Vec3(size)), to_place * turn());
+    }
+  }
+
+  std::mt19937_64 random_;
+};
+
+TEST(RandomScenes, ScatteredLeavesAreWhatTheyAreAmongOthers) {
+  const std::uint64_t count = number_from("LAMINA_RANDOM_SCENES", 120);
+  const std::uint64_t first_seed = number_from("LAMINA_RANDOM_SEED", 1);
+  Tally tally;
+  for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+    SceneJudge(seed, SceneStyle::kNoisy, 1, tally)
+        .judge(ScatteredScene(seed).make(), 0);
+    if (tally.failures > 20) break;
+  }
+  std::cout << tally.scenes << " scenes, " << tally.layers << " layers, "
+            << tally.probes << " probes, " << tally.failures << " failures\n";
 }
 
 // Almost vertical faces that tie where they end: what passed for a steep
