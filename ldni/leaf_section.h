@@ -35,6 +35,15 @@ struct Chain {
   std::int32_t winding = 1;
 };
 
+// A closed loop of a leaf in a layer: so many chains, one after another as it
+// leads through them; where one ends and the next begins a vertical edge may
+// lie between.
+struct ChainLoop {
+  std::uint32_t chain_count = 0;
+  // Chains of winding `orientation` lead to the right, the others to the left.
+  std::int32_t orientation = 1;
+};
+
 // Extent in x [mm] of a stop of the kinetic ray: what lies within it
 // happens at one x. Edges of chains are wider. Large against the rounding of a
 // coordinate (2e-12 mm at 1e4 mm), small against every feature.
@@ -56,6 +65,8 @@ struct ChainBlock {
   std::vector<Vec2> points;
   std::vector<Chain> chains;              // bucketed by layer
   std::vector<std::uint32_t> layer_ends;  // layer i: [ends[i-1], ends[i])
+  std::vector<ChainLoop> loops;           // bucketed by layer
+  std::vector<std::uint32_t> loop_ends;   // as layer_ends
   // Paths of meshes that broke their promise to be closed, closed by straight
   // lines: 0 for every sound scene.
   std::uint64_t open_paths = 0;
@@ -65,6 +76,11 @@ struct ChainBlock {
   std::span<const Chain> layer(std::uint32_t i) const {
     const std::uint32_t begin = i == 0 ? 0 : layer_ends[i - 1];
     return {chains.data() + begin, layer_ends[i] - begin};
+  }
+  // All chains of the layer, in their order.
+  std::span<const ChainLoop> loops_of(std::uint32_t i) const {
+    const std::uint32_t begin = i == 0 ? 0 : loop_ends[i - 1];
+    return {loops.data() + begin, loop_ends[i] - begin};
   }
 };
 

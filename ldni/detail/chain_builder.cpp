@@ -29,6 +29,27 @@ const Vec2* end_of_run(const Vec2* point, const Vec2* last, int direction,
   return point;
 }
 
+// Sorts items by layer, keeping their order there: counts, then deals out.
+// ends[i] becomes the end of layer i.
+template <typename Item>
+void bucket(const std::vector<Item>& items,
+            const std::vector<std::uint32_t>& layers, std::uint32_t layer_count,
+            std::vector<Item>& bucketed, std::vector<std::uint32_t>& ends) {
+  ends.assign(layer_count, 0);
+  for (const std::uint32_t layer : layers) ++ends[layer];
+  // First the begins, which dealing out moves to the ends.
+  std::uint32_t sum = 0;
+  for (std::uint32_t& end : ends) {
+    const std::uint32_t size = end;
+    end = sum;
+    sum += size;
+  }
+  bucketed.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    bucketed[ends[layers[i]]++] = items[i];
+  }
+}
+
 }  // namespace
 
 void ChainBuilder::begin(ChainBlock& block) {
@@ -36,6 +57,8 @@ void ChainBuilder::begin(ChainBlock& block) {
   block.points.clear();
   chains_.clear();
   layers_.clear();
+  loops_.clear();
+  loop_layers_.clear();
   loop_.clear();
 }
 
@@ -81,6 +104,7 @@ void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t instance,
                               std::int32_t orientation) {
   Chain chain;
   chain.instance = instance;
+  const std::size_t chains_before = chains_.size();
   const std::size_t size = loop_.size();
   // Most loops have no vertical edge.
   if (size >= 3 && !cut(loop_, kColumnWidth, layer, chain, orientation)) {
@@ -93,6 +117,12 @@ void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t instance,
     }
   }
   loop_.clear();
+  const auto chain_count =
+      static_cast<std::uint32_t>(chains_.size() - chains_before);
+  if (chain_count > 0) {
+    loops_.push_back({chain_count, orientation});
+    loop_layers_.push_back(layer);
+  }
 }
 
 // Makes a chain of every maximal run of one direction; extends the loop. Edges
@@ -159,19 +189,8 @@ void ChainBuilder::add_chain(std::span<const Vec2> run, bool is_forward,
 }
 
 void ChainBuilder::finish(ChainBlock& block) {
-  // Sort by counting: layer_ends first holds begins, then moves to the ends.
-  block.layer_ends.assign(block.layer_count, 0);
-  for (const std::uint32_t layer : layers_) ++block.layer_ends[layer];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& end : block.layer_ends) {
-    const std::uint32_t size = end;
-    end = sum;
-    sum += size;
-  }
-  block.chains.resize(chains_.size());
-  for (std::size_t i = 0; i < chains_.size(); ++i) {
-    block.chains[block.layer_ends[layers_[i]]++] = chains_[i];
-  }
+  bucket(chains_, layers_, block.layer_count, block.chains, block.layer_ends);
+  bucket(loops_, loop_layers_, block.layer_count, block.loops, block.loop_ends);
   block_ = nullptr;
 }
 

@@ -30,7 +30,7 @@ class ChainBuilder {
   void close_loop(std::uint32_t layer, std::uint32_t instance,
                   std::int32_t orientation);
 
-  // Buckets the chains by layer.
+  // Buckets the chains and loops by layer.
   void finish(ChainBlock& block);
 
  private:
@@ -46,6 +46,8 @@ class ChainBuilder {
   std::vector<Vec2> snapped_;
   std::vector<Chain> chains_;          // in the order they were made
   std::vector<std::uint32_t> layers_;  // of chains_
+  std::vector<ChainLoop> loops_;
+  std::vector<std::uint32_t> loop_layers_;  // of loops_
 };
 
 }  // namespace lamina::ldni::detail

@@ -54,6 +54,25 @@ void ContourTracer::end_piece(std::uint32_t number, Vec2 point, double key,
   ends_.push_back({key, point, segment, number, piece.direction > 0, true});
 }
 
+void ContourTracer::add_loop(std::span<const Vec2> lower,
+                             std::span<const Vec2> upper,
+                             std::int8_t direction) {
+  const auto number = static_cast<std::uint32_t>(pieces_.size());
+  const auto add = [this](std::span<const Vec2> chain, std::uint32_t other,
+                          std::int8_t chain_direction) {
+    Piece piece;
+    piece.left = chain.front();
+    piece.right = chain.back();
+    piece.vertices_begin = chain.data() + 1;
+    piece.vertices_end = chain.data() + chain.size() - 1;
+    piece.next = piece.previous = other;
+    piece.direction = chain_direction;
+    pieces_.push_back(piece);
+  };
+  add(lower, number + 1, direction);
+  add(upper, number, static_cast<std::int8_t>(-direction));
+}
+
 bool ContourTracer::has_end_near(double y) const {
   return std::any_of(ends_.begin(), ends_.end(), [y](const End& end) {
     return std::abs(end.key - y) < kPinchDistance;

@@ -15,6 +15,7 @@
 // touch in a point have loops of their own.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "csg/vec.h"
@@ -47,6 +48,10 @@ class ContourTracer {
   // Ends it; key and segment where the order left of the stop holds.
   void end_piece(std::uint32_t piece, Vec2 point, double key,
                  const Vec2* segment);
+
+  // Adds a loop that nothing else comes near. direction: +1 solid inside.
+  void add_loop(std::span<const Vec2> lower, std::span<const Vec2> upper,
+                std::int8_t direction);
 
   bool has_ends() const { return !ends_.empty(); }
   // Whether an end of this stop is as near to y as makes no difference.

@@ -43,6 +43,11 @@ class LeafSets {
     return instance << 1 | (is_backwards ? 1U : 0U);
   }
 
+  // Whether the leaf may overlap itself.
+  bool is_counted(std::uint32_t instance) const {
+    return is_counted_[instance];
+  }
+
   Id after(Id set, Step step) {
     const std::uint64_t key = std::uint64_t{set} << 32 | step;
     for (std::size_t i = slot_of(key);; i = (i + 1) & (steps_.size() - 1)) {

@@ -41,7 +41,7 @@ RaySweep::RaySweep(const csg::Scene& scene, const SweepOptions& options)
 
 void RaySweep::sweep(const ChainBlock& block, std::uint32_t layer,
                      Contours& contours) {
-  begin_layer(block, block.layer(layer));
+  begin_layer(block, layer);
   while (next_turn_ < turns_.size()) {
     // The next stop is a turn or a change; entering a slab may find changes,
     // those of a column that reaches into it before the column is worked off.
@@ -58,11 +58,11 @@ void RaySweep::sweep(const ChainBlock& block, std::uint32_t layer,
   counts_.repaired_columns = tracer_.unlinked_ends();
 }
 
-void RaySweep::begin_layer(const ChainBlock& block,
-                           std::span<const Chain> chains) {
+void RaySweep::begin_layer(const ChainBlock& block, std::uint32_t layer) {
   points_ = block.points;
-  chains_ = chains;
-  turns_ = sorter_.sort(chains_, points_);
+  chains_ = block.layer(layer);
+  lone_loops_.find(block, layer, sets_);
+  turns_ = sorter_.sort(chains_, points_, lone_loops_);
   next_turn_ = 0;
   column_ = 0;
   column_right_ = -kNever;
@@ -160,10 +160,18 @@ void RaySweep::process_column(double x) {
 
 // Chains that begin and end inside the column are passed over.
 void RaySweep::take_turns(double gather_end) {
+  // Around lone loops the column changes nothing, so the order on its left will
+  // do for them.
+  for (std::size_t i = next_turn_;
+       i < turns_.size() && turns_[i].x <= gather_end; ++i) {
+    const std::uint32_t chain = turns_[i].chain();
+    if (lone_loops_.is_lone(chain)) pass_lone_loop(chain);
+  }
   started_.clear();
   for (; next_turn_ < turns_.size() && turns_[next_turn_].x <= gather_end;
        ++next_turn_) {
     const Turn& turn = turns_[next_turn_];
+    if (lone_loops_.is_lone(turn.chain())) continue;
     column_right_ = std::max(column_right_, turn.x);
     const std::uint32_t entry = turn.chain();
     if (turn.is_end()) {
@@ -175,6 +183,32 @@ void RaySweep::take_turns(double gather_end) {
     if (end.x > gather_end) started_.push_back(entry);
   }
   for (const std::uint32_t entry : started_) start_chain(entry);
+}
+
+// Of a lone loop all is boundary of the solid, or nothing.
+void RaySweep::pass_lone_loop(std::uint32_t chain) {
+  const bool is_lower = lone_loops_.is_lower(chain);
+  const Chain& lower = chains_[is_lower ? chain : chain + 1];
+  const Chain& upper = chains_[is_lower ? chain + 1 : chain];
+  const std::span<const Vec2> points = points_of(lower);
+  const double y = points.front().y;
+  std::uint32_t below = status_.find_near(y, column_left_);
+  while (below != status_.sentinel() && status_.y_at(below, column_left_) > y) {
+    below = status_[below].below;
+  }
+  for (std::uint32_t above = status_[below].above;
+       above != status_.sentinel() && status_.y_at(above, column_left_) <= y;
+       above = status_[below].above) {
+    below = above;
+  }
+  const LeafSets::Id around = status_[below].set;
+  const LeafSets::Id within =
+      sets_.after(around, sets_.step_of(lower.instance, lower.winding));
+  const int direction = static_cast<int>(sets_.value(within)) -
+                        static_cast<int>(sets_.value(around));
+  if (direction == 0) return;
+  tracer_.add_loop(points, points_of(upper),
+                   static_cast<std::int8_t>(direction));
 }
 
 void RaySweep::end_chain(std::uint32_t number) {

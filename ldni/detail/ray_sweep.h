@@ -5,7 +5,8 @@
 // within 1e-9 mm of its first event, for rounding spreads what belongs to one
 // x. It is worked off in this order:
 //
-//   1. take_turns      ended chains leave the status, started ones enter it;
+//   1. take_turns      ended chains leave the status, started ones enter it,
+//                      and lone loops are passed over;
 //   2. settle_order    new neighbours are put in the order right of the column,
 //                      which may bring up changes inside it: again until none;
 //   3. update_sets     sets of leaves, from the changes upwards;
@@ -48,6 +49,7 @@
 #include "ldni/detail/agenda.h"
 #include "ldni/detail/contour_tracer.h"
 #include "ldni/detail/leaf_sets.h"
+#include "ldni/detail/lone_loops.h"
 #include "ldni/detail/outlook.h"
 #include "ldni/detail/status.h"
 #include "ldni/detail/turns.h"
@@ -80,7 +82,7 @@ class RaySweep {
 
  private:
   // The layer.
-  void begin_layer(const ChainBlock& block, std::span<const Chain> chains);
+  void begin_layer(const ChainBlock& block, std::uint32_t layer);
   std::uint32_t slab_count(double width) const;
   void look_again(double next_stop);
   void forget_old_sets();
@@ -88,6 +90,7 @@ class RaySweep {
   // The order in a column.
   void process_column(double x);
   void take_turns(double gather_end);
+  void pass_lone_loop(std::uint32_t chain);
   void start_chain(std::uint32_t number);
   void end_chain(std::uint32_t number);
   std::uint32_t find_place(const Vec2& point, const ChainCursor& cursor);
@@ -153,10 +156,14 @@ class RaySweep {
   std::size_t most_cost_ = 0;         // of sets, before old ones are forgotten
   Status status_;
   Agenda agenda_;
+  LoneLoops lone_loops_;
   TurnSorter sorter_;
   ContourTracer tracer_;
 
   // The layer in hand.
+  std::span<const Vec2> points_of(const Chain& chain) const {
+    return points_.subspan(chain.first_point, chain.point_count);
+  }
   std::span<const Vec2> points_;
   std::span<const Chain> chains_;
   std::span<const Turn> turns_;

@@ -44,7 +44,8 @@ void TurnSorter::sort_keys() {
 }
 
 std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
-                                       std::span<const Vec2> points) {
+                                       std::span<const Vec2> points,
+                                       const LoneLoops& lone_loops) {
   unsorted_.clear();
   double low = 1e300;
   double high = -1e300;
@@ -53,7 +54,11 @@ std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
     const double start = points[chain.first_point].x;
     const double end = points[chain.first_point + chain.point_count - 1].x;
     unsorted_.push_back({start, 2 * i});
-    unsorted_.push_back({end, 2 * i + 1});
+    if (lone_loops.is_lone(i)) {
+      ++i;  // the loop's other chain
+    } else {
+      unsorted_.push_back({end, 2 * i + 1});
+    }
     low = std::min(low, start);
     high = std::max(high, end);
   }

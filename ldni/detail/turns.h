@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "csg/vec.h"
+#include "ldni/detail/lone_loops.h"
 #include "ldni/leaf_section.h"
 
 namespace lamina::ldni::detail {
@@ -21,11 +22,13 @@ struct Turn {
 
 class TurnSorter {
  public:
-  // Both turns of each chain, ascending in x; equal x in the order of chains.
+  // Both turns of each chain, of a lone loop only the start of the first one,
+  // ascending in x; equal x in the order of chains.
   // Valid until the next call. O(chains): a radix sort of rounded x, then
   // insertion among the few that rounding made equal.
   std::span<const Turn> sort(std::span<const Chain> chains,
-                             std::span<const Vec2> points);
+                             std::span<const Vec2> points,
+                             const LoneLoops& lone_loops);
 
  private:
   struct Key {
