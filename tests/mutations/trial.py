@@ -49,12 +49,20 @@ class Result:
     peak_bytes: int
     words: str
     command: list
+    design: str  # made for the run
+    tree: Path
 
     @property
     def options(self):
         """The command without the files."""
         return " ".join(word if "/" not in word else Path(word).suffix
                         for word in self.command[1:])
+
+    @property
+    def line(self):
+        """The command for the files where they are installed."""
+        return " ".join(self.command).replace(str(self.tree),
+                                              str(corpus.DATA))
 
 
 class Sandbox:
@@ -99,7 +107,7 @@ class Sandbox:
             said = file.read(2000).decode(errors="replace")
         self.clear()
         return Result(outcome, seconds, usage.ru_utime + usage.ru_stime, peak,
-                      said, command)
+                      said, command, text, self.tree)
 
     def execute(self, command):
         """Exit status and usage."""
