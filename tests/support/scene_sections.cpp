@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -111,7 +110,8 @@ class Height {
     for (const Contours* operand : operands_) {
       is_inside.push_back(contains(*operand, point));
     }
-    if (rule_(is_inside) == contains(result_, point)) return false;
+    const std::optional<bool> expected = rule_(is_inside);
+    if (!expected || *expected == contains(result_, point)) return false;
     for (const Contours* operand : operands_) {
       if (distance_to_edges(*operand, point) < kDoubt) return false;
     }

@@ -7,6 +7,7 @@
 // the operands, the result's loops must hold it or not, as the law says.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,9 @@ Sections sections_of(const std::string& design,
 // As the settings say, which give heights.
 Sections sliced(const std::string& design, const slicer::Settings& settings);
 
-// Whether a point is inside, of whether it is inside of each operand.
-using Rule = std::function<bool(const std::vector<bool>&)>;
+// Whether a point is inside, of whether it is inside of each operand; nothing:
+// either is right.
+using Rule = std::function<std::optional<bool>(const std::vector<bool>&)>;
 
 // Asks beside all edges of result and operands, on both sides, and in the
 // middle of the box of each loop. All have the same heights.
