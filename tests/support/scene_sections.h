@@ -7,7 +7,6 @@
 // the operands, the result's loops must hold it or not, as the law says.
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +31,7 @@ using Sections = std::vector<ldni::Contours>;
 
 // Where every edge of a loop must be: at most this far from where exact
 // arithmetic has it, times the few faces that may tie in a row. Points nearer
-// to an operand's boundary are not asked [mm]: 10 · ldni::kTieDistance.
+// to a boundary are not asked [mm]: 10 · ldni::kTieDistance.
 constexpr double kDoubt = 1e-5;
 
 // Sections with all their vertices.
@@ -45,12 +44,17 @@ Sections sections_of(const std::string& design,
 // As the settings say, which give heights.
 Sections sliced(const std::string& design, const slicer::Settings& settings);
 
-// Whether a point is inside, of whether it is inside of each operand; nothing:
-// either is right.
-using Rule = std::function<std::optional<bool>(const std::vector<bool>&)>;
+// Those of the heights at which a section means one thing: no vertex of a leaf
+// is nearer than kDoubt, or it is there but for rounding. Else the last bit of
+// a matrix may decide what is above. Throws Refused.
+std::vector<double> clear_heights(const std::string& design,
+                                  const std::vector<double>& heights);
+
+// Whether a point is inside, of whether it is inside of each operand.
+using Rule = std::function<bool(const std::vector<bool>&)>;
 
 // Asks beside all edges of result and operands, on both sides, and in the
-// middle of the box of each loop. All have the same heights.
+// middle of each loop's vertices. All have the same heights.
 //
 // throws  BrokenLaw; `law` is its first word
 void expect_rule(const std::string& law, const Sections& result,
