@@ -14,6 +14,20 @@ DRAWINGS = ("dxf", "svg")
 HEIGHTS = ("png", "dat")
 KINDS = ("scad", "csg", *MESHES, *DRAWINGS, *HEIGHTS, "json")
 
+# The packages hold none of these.
+MADE = {
+    "made/tetrahedron.off": "OFF\n4 4 6\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n"
+                            "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n",
+    "made/pyramid.off": "COFF\n# a comment\n5 5 0\n0 0 0 255 0 0 255\n"
+                        "9 0 0 0 255 0 255\n9 9 0 0 0 255 255\n"
+                        "0 9 0 0 0 0 255\n4 4 7 9 9 9 255\n4 3 2 1 0\n"
+                        "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n",
+    "made/wedge.obj": "# a comment\nmtllib none.mtl\no wedge\nv 0 0 0\n"
+                      "v 10 0 0\nv 10 10 0\nv 0 10 0\nv 0 0 5\nv 0 10 5\n"
+                      "vn 0 0 -1\nvt 0 0\nusemtl none\ns off\n"
+                      "f 4/1/1 3/1/1 2/1/1 1/1/1\nf 1//1 2//1 5//1\n"
+                      "f 3 4 6\nf -5 -4 -1 -2\nf 1 5 6 \\\n4\n"}
+
 # The expected pictures of openscad's own tests: a thousand, much alike.
 PICTURES = "regression"
 
@@ -101,11 +115,12 @@ def texts(path):
 
 
 def collect():
-    """All inputs, in the order of their paths."""
-    inputs = [Input(str(path.relative_to(DATA)), path.read_bytes())
-              for folder in FOLDERS
-              for path in sorted((DATA / folder).rglob("*"))
-              if path.is_file() and path.suffix[1:].lower() in KINDS]
+    """All inputs, in the order of their paths, those made here first."""
+    inputs = [Input(path, text.encode()) for path, text in MADE.items()]
+    inputs += [Input(str(path.relative_to(DATA)), path.read_bytes())
+               for folder in FOLDERS
+               for path in sorted((DATA / folder).rglob("*"))
+               if path.is_file() and path.suffix[1:].lower() in KINDS]
     users = {}
     for design in inputs:
         if design.kind == "scad":
@@ -133,3 +148,6 @@ def copy_tree(folder):
     """A copy of the data, so that a damaged file is found where it belongs."""
     for name in FOLDERS:
         shutil.copytree(DATA / name, folder / name)
+    for path, text in MADE.items():
+        (folder / path).parent.mkdir(exist_ok=True)
+        (folder / path).write_text(text)

@@ -25,7 +25,9 @@ HOSTILE_VALUES = HOSTILE + [
     b"[[]]", b"[0:0:1]", b"[0:1e9]", b"[0:-1:5]", b"[1:0]", b"[undef]",
     b"[0/0, 1, 2]", b"[1, 2, 3]", b"[[0, 0], [1, 0], [1, 1]]",
     b"function(x) x", b"-(1)", b"sqrt(-1)", b"$fn", b"let(a = 1) a",
-    b"[for (i = [0:9]) i]", b"rands(0, 1, 3)", b"1e7 * 1e7"]
+    b"[for (i = [0:9]) i]", b"rands(0, 1, 3)", b"1e7 * 1e7",
+    b"[for (i = [0:3000]) [50 * sin(i * i * 1.1), 50 * cos(i * 7.3)]]",
+    b"[for (i = [0:600]) [i % 20, (i * 7) % 21, (i * 13 + 5) % 19]]"]
 SOLIDS = [b"cube", b"sphere", b"cylinder", b"polyhedron", b"square", b"circle",
           b"polygon", b"text", b"import", b"surface", b"children"]
 OPERATORS = [b"hull", b"minkowski", b"difference", b"intersection", b"union",
