@@ -34,6 +34,9 @@ struct EvaluateOptions {
   // may be nested. Where either ends, so does the evaluation, with OpenSCAD's
   // error. Callers should run evaluate() on a thread with a large stack.
   std::size_t stack_bytes = std::size_t{6} << 20;
+  // Calls and turns of loops that the evaluation may take. For who cannot end
+  // the process of one that runs for hours; it is the same on every machine.
+  std::uint64_t max_steps = UINT64_MAX;
   // Arguments that a user's module has no parameter for are warned of
   // (`--check-parameters`); those of functions and built-in modules always.
   bool check_parameters = true;

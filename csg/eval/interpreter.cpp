@@ -32,7 +32,8 @@ Interpreter::Interpreter(Resolver& resolver, const EvaluateOptions& options,
       calls_(calls),
       stack_begin_(
           reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0))),
-      stack_limit_(lowest_stack(stack_begin_, options.stack_bytes)) {}
+      stack_limit_(lowest_stack(stack_begin_, options.stack_bytes)),
+      steps_left_(options.max_steps) {}
 
 // Boxes in cycles die here: empty each, and the closures inside let go.
 Interpreter::~Interpreter() {
@@ -128,6 +129,12 @@ void Interpreter::fail_recursion(SourceRange range, std::string_view kind,
                                  const Source* document) {
   fail(range, fmt::format("Recursion detected calling {} '{}'", kind, name),
        document);
+}
+
+void Interpreter::fail_steps() {
+  fail({},
+       fmt::format("Evaluation takes more than {} steps", options_.max_steps),
+       nullptr);
 }
 
 // --- Variables --------------------------------------------------------------

@@ -62,6 +62,12 @@ class Interpreter {
   // warning.
   Diagnostic take_failure() { return std::move(*failure_); }
 
+  // Of each call and each turn of a loop: throws at one too many.
+  void count_step() {
+    if (steps_left_-- == 0) [[unlikely]]
+      fail_steps();
+  }
+
   // --- Calls being run
   // Whether calls are nested too deep, or the C++ stack is nearly used up.
   bool is_too_deep() const {
@@ -74,7 +80,10 @@ class Interpreter {
                    std::string_view name, const Source* document) {
     if (is_too_deep()) fail_recursion(range, kind, name, document);
   }
-  void enter_call() { ++depth_; }
+  void enter_call() {
+    count_step();
+    ++depth_;
+  }
   template <typename Code>
   void leave_call(const Code& code, const Source* document) {
     --depth_;
@@ -192,6 +201,7 @@ class Interpreter {
 
   void assign_unusual(const Target& target, Value value, Frame& frame);
   [[noreturn]] void end_with(Diagnostic diagnostic);
+  [[noreturn]] void fail_steps();
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
   void unwind_trail(std::size_t mark);
@@ -206,6 +216,7 @@ class Interpreter {
   std::uintptr_t stack_begin_;  // the stack grows down from here
   std::uintptr_t stack_limit_;
   std::uint32_t depth_ = 0;
+  std::uint64_t steps_left_;
   std::unique_ptr<Diagnostic> failure_;  // while it makes its way out
   std::string design_folder_;
   std::vector<Value> dynamic_;

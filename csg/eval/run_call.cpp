@@ -181,6 +181,7 @@ Value run_body(const Callable& callable, std::string_view name,
   Value result;
   std::uint32_t rounds = 0;
   while (run_round(callable, name, trail_mark, frame, result)) {
+    frame.in.count_step();
     if (rounds++ == kMostTailCalls) {
       frame.in.fail_recursion(range, "function", name, frame.document);
     }

@@ -95,6 +95,7 @@ void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
   }
   const DynamicScope scope(frame.in);
   for_each_value(values, element.range, frame, [&](Value value) {
+    frame.in.count_step();
     frame.in.unwind(scope.mark());
     frame.in.assign(target, std::move(value), frame);
     emit(*code.body, frame, out);
@@ -111,6 +112,7 @@ void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out) {
   run_bindings(code.init, frame);
   std::uint32_t rounds = 0;
   while (is_true(code.condition, frame)) {
+    frame.in.count_step();
     emit(*code.body, frame, out);
     if (rounds++ == kMostElements) {
       frame.in.fail(element.range, "For loop counter exceeded limit",

@@ -167,6 +167,7 @@ void run_loop(const ForCode& code, std::size_t level, Frame& frame) {
   const Value values = run(binding.value, frame);
   const DynamicScope scope(in);
   const auto round = [&](Value value) {
+    in.count_step();
     in.unwind(scope.mark());
     in.assign(binding.target, std::move(value), frame);
     run_loop(code, level + 1, frame);

@@ -1,11 +1,15 @@
 #include "csg/eval/evaluator.h"
 
 #include <chrono>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "csg/eval/csg_printer.h"
+#include "parser/loader.h"
+#include "parser/source.h"
 #include "tests/csg/eval/evaluate_text.h"
 
 namespace lamina::csg {
@@ -104,6 +108,39 @@ TEST(Evaluate, LetsAClosureOutliveTheCallThatMadeIt) {
 
 TEST(Evaluate, EchoesNothingAsALineOfItsOwn) {
   EXPECT_EQ(evaluate_text("echo();\n").echo, "ECHO: \n");
+}
+
+// --- Steps ------------------------------------------------------------------
+
+// What a program says that may take so many calls and turns of loops.
+std::string say_within(std::uint64_t steps, const std::string& text) {
+  SourceStore sources;
+  Diagnostics diagnostics;
+  Loader loader(sources, diagnostics, {});
+  const ast::Program program = loader.load_text("test.scad", text);
+  EvaluateOptions options;
+  options.max_steps = steps;
+  evaluate(program, loader, options, diagnostics);
+  return openscad_text(diagnostics.all(), "");
+}
+
+TEST(Evaluate, CountsEveryKindOfStep) {
+  // Each takes 100 steps in its loop and a few around it.
+  const std::vector<std::string> loops = {
+      "x = [for (i = [1 : 100]) i];",
+      "x = [for (i = 0; i < 100; i = i + 1) i];",
+      "for (i = [1 : 100]) { }",
+      "function f(n) = n == 0 ? 0 : f(n - 1); x = f(99);",
+      "function f(n) = n == 0 ? 0 : 1 + f(n - 1); x = f(99);",
+      "f = function(n) n == 0 ? 0 : f(n - 1); x = f(99);",
+      "module m(n) { if (n > 0) m(n - 1); } m(49);"};
+  for (const std::string& loop : loops) {
+    EXPECT_EQ(say_within(105, loop), "") << loop;
+    EXPECT_EQ(
+        say_within(95, loop).find("ERROR: Evaluation takes more than 95 steps"),
+        0U)
+        << loop;
+  }
 }
 
 // --- Tree -------------------------------------------------------------------
