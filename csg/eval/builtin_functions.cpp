@@ -10,6 +10,7 @@
 #include "csg/eval/builtin_metrics.h"
 #include "csg/eval/builtin_objects.h"
 #include "csg/eval/builtin_search.h"
+#include "csg/eval/integers.h"
 #include "csg/eval/interpreter.h"
 
 namespace lamina::csg {
@@ -47,7 +48,7 @@ Value builtin_parent_module(const CallCode& code, Frame& frame) {
   } else if (code.arguments.size() > 1) {
     return wrong_count(code, frame);
   }
-  const int n = static_cast<int>(std::trunc(number));
+  const int n = cut_to_int(number);
   const auto& names = frame.in.module_names;
   if (n < 0) {
     return warn(code, frame,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/integers.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/run_statement.h"
 #include "csg/eval/text.h"
@@ -74,8 +75,6 @@ void child_at(int n, Frame& frame) {
   }
 }
 
-int to_index(double number) { return static_cast<int>(std::trunc(number)); }
-
 void children(const BuiltinModuleCode& code, Frame& frame) {
   if (frame.children == nullptr) return;  // not inside a module
   const std::size_t mark = frame.in.node_mark();
@@ -89,12 +88,12 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
   const Value which = run(code.arguments[0].value, frame);
   switch (which.type()) {
     case Type::kNumber:
-      child_at(to_index(which.as_number()), frame);
+      child_at(cut_to_int(which.as_number()), frame);
       return;
     case Type::kVector:
       for (const Value& one : which.as_vector()) {
         if (one.is_number()) {
-          child_at(to_index(one.as_number()), frame);
+          child_at(cut_to_int(one.as_number()), frame);
         } else {
           frame.in.warn(
               {}, fmt::format("Bad parameter type ({}) for children, only "
@@ -114,7 +113,7 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
         return;
       }
       for (std::uint32_t i = 0; range.step != 0 && i < count; ++i) {
-        child_at(to_index(range.at(i)), frame);
+        child_at(cut_to_int(range.at(i)), frame);
       }
       break;
     }
@@ -136,7 +135,7 @@ void child(const BuiltinModuleCode& code, Frame& frame) {
   int n = 0;
   if (!code.arguments.empty()) {
     const Value which = run(code.arguments[0].value, frame);
-    if (which.is_number()) n = to_index(which.as_number());
+    if (which.is_number()) n = cut_to_int(which.as_number());
     if (n < 0) {
       frame.in.warn(code.range, fmt::format("Negative child index ({}) not "
                                             "allowed",

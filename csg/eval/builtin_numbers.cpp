@@ -197,7 +197,9 @@ Value builtin_rands(const CallCode& code, Frame& frame) {
     if (!seed.is_number()) return Value();
     frame.in.random.seed(hash_number(seed.as_number()));
   }
-  const auto results = static_cast<std::size_t>(count);
+  // No memory holds that many, and the list says so.
+  constexpr double kFarTooMany = 0x1p60;
+  const auto results = static_cast<std::size_t>(std::min(count, kFarTooMany));
   VectorBuilder out(results);
   std::uniform_real_distribution<> distribution(least, most);
   for (std::size_t i = 0; i < results; ++i) {

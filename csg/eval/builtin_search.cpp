@@ -6,6 +6,7 @@
 
 #include "csg/eval/builtin_call.h"
 #include "csg/eval/comparison.h"
+#include "csg/eval/integers.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/text.h"
 #include "csg/eval/utf8.h"
@@ -117,7 +118,7 @@ Value search_in_table(const Value& wanted, const Value& table,
 }
 
 std::uint32_t to_count(double number) {
-  return static_cast<std::uint32_t>(static_cast<std::int64_t>(number));
+  return static_cast<std::uint32_t>(cut_to_int64(number));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "csg/eval/conversions.h"
 
 #include <cmath>
-#include <limits>
 
+#include "csg/eval/integers.h"
 #include "csg/eval/resolver.h"
 
 namespace lamina::csg {
@@ -54,13 +54,7 @@ std::optional<double> to_finite(const Value& value) {
   return value.as_number();
 }
 
-int to_int(const Value& value) {
-  const double number = value.number_or_zero();
-  if (!(std::fabs(number) < 2147483648.0)) {
-    return std::numeric_limits<int>::min();
-  }
-  return static_cast<int>(number);
-}
+int to_int(const Value& value) { return cut_to_int(value.number_or_zero()); }
 
 Facets current_facets(Interpreter& in) {
   return {in.dynamic_number(kFn), in.dynamic_number(kFa),

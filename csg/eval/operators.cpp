@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "csg/eval/comparison.h"
+#include "csg/eval/integers.h"
 #include "csg/eval/object.h"
 #include "csg/eval/products.h"
 #include "csg/eval/undefined.h"
@@ -130,18 +131,10 @@ Value divide(Value&& left, Value&& right, Reason& reason) {
 
 // --- Bits -------------------------------------------------------------------
 
-// What bitwise operators see: the number cut to an integer of 64 bits in two's
-// complement. All that does not fit is the least integer, as x86 converts it.
-std::int64_t to_bits(double number) {
-  // cppcheck-suppress incorrectLogicOperator ; takes 0x1p63 for 0
-  const bool fits = number >= -0x1p63 && number < 0x1p63;
-  return fits ? static_cast<std::int64_t>(number)
-              : std::numeric_limits<std::int64_t>::min();
-}
-
+// Bitwise operators see numbers cut to integers of 64 bits in two's complement.
 Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
-  const std::int64_t a = to_bits(left);
-  const std::int64_t b = to_bits(right);
+  const std::int64_t a = cut_to_int64(left);
+  const std::int64_t b = cut_to_int64(right);
   const bool is_shift =
       op == BinaryOp::kShiftLeft || op == BinaryOp::kShiftRight;
   if (is_shift && (b < 0 || b >= 64)) {
@@ -162,7 +155,7 @@ Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
 
 Value invert(const Value& value, Reason& reason) {
   if (value.is_number()) {
-    return Value(static_cast<double>(~to_bits(value.as_number())));
+    return Value(static_cast<double>(~cut_to_int64(value.as_number())));
   }
   reason.text =
       fmt::format("undefined operation (~{})", type_name(value.type()));
