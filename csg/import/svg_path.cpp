@@ -199,6 +199,11 @@ class Reader {
     const Vec2 v = (-p - c) / radii;
     const double begin = angle_between_deg({1, 0}, u);
     const double sweep = angle_between_deg(u, v) - (is_positive ? 0 : 360);
+    // Ends too close, or radii too large, for numbers to tell the centre.
+    if (!std::isfinite(sweep)) {
+      points().push_back(to);
+      return;
+    }
     const int steps = static_cast<int>(std::abs(sweep) * 10.0 / 180 + 4);
     for (int i = 0; i <= steps; ++i) {
       const double phi = begin + sweep * i / steps;

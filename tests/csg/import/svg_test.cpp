@@ -62,6 +62,16 @@ TEST(ParseSvg, CurvesEndWhereTheySay) {
   expect_near({quadratic[10], quadratic[30]}, {{2, 2}, {6, -2}});
 }
 
+TEST(ParseSvg, ArcsWithoutACentreInNumbersAreLines) {
+  for (const char* arc : {"A1 1 0 0 0 1e-200 0", "A1e200 1e200 0 0 0 1 1",
+                          "A1e-200 1e200 0 1 1 1e150 1"}) {
+    const auto contour = path(std::string("M0 0") + arc + "L0 9z").at(0);
+    for (const Vec2 point : contour) {
+      EXPECT_TRUE(std::isfinite(point.x) && std::isfinite(point.y)) << arc;
+    }
+  }
+}
+
 TEST(ParseSvg, ArcsLieOnTheirCircle) {
   for (const std::string flags : {"0 0 0 ", "0 1 0 ", "0 0 1 ", "0 11"}) {
     const auto arc = path("M3 0A3 3 " + flags + "0 3z").at(0);
