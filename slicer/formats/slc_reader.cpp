@@ -65,6 +65,8 @@ std::optional<double> split_deviation(std::string& package) {
   constexpr std::string_view kAfter = " mm";
   const std::size_t at = package.find(kBefore);
   if (at == std::string::npos || !package.ends_with(kAfter)) return {};
+  // "within mm": one blank is not both.
+  if (at + kBefore.size() + kAfter.size() > package.size()) return {};
   const char* const begin = package.data() + at + kBefore.size();
   const char* const end = package.data() + package.size() - kAfter.size();
   double deviation = 0;

@@ -79,6 +79,16 @@ TEST(SlcReader, ReadsWhatIsThere) {
   EXPECT_EQ(reader.top(), 1.0);
 }
 
+// The blank is that of one word or of the other.
+TEST(SlcReader, TakesNoBoundWithoutANumber) {
+  std::string head = kHead;
+  head.replace(head.find("other 1.0"), 9, "other within mm");
+  const TemporaryFolder folder;
+  const SlcReader reader(folder.write("a.slc", head + kTable + kEnd));
+  EXPECT_FALSE(reader.header().deviation.has_value());
+  EXPECT_EQ(reader.header().package, "other within mm");
+}
+
 TEST(SlcReader, InchesBecomeMillimetres) {
   std::string head = kHead;
   head.replace(head.find("MM"), 2, "INCH");
