@@ -4,6 +4,9 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
+
+#include <glm/common.hpp>
 
 #include "ldni/contours.h"
 
@@ -61,6 +64,8 @@ bool is_within(const Edge& edge, Vec2 p) {
          p.y <= std::max(edge.from.y, edge.to.y);
 }
 
+using EdgePair = std::pair<std::uint32_t, std::uint32_t>;
+
 // The edges of a layer, and where they are.
 class EdgeGrid {
  public:
@@ -76,16 +81,19 @@ class EdgeGrid {
   void collect_edges(const SlcLayer& layer);
   void choose_cells();
   std::uint32_t column_of(double x) const {
-    return cell_of(x - low_.x, columns_);
+    return cell_of((x - low_.x) * cells_per_mm_.x, columns_);
   }
-  std::uint32_t row_of(double y) const { return cell_of(y - low_.y, rows_); }
-  std::uint32_t cell_of(double distance, std::uint32_t count) const {
-    return static_cast<std::uint32_t>(std::clamp(
-        distance * cells_per_mm_, 0.0, static_cast<double>(count - 1)));
+  std::uint32_t row_of(double y) const {
+    return cell_of((y - low_.y) * cells_per_mm_.y, rows_);
+  }
+  static std::uint32_t cell_of(double place, std::uint32_t count) {
+    return static_cast<std::uint32_t>(
+        std::clamp(place, 0.0, static_cast<double>(count - 1)));
   }
   template <typename Visit>
   void visit_cells(const Edge& edge, const Visit& visit) const;
   bool cross(const Edge& a, const Edge& b) const;
+  std::vector<EdgePair> crossing_edges() const;
   bool passes_through(const Edge& at, const Edge& other) const;
   std::span<const std::uint32_t> members(std::size_t cell) const {
     return {members_.data() + starts_[cell], starts_[cell + 1] - starts_[cell]};
@@ -94,7 +102,7 @@ class EdgeGrid {
   std::vector<Edge> edges_;
   Vec2 low_ = Vec2(0);
   Vec2 high_ = Vec2(0);
-  double cells_per_mm_ = 1;
+  Vec2 cells_per_mm_ = Vec2(1);
   std::uint32_t columns_ = 1;
   std::uint32_t rows_ = 1;
   std::vector<std::uint32_t> starts_;  // of each cell, in members_
@@ -132,20 +140,29 @@ void EdgeGrid::collect_edges(const SlcLayer& layer) {
   }
 }
 
+// About one cell an edge, square if that can be. Long edges must not stand in
+// more cells than kMostCells: few cells along them then, and more across.
 void EdgeGrid::choose_cells() {
+  constexpr double kMostCells = 64;
   if (edges_.empty()) return;
   low_ = high_ = edges_.front().from;
+  Vec2 way(0);
   for (const Edge& edge : edges_) {
-    low_ = {std::min(low_.x, edge.from.x), std::min(low_.y, edge.from.y)};
-    high_ = {std::max(high_.x, edge.from.x), std::max(high_.y, edge.from.y)};
+    low_ = glm::min(low_, glm::min(edge.from, edge.to));
+    high_ = glm::max(high_, glm::max(edge.from, edge.to));
+    way += glm::abs(edge.to - edge.from);
   }
-  const Vec2 size = high_ - low_;
+  // A layer without width has one column.
+  constexpr double kNoSize = 1e-150;
+  const Vec2 size = glm::max(high_ - low_, Vec2(kNoSize));
   const auto wanted = static_cast<double>(edges_.size());
-  const double longest = std::max({size.x, size.y, 1e-9});
-  cells_per_mm_ = std::min(
-      std::sqrt(wanted / std::max(size.x * size.y, 1e-300)), wanted / longest);
-  columns_ = 1 + static_cast<std::uint32_t>(size.x * cells_per_mm_);
-  rows_ = 1 + static_cast<std::uint32_t>(size.y * cells_per_mm_);
+  const Vec2 most = kMostCells * wanted * size / glm::max(way, size);
+  const double columns = std::clamp(std::sqrt(wanted * size.x / size.y), 1.0,
+                                    std::min(wanted, most.x));
+  const double rows = std::clamp(wanted / columns, 1.0, most.y);
+  columns_ = static_cast<std::uint32_t>(columns);
+  rows_ = static_cast<std::uint32_t>(rows);
+  cells_per_mm_ = Vec2(columns_, rows_) / size;
 }
 
 // Calls visit(cell) for every cell that the edge meets, and perhaps a few
@@ -157,19 +174,19 @@ void EdgeGrid::visit_cells(const Edge& edge, const Visit& visit) const {
   const double slope =
       upper.y > lower.y ? (upper.x - lower.x) / (upper.y - lower.y) : 0;
   // Far above rounding, far below a cell.
-  const double margin = 1e-6 / cells_per_mm_;
-  const std::uint32_t last_row = row_of(upper.y + margin);
-  for (std::uint32_t row = row_of(lower.y - margin); row <= last_row; ++row) {
+  const Vec2 margin = 1e-6 / cells_per_mm_;
+  const std::uint32_t last_row = row_of(upper.y + margin.y);
+  for (std::uint32_t row = row_of(lower.y - margin.y); row <= last_row; ++row) {
     double x0 = lower.x;
     double x1 = upper.x;
     if (upper.y > lower.y) {
-      const double bottom = low_.y + row / cells_per_mm_ - margin;
-      const double top = low_.y + (row + 1) / cells_per_mm_ + margin;
+      const double bottom = low_.y + row / cells_per_mm_.y - margin.y;
+      const double top = low_.y + (row + 1) / cells_per_mm_.y + margin.y;
       x0 = lower.x + slope * (std::clamp(bottom, lower.y, upper.y) - lower.y);
       x1 = lower.x + slope * (std::clamp(top, lower.y, upper.y) - lower.y);
     }
-    const std::uint32_t last_column = column_of(std::max(x0, x1) + margin);
-    for (std::uint32_t column = column_of(std::min(x0, x1) - margin);
+    const std::uint32_t last_column = column_of(std::max(x0, x1) + margin.x);
+    for (std::uint32_t column = column_of(std::min(x0, x1) - margin.x);
          column <= last_column; ++column) {
       visit(std::size_t{row} * columns_ + column);
     }
@@ -222,23 +239,34 @@ bool EdgeGrid::cross(const Edge& a, const Edge& b) const {
   return passes_through(a, b) || passes_through(b, a);
 }
 
-void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing;
+// Sorts the pairs, each once; false while they are fewer than are told.
+bool are_enough(std::vector<EdgePair>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs.size() >= kMostCrossings;
+}
+
+std::vector<EdgePair> EdgeGrid::crossing_edges() const {
+  // Two edges may meet in several cells.
+  constexpr std::size_t kMostRepeated = 4 * kMostCrossings;
+  std::vector<EdgePair> crossing;
   for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) {
     const auto edges = members(cell);
     for (std::size_t i = 0; i < edges.size(); ++i) {
       for (std::size_t j = i + 1; j < edges.size(); ++j) {
-        const Edge& a = edges_[edges[i]];
-        const Edge& b = edges_[edges[j]];
-        if (!cross(a, b)) continue;
+        if (!cross(edges_[edges[i]], edges_[edges[j]])) continue;
         crossing.emplace_back(edges[i], edges[j]);
-        if (crossing.size() >= 4 * kMostCrossings) break;
+        if (crossing.size() < kMostRepeated) continue;
+        if (are_enough(crossing)) return crossing;
       }
     }
   }
-  // Two edges may meet in several cells.
-  std::sort(crossing.begin(), crossing.end());
-  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  are_enough(crossing);
+  return crossing;
+}
+
+void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
+  std::vector<EdgePair> crossing = crossing_edges();
   if (crossing.size() > kMostCrossings) crossing.resize(kMostCrossings);
   for (const auto& [first, second] : crossing) {
     const Edge& edge = edges_[first];

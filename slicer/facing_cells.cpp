@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 namespace lamina::slicer {
 namespace {
 
@@ -71,11 +73,19 @@ void FacingCells::choose_cells() {
     low_ = {std::min(low_.x, edge.from.x), std::min(low_.y, edge.from.y)};
     high = {std::max(high.x, edge.from.x), std::max(high.y, edge.from.y)};
   }
+  // Where all edges are long they would stand in too many cells.
+  constexpr double kMostCells = 64;
+  double way = 0;
+  for (const LayerEdge& edge : edges_) {
+    const Vec2 along = glm::abs(edge.to() - edge.from);
+    way += along.x + along.y;
+  }
+  const auto count = static_cast<double>(edges_.size());
   const Vec2 size = high - low_;
-  const double wanted = kCellsPerEdge * static_cast<double>(edges_.size());
+  const double wanted = kCellsPerEdge * count;
   const double cell =
       std::max({2 * margin_, std::sqrt(size.x * size.y / wanted),
-                std::max(size.x, size.y) / wanted});
+                std::max(size.x, size.y) / wanted, way / (kMostCells * count)});
   cells_per_mm_ = 1 / cell;
   columns_ = 1 + static_cast<std::uint32_t>(size.x * cells_per_mm_);
   rows_ = 1 + static_cast<std::uint32_t>(size.y * cells_per_mm_);

@@ -143,5 +143,19 @@ TEST(FindDefects, ALargeLayerIsQuick) {
   EXPECT_EQ(kinds(layer_of({rim, inner})), Kinds{});
 }
 
+// Edges as long as the layer stood in as many cells as there are edges: a file
+// of a megabyte asked for gigabytes, and one of two for more than can be
+// counted in 32 bits.
+TEST(FindDefects, LongEdgesSideBySideAreQuick) {
+  std::vector<std::vector<Vec2>> slats;
+  for (int i = 0; i < 10'000; ++i) {
+    const double y = 0.001 * i;
+    slats.push_back({{0, y}, {1000, y}, {1000, y + 5e-4}, {0, y + 5e-4}});
+  }
+  EXPECT_EQ(kinds(layer_of(slats)), Kinds{});
+  slats.push_back({{1, -1}, {2, -1}, {2, 11}, {1, 11}});
+  EXPECT_EQ(kinds(layer_of(slats)).front(), DefectKind::kCrossing);
+}
+
 }  // namespace
 }  // namespace lamina::slicer
