@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -17,8 +18,10 @@
 namespace lamina::csg {
 namespace {
 
-// Blocks of blocks of blocks: a few hundred bytes may ask for any number.
-constexpr std::size_t kMostLines = 10'000'000;
+// Blocks of blocks of blocks, and arcs of any number of turns: a few hundred
+// bytes may ask for any number of lines. Drawings need far fewer than these.
+constexpr std::size_t kMostLines = 1'000'000;
+constexpr std::size_t kMostLinesOfAByte = 20;
 
 // One entity: its groups up to the next one. What a group means depends on the
 // entity; OpenSCAD keeps some in one place.
@@ -44,7 +47,9 @@ struct MissingValue {};
 class Reader {
  public:
   Reader(std::string_view bytes, const DxfOptions& options)
-      : lines_(bytes), options_(options) {}
+      : lines_(bytes),
+        options_(options),
+        most_lines_(kMostLines + kMostLinesOfAByte * bytes.size()) {}
 
   DxfDrawing read() {
     for (;;) {
@@ -185,9 +190,9 @@ class Reader {
     const bool is_drawn = is_in_entities_ && is_asked_for();
     const bool is_kept = is_in_blocks_ && !block_.empty();
     if (!is_drawn && !is_kept) return;
-    if (++line_count_ > kMostLines) {
+    if (++line_count_ > most_lines_) {
       throw FormatError(fmt::format("DXF line {}, more than {} lines to draw",
-                                    lines_.number(), kMostLines));
+                                    lines_.number(), most_lines_));
     }
     const DxfLine line = {snap(from), snap(to)};
     (is_drawn ? drawn_ : blocks_[block_]).push_back(line);
@@ -212,7 +217,10 @@ class Reader {
   // Fragments of the part of a circle.
   int fragments(double radius, double share) const {
     const double count = std::ceil(options_.fragments(radius) * share);
-    return static_cast<int>(std::min(count, static_cast<double>(kMostLines)));
+    // One too many is enough, and an int.
+    constexpr double kMost = std::numeric_limits<int>::max();
+    return static_cast<int>(
+        std::min({count, static_cast<double>(most_lines_) + 1, kMost}));
   }
 
   void add_arc(double begin_deg, double end_deg) {
@@ -273,6 +281,7 @@ class Reader {
 
   TextLines lines_;
   const DxfOptions& options_;
+  std::size_t most_lines_;
   DxfDrawing drawing_;
   DxfGrid grid_;
   std::vector<DxfLine> drawn_;

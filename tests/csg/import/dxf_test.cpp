@@ -118,8 +118,19 @@ TEST(ParseDxf, BlocksInBlocksDoNotGrowWithoutEnd) {
   text += " 0 ENDBLK 0 ENDSEC 0 EOF";
   EXPECT_NE(fault_of([&] {
               parse(groups(text));
-            }).find("more than 10000000 lines to draw"),
+            }).find("lines to draw"),
             std::string::npos);
+}
+
+TEST(ParseDxf, ArcsDoNotTurnWithoutEnd) {
+  for (const char* arc : {"0 ARC 10 0 20 0 40 1 50 0 51 1e9",
+                          "0 ELLIPSE 10 0 20 0 11 1 21 0 40 1 41 0 42 1e300"}) {
+    EXPECT_NE(fault_of([&] {
+                parse(entities(arc));
+              }).find("lines to draw"),
+              std::string::npos)
+        << arc;
+  }
 }
 
 TEST(ParseDxf, ManyLinesInOnePointAreJoinedInTime) {
