@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -99,8 +100,11 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
 
 SvgContours outline_stroke(std::span<const Vec2> path,
                            const SvgStroke& stroke) {
-  // OpenSCAD's, in the units of the drawing.
+  // OpenSCAD's, in the units of the drawing; of strokes that are wider than a
+  // metre such a share of their width that a circle has 10,000 sides.
   constexpr double kArcTolerance = 2.5e-5;
+  constexpr double kArcShare = 2.5e-8;
+  const double tolerance = std::max(kArcTolerance, kArcShare * stroke.width);
   const planar::Join join =
       stroke.join == SvgStroke::Join::kRound   ? planar::Join::kRound
       : stroke.join == SvgStroke::Join::kBevel ? planar::Join::kBevel
@@ -109,7 +113,7 @@ SvgContours outline_stroke(std::span<const Vec2> path,
       stroke.cap == SvgStroke::Cap::kButt    ? planar::Cap::kButt
       : stroke.cap == SvgStroke::Cap::kRound ? planar::Cap::kRound
                                              : planar::Cap::kSquare;
-  return planar::stroke(path, stroke.width, join, cap, kArcTolerance).contours;
+  return planar::stroke(path, stroke.width, join, cap, tolerance).contours;
 }
 
 planar::Region read_svg(const ImportParams& params, SourceRange range,
