@@ -61,11 +61,4 @@ void slice_import(const std::string& path, csg::ImportFormat format) {
   slice(builder.tree({builder.node(csg::Import{&params})}));
 }
 
-void slice_surface(const std::string& path) {
-  csg::SurfaceParams params;
-  params.path = path;
-  csg::TreeBuilder builder;
-  slice(builder.tree({builder.node(csg::Surface{&params})}));
-}
-
 }  // namespace lamina::fuzz

@@ -11,7 +11,4 @@ namespace lamina::fuzz {
 // Layers must be finite; errors that a design may have are none here.
 void slice_import(const std::string& path, csg::ImportFormat format);
 
-// The same for surface().
-void slice_surface(const std::string& path);
-
 }  // namespace lamina::fuzz

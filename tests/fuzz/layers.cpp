@@ -19,7 +19,7 @@ void check(const slicer::Layer& layer) {
           "heights are finite");
   std::uint32_t end = 0;
   for (const std::uint32_t next : layer.contours.ends) {
-    require(next >= end + 3, "a loop has three points");
+    require(next >= end, "loops follow each other");
     end = next;
   }
   require(end == layer.contours.points.size(), "each point is of a loop");
