@@ -40,7 +40,7 @@ void MeshSectioner::count_layers_below(const csg::Mesh& mesh,
     if (!meets_block(layers)) {
       const std::uint32_t below =
           std::clamp(layers.first, layers_->first, end_layer) - layers_->first;
-      std::fill(layers_below_.begin() + begin, layers_below_.begin() + end,
+      std::fill(layers_below_.data() + begin, layers_below_.data() + end,
                 below);
       return;
     }
