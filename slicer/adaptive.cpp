@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "csg/solid/boundary_faces.h"
 #include "csg/vertex_table.h"
@@ -65,10 +66,10 @@ class Corners {
     const auto bits = static_cast<std::uint8_t>((ways.up ? kUp : 0) |
                                                 (ways.down ? kDown : 0));
     const Vec3 first = glm::floor((corner - kReach) / kCube);
-    const Vec3 last = glm::floor((corner + kReach) / kCube);
-    for (double x = first.x; x <= last.x; ++x) {
-      for (double y = first.y; y <= last.y; ++y) {
-        for (double z = first.z; z <= last.z; ++z) note({x, y, z}, bits);
+    const glm::ivec3 steps(glm::floor((corner + kReach) / kCube) - first);
+    for (int x = 0; x <= steps.x; ++x) {
+      for (int y = 0; y <= steps.y; ++y) {
+        for (int z = 0; z <= steps.z; ++z) note(first + Vec3(x, y, z), bits);
       }
     }
     note(glm::floor(corner / kCube), kHome);

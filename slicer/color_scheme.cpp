@@ -1,6 +1,7 @@
 #include "slicer/color_scheme.h"
 
 #include <array>
+#include <iterator>
 
 namespace lamina::slicer {
 namespace {
@@ -54,6 +55,7 @@ const ColorScheme* find_color_scheme(std::string_view name) {
 
 std::vector<std::string> color_scheme_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kSchemes));
   for (const ColorScheme& scheme : kSchemes) names.emplace_back(scheme.name);
   return names;
 }

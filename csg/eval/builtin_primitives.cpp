@@ -42,7 +42,7 @@ Facets clamped_facets(const BuiltinModuleCode& code, Frame& frame) {
 
 void make_leaf(decltype(Node::op) op, const BuiltinModuleCode& code,
                Frame& frame) {
-  frame.in.make_node(std::move(op), code, frame.in.node_mark());
+  frame.in.make_node(op, code, frame.in.node_mark());
 }
 
 bool is_true(const Value& value) { return value.is_bool() && value.as_bool(); }
