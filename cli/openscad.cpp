@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -116,16 +117,22 @@ std::string last_words(const std::string& path) {
 
 ScratchFolder::ScratchFolder(slicer::TemporaryFiles& temporary_files)
     : temporary_files_(temporary_files) {
-  const std::string beside =
-      (std::filesystem::temp_directory_path() / "lamina").string();
-  path_ = temporary_files_.make_folder(beside);
-  if (path_.empty()) {
+  std::error_code error;
+  const std::filesystem::path parent =
+      std::filesystem::temp_directory_path(error);
+  if (error) {
+    fail(fmt::format("there is no folder for openscad's mesh: TMPDIR: {}",
+                     error.message()));
+  }
+  const std::string beside = (parent / "lamina").string();
+  folder_ = temporary_files_.make_folder(beside);
+  if (folder_.lock < 0) {
     fail(fmt::format("no folder can be made beside '{}': {}", beside,
                      std::strerror(errno)));
   }
 }
 
-ScratchFolder::~ScratchFolder() { temporary_files_.discard(path_); }
+ScratchFolder::~ScratchFolder() { temporary_files_.discard_folder(folder_); }
 
 std::string openscad_version(const ScratchFolder& folder) {
   constexpr double kLimit = 60;  // seconds

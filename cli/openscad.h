@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/design_options.h"
-#include "slicer/formats/output_file.h"
+#include "slicer/formats/temporary_files.h"
 
 namespace lamina::cli {
 
@@ -17,11 +17,13 @@ class ScratchFolder {
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   ~ScratchFolder();
 
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  std::string file(const std::string& name) const {
+    return folder_.path + "/" + name;
+  }
 
  private:
   slicer::TemporaryFiles& temporary_files_;
-  std::string path_;
+  slicer::TemporaryFiles::Folder folder_;
 };
 
 // "OpenSCAD version 2021.01". Throws FileError where the program is missing.

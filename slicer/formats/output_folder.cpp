@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,8 +10,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "parser/diagnostic.h"
+#include "slicer/formats/write_all.h"
 
 namespace lamina::slicer {
 
@@ -46,13 +47,11 @@ OutputFolder::OutputFolder(std::string path, std::string contents,
   while (path_.size() > 1 && path_.ends_with('/')) path_.pop_back();
   if (path_ == "-") fail("standard output takes no folder");
   check_target();
-  temporary_path_ = temporary_files_.make_folder(path_);
-  if (temporary_path_.empty()) fail(std::strerror(errno));
+  temporary_ = temporary_files_.make_folder(path_);
+  if (temporary_.lock < 0) fail(std::strerror(errno));
 }
 
-OutputFolder::~OutputFolder() {
-  if (!temporary_path_.empty()) temporary_files_.discard(temporary_path_);
-}
+OutputFolder::~OutputFolder() { temporary_files_.discard_folder(temporary_); }
 
 // Throws where something stands at the target that lamina did not make.
 void OutputFolder::check_target() const {
@@ -79,22 +78,19 @@ void OutputFolder::check_target() const {
 }
 
 void OutputFolder::add(const std::string& name, std::string_view bytes) {
-  std::FILE* const file = temporary_files_.open_file_in(temporary_path_, name);
-  if (file == nullptr) fail(std::strerror(errno));
-  const bool is_written =
-      std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const int error = errno;
-  if (std::fclose(file) != 0) fail(std::strerror(errno));
-  if (!is_written) fail(std::strerror(error));
+  const int file = temporary_files_.open_file_in(temporary_, name);
+  if (file < 0) fail(std::strerror(errno));
+  int error = write_all(file, bytes);
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) fail(std::strerror(error));
   size_ += bytes.size();
 }
 
 void OutputFolder::commit() {
   check_target();
-  if (!temporary_files_.commit_folder(temporary_path_, path_)) {
+  if (!temporary_files_.commit_folder(temporary_, path_)) {
     fail(std::strerror(errno));
   }
-  temporary_path_.clear();
 }
 
 void OutputFolder::fail(std::string_view fault) const {

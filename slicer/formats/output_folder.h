@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "slicer/formats/output_file.h"
+#include "slicer/formats/temporary_files.h"
 
 namespace lamina::slicer {
 
@@ -39,8 +39,8 @@ class OutputFolder {
 
   std::string path_;
   std::string contents_;
-  std::string temporary_path_;  // empty: committed
   TemporaryFiles& temporary_files_;
+  TemporaryFiles::Folder temporary_;
   std::uint64_t size_ = 0;
 };
 

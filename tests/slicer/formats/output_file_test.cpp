@@ -116,16 +116,94 @@ TEST(OutputFile, AFullDiskIsAnError) {
   EXPECT_THROW(output.commit(), FileError);
 }
 
-TEST(TemporaryFiles, DiscardAllRemovesWhatIsUnderWay) {
+TEST(OutputFile, HasNoNameWhileItIsWritten) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  OutputFile output(folder.file("a"), files);
+  output.write(std::string(1'000'000, 'x'));
+  EXPECT_EQ(folder.entry_count(), 0U);
+  output.commit();
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+// The permissions of a file that the user makes himself.
+TEST(OutputFile, ObeysTheMask) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  const mode_t mask = ::umask(027);
+  for (int i = 0; i < 2; ++i) {  // new, then replaced
+    OutputFile output(folder.file("a"), files);
+    output.commit();
+    struct stat status {};
+    ASSERT_EQ(::stat(folder.file("a").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0640U);
+  }
+  ::umask(mask);
+}
+
+TEST(TemporaryFiles, DiscardAllRemovesFolders) {
   const TemporaryFolder folder;
   // Never destroyed: after discard_all nothing can be, as in a process that
   // is about to end.
   static auto* const files = new TemporaryFiles;
-  static auto* const output = new OutputFile(folder.file("a"), *files);
-  output->write("hello");
+  const auto made = files->make_folder(folder.file("a"));
+  ::close(files->open_file_in(made, "image"));
   EXPECT_EQ(folder.entry_count(), 1U);
   files->discard_all();
   EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+// --- What ended runs left ---------------------------------------------------
+
+// A run that is killed: its descriptors close, its names stay.
+TEST(TemporaryFiles, TheNextRunRemovesAnAbandonedFolder) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  const auto left = files.make_folder(folder.file("a"));
+  ::close(files.open_file_in(left, "image"));
+  ::close(left.lock);
+  auto next = files.make_folder(folder.file("a"));
+  EXPECT_EQ(next.path, left.path);
+  EXPECT_TRUE(std::filesystem::is_empty(next.path));
+  EXPECT_TRUE(files.commit_folder(next, folder.file("a")));
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+TEST(TemporaryFiles, WhatAnotherRunIsFillingStays) {
+  const TemporaryFolder folder;
+  TemporaryFiles one;
+  TemporaryFiles other;
+  auto first = one.make_folder(folder.file("a"));
+  auto second = other.make_folder(folder.file("a"));
+  EXPECT_NE(first.path, second.path);
+  EXPECT_EQ(folder.entry_count(), 2U);
+  one.discard_folder(first);
+  other.discard_folder(second);
+  EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+TEST(TemporaryFiles, AnAbandonedFileIsRemovedWhenItsNameIsNeeded) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  folder.write("a", "old");
+  folder.write(".a.lamina-0", "of a killed run");
+  OutputFile output(folder.file("a"), files);
+  output.write("new");
+  output.commit();
+  EXPECT_EQ(read_file(folder.file("a")), "new");
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+TEST(TemporaryFiles, NamesOfTheGreatestLengthHaveAHiddenOne) {
+  const TemporaryFolder folder;
+  TemporaryFiles files;
+  const std::string name(255, 'a');
+  folder.write(name, "old");
+  OutputFile output(folder.file(name), files);
+  output.write("new");
+  output.commit();
+  EXPECT_EQ(read_file(folder.file(name)), "new");
+  EXPECT_EQ(folder.entry_count(), 1U);
 }
 
 }  // namespace
