@@ -2,8 +2,9 @@
 // cli/, and only here, messages are printed, exceptions caught, and exit
 // statuses chosen.
 
-#include <cstdio>
+#include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@
 #include "cli/process_limits.h"
 #include "cli/process_watch.h"
 #include "cli/run_on_stack.h"
+#include "cli/streams.h"
 #include "slicer/version.h"
 
 namespace lamina::cli {
@@ -62,28 +64,45 @@ std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
   return std::nullopt;
 }
 
+// The exit status.
+int run_program(int argc, char** argv) {
+  std::unique_ptr<Command> command;
+  for (const NamedCommand& named : kNamedCommands) {
+    if (argc > 1 && argv[1] == named.name) command = named.make();
+  }
+  // A named command's own words begin behind its name.
+  const int skipped = command ? 1 : 0;
+  if (!command) command = make_slice_command();
+  if (const auto exit = read_words(*command, argc - skipped, argv + skipped)) {
+    if (exit->status == kDone) {
+      print_out(exit->text);
+    } else {
+      print_error(exit->text);
+    }
+    return exit->status;
+  }
+  slicer::TemporaryFiles temporary_files;
+  ProcessWatch watch(limits);
+  return run_on_stack(temporary_files, watch, [&](std::size_t stack) {
+    return command->run(temporary_files, stack, watch);
+  });
+}
+
 }  // namespace
 }  // namespace lamina::cli
 
 int main(int argc, char** argv) {
   using namespace lamina;
-  std::unique_ptr<cli::Command> command;
-  for (const cli::NamedCommand& named : cli::kNamedCommands) {
-    if (argc > 1 && argv[1] == named.name) command = named.make();
+  cli::open_missing_streams();
+  // What runs on the large stack is caught there, with all that it has to say.
+  try {
+    return cli::run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    cli::print_error("lamina: out of memory\n");
+  } catch (const std::exception& error) {
+    cli::print_error("lamina: ");
+    cli::print_error(error.what());
+    cli::print_error("\n");
   }
-  // A named command's own words begin behind its name.
-  const int skipped = command ? 1 : 0;
-  if (!command) command = cli::make_slice_command();
-  cli::ProcessLimits limits;
-  if (const auto exit =
-          cli::read_words(*command, limits, argc - skipped, argv + skipped)) {
-    std::fputs(exit->text.c_str(),
-               exit->status == cli::kDone ? stdout : stderr);
-    return exit->status;
-  }
-  slicer::TemporaryFiles temporary_files;
-  cli::ProcessWatch watch(limits);
-  return cli::run_on_stack(temporary_files, watch, [&](std::size_t stack) {
-    return command->run(temporary_files, stack, watch);
-  });
+  return cli::kFault;
 }

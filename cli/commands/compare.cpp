@@ -1,7 +1,6 @@
 // lamina compare: how far two files, designs or meshes are from each other.
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "cli/design_options.h"
 #include "cli/option_values.h"
 #include "cli/run.h"
+#include "cli/streams.h"
 #include "slicer/difference_picture.h"
 
 namespace lamina::cli {
@@ -156,10 +156,7 @@ class CompareCommand : public Command {
     ComparisonResult result =
         comparison.run(tolerance_.value_or(comparison.usual_tolerance()));
     if (!result.is_equal() && !aligns_) result.hint = find_hint(a, b, result);
-    if (!design_.is_quiet) {
-      const std::string text = comparison_text(result, lists_all_);
-      std::fwrite(text.data(), 1, text.size(), stdout);
-    }
+    if (!design_.is_quiet) print_out(comparison_text(result, lists_all_));
     if (!report_.empty()) {
       slicer::OutputFile output(report_, temporary_files);
       output.write(comparison_json(result));

@@ -2,7 +2,6 @@
 
 #include "slicer/inspect.h"
 
-#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -12,6 +11,7 @@
 #include "cli/design_options.h"
 #include "cli/option_values.h"
 #include "cli/run.h"
+#include "cli/streams.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/inspection_text.h"
 
@@ -87,7 +87,7 @@ class InspectCommand : public Command {
                  : inspection_text(*found, lists_all_layers_
                                                ? slicer::LayerList::kAll
                                                : slicer::LayerList::kSummary);
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    print_out(text);
     return found->defects == 0 ? kDone : kFault;
   }
 
