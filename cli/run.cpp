@@ -137,6 +137,8 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
       return {std::move(tree), has_failed};
     } catch (const InternalError&) {
       throw;
+    } catch (const FileError&) {
+      throw;
     } catch (const Error&) {
       return {{}, true};
     }

@@ -1,28 +1,88 @@
 #include "csg/import/file_bytes.h"
 
+#include <cerrno>
+#include <cstring>
+#include <new>
+
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "parser/diagnostic.h"
+
 namespace lamina::csg {
+namespace {
+
+// Not a word about the file: the machine has come to an end.
+bool is_machine_fault(int error) {
+  return error == EMFILE || error == ENFILE || error == ENOMEM || error == EIO;
+}
+
+[[noreturn]] void fail(const std::string& path, const char* why) {
+  throw FileError(
+      {Severity::kError, {}, fmt::format("Can't read '{}': {}", path, why)});
+}
+
+// Memory of whole pages, large ones where the system has them.
+void* map_memory(std::size_t size) {
+  if (size == 0) return nullptr;
+  void* const memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  ::madvise(memory, size, MADV_HUGEPAGE);  // a wish
+  return memory;
+}
+
+// Fills the memory; false if the file ends before (errno 0) or fails.
+bool read_all(int file, char* memory, std::size_t size) {
+  while (size > 0) {
+    errno = 0;
+    const ssize_t count = ::read(file, memory, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    memory += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+struct FileCloser {
+  int file;
+  ~FileCloser() {
+    const int error = errno;
+    ::close(file);
+    errno = error;
+  }
+};
+
+bool is_unchanged(int file, const struct stat& before) {
+  struct stat after = {};
+  return ::fstat(file, &after) == 0 && after.st_size == before.st_size &&
+         after.st_mtim.tv_sec == before.st_mtim.tv_sec &&
+         after.st_mtim.tv_nsec == before.st_mtim.tv_nsec;
+}
+
+}  // namespace
 
 std::optional<FileBytes> FileBytes::open(const std::string& path) {
   // A FIFO must not make the run wait for a writer.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0 && is_machine_fault(errno)) fail(path, std::strerror(errno));
   if (file < 0) return std::nullopt;
+  const FileCloser closer{file};
   struct stat status = {};
-  const bool is_regular =
-      ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
-  const auto size = static_cast<std::size_t>(is_regular ? status.st_size : 0);
-  void* data = nullptr;
-  if (size > 0) {
-    data =
-        ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0);
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
+    return std::nullopt;
   }
-  ::close(file);
-  if (!is_regular || data == MAP_FAILED) return std::nullopt;
-  return FileBytes(data, size);
+  const auto size = static_cast<std::size_t>(status.st_size);
+  FileBytes bytes(map_memory(size), size);
+  if (!read_all(file, static_cast<char*>(bytes.data_), size) && errno != 0) {
+    fail(path, std::strerror(errno));
+  }
+  if (!is_unchanged(file, status)) fail(path, "it changed while it was read");
+  return bytes;
 }
 
 FileBytes::~FileBytes() {

@@ -1,6 +1,10 @@
 #pragma once
-// The bytes of a file, mapped into memory: nothing is copied, and what is not
-// looked at is not read.
+// The bytes of a file, read once.
+//
+// They are a copy of our own, not a view of the file: whoever writes or
+// shortens that file meanwhile would change numbers under the reader's eyes,
+// and pages that are gone end a process. Copying costs a hundredth of what it
+// takes to make a mesh of the bytes.
 
 #include <cstddef>
 #include <optional>
@@ -12,7 +16,8 @@ namespace lamina::csg {
 
 class FileBytes {
  public:
-  // Nothing where there is no regular file that may be read.
+  // Nothing where there is no regular file that may be read. Throws FileError
+  // where reading fails, or the file changes meanwhile.
   static std::optional<FileBytes> open(const std::string& path);
 
   FileBytes(FileBytes&& other) noexcept
