@@ -1,6 +1,7 @@
 #include "csg/text/detail/font_cache.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
@@ -28,6 +29,12 @@ const FcChar8* to_fc(const char* text) {
 }
 const char* from_fc(const FcChar8* text) {
   return reinterpret_cast<const char*>(text);
+}
+
+// What these libraries cannot do for lack of memory they leave undone, and the
+// text would be another one.
+void require(bool is_done) {
+  if (!is_done) throw std::bad_alloc();
 }
 
 std::string trimmed(const std::string& text) {
@@ -105,15 +112,17 @@ std::vector<std::string> font_folders() {
 }
 
 Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
+  errno = 0;
   Owned<FcConfig> config(FcInitLoadConfig());
-  if (!config) throw std::bad_alloc();
+  require(config != nullptr);
   for (const std::string& path : folders) {
     std::error_code error;
     const fs::path folder = fs::absolute(path, error);
     if (!fs::is_directory(folder, error)) continue;
-    FcConfigAppFontAddDir(config.get(), to_fc(folder.c_str()));
+    require(FcConfigAppFontAddDir(config.get(), to_fc(folder.c_str())));
   }
-  if (!FcConfigBuildFonts(config.get())) throw std::bad_alloc();
+  require(FcConfigBuildFonts(config.get()));
+  require(errno != ENOMEM);
   return config;
 }
 
@@ -171,7 +180,7 @@ bool has_symbols(FT_FaceRec& face) {
 
 FontCache::FontCache() : config_(shared_config()) {
   FT_Library library = nullptr;
-  if (FT_Init_FreeType(&library) != 0) throw std::bad_alloc();
+  require(FT_Init_FreeType(&library) == 0);
   library_.reset(library);
 }
 
@@ -191,17 +200,21 @@ Font FontCache::load(const std::string& name) const {
   Font font;
   font.complaint = fmt::format("Can't get font {}", name);
   const std::string wanted = trimmed(name);
+  errno = 0;
   const Owned<FcPattern> pattern(
       FcNameParse(to_fc(wanted.empty() ? kDefaultFont : wanted.c_str())));
+  require(errno != ENOMEM);
   if (!pattern) return font;
   const Owned<FcPattern> asked(FcPatternDuplicate(pattern.get()));
-  FcPatternAddBool(pattern.get(), FC_OUTLINE, FcTrue);
-  FcPatternAddBool(pattern.get(), FC_SCALABLE, FcTrue);
-  FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern);
+  require(asked != nullptr &&
+          FcPatternAddBool(pattern.get(), FC_OUTLINE, FcTrue) &&
+          FcPatternAddBool(pattern.get(), FC_SCALABLE, FcTrue) &&
+          FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern));
   FcDefaultSubstitute(pattern.get());
   FcResult result = FcResultNoMatch;
   const Owned<FcPattern> match(
       FcFontMatch(config_.get(), pattern.get(), &result));
+  require(result != FcResultOutOfMemory && errno != ENOMEM);
   FcChar8* file = nullptr;
   int index = 0;
   if (!match ||
@@ -211,9 +224,10 @@ Font FontCache::load(const std::string& name) const {
   }
 
   FT_Face face = nullptr;
-  if (FT_New_Face(library_.get(), from_fc(file), index, &face) != 0) {
-    return font;
-  }
+  const FT_Error fault =
+      FT_New_Face(library_.get(), from_fc(file), index, &face);
+  require(fault != FT_Err_Out_Of_Memory);
+  if (fault != 0) return font;
   Owned<FT_FaceRec> owned(face);
   font.complaint = describe_substitution(*asked, *pattern, *match);
   if (!select_best_charmap(*face)) {
@@ -226,6 +240,7 @@ Font FontCache::load(const std::string& name) const {
   }
   font.is_symbol = has_symbols(*face);
   font.shaper.reset(hb_ft_font_create(face, nullptr));
+  require(font.shaper.get() != hb_font_get_empty());
   font.face = std::move(owned);
   return font;
 }

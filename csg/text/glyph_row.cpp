@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -53,17 +54,20 @@ Owned<hb_buffer_t> shape_text(const csg::TextParams& params, const Font& font,
       buffer, hb_language_from_string(to_c(params.language).c_str(), -1));
   hb_buffer_add_utf8(buffer, text.c_str(), -1, 0, -1);
   if (font.is_symbol) move_to_symbol_page(buffer, text, messages);
-  hb_shape(font.shaper.get(), buffer, nullptr, 0);
+  if (!hb_shape_full(font.shaper.get(), buffer, nullptr, 0, nullptr) ||
+      !hb_buffer_allocation_successful(buffer)) {
+    throw std::bad_alloc();
+  }
   return owned;
 }
 
 // Null where the font has no such glyph, or only a picture of it.
 OwnedGlyph load_glyph(const Font& font, FT_UInt index) {
   FT_Glyph glyph = nullptr;
-  if (FT_Load_Glyph(font.face.get(), index, FT_LOAD_DEFAULT) != 0 ||
-      FT_Get_Glyph(font.face->glyph, &glyph) != 0) {
-    return nullptr;
-  }
+  FT_Error fault = FT_Load_Glyph(font.face.get(), index, FT_LOAD_DEFAULT);
+  if (fault == 0) fault = FT_Get_Glyph(font.face->glyph, &glyph);
+  if (fault == FT_Err_Out_Of_Memory) throw std::bad_alloc();
+  if (fault != 0) return nullptr;
   OwnedGlyph owned(glyph);
   return glyph->format == FT_GLYPH_FORMAT_OUTLINE ? std::move(owned) : nullptr;
 }
