@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -46,8 +47,20 @@ std::string hidden_sibling(const std::string& path, int attempt) {
 
 // A file, or a folder with all that it holds.
 void remove_all(const std::string& path) {
+  if (::rmdir(path.c_str()) == 0) return;
   std::error_code ignored;
   std::filesystem::remove_all(path, ignored);
+}
+
+// Removes the files of a folder, and closes it. Works where no more files can
+// be opened.
+void empty_folder(int& folder) {
+  DIR* const entries = ::fdopendir(std::exchange(folder, -1));
+  if (entries == nullptr) return;
+  while (const dirent* entry = ::readdir(entries)) {
+    ::unlinkat(::dirfd(entries), static_cast<const char*>(entry->d_name), 0);
+  }
+  ::closedir(entries);
 }
 
 void close_quietly(int& file) {
@@ -307,10 +320,10 @@ bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
 void TemporaryFiles::discard_folder(Folder& folder) {
   if (folder.path.empty()) return;
   const Lock lock(mutex_);
+  empty_folder(folder.lock);
   remove_all(folder.path);
   forget(folder.path);
   folder.path.clear();
-  close_quietly(folder.lock);
 }
 
 }  // namespace lamina::slicer

@@ -21,7 +21,7 @@ OUTPUT_CALLS = "write,pwrite,openat,open,linkat,rename,renameat2,mkdir,close"
 CALL_ERRORS = {
     "write": ["ENOSPC", "EIO"],
     "pwrite": ["ENOSPC", "EDQUOT"],
-    "open": ["ENOSPC", "EMFILE"],
+    "open": ["EIO", "EMFILE"],
     "openat": ["ENOSPC", "EMFILE"],
     "mkdir": ["ENOSPC"],
     "linkat": ["EPERM", "ENOSPC", "EIO"],
@@ -62,16 +62,18 @@ def failing_calls(harness):
                         for more in ("", "+"):
                             fault = (f"{call} {k + 1}{more} errno "
                                      f"{getattr(errno, error)}")
+                            # A folder that cannot be opened stays hidden.
+                            leaves = job.hidden() if call == "openat" else ()
                             runs.append((f"{job.name}, old: {has_old}, {fault}",
                                          dict(job=job, fault=fault,
-                                              has_old=has_old)))
+                                              has_old=has_old, leaves=leaves)))
         if runs:
             harness.case(f"{call}() fails: {', '.join(errors)}",
                          harness.some(runs, 5))
 
 
 def failing_memory(harness):
-    most = {True: 40, False: 4000}[harness.is_quick]
+    most = 40 * harness.times if harness.is_quick else 4000
     for more, words in (("", "one allocation fails"),
                         ("+", "all allocations fail from one on")):
         runs = []
@@ -172,7 +174,7 @@ def _strike(harness, words, number, statuses):
         return during
 
     runs = []
-    for i in range(6 if harness.is_quick else 200):
+    for i in range(6 * harness.times if harness.is_quick else 200):
         job = jobs.SLOW[(i if not harness.is_quick
                          else harness.random.randrange(99)) % len(jobs.SLOW)]
         if job.name not in seconds:

@@ -1,6 +1,6 @@
 """Breaks the world around lamina in every way we know and prints a table.
 
-    faults.py LAMINA SHIM [--quick] [--only KIND]... [--jobs N]
+    faults.py LAMINA SHIM [--quick [--times N]] [--only KIND]... [--jobs N]
 
 LAMINA is the program, SHIM the library of fault_shim.cpp. Ends with 1 if a run
 broke the rule (harness.py). --quick tries a few of the places where each fault
@@ -21,12 +21,14 @@ def main():
     parser.add_argument("lamina")
     parser.add_argument("shim")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--times", type=int, default=1,
+                        help="a quick look so many times as large")
     parser.add_argument("--only", action="append", choices=cases.ALL)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     seed = datetime.date.today().toordinal() if arguments.quick else 1
     harness = Harness(arguments.lamina, arguments.shim, arguments.quick,
-                      arguments.jobs, seed)
+                      arguments.times, arguments.jobs, seed)
     print(f"{'fault':<64}{'runs':>7}  outcome")
     try:
         for kind in arguments.only or cases.ALL:
