@@ -73,7 +73,9 @@ int run_program(int argc, char** argv) {
   // A named command's own words begin behind its name.
   const int skipped = command ? 1 : 0;
   if (!command) command = make_slice_command();
-  if (const auto exit = read_words(*command, argc - skipped, argv + skipped)) {
+  ProcessLimits limits;
+  if (const auto exit =
+          read_words(*command, limits, argc - skipped, argv + skipped)) {
     if (exit->status == kDone) {
       print_out(exit->text);
     } else {
