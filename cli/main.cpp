@@ -14,6 +14,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
@@ -62,6 +63,14 @@ std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
     return Exit{error.status(), fmt::format("lamina: {}\n", error.what())};
   }
   return std::nullopt;
+}
+
+// What is thrown before main() begins, by global objects of libraries.
+[[gnu::constructor(101)]] void expect_the_worst() {
+  std::set_terminate([] {
+    print_error("lamina: out of memory\n");
+    ::_exit(kFault);
+  });
 }
 
 // The exit status.

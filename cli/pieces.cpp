@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -52,11 +53,13 @@ class Workshop {
       if (!worker.stack.start(worker.thread, &work_in_thread, &worker)) break;
       ++started;
     }
-    work(stack);
+    std::exception_ptr fault = work_caught(stack);
     for (std::size_t i = 0; i < started; ++i) {
       ::pthread_join(workers[i].thread, nullptr);
+      if (!fault) fault = workers[i].fault;
     }
     line_->erase();
+    if (fault) std::rethrow_exception(fault);
     return std::move(outcomes_);
   }
 
@@ -65,12 +68,23 @@ class Workshop {
     Workshop* workshop = nullptr;
     LargeStack stack;
     pthread_t thread{};
+    std::exception_ptr fault;  // what ended its work
   };
 
   static void* work_in_thread(void* argument) {
-    const Worker& worker = *static_cast<Worker*>(argument);
-    worker.workshop->work(worker.stack.size());
+    Worker& worker = *static_cast<Worker*>(argument);
+    worker.fault = worker.workshop->work_caught(worker.stack.size());
     return nullptr;
+  }
+
+  // What is thrown here comes from no piece: there is no memory to begin one.
+  std::exception_ptr work_caught(std::size_t stack) noexcept {
+    try {
+      work(stack);
+      return nullptr;
+    } catch (...) {
+      return std::current_exception();
+    }
   }
 
   void work(std::size_t stack) {

@@ -15,6 +15,7 @@
 #include "cli/command.h"
 #include "cli/large_stack.h"
 #include "cli/progress.h"
+#include "cli/streams.h"
 
 namespace lamina::cli {
 namespace {
@@ -68,7 +69,10 @@ sigset_t ending_signals() {
   }
   // To the process: all threads but the waiting one block it.
   ::sigqueue(::getpid(), kLostSignal, what);
-  while (true) ::pause();
+  // The waiting thread needs no second, unless it waits for a lock of this one.
+  ::sleep(2);
+  print_error("error: out of memory\n");
+  ::_exit(kFault);
 }
 
 // The end of a process whose other threads still run. Nothing here may throw,
