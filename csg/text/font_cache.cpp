@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 #include <hb-ft.h>
+#include <sys/mman.h>
 #include FT_TRUETYPE_IDS_H
 
 namespace lamina::text {
@@ -111,7 +112,18 @@ std::vector<std::string> font_folders() {
   return folders;
 }
 
+// Fontconfig falls over where memory ends within it, so it is asked first
+// whether there is as much as it takes.
+void require_room() {
+  constexpr std::size_t kRoom = std::size_t{8} << 20;
+  void* const room = ::mmap(nullptr, kRoom, PROT_READ | PROT_WRITE,
+                            MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  require(room != MAP_FAILED);
+  ::munmap(room, kRoom);
+}
+
 Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
+  require_room();
   errno = 0;
   Owned<FcConfig> config(FcInitLoadConfig());
   require(config != nullptr);

@@ -78,6 +78,9 @@ def failing_memory(harness):
                         ("+", "all allocations fail from one on")):
         runs = []
         for job in harness.some(jobs.QUICK, 6):
+            # Fontconfig 2.14 reads through null where nothing is left.
+            if more and job.may_warn:
+                continue
             for k in range(harness.count_calls(job, "malloc")):
                 fault = f"malloc {k + 1}{more} errno {errno.ENOMEM}"
                 # Without memory a good word may look like a bad one: 2.
