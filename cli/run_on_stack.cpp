@@ -1,7 +1,6 @@
 #include "cli/run_on_stack.h"
 
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
@@ -80,9 +79,10 @@ sigset_t ending_signals() {
 [[noreturn]] void end_process(slicer::TemporaryFiles& temporary_files,
                               int status, std::string_view message) noexcept {
   std::set_terminate([] { ::_exit(kFault); });
-  temporary_files.discard_all();
   end_progress();
-  std::fwrite(message.data(), 1, message.size(), stderr);
+  // First the word: to remove folders takes memory.
+  print_error(message);
+  temporary_files.discard_all();
   ::_exit(status);
 }
 

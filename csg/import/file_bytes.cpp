@@ -73,9 +73,8 @@ std::optional<FileBytes> FileBytes::open(const std::string& path) {
   if (file < 0) return std::nullopt;
   const FileCloser closer{file};
   struct stat status = {};
-  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
-    return std::nullopt;
-  }
+  if (::fstat(file, &status) != 0) fail(path, std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) return std::nullopt;
   const auto size = static_cast<std::size_t>(status.st_size);
   FileBytes bytes(map_memory(size), size);
   if (!read_all(file, static_cast<char*>(bytes.data_), size) && errno != 0) {

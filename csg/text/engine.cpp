@@ -2,6 +2,7 @@
 
 #include "csg/text/detail/engine.h"
 
+#include <cerrno>
 #include <exception>
 #include <vector>
 
@@ -48,6 +49,9 @@ class FontEngine : public Engine {
   const Typeset* typeset(const csg::TextParams& params,
                          const Work& work) noexcept {
     try {
+      // The libraries below go on without what they have no memory for, and
+      // the text would be another one. Few of them tell; malloc() does.
+      errno = 0;
       messages_.clear();
       result_ = {};
       const Font& font = fonts_.find(std::string(params.font));
@@ -57,7 +61,7 @@ class FontEngine : public Engine {
       result_.has_font = font.face != nullptr;
       if (result_.has_font) work(font, result_);
       result_.messages = messages_;
-      return &result_;
+      return errno == ENOMEM ? nullptr : &result_;
     } catch (const std::exception&) {
       return nullptr;
     }
