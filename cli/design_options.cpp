@@ -71,6 +71,12 @@ void add_design_options(CLI::App& app, DesignOptions& options) {
   file->type_name("file")->needs(set);
   add_switch(app, "--check-parameters", options.checks_parameters);
   add_switch(app, "--check-parameter-ranges", options.checks_parameter_ranges);
+  app.add_option("--max-depth", options.max_depth)
+      ->check(CLI::Range(1U, csg::kMostNestedCalls))
+      ->type_name("number");
+  app.add_option("--max-leaves", options.max_leaves)
+      ->check(CLI::Range(1U, 1'000'000'000U))
+      ->type_name("number");
   app.add_flag("--render", options.render);
   app.add_flag("--preview", options.preview);
   app.add_option("--seed", options.seed)->type_name("number");

@@ -8,6 +8,7 @@
 
 #include <CLI/App.hpp>
 
+#include "csg/eval/evaluator.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/settings.h"
 
@@ -36,6 +37,8 @@ struct DesignOptions {
   std::uint32_t seed = 0;
   bool checks_parameters = true;
   bool checks_parameter_ranges = false;
+  std::uint32_t max_depth = csg::EvaluateOptions().max_depth;
+  std::uint32_t max_leaves = csg::EvaluateOptions().max_leaves;
   // openscad's modes of --render and --preview; empty: not given. Which one it
   // is shows in nothing but $preview.
   std::string render;

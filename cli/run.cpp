@@ -126,6 +126,8 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
   options.seed = run.options.seed;
   options.check_parameters = run.options.checks_parameters;
   options.check_ranges = run.options.checks_parameter_ranges;
+  options.max_depth = run.options.max_depth;
+  options.max_leaves = run.options.max_leaves;
   run.typesetter.add_fonts(run.loader.fonts());
   options.text_measurer = &run.typesetter;
   const std::size_t errors = count(run.diagnostics, Severity::kError);

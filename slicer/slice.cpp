@@ -18,10 +18,26 @@
 namespace lamina::slicer {
 namespace {
 
+// No machine builds so many: 500 m of the usual ones. Formats have tables of
+// them, and adaptive layers a cell for each.
+constexpr double kMostLayers = 1e7;
+
+void require_layers(const csg::Scene& scene, double thickness) {
+  const double count = (scene.box.high.z - scene.box.low.z) / thickness;
+  if (count <= kMostLayers) return;
+  throw GeometryError(
+      {Severity::kError,
+       {},
+       fmt::format("Too many layers: {:.3g} of {:g} mm, at most {:g} can be; "
+                   "--layer makes them thicker",
+                   count, thickness, kMostLayers)});
+}
+
 ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
   if (!settings.heights.empty()) {
     return ldni::LayerGrid::at_heights(settings.heights);
   }
+  require_layers(scene, settings.layer_thickness);
   if (settings.cusp > 0) return adaptive_grid(scene, settings);
   return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
                                   settings.layer_thickness);

@@ -97,6 +97,8 @@ Limits (an exceeded one is an error; see docs/usage.md for all):
                       machine has [80%]
   --max-time SECONDS  time by the clock; of several designs, of pieces and of
                       runs under --watch each by itself [none]
+  --max-depth N       nested calls of functions and modules [300000]
+  --max-leaves N      parts of the design, once all loops have run [10000000]
 
 For comparison, the method of Zeng et al. 2011:
   --contour MODE      faithful: exact contours; paper: linked rays [faithful]

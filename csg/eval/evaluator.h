@@ -25,6 +25,10 @@ class Loader;
 
 namespace lamina::csg {
 
+// Far more nested calls than any design needs, few enough to fail within a
+// second.
+inline constexpr std::uint32_t kMostNestedCalls = 300000;
+
 struct EvaluateOptions {
   bool preview = true;     // $preview
   double time = 0;         // $t
@@ -37,6 +41,12 @@ struct EvaluateOptions {
   // Calls and turns of loops that the evaluation may take. For who cannot end
   // the process of one that runs for hours; it is the same on every machine.
   std::uint64_t max_steps = UINT64_MAX;
+  // Calls of functions and modules that may be nested (`--max-depth`), as far
+  // as the stack goes.
+  std::uint32_t max_depth = kMostNestedCalls;
+  // Nodes without children that the tree may have (`--max-leaves`). On their
+  // way to the layers they take about 1 kB each.
+  std::uint32_t max_leaves = 10'000'000;
   // Arguments that a user's module has no parameter for are warned of
   // (`--check-parameters`); those of functions and built-in modules always.
   bool check_parameters = true;
@@ -50,7 +60,8 @@ struct EvaluateOptions {
 //
 // loader       knows the used files of `program`; outlives the call
 // diagnostics  gets echoes, warnings and the error that ended the evaluation
-//              early (failed assertion, endless recursion), if one did
+//              early (failed assertion, endless recursion, a limit), if one
+//              did
 // returns      the tree, rooted in the implicit group of the top level. After
 //              an error it is empty. If instantiations carry `!`, those nodes
 //              say is_root; select_root() applies it.

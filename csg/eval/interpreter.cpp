@@ -127,8 +127,17 @@ void Interpreter::note_call(std::string_view name, SourceRange range,
 void Interpreter::fail_recursion(SourceRange range, std::string_view kind,
                                  std::string_view name,
                                  const Source* document) {
-  fail(range, fmt::format("Recursion detected calling {} '{}'", kind, name),
-       document);
+  Diagnostic diagnostic;
+  diagnostic.range = range;
+  diagnostic.message =
+      fmt::format("Recursion detected calling {} '{}'", kind, name);
+  diagnostic.document = document;
+  if (depth_ > options_.max_depth) {
+    diagnostic.hints.push_back(
+        {range, fmt::format("{} calls are nested, the limit of --max-depth",
+                            options_.max_depth)});
+  }
+  end_with(std::move(diagnostic));
 }
 
 void Interpreter::fail_steps() {
@@ -257,6 +266,13 @@ const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
 
 void Interpreter::make_node(decltype(Node::op) op,
                             const InstantiationCode& code, std::size_t mark) {
+  if (mark == nodes_.size() && leaf_count_++ == options_.max_leaves) {
+    fail(code.range,
+         fmt::format("Too many leaves: more than the {} that --max-leaves "
+                     "allows",
+                     options_.max_leaves),
+         nullptr);
+  }
   Node* node = new (arena_.allocate(sizeof(Node), alignof(Node))) Node;
   node->op = op;
   node->children = keep_all(nodes_since(mark));

@@ -71,7 +71,7 @@ class Interpreter {
   // --- Calls being run
   // Whether calls are nested too deep, or the C++ stack is nearly used up.
   bool is_too_deep() const {
-    return depth_ > kMostNestedCalls ||
+    return depth_ > options_.max_depth ||
            reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
                stack_limit_;
   }
@@ -143,7 +143,8 @@ class Interpreter {
 
   // --- Nodes
   std::size_t node_mark() const { return nodes_.size(); }
-  // Replaces the nodes made since `mark` by one with these children.
+  // Replaces the nodes made since `mark` by one with these children. Fails
+  // where the tree gets too many leaves.
   void make_node(decltype(Node::op) op, const InstantiationCode& code,
                  std::size_t mark);
   void drop_nodes(std::size_t mark) { nodes_.resize(mark); }
@@ -196,9 +197,6 @@ class Interpreter {
     Value value;
   };
 
-  // Far more than any design needs, few enough to fail within a second.
-  static constexpr std::uint32_t kMostNestedCalls = 300000;
-
   void assign_unusual(const Target& target, Value value, Frame& frame);
   [[noreturn]] void end_with(Diagnostic diagnostic);
   [[noreturn]] void fail_steps();
@@ -225,6 +223,7 @@ class Interpreter {
   // messages, reads of `$` variables, random numbers.
   std::uint64_t effects_ = 0;
   std::vector<const Node*> nodes_;
+  std::uint32_t leaf_count_ = 0;
   std::array<const Mat4*, 64> recent_matrices_{};  // by hash
   std::set<std::pair<std::string, std::string>> deprecations_;
   std::vector<std::string> files_;

@@ -10,6 +10,7 @@
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/file_bytes.h"
 #include "csg/import/format_error.h"
+#include "csg/limits.h"
 
 namespace lamina::csg {
 namespace {
@@ -28,6 +29,8 @@ class MeshBuilder {
   Mesh build() {
     const std::size_t columns = field_.columns;
     const std::size_t rows = field_.rows;
+    require_triangles(4 * static_cast<double>(columns) *
+                      static_cast<double>(rows));
     mesh_.vertices.reserve(2 * columns * rows + 2 * (columns + rows));
     mesh_.triangles.reserve(4 * columns * rows + 6 * (columns + rows));
     for (std::size_t row = 0; row < rows; ++row) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "csg/degrees.h"
+#include "csg/limits.h"
 
 namespace lamina::planar {
 namespace {
@@ -16,10 +17,10 @@ constexpr double kSmallestRadius = 0.00000095367431640625;
 // A slice that turns by more than a third of a circle is no longer a solid.
 constexpr double kGreatestTwistPerSlice = 120;
 
-// More facets than this, or than any number, are that many.
-constexpr double kMostFacets = 1 << 30;
-
-int to_count(double x) { return static_cast<int>(std::min(x, kMostFacets)); }
+int to_count(double x) {
+  csg::require_fragments(x);
+  return static_cast<int>(x);
+}
 
 // As many slices are none that no int can count, as $fs = 0 asks for.
 int to_slices(double x) {

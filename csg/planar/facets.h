@@ -12,7 +12,7 @@
 
 namespace lamina::planar {
 
-// Number of sides of a circle of radius r [mm]; at least 3.
+// Number of sides of a circle of radius r [mm], 3 to csg::kMostFragments.
 int fragment_count(double r, const csg::Facets& facets);
 
 // Number of chords of a curve in a text of this size: fewer than of a circle,

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "csg/limits.h"
 #include "csg/planar/facets.h"
 
 namespace lamina::csg {
@@ -15,10 +16,10 @@ using std::numbers::pi;
 
 // OpenSCAD's least number of sides where $fn does not say.
 constexpr int kFewest = 5;
-constexpr double kMost = 1 << 24;
 
 int to_count(double x) {
-  return static_cast<int>(std::clamp(std::ceil(x), 1.0, kMost));
+  require_fragments(x);
+  return static_cast<int>(std::max(std::ceil(x), 1.0));
 }
 
 // The angle whose chord in a circle of radius r has this height. [rad]
@@ -88,7 +89,7 @@ int sphere_fragments(double r, const Fineness& fineness) {
   // About π²/n² of the radius; a little fewer to begin with.
   const double error = fineness.chordal_error;
   int n = std::max(to_count(0.9 * pi / std::sqrt(error / r)), kFewest);
-  while (n < kMost && sphere_error(r, n) > error) ++n;
+  while (n < kMostFragments && sphere_error(r, n) > error) ++n;
   return n;
 }
 

@@ -5,13 +5,30 @@
 #include <utility>
 
 #include "csg/degrees.h"
+#include "csg/limits.h"
 #include "csg/planar/facets.h"
 #include "csg/solid/detail/leaf_box.h"
 
 namespace lamina::csg {
 namespace {
 
+// As a mesh the sweep would have about so many.
+double triangle_count(const Sweep& sweep) {
+  return 2.0 * static_cast<double>(sweep.outline->size()) *
+         static_cast<double>(sweep.profile.size());
+}
+
+double triangle_count(const Leaf& leaf) {
+  double count = 0;
+  for (const Sweep& sweep : leaf.sweeps) count += triangle_count(sweep);
+  for (const Mesh& mesh : leaf.meshes) {
+    count += static_cast<double>(mesh.triangles.size());
+  }
+  return count;
+}
+
 Leaf make_leaf(Sweep sweep) {
+  require_triangles(triangle_count(sweep));
   Leaf leaf;
   leaf.sweeps.push_back(std::move(sweep));
   leaf.sweep_is_cavity.push_back(false);
@@ -117,6 +134,7 @@ std::uint32_t LeafStore::unit_height_cone(double r1, double r2, bool center,
 }
 
 std::uint32_t LeafStore::add(Leaf leaf) {
+  require_triangles(triangle_count(leaf));
   const std::uint64_t key = hash(leaf);
   const auto [begin, end] = others_.equal_range(key);
   for (auto other = begin; other != end; ++other) {

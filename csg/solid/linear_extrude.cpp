@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/degrees.h"
+#include "csg/limits.h"
 #include "csg/planar/triangulate.h"
 #include "csg/solid/detail/extrude.h"
 #include "csg/solid/detail/fineness.h"
@@ -44,6 +45,27 @@ double max_shift(const Region& region, Vec2 scale) {
   return shift;
 }
 
+// Of an edge, so that none is longer; 0: it stays whole.
+double part_count(Vec2 edge, double longest) {
+  return longest == 0 ? 1
+                      : std::max(std::ceil(glm::length(edge) / longest), 1.0);
+}
+
+Vec2 edge_at(const Contour& contour, std::size_t i) {
+  return contour[(i + 1) % contour.size()] - contour[i];
+}
+
+// Of the sides, once edges are split.
+double triangle_count(const Region& region, const ExtrusionSteps& steps) {
+  double points = 0;
+  for (const Contour& contour : region.contours) {
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      points += part_count(edge_at(contour, i), steps.longest_edge);
+    }
+  }
+  return 2 * points * steps.slices;
+}
+
 // The region with points added so that no edge is longer; 0: as it is.
 Region split_edges(const Region& region, double longest) {
   if (longest == 0) return region;
@@ -52,9 +74,8 @@ Region split_edges(const Region& region, double longest) {
     Contour& points = split.contours.emplace_back();
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const Vec2 begin = contour[i];
-      const Vec2 edge = contour[(i + 1) % contour.size()] - begin;
-      const double parts =
-          std::max(std::ceil(glm::length(edge) / longest), 1.0);
+      const Vec2 edge = edge_at(contour, i);
+      const double parts = part_count(edge, longest);
       for (double k = 0; k < parts; ++k) {
         points.push_back(begin + edge * (k / parts));
       }
@@ -213,6 +234,7 @@ Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region,
   const ExtrusionSteps steps =
       extrusion_steps(params, max_radius(region),
                       max_shift(region, params.scale), chordal_error);
+  require_triangles(triangle_count(region, steps));
   const Region outline = split_edges(region, steps.longest_edge);
   Leaf leaf;
   leaf.meshes.push_back(

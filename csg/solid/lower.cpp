@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/limits.h"
 #include "csg/solid/detail/lowerer.h"
 #include "csg/solid/detail/range.h"
 
@@ -87,6 +88,9 @@ Shape Lowerer::lower(const Node& node, const Affine& world) {
                       node.op);
   } catch (const std::range_error&) {
     fail_too_far(node.range, node.caller);
+  } catch (const LimitExceeded& limit) {
+    throw GeometryError(
+        {Severity::kError, node.range, limit.what(), call_chain(node.caller)});
   }
 }
 

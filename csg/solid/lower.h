@@ -49,7 +49,7 @@ struct Lowered {
 // as the tree is nested. Time and memory are linear in the tree.
 //
 // throws  GeometryError where the solid, or a polygon or face that has to be
-//         clipped on the way, reaches beyond 1e9 mm
+//         clipped on the way, reaches beyond 1e9 mm; by csg/limits.h
 //
 // The scene keeps pointers to the tree's call frames, to nothing else in it.
 Lowered lower(const Tree& tree, const LowerOptions& options,

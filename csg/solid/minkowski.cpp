@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "csg/limits.h"
 #include "csg/planar/convex_faces.h"
 #include "csg/planar/triangulate.h"
 #include "csg/solid/boundary_faces.h"
@@ -241,7 +242,36 @@ void add(const Body& a, const Body& b, Operand& sum) {
   }
 }
 
+// What takes part in a sum: convex parts, and faces of bodies.
+struct Extent {
+  double parts = 0;
+  double vertices = 0;
+
+  void add(const std::vector<Convex>& convex) {
+    parts += static_cast<double>(convex.size());
+    for (const Convex& part : convex) {
+      vertices += static_cast<double>(part.vertices.size());
+    }
+  }
+};
+
+Extent extent_of(const Operand& operand) {
+  Extent extent;
+  extent.add(operand.convex);
+  for (const Body& body : operand.bodies) extent.add(*body.faces);
+  return extent;
+}
+
+// Each part of one meets each of the other, and their sum has no fewer vertices
+// than either.
+double least_triangles(const Operand& a, const Operand& b) {
+  const Extent of_a = extent_of(a);
+  const Extent of_b = extent_of(b);
+  return 2 * std::max(of_a.parts * of_b.vertices, of_b.parts * of_a.vertices);
+}
+
 Operand add(const Operand& a, const Operand& b) {
+  require_triangles(least_triangles(a, b));
   Operand sum;
   for (const Convex& p : a.convex) {
     for (const Convex& q : b.convex) sum.convex.push_back(add_convex(p, q));

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "csg/degrees.h"
+#include "csg/limits.h"
 #include "csg/planar/triangulate.h"
 #include "csg/solid/detail/extrude.h"
 
@@ -185,6 +186,11 @@ Leaf extrude_around(const Region& region, double angle_deg, int fragments) {
     }
     return turn.take();
   }
+  double points = 0;
+  for (const Contour& contour : region.contours) {
+    points += static_cast<double>(contour.size());
+  }
+  require_triangles(2 * points * fragments);
   Leaf leaf;
   leaf.meshes.push_back(PartTurn(region, angle_deg, fragments)
                             .extrude((angle_deg < 0) != (side < 0)));

@@ -227,5 +227,118 @@ TEST(MaxMemory, OfTheSystemIsNamed) {
   expect_no_output(folder);
 }
 
+// --- What a design may ask for
+// -----------------------------------------------------
+
+// What is refused before it is made: within a second, in little memory.
+void expect_refused(const std::string& design, const std::string& error,
+                    const std::vector<std::string>& options = {}) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", design);
+  std::vector<std::string> words = {"a.scad"};
+  words.insert(words.end(), options.begin(), options.end());
+  const auto result = run(folder, words);
+  EXPECT_EQ(result.status, 1) << design;
+  EXPECT_TRUE(result.errors.starts_with(error)) << result.errors;
+  EXPECT_LT(result.peak_memory_kib, 300 * 1000) << design;
+  expect_no_output(folder);
+}
+
+constexpr const char* kTooManyOfACircle =
+    " of a circle, at most 1000000 can be ($fn, or the radius with $fa and "
+    "$fs)";
+
+TEST(Fragments, AreAMillionAtMost) {
+  const struct {
+    const char* design;
+    const char* place;
+    const char* count;
+  } cases[] = {
+      {"cylinder(r = 1, h = 1, $fn = 1000001);", "1:1", "1000001"},
+      {"translate([1, 0])\n  circle(1, $fn = 1e300);", "2:3", "1e+300"},
+      {"sphere(1e6, $fa = 1e-9, $fs = 1e-3);", "1:1", "6.283185e+09"},
+      {"sphere(1e6, $fa = 0, $fs = 1e-3);", "1:1", "6.283185e+09"},
+      {"sphere(1, $fa = 0, $fs = 0);", "1:1", "inf"},
+      {"rotate_extrude($fn = 1e7) translate([2, 0]) square(1);", "1:1",
+       "1e+07"},
+      {"linear_extrude(1) offset(1, $fn = 1e8) square(1);", "1:19", "1e+08"},
+      {"linear_extrude(1) text(\"o\", $fn = 1e8);", "1:19", "1e+08"},
+  };
+  for (const auto& one : cases) {
+    expect_refused(one.design, std::string("a.scad:") + one.place +
+                                   ": error: Too many fragments: " + one.count +
+                                   kTooManyOfACircle);
+  }
+}
+
+TEST(Fragments, OfAMillionAreMade) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cylinder(r = 1, h = 0.1, $fn = 1e6);");
+  EXPECT_EQ(run(folder, {"a.scad", "-q"}).status, 0);
+}
+
+TEST(Triangles, OfAPartAreAHundredMillionAtMost) {
+  for (const char* const design :
+       {"sphere(1, $fn = 20000);",
+        "linear_extrude(1, twist = 360, slices = 1e8) square(1);",
+        "linear_extrude(1, twist = 1e9, slices = 2147483647) square(1);",
+        "linear_extrude(1, scale = [1, 2], $fn = 1e8) square(1);",
+        "rotate_extrude($fn = 1e6) translate([2, 0]) circle(1, $fn = 1e3);",
+        "rotate_extrude(angle = 300, $fn = 1e6) translate([2, 0]) "
+        "circle(1, $fn = 1e3);",
+        "minkowski() { difference() { cube(9); sphere(3, $fn = 200); } "
+        "sphere(1, $fn = 200); }"}) {
+    const TemporaryFolder folder;
+    expect_refused(design, "a.scad:1:1: error: Too many triangles: ");
+  }
+}
+
+TEST(Triangles, OfAPartNameItsCallers) {
+  expect_refused(
+      "module ball() sphere(1, $fn = 20000);\nball();",
+      "a.scad:1:15: error: Too many triangles: 4e+08 of one part, at most "
+      "1e+08 can be\n"
+      "    1 | module ball() sphere(1, $fn = 20000);\n"
+      "      |               ^~~~~~~~~~~~~~~~~~~~~~~\n"
+      "a.scad:2:1: note: called by 'ball'");
+}
+
+TEST(Layers, AreTenMillionAtMost) {
+  const std::string error =
+      "error: Too many layers: 1e+09 of 1e-09 mm, at most 1e+07 can be; "
+      "--layer makes them thicker\n";
+  expect_refused("cube(1);", error, {"--layer", "1e-9"});
+  expect_refused("cube(1);", error, {"--layer", "1e-9", "--adaptive", "0.01"});
+}
+
+TEST(Leaves, AreCountedAsTheyAreMade) {
+  const char* const design =
+      "for (i = [0:9], j = [0:9])\n  translate([i, j]) cube(1);";
+  expect_refused(design,
+                 "a.scad:2:21: error: Too many leaves: more than the 99 that "
+                 "--max-leaves allows",
+                 {"--max-leaves", "99"});
+  const TemporaryFolder folder;
+  folder.write("a.scad", design);
+  EXPECT_EQ(run(folder, {"a.scad", "-q", "--max-leaves", "100"}).status, 0);
+}
+
+TEST(Depth, IsThatOfCalls) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "function f(n) = n == 1 ? 1 : 1 + f(n - 1); cube(f(50));\n"
+               "module m(n) if (n > 1) m(n - 1); m(50);");
+  EXPECT_EQ(run(folder, {"a.scad", "-q", "--max-depth", "51"}).status, 0);
+  const auto result = run(folder, {"a.scad", "--max-depth", "40"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors,
+                  "error: Recursion detected calling function "
+                  "'f'"))
+      << result.errors;
+  EXPECT_TRUE(
+      has(result.errors, "note: 40 calls are nested, the limit of --max-depth"))
+      << result.errors;
+}
+
 }  // namespace
 }  // namespace lamina::cli

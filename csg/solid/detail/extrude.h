@@ -1,5 +1,5 @@
 #pragma once
-// linear_extrude and rotate_extrude.
+// linear_extrude and rotate_extrude; beyond kMostTriangles they throw.
 
 #include "csg/planar/region.h"
 #include "csg/scene.h"

@@ -4,7 +4,7 @@
 // $fn decides where it is given. Else $fa and $fs do, by OpenSCAD's rules, or,
 // where a chordal error is asked for, it does: as few facets as keep their
 // distance from the surface that they stand for, measured in the plane across
-// the curve, within it.
+// the curve, within it. Throws LimitExceeded where these are too many.
 
 #include "csg/solid/detail/extrude.h"
 #include "csg/tree.h"

@@ -3,7 +3,7 @@
 //
 // A design repeats few shapes very often, so primitives are kept in unit size
 // by their number of facets (the size goes into the instance's matrix), and
-// anything else is compared with what is there already.
+// anything else is compared with those there. Beyond kMostTriangles it throws.
 
 #include <cstdint>
 #include <map>

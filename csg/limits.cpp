@@ -1,0 +1,23 @@
+#include "csg/limits.h"
+
+#include <fmt/format.h>
+
+namespace lamina::csg {
+
+void require_fragments(double count) {
+  if (count <= kMostFragments) return;
+  throw LimitExceeded(
+      fmt::format("Too many fragments: {:.7g} of a circle, at most {:.7g} can "
+                  "be ($fn, or the radius with $fa and $fs)",
+                  count, kMostFragments));
+}
+
+void require_triangles(double count) {
+  if (count <= kMostTriangles) return;
+  throw LimitExceeded(
+      fmt::format("Too many triangles: {:.3g} of one part, at most {:.3g} can "
+                  "be",
+                  count, kMostTriangles));
+}
+
+}  // namespace lamina::csg
