@@ -8,7 +8,7 @@ void require_fragments(double count) {
   if (count <= kMostFragments) return;
   throw LimitExceeded(
       fmt::format("Too many fragments: {:.7g} of a circle, at most {:.7g} can "
-                  "be ($fn, or the radius with $fa and $fs)",
+                  "be ($fn; $fa and $fs; --chordal-error)",
                   count, kMostFragments));
 }
 
