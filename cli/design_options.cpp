@@ -1,5 +1,7 @@
 #include "cli/design_options.h"
 
+#include <cmath>
+#include <cstdint>
 #include <string_view>
 
 #include <CLI/App.hpp>
@@ -51,6 +53,20 @@ slicer::SamplerKind sampler_kind(std::string_view word) {
   return slicer::SamplerKind::kScanline;
 }
 
+// A whole number from 1 to `most`. CLI11's own checks make a text of their
+// bounds at every start.
+void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
+               std::uint32_t& target) {
+  add_text(app, name, "number", [=, &target](const std::string& text) {
+    const double count = require_within(name, text, 1, most, "");
+    if (count != std::floor(count)) {
+      throw CLI::ValidationError(
+          name, fmt::format("a whole number was expected, not '{}'", text));
+    }
+    target = static_cast<std::uint32_t>(count);
+  });
+}
+
 }  // namespace
 
 void add_design_options(CLI::App& app, DesignOptions& options) {
@@ -71,12 +87,8 @@ void add_design_options(CLI::App& app, DesignOptions& options) {
   file->type_name("file")->needs(set);
   add_switch(app, "--check-parameters", options.checks_parameters);
   add_switch(app, "--check-parameter-ranges", options.checks_parameter_ranges);
-  app.add_option("--max-depth", options.max_depth)
-      ->check(CLI::Range(1U, csg::kMostNestedCalls))
-      ->type_name("number");
-  app.add_option("--max-leaves", options.max_leaves)
-      ->check(CLI::Range(1U, 1'000'000'000U))
-      ->type_name("number");
+  add_count(app, "--max-depth", csg::kMostNestedCalls, options.max_depth);
+  add_count(app, "--max-leaves", 1'000'000'000, options.max_leaves);
   app.add_flag("--render", options.render);
   app.add_flag("--preview", options.preview);
   app.add_option("--seed", options.seed)->type_name("number");
@@ -138,9 +150,7 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
   add_choice(
       app, "--sampler", {"scanline", "gl", "gl-peeling"},
       [&](const std::string& kind) { settings.sampler = sampler_kind(kind); });
-  app.add_option("--threads", settings.threads)
-      ->check(CLI::Range(1U, 1024U))
-      ->type_name("number");
+  add_count(app, "--threads", 1024, settings.threads);
 }
 
 }  // namespace lamina::cli
