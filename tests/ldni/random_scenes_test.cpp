@@ -228,15 +228,15 @@ class ScatteredScene {
     const bool is_drilled = random_() % 2 == 0;
     testing::SceneBuilder builder(is_drilled ? BooleanOp::kDifference
                                              : BooleanOp::kIntersection);
-    if (is_drilled) add_large(builder, 2.6);
+    if (is_drilled) add_large(builder, 3.6);
     const bool is_grouped = random_() % 2 == 0 || !is_drilled;
     if (is_grouped) builder.begin(BooleanOp::kUnion);
-    const std::uint64_t count = 3 + random_() % 60;
+    const std::uint64_t count = 3 + random_() % 90;
     for (std::uint64_t i = 0; i < count; ++i) add_small(builder);
     if (is_grouped) builder.end();
     if (!is_drilled) {
       builder.begin(BooleanOp::kDifference);
-      add_large(builder, 2.6);
+      add_large(builder, 3.6);
       add_large(builder, 1.1);
       builder.end();
     }
@@ -273,7 +273,8 @@ class ScatteredScene {
   void add_small(testing::SceneBuilder& builder) {
     using namespace testing;
     Vec3 place(0);
-    for (int axis = 0; axis < 3; ++axis) place[axis] = 6 * unit() - 3;
+    for (int axis = 0; axis < 2; ++axis) place[axis] = 8 * unit() - 4;
+    place.z = 1.2 * unit() - 0.6;
     if (random_() % 2 == 0) place = glm::round(2.0 * place) / 2.0;
     const double size = random_() % 3 == 0 ? 0.5 : 0.1 + 0.5 * unit();
     const Affine to_place = translated(place);
@@ -302,7 +303,8 @@ TEST(RandomScenes, ScatteredLeavesAreWhatTheyAreAmongOthers) {
   const std::uint64_t first_seed = number_from("LAMINA_RANDOM_SEED", 1);
   Tally tally;
   for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
-    SceneJudge(seed, SceneStyle::kNoisy, 1, tally)
+    // Of so many leaves some pass within a tie of others.
+    SceneJudge(seed, SceneStyle::kDuplicate, 1, tally)
         .judge(ScatteredScene(seed).make(), 0);
     if (tally.failures > 20) break;
   }
