@@ -29,7 +29,8 @@ constexpr double kMiterLimit = 1000000;
 constexpr double kStrokeMiterLimit = 2;
 
 [[noreturn]] void fail_range_check() {
-  throw std::range_error("Range check failed for polygon");
+  throw std::range_error(
+      "Coordinates beyond 1e9 mm: too large for exact layers");
 }
 
 ClipperLib::cInt to_grid(double x) {

@@ -69,6 +69,24 @@ TEST(Compile, WarnsOfDesignsTooFarFromTheOriginForSlc) {
   EXPECT_FALSE(has(run(folder, {"near.scad"}).errors, "apart"));
 }
 
+// A face in its own plane may reach farther than its coordinates.
+TEST(Compile, DesignsTooLargeToFindTheirFacesAreAtFault) {
+  const TemporaryFolder folder;
+  folder.write("huge.scad",
+               "rotate(45) linear_extrude(2, twist = 20, slices = 3) "
+               "square(6e8);");
+  const std::vector<std::string> words = {"huge.scad", "--layer", "1"};
+  EXPECT_EQ(run(folder, words).status, 0);
+  std::filesystem::remove(folder.file("huge.slc"));
+  std::vector<std::string> placed = words;
+  placed.emplace_back("--place-on-bed");
+  const auto result = run(folder, placed);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors,
+            "error: Coordinates beyond 1e9 mm: too large for exact layers\n");
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
 TEST(Compile, QuietSaysNothing) {
   const TemporaryFolder folder;
   folder.write("a.scad", "echo(1); cube(1); foo();");
