@@ -56,9 +56,54 @@ class Turn {
   void* to_;
 };
 
+// for_each_index() without what must be told.
+void run_tasks(std::size_t count, const std::function<void(std::size_t)>& task);
+
 // Calls body(0) … body(count - 1), several at a time, in any order; ends when
 // all have.
-void for_each_index(std::size_t count,
-                    const std::function<void(std::size_t)>& body);
+inline void for_each_index(std::size_t count,
+                           const std::function<void(std::size_t)>& body) {
+  // Static: a task finds them before it has taken over anything else.
+  static char begin;
+  static char end;
+  const std::function<void(std::size_t)> task = [&body](std::size_t i) {
+    const Turn turn(&begin, &end);
+    body(i);
+  };
+  const Lent lent_begin(&begin);
+  const Lent lent_end(&end);
+  run_tasks(count, task);
+}
+
+// What is done to each of a row of items: start and finish take one at a time,
+// in order; work takes several at a time. An item is known by its place among
+// those under way; start is false where there is none left.
+struct Stages {
+  std::function<bool(std::size_t)> start;
+  std::function<void(std::size_t)> work;
+  std::function<void(std::size_t)> finish;
+};
+
+// run_pipeline() without what must be told.
+void run_stages(std::size_t places, const Stages& stages);
+
+// At most `places` items are under way.
+inline void run_pipeline(std::size_t places, const Stages& stages) {
+  static char begin;
+  const Stages told = {[&stages](std::size_t place) {
+                         take_over(&begin);
+                         return stages.start(place);
+                       },
+                       [&stages](std::size_t place) {
+                         take_over(&begin);
+                         stages.work(place);
+                       },
+                       [&stages](std::size_t place) {
+                         take_over(&begin);
+                         stages.finish(place);
+                       }};
+  const Lent lent_begin(&begin);
+  run_stages(places, told);
+}
 
 }  // namespace lamina::slicer

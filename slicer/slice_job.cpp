@@ -13,7 +13,6 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_pipeline.h>
 
 #include "slicer/compensate.h"
 #include "slicer/layer.h"
@@ -231,8 +230,6 @@ class Job {
     return true;
   }
 
-  std::uint32_t started() const { return started_; }
-
   void hand_on(Block& block) {
     report_.section_seconds += block.section_seconds;
     report_.sweep_seconds += block.sweep_seconds;
@@ -282,34 +279,25 @@ void run_together(Job& job, unsigned threads, const MakeWorker& make_worker,
   std::vector<Block> blocks(kBlocksPerThread * threads);
   // Input and output keep the same order and at most blocks.size() blocks are
   // under way, so the oldest block's memory is free again.
-  const auto next_block = [&](tbb::flow_control& flow) -> Block* {
+  Stages stages;
+  stages.start = [&](std::size_t place) {
     const Turn turn(&job);
-    Block& block = blocks[job.started() % blocks.size()];
-    const Turn block_turn(&block);
-    if (job.start(block)) return &block;
-    flow.stop();
-    return nullptr;
+    const Turn block_turn(&blocks[place]);
+    return job.start(blocks[place]);
   };
-  const auto make_contours = [&](Block* block) {
-    const Turn turn(block);
-    workers.local().make_contours(*block);
-    return block;
+  stages.work = [&](std::size_t place) {
+    const Turn turn(&blocks[place]);
+    workers.local().make_contours(blocks[place]);
   };
-  const auto hand_on = [&](Block* block) {
+  stages.finish = [&](std::size_t place) {
     const Turn turn(&report);
-    const Turn block_turn(block);
-    job.hand_on(*block);
+    const Turn block_turn(&blocks[place]);
+    job.hand_on(blocks[place]);
   };
   {
     const Lent lent_job(&job);
     const Lent lent_report(&report);
-    tbb::parallel_pipeline(blocks.size(),
-                           tbb::make_filter<void, Block*>(
-                               tbb::filter_mode::serial_in_order, next_block) &
-                               tbb::make_filter<Block*, Block*>(
-                                   tbb::filter_mode::parallel, make_contours) &
-                               tbb::make_filter<Block*, void>(
-                                   tbb::filter_mode::serial_in_order, hand_on));
+    run_pipeline(blocks.size(), stages);
   }
   for (const Worker& worker : workers) worker.report_to(report);
 }
