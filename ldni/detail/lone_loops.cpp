@@ -63,7 +63,7 @@ void LoneLoops::find(const ChainBlock& block, std::uint32_t layer,
                      const LeafSets& sets) {
   points_ = block.points;
   chains_ = block.layer(layer);
-  sides_.assign(chains_.size(), kNone);
+  sides_.assign(chains_.size(), kNoSide);
   const std::span<const ChainLoop> loops = block.loops_of(layer);
   if (!is_worthwhile(loops)) return;
   list_candidates(loops, sets);
@@ -75,7 +75,7 @@ void LoneLoops::find(const ChainBlock& block, std::uint32_t layer,
     if (!is_alone(i)) continue;
     const Candidate& candidate = candidates_[i];
     const Side side = side_of(candidate);
-    if (side == kNone) continue;
+    if (side == kNoSide) continue;
     sides_[candidate.chain] = side;
     sides_[candidate.chain + 1] = side == kLower ? kUpper : kLower;
   }
@@ -142,9 +142,9 @@ LoneLoops::Side LoneLoops::side_of(const Candidate& candidate) const {
   const auto b = points_of(chains_[candidate.chain + 1], points_);
   const double area = area_below(b) - area_below(a);
   const Vec2 size = candidate.high - candidate.low;
-  if (std::abs(area) < kMargin * (size.x + size.y)) return kNone;
-  if (area > 0) return bends_left(a) && bends_right(b) ? kLower : kNone;
-  return bends_right(a) && bends_left(b) ? kUpper : kNone;
+  if (std::abs(area) < kMargin * (size.x + size.y)) return kNoSide;
+  if (area > 0) return bends_left(a) && bends_right(b) ? kLower : kNoSide;
+  return bends_right(a) && bends_left(b) ? kUpper : kNoSide;
 }
 
 // Cells half as large as a candidate is on the average, but not too many.

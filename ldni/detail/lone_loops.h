@@ -26,11 +26,11 @@ class LoneLoops {
   void find(const ChainBlock& block, std::uint32_t layer, const LeafSets& sets);
 
   // Of a chain of the layer, by its number there.
-  bool is_lone(std::uint32_t chain) const { return sides_[chain] != kNone; }
+  bool is_lone(std::uint32_t chain) const { return sides_[chain] != kNoSide; }
   bool is_lower(std::uint32_t chain) const { return sides_[chain] == kLower; }
 
  private:
-  enum Side : std::uint8_t { kNone, kLower, kUpper };
+  enum Side : std::uint8_t { kNoSide, kLower, kUpper };
   // Cells of a box, both ends included.
   struct Cells {
     std::int32_t first_column = 0;
