@@ -26,6 +26,9 @@ def time_slack():
 RAW = re.compile(rb"internal error|\bstd::|bad_alloc|terminate called|"
                  rb"basic_string|\bvector::|out_of_range|what\(\)|Sanitizer")
 
+# A line of the design that a message shows; what stands there is the design's.
+SHOWN = re.compile(rb"^ *\d+ \|.*$", re.MULTILINE)
+
 GOOD = ("exit 0", "exit 1")
 BAD = ("exit 2", "other exit", "signal", "over time", "over memory",
        "no words", "raw words", "no output", "leftovers")
@@ -142,7 +145,7 @@ class Sandbox:
             return "signal"
         if status not in (0, 1):
             return "exit 2" if status == 2 else "other exit"
-        if RAW.search(words):
+        if RAW.search(SHOWN.sub(b"", words)):
             return "raw words"
         # The .echo of a design that is at fault holds its messages.
         if left or (status == 1 and output.exists() and
