@@ -43,7 +43,8 @@ double greatest_coordinate(const std::vector<Layer>& layers) {
 
 class ComparedFile : public Compared {
  public:
-  explicit ComparedFile(const std::string& path) : Compared(path) {}
+  ComparedFile(const std::string& path, const FileAccess& access)
+      : Compared(path), file_access_(access) {}
 
   std::string description() const override {
     return facts_.writer.empty()
@@ -55,7 +56,8 @@ class ComparedFile : public Compared {
     if (!layers_) {
       layers_.emplace();
       facts_ = slicer::read_layers(
-          name(), [&](Layer& layer) { layers_->push_back(std::move(layer)); });
+          name(), [&](Layer& layer) { layers_->push_back(std::move(layer)); },
+          file_access_);
     }
     return *layers_;
   }
@@ -74,6 +76,7 @@ class ComparedFile : public Compared {
   bool is_precision_assumed() const override { return !facts_.deviation; }
 
  private:
+  const FileAccess& file_access_;
   slicer::LayerFileFacts facts_;
   std::optional<std::vector<Layer>> layers_;
 };
@@ -237,7 +240,7 @@ std::unique_ptr<Compared> open_compared(const std::string& path,
                                         slicer::TemporaryFiles& temporary_files,
                                         std::size_t stack) {
   if (slicer::is_readable_layer_file(path)) {
-    return std::make_unique<ComparedFile>(path);
+    return std::make_unique<ComparedFile>(path, temporary_files.file_access());
   }
   if (is_imported(path)) {
     const Rounding rounding =

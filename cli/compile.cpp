@@ -57,14 +57,15 @@ std::string sampler_name(const slicer::Settings& settings) {
 }
 
 // The panel of the printer; of formats without images an empty one.
-slicer::Panel chosen_panel(const DesignOptions& options) {
+slicer::Panel chosen_panel(const DesignOptions& options,
+                           const FileAccess& access) {
   if (!slicer::is_of_images(options.format)) return {};
   const std::string usual = options.format == OutputFormat::kSl1 ? "prusa-sl1"
                             : options.format == OutputFormat::kNanoDlp
                                 ? "wanhao-d7"
                                 : "plain";
-  slicer::Panel panel =
-      slicer::find_panel(options.printer.empty() ? usual : options.printer);
+  slicer::Panel panel = slicer::find_panel(
+      options.printer.empty() ? usual : options.printer, access);
   if (options.mirrors_x) panel.right = -panel.right;
   if (options.mirrors_y) panel.up = -panel.up;
   return panel;
@@ -111,7 +112,7 @@ int compile(Run& run) {
   slicer::WriterOptions how;
   how.format = run.options.format;
   if (run.options.cli_encoding) how.cli = *run.options.cli_encoding;
-  how.panel = chosen_panel(run.options);
+  how.panel = chosen_panel(run.options, run.file_access());
   if (deviation) how.deviation = deviation->from_section();
   const auto writer =
       slicer::make_layer_writer(how, run.options.output, run.temporary_files);

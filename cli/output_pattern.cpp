@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 
 namespace lamina::cli {
 namespace {
@@ -59,10 +58,9 @@ std::string fault_of_name(std::string_view text) {
   return "";
 }
 
-void make_folder_of(const std::string& output) {
+void make_folder_of(const std::string& output, const FileAccess& access) {
   const fs::path folder = fs::path(output).parent_path();
-  std::error_code ignored;
-  if (!folder.empty()) fs::create_directories(folder, ignored);
+  if (!folder.empty()) access.make_folders(folder);
 }
 
 std::string normal_path(const std::string& path) {

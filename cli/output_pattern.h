@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "parser/file_access.h"
+
 namespace lamina::cli {
 
 // The words in braces, in the order in which they stand there.
@@ -23,7 +25,7 @@ std::string fault_of_name(std::string_view text);
 
 // Makes the folder of an output, and those around it. Where that cannot be,
 // opening the output tells why.
-void make_folder_of(const std::string& output);
+void make_folder_of(const std::string& output, const FileAccess& access);
 
 // The same for two paths if they name the same file in the same words.
 std::string normal_path(const std::string& path);

@@ -1,8 +1,6 @@
 #include "cli/piece_table.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -22,23 +20,25 @@ namespace {
 constexpr const char* kNameColumn = "name";
 constexpr const char* kRowWord = "row";
 
-const Source& read_table(const std::string& path, SourceStore& sources) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) {
+const Source& read_table(const std::string& path, const FileAccess& access,
+                         SourceStore& sources) {
+  access.require(path);
+  std::optional<std::string> text = access.read(path);
+  if (!text) {
     throw FileError(
         {Severity::kError, {}, fmt::format("Can't open table '{}'", path)});
   }
-  return sources.add(path, std::move(text));
+  return sources.add(path, std::move(*text));
 }
 
 // What the design lets be set. Its warnings come with its pieces.
-Variables variables_of(const DesignOptions& options, SourceStore& sources,
-                       Diagnostics& diagnostics) {
+Variables variables_of(const DesignOptions& options, const FileAccess& access,
+                       SourceStore& sources, Diagnostics& diagnostics) {
   Diagnostics messages([&](const Diagnostic& message) {
     if (message.severity == Severity::kError) diagnostics.report(message);
   });
-  Loader loader(sources, messages, library_folders(), options.definitions);
+  Loader loader(sources, messages, library_folders(access), options.definitions,
+                access);
   return find_variables(loader.load(options.design), loader);
 }
 
@@ -49,11 +49,12 @@ struct Column {
 
 class TableReader {
  public:
-  TableReader(const TableOptions& options, SourceStore& sources,
-              Diagnostics& diagnostics)
+  TableReader(const TableOptions& options, const FileAccess& access,
+              SourceStore& sources, Diagnostics& diagnostics)
       : options_(options),
+        file_access_(access),
         sources_(sources),
-        csv_(read_csv(read_table(options.table, sources))),
+        csv_(read_csv(read_table(options.table, access, sources))),
         decimal_(csv_.separator == ',' ? DecimalSign::kPoint
                                        : DecimalSign::kPointOrComma),
         diagnostics_(diagnostics) {
@@ -68,7 +69,8 @@ class TableReader {
           {}, fmt::format("'{}' has no rows below its header", options_.table));
       return {};
     }
-    read_header(variables_of(options_.design, sources_, diagnostics_));
+    read_header(
+        variables_of(options_.design, file_access_, sources_, diagnostics_));
     std::vector<Piece> pieces;
     for (std::size_t i = 1; i < csv_.rows.size(); ++i) {
       pieces.push_back(read_piece(csv_.rows[i], i));
@@ -207,6 +209,7 @@ class TableReader {
   }
 
   const TableOptions& options_;
+  const FileAccess& file_access_;
   SourceStore& sources_;
   const Csv csv_;
   const DecimalSign decimal_;
@@ -217,6 +220,7 @@ class TableReader {
 
 // A word of the pattern can be {name} or {row} only.
 std::vector<Piece> read_sets(const TableOptions& options,
+                             const FileAccess& access,
                              Diagnostics& diagnostics) {
   for (const std::string& word : words_of_pattern(options.design.output)) {
     if (word == kRowWord || word == kNameColumn) continue;
@@ -227,7 +231,7 @@ std::vector<Piece> read_sets(const TableOptions& options,
                     word, options.design.output));
   }
   std::vector<Piece> pieces;
-  for (const std::string& name : parameter_set_names(options.table)) {
+  for (const std::string& name : parameter_set_names(options.table, access)) {
     Piece& piece = pieces.emplace_back();
     piece.options = options.design;
     piece.options.parameter_file = options.table;
@@ -270,12 +274,13 @@ void refuse_equal_outputs(const std::vector<Piece>& pieces,
 }  // namespace
 
 std::vector<Piece> read_pieces(const TableOptions& options,
-                               SourceStore& sources, Diagnostics& diagnostics) {
+                               const FileAccess& access, SourceStore& sources,
+                               Diagnostics& diagnostics) {
   std::vector<Piece> pieces;
   if (options.table.ends_with(".json")) {
-    pieces = read_sets(options, diagnostics);
+    pieces = read_sets(options, access, diagnostics);
   } else {
-    pieces = TableReader(options, sources, diagnostics).read();
+    pieces = TableReader(options, access, sources, diagnostics).read();
   }
   refuse_equal_outputs(pieces, diagnostics);
   return pieces;

@@ -15,6 +15,7 @@
 #include "cli/design_options.h"
 #include "cli/pieces.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 #include "parser/source.h"
 
 namespace lamina::cli {
@@ -32,6 +33,7 @@ struct TableOptions {
 // sources  keeps the table's text, in which errors have their places
 // throws   Error where the table or the design cannot be read
 std::vector<Piece> read_pieces(const TableOptions& options,
-                               SourceStore& sources, Diagnostics& diagnostics);
+                               const FileAccess& access, SourceStore& sources,
+                               Diagnostics& diagnostics);
 
 }  // namespace lamina::cli

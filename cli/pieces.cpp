@@ -109,7 +109,7 @@ class Workshop {
     Run run(options, temporary_files_, stack, &inbox);
     const int status = run_caught(run.terminal, run.diagnostics, [&] {
       if (!piece.fault.empty()) refuse_geometry(piece.fault);
-      make_folder_of(options.output);
+      make_folder_of(options.output, run.file_access());
       return compile(run);
     });
     outcome = outcome_of(run.report, status == kDone);

@@ -62,7 +62,8 @@ Run::Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
       evaluation_stack(std::min(stack / 2, kEvaluationStack)),
       terminal(run_options.is_quiet, inbox),
       diagnostics([this](const Diagnostic& d) { terminal.show(d); }),
-      loader(sources, diagnostics, library_folders(), run_options.definitions) {
+      loader(sources, diagnostics, library_folders(files.file_access()),
+             run_options.definitions, files.file_access()) {
   diagnostics.set_hard_warnings(run_options.has_hard_warnings);
 }
 
@@ -103,7 +104,7 @@ Loaded load(Run& run) {
       const bool is_good =
           options.parameter_file.empty() ||
           apply_parameter_set(options.parameter_file, options.parameter_set,
-                              program, run.diagnostics);
+                              program, run.diagnostics, run.file_access());
       return {std::move(program), !is_good};
     });
   } catch (const SyntaxError&) {
@@ -142,6 +143,8 @@ Evaluated evaluate(Run& run, const ast::Program& program) {
       throw;
     } catch (const FileError&) {
       throw;
+    } catch (const AccessError&) {
+      throw;
     } catch (const Error&) {
       return {{}, true};
     }
@@ -165,6 +168,7 @@ csg::LowerOptions lower_options(Run& run) {
   }
   how.chordal_error = options.chordal_error;
   how.typesetter = &run.typesetter;
+  how.file_access = &run.file_access();
   how.scale = options.scale;
   return how;
 }

@@ -31,6 +31,11 @@ struct Run {
   Run(const DesignOptions& run_options, slicer::TemporaryFiles& files,
       std::size_t stack, Inbox* inbox = nullptr);
 
+  // What may be read and written.
+  const FileAccess& file_access() const {
+    return temporary_files.file_access();
+  }
+
   const DesignOptions& options;
   slicer::TemporaryFiles& temporary_files;
   std::size_t evaluation_stack;
@@ -38,7 +43,8 @@ struct Run {
   SourceStore sources;
   Diagnostics diagnostics;
   Loader loader;
-  text::Typesetter typesetter{text::module_folders(), diagnostics};
+  text::Typesetter typesetter{text::module_folders(), diagnostics,
+                              file_access()};
   RunReport report;
   // Files that modules of the design name: drawings, meshes, images. Known
   // when the design has been evaluated.

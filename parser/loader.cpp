@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <utility>
+
+#include <sys/stat.h>
 
 #include "parser/detail/paths.h"
 #include "parser/parser.h"
@@ -23,20 +24,13 @@ constexpr const char* kInstalledLibraries = "/usr/share/openscad/libraries";
 constexpr std::uintmax_t kLargestText =
     std::numeric_limits<std::uint32_t>::max() / 2;
 
-bool is_plain_file(const fs::path& path) {
-  std::error_code failed;
-  return fs::exists(path, failed) && !fs::is_directory(path, failed);
-}
-
 // Where OpenSCAD finds no data folder of the user it takes the library folder
 // for "", which stands for the folder it runs in.
-std::string user_folder() {
+std::string user_folder(const FileAccess& access) {
   const char* home = std::getenv("HOME");
-  std::error_code failed;
   const fs::path data =
-      home == nullptr
-          ? fs::path()
-          : fs::canonical(fs::path(home) / ".local" / "share", failed);
+      home == nullptr ? ""
+                      : access.canonical(fs::path(home) / ".local" / "share");
   return data.empty() ? "" : (data / "OpenSCAD" / "libraries").string();
 }
 
@@ -48,7 +42,7 @@ bool is_open(const std::string& path, std::span<const Source* const> open) {
 
 }  // namespace
 
-std::vector<std::string> library_folders() {
+std::vector<std::string> library_folders(const FileAccess& access) {
   std::vector<std::string> folders;
   if (const char* paths = std::getenv("OPENSCADPATH")) {
     std::string_view rest = paths;
@@ -60,21 +54,23 @@ std::vector<std::string> library_folders() {
       rest.remove_prefix(end + 1);
     }
   }
-  folders.push_back(user_folder());
+  folders.push_back(user_folder(access));
   folders.emplace_back(kInstalledLibraries);
   return folders;
 }
 
 Loader::Loader(SourceStore& sources, Diagnostics& diagnostics,
-               std::vector<std::string> folders, std::string definitions)
+               std::vector<std::string> folders, std::string definitions,
+               const FileAccess& access)
     : sources_(sources),
       diagnostics_(diagnostics),
       folders_(std::move(folders)),
-      definitions_(std::move(definitions)) {}
+      definitions_(std::move(definitions)),
+      access_(access) {}
 
-std::string Loader::find(const Source& from, std::string_view name,
+std::string Loader::find(SourceRange place, std::string_view name,
                          std::span<const Source* const> open) {
-  std::string path = look_up(from, name, open);
+  std::string path = look_up(place, name, open);
   if (!path.empty()) add_file(path);
   return path;
 }
@@ -85,42 +81,40 @@ void Loader::add_file(const std::string& path) {
   }
 }
 
-std::string Loader::look_up(const Source& from, std::string_view name,
+std::string Loader::look_up(SourceRange place, std::string_view name,
                             std::span<const Source* const> open) const {
   const fs::path local(name);
-  std::error_code failed;
-  const auto accept = [&](const fs::path& path) {
-    return is_plain_file(path) && !is_open(path.string(), open);
+  const FileUse use = detail::is_font(name) ? FileUse::kData : FileUse::kCode;
+  const auto accept = [&](const std::string& path) {
+    return access_.is_file(path) && !is_open(path, open);
   };
   if (local.is_absolute()) {
-    return accept(local) ? fs::canonical(local, failed).string() : "";
+    access_.require(local, name, place, use);
+    return accept(local) ? access_.canonical(local) : "";
   }
-  fs::path beside = fs::path(detail::folder_of(from.path())) / local;
-  if (is_plain_file(beside)) beside = fs::canonical(beside, failed);
-  if (accept(beside)) return beside.string();
+  std::string beside =
+      fs::path(detail::folder_of(place.source->path())) / local;
+  access_.require(beside, name, place, use);
+  if (access_.is_file(beside)) beside = access_.canonical(beside);
+  if (accept(beside)) return beside;
+  // A library folder that may not be read is none.
   for (const std::string& folder : folders_) {
     const fs::path path = fs::path(folder) / local;
-    if (!is_plain_file(path)) continue;
+    if (!access_.is_file(path)) continue;
     return path.has_parent_path() && accept(path) ? path.string() : "";
   }
   return "";
 }
 
-std::optional<std::string> Loader::read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) return std::nullopt;
-  const std::streamoff size = file.tellg();
-  if (size < 0 || static_cast<std::uintmax_t>(size) > kLargestText) {
+std::optional<std::string> Loader::read(const std::string& path) const {
+  const OpenFile file = access_.open(path);
+  struct stat status {};
+  if (!file || ::fstat(file.descriptor(), &status) != 0 ||
+      static_cast<std::uintmax_t>(status.st_size) > kLargestText) {
     return std::nullopt;
   }
   // Room for what stands behind the text of a main file.
-  std::string text;
-  text.reserve(static_cast<std::size_t>(size) + definitions_.size() + 3);
-  text.resize(static_cast<std::size_t>(size));
-  file.seekg(0);
-  file.read(text.data(), size);
-  if (!file) return std::nullopt;
-  return text;
+  return file.read_all(definitions_.size() + 3);
 }
 
 const Source* Loader::open_include(const std::string& path) {
@@ -134,6 +128,7 @@ const Source* Loader::open_include(const std::string& path) {
 }
 
 ast::Program Loader::load(const std::string& path) {
+  access_.require(path);
   std::optional<std::string> text = read(path);
   if (!text) {
     throw FileError(
@@ -154,7 +149,9 @@ ast::Program Loader::load_text(const std::string& path, std::string text) {
 
 void Loader::note_fonts(const ast::Program& program) {
   for (const ast::Use& font : program.fonts) {
-    if (is_plain_file(font.file)) fonts_.emplace_back(font.file);
+    if (access_.is_file(std::string(font.file))) {
+      fonts_.emplace_back(font.file);
+    }
   }
 }
 

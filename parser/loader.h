@@ -18,6 +18,7 @@
 
 #include "parser/ast.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 #include "parser/source.h"
 
 namespace lamina {
@@ -25,7 +26,7 @@ namespace lamina {
 // Where OpenSCAD looks for libraries: the folders of OPENSCADPATH (separated
 // by ':'), the user's (~/.local/share/OpenSCAD/libraries), the installed one.
 // An empty name stands for the folder in which the program runs.
-std::vector<std::string> library_folders();
+std::vector<std::string> library_folders(const FileAccess& access = kAllFiles);
 
 class Loader {
  public:
@@ -33,12 +34,15 @@ class Loader {
   // folders          library folders, in the order in which they are searched
   // definitions      what `-D` appends to the main file and to each used file,
   //                  as text ("x=1;\ny=2;\n")
+  // access           what may be read; outlives the loader
   Loader(SourceStore& sources, Diagnostics& diagnostics,
-         std::vector<std::string> folders, std::string definitions = {});
+         std::vector<std::string> folders, std::string definitions = {},
+         const FileAccess& access = kAllFiles);
 
   // Reads and parses a design, its includes and all files that it uses.
-  // Throws FileError if it cannot be read, SyntaxError if it has errors (they
-  // are already reported then; a FileError is not).
+  // Throws FileError if it cannot be read, AccessError where it or a file that
+  // it names may not be, SyntaxError if it has errors (they are already
+  // reported then; the others are not).
   ast::Program load(const std::string& path);
 
   // The same for a text at hand. `path` is what messages show and relative
@@ -59,10 +63,12 @@ class Loader {
   // order in which they were found, each once.
   const std::vector<std::string>& files() const { return files_; }
 
-  // For the parser. Absolute path of the file that `name` means in the file
-  // `from`; empty if there is none, or if it is one of the files in `open`
-  // (a cycle). A file that is found is one of files() from then on.
-  std::string find(const Source& from, std::string_view name,
+  const FileAccess& file_access() const { return access_; }
+
+  // For the parser. Absolute path of the file that `name` means at `place`;
+  // empty if there is none, or if it is one of the files in `open` (a cycle). A
+  // file that is found is one of files() from then on. Throws AccessError.
+  std::string find(SourceRange place, std::string_view name,
                    std::span<const Source* const> open);
 
   // For the parser. The text of a file that `find` found; null if it cannot
@@ -75,15 +81,16 @@ class Loader {
   void note_fonts(const ast::Program& program);
   std::optional<ast::Program> load_used(const std::string& path,
                                         const Source& user);
-  std::string look_up(const Source& from, std::string_view name,
+  std::string look_up(SourceRange place, std::string_view name,
                       std::span<const Source* const> open) const;
   void add_file(const std::string& path);
-  std::optional<std::string> read(const std::string& path);
+  std::optional<std::string> read(const std::string& path) const;
 
   SourceStore& sources_;
   Diagnostics& diagnostics_;
   std::vector<std::string> folders_;
   std::string definitions_;
+  const FileAccess& access_;
   std::vector<std::string> files_;
   std::vector<std::string> fonts_;
   std::map<std::string, const Source*, std::less<>> included_;

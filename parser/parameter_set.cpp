@@ -1,8 +1,6 @@
 #include "parser/parameter_set.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -109,22 +107,24 @@ void report_error(Diagnostics& diagnostics, std::string message) {
 
 std::optional<std::vector<Entry>> read_set(const std::string& path,
                                            const std::string& set,
+                                           const FileAccess& access,
                                            Diagnostics& diagnostics) {
   const auto refuse = [&](const std::string& why) {
     report_error(diagnostics,
                  fmt::format("Cannot open Parameter Set '{}': {}", path, why));
     return std::nullopt;
   };
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return refuse(path + ": cannot open file");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  access.require(path);
+  const std::optional<std::string> text = access.read(path);
+  if (!text) return refuse(path + ": cannot open file");
   SetReader reader(set);
-  if (!nlohmann::json::sax_parse(text, &reader)) {
-    const std::size_t position = std::min(reader.error_position(), text.size());
+  if (!nlohmann::json::sax_parse(*text, &reader)) {
+    const std::size_t position =
+        std::min(reader.error_position(), text->size());
     const auto end =
-        text.begin() + static_cast<std::string::difference_type>(position);
+        text->begin() + static_cast<std::string::difference_type>(position);
     return refuse(fmt::format("{}({}): {}", path,
-                              std::count(text.begin(), end, '\n') + 1,
+                              std::count(text->begin(), end, '\n') + 1,
                               reader.complaint()));
   }
   if (!reader.is_found()) {
@@ -227,8 +227,9 @@ bool set_values(const std::vector<Entry>& entries, ast::Program& program) {
 }  // namespace
 
 bool apply_parameter_set(const std::string& path, const std::string& set,
-                         ast::Program& program, Diagnostics& diagnostics) {
-  const auto entries = read_set(path, set, diagnostics);
+                         ast::Program& program, Diagnostics& diagnostics,
+                         const FileAccess& access) {
+  const auto entries = read_set(path, set, access, diagnostics);
   if (!entries) return false;
   if (set_values(*entries, program)) return true;
   report_error(diagnostics,
@@ -237,15 +238,17 @@ bool apply_parameter_set(const std::string& path, const std::string& set,
   return false;
 }
 
-std::vector<std::string> parameter_set_names(const std::string& path) {
+std::vector<std::string> parameter_set_names(const std::string& path,
+                                             const FileAccess& access) {
   const auto refuse = [&](std::string_view why) {
     throw FileError(
         {Severity::kError, {}, fmt::format("Cannot open '{}': {}", path, why)});
   };
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse("no such file");
+  access.require(path);
+  const std::optional<std::string> text = access.read(path);
+  if (!text) refuse("no such file");
   using Json = nlohmann::ordered_json;
-  const Json json = Json::parse(file, nullptr, false);
+  const Json json = Json::parse(*text, nullptr, false);
   const auto sets = json.is_object() ? json.find("parameterSets") : json.end();
   if (sets == json.end() || !sets->is_object()) {
     refuse("it has no sets of OpenSCAD's customizer");

@@ -18,6 +18,7 @@
 
 #include "parser/ast.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 
 namespace lamina {
 
@@ -25,11 +26,14 @@ namespace lamina {
 //
 // returns  false where the file cannot be read, the set is not there or a value
 //          cannot be used; that is reported, and the values before it stay set
+// throws   AccessError where the file may not be read
 bool apply_parameter_set(const std::string& path, const std::string& set,
-                         ast::Program& program, Diagnostics& diagnostics);
+                         ast::Program& program, Diagnostics& diagnostics,
+                         const FileAccess& access = kAllFiles);
 
 // The names of all sets of a file, in the order in which they stand there.
-// Throws FileError where it cannot be read.
-std::vector<std::string> parameter_set_names(const std::string& path);
+// Throws FileError where it cannot be read, AccessError where it may not be.
+std::vector<std::string> parameter_set_names(
+    const std::string& path, const FileAccess& access = kAllFiles);
 
 }  // namespace lamina

@@ -6,6 +6,7 @@
 #include "parser/detail/parser_stack.h"
 #include "parser/detail/reader.h"
 #include "parser/detail/syntax_errors.h"
+#include "parser/loader.h"
 #include "scad_grammar.h"
 
 // Made by Flex.
@@ -37,7 +38,8 @@ class Scanner {
 ast::Program parse(const Source& source, const Source* user, Loader& loader,
                    Diagnostics& diagnostics) {
   detail::SyntaxErrors errors(diagnostics);
-  detail::Builder builder(source, user, errors, diagnostics);
+  detail::Builder builder(source, user, errors, loader.file_access(),
+                          diagnostics);
   detail::Reader reader(source, builder.arena(), loader, errors, diagnostics);
   detail::ParserStack stack;
   const Scanner scanner(reader);

@@ -95,13 +95,14 @@ void describe_header(const SlcReader& reader, Inspection& found) {
 
 }  // namespace
 
-Inspection inspect_file(const std::string& path, double min_feature) {
+Inspection inspect_file(const std::string& path, double min_feature,
+                        const FileAccess& access) {
   Inspector inspector(min_feature);
   Inspection& found = inspector.found_;
   found.name = path;
   if (is_named(path, ".slc")) {
     // Its boundaries as they are: they may be open.
-    SlcReader reader(path);
+    SlcReader reader(path, access);
     describe_header(reader, found);
     SlcLayer layer;
     while (reader.read_layer(layer)) inspector.take(to_layer(layer), layer);
@@ -112,8 +113,8 @@ Inspection inspect_file(const std::string& path, double min_feature) {
     }
     return inspector.finish();
   }
-  const LayerFileFacts facts =
-      read_layers(path, [&](Layer& layer) { inspector.take(layer); });
+  const LayerFileFacts facts = read_layers(
+      path, [&](Layer& layer) { inspector.take(layer); }, access);
   found.format = facts.format;
   found.writer = facts.writer;
   found.deviation = facts.deviation;

@@ -60,7 +60,8 @@ class Inspector : public LayerSink {
   Inspection finish();
 
  private:
-  friend Inspection inspect_file(const std::string& path, double min_feature);
+  friend Inspection inspect_file(const std::string& path, double min_feature,
+                                 const FileAccess& access);
 
   void take(const Layer& layer, const SlcLayer& boundaries);
   void add_defect(std::string words);
@@ -73,6 +74,7 @@ class Inspector : public LayerSink {
 
 // Reads the file layer by layer. Throws FileError where it is no file of layers
 // (layer_reader.h) or breaks off.
-Inspection inspect_file(const std::string& path, double min_feature);
+Inspection inspect_file(const std::string& path, double min_feature,
+                        const FileAccess& access);
 
 }  // namespace lamina::slicer

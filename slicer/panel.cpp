@@ -1,8 +1,7 @@
 #include "slicer/panel.h"
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -98,7 +97,7 @@ std::vector<Panel> known_panels() {
   return panels;
 }
 
-Panel find_panel(const std::string& name_or_file) {
+Panel find_panel(const std::string& name_or_file, const FileAccess& access) {
   std::string names;
   for (const Panel& panel : known_panels()) {
     if (panel.name == name_or_file) return panel;
@@ -108,12 +107,11 @@ Panel find_panel(const std::string& name_or_file) {
     fail(name_or_file,
          "lamina knows" + names + ", and files that end in .json");
   }
-  const std::ifstream file(name_or_file, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file || !text) fail(name_or_file, "there is nothing to read");
+  access.require(name_or_file);
+  const std::optional<std::string> text = access.read(name_or_file);
+  if (!text || text->empty()) fail(name_or_file, "there is nothing to read");
   try {
-    return read_panel(text.view());
+    return read_panel(*text);
   } catch (const Json::exception& error) {
     // "[json.exception.…] words"
     const std::string_view words = error.what();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "csg/vec.h"
+#include "parser/file_access.h"
 #include "slicer/coverage.h"
 #include "slicer/grey_png.h"
 
@@ -36,7 +37,9 @@ std::vector<Panel> known_panels();
 // A panel that lamina knows by that name, else a printer profile: a JSON file
 // (docs/formats.md).
 //
-// throws  FileError where there is none, or the file is no profile
-Panel find_panel(const std::string& name_or_file);
+// throws  FileError where there is none, or the file is no profile, AccessError
+//         where the file may not be read
+Panel find_panel(const std::string& name_or_file,
+                 const FileAccess& access = kAllFiles);
 
 }  // namespace lamina::slicer

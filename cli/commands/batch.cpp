@@ -82,8 +82,8 @@ class BatchCommand : public Command {
     SourceStore sources;
     Diagnostics diagnostics([&](const Diagnostic& d) { terminal.show(d); });
     return run_caught(terminal, diagnostics, [&] {
-      const std::vector<Piece> pieces =
-          read_pieces(table_, sources, diagnostics);
+      const std::vector<Piece> pieces = read_pieces(
+          table_, temporary_files.file_access(), sources, diagnostics);
       if (diagnostics.has_errors()) return kFault;
       return make_pieces(
           pieces,

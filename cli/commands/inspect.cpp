@@ -67,7 +67,8 @@ class InspectCommand : public Command {
   // No value where the design failed.
   std::optional<slicer::Inspection> look(Run& run) const {
     if (slicer::is_readable_layer_file(options_.design)) {
-      return slicer::inspect_file(options_.design, min_feature_);
+      return slicer::inspect_file(options_.design, min_feature_,
+                                  run.file_access());
     }
     auto tree = load_tree(run);
     if (!tree) return std::nullopt;

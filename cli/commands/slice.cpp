@@ -92,6 +92,13 @@ Slicing (lengths in millimetres):
                       --contour paper [auto]
   --threads N         threads at work [as many as the machine has]
 
+Files (for designs that strangers write; see docs/usage.md):
+  --root FOLDER       read and write in this folder only, links resolved
+  --allow-read FOLDER
+                      with --root: read in this folder, too; may be repeated
+  --no-import         refuse import(), surface(), dxf_dim(), dxf_cross() and
+                      font files
+
 Limits (an exceeded one is an error; see docs/usage.md for all):
   --max-memory SIZE   memory in use: bytes, or with K, M, G or % of what the
                       machine has [80%]
@@ -180,7 +187,7 @@ class SliceCommand : public Command {
     if (designs_.size() > 1) return run_several(temporary_files, stack, watch);
     Run run(options_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics, [&] {
-      if (makes_folder_) make_folder_of(options_.output);
+      if (makes_folder_) make_folder_of(options_.output, run.file_access());
       if (watches_) compile_and_watch(options_, temporary_files, stack, watch);
       const int status = compile(run);
       if (status == kDone) show_report(run);

@@ -90,9 +90,10 @@ struct ViewOptions {
 std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
   LayerList list;
   if (slicer::is_readable_layer_file(run.options.design)) {
-    slicer::read_layers(run.options.design, [&](slicer::Layer& layer) {
-      list.layers.push_back(std::move(layer));
-    });
+    slicer::read_layers(
+        run.options.design,
+        [&](slicer::Layer& layer) { list.layers.push_back(std::move(layer)); },
+        run.file_access());
     return std::move(list.layers);
   }
   auto tree = load_tree(run);

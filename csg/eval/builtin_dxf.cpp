@@ -54,7 +54,7 @@ Query read_query(Kind kind, const CallCode& code, Frame& frame) {
       query.written_file = to_text(value);
       const std::string folder =
           kind == Kind::kDim ? folder_of(frame) : frame.in.design_folder();
-      query.path = find_file(query.written_file, folder, frame.in);
+      query.path = find_file(query.written_file, folder, code.range, frame.in);
     } else if (argument.name == "layer") {
       query.layer = to_text(value);
     } else if (argument.name == "origin") {
@@ -80,8 +80,7 @@ Query read_query(Kind kind, const CallCode& code, Frame& frame) {
 }
 
 bool can_open(const Query& query, const CallCode& code, Frame& frame) {
-  std::error_code ignored;
-  if (fs::exists(query.path, ignored)) {
+  if (file_access(frame.in).is_there(query.path)) {
     frame.in.add_file(query.path);
     return true;
   }
@@ -98,7 +97,7 @@ DxfDrawing read_drawing(const Query& query, const CallCode& code,
   options.fragments = [](double) { return 36; };
   DxfDrawing drawing;
   try {
-    const auto bytes = FileBytes::open(query.path);
+    const auto bytes = FileBytes::open(query.path, file_access(frame.in));
     if (bytes) drawing = parse_dxf(bytes->view(), options);
   } catch (const FormatError& fault) {
     warn(code, frame,

@@ -123,7 +123,7 @@ void surface(const BuiltinModuleCode& code, Frame& frame) {
   const std::string csg =
       fmt::format("surface(file = {}, center = {}, invert = {}, {})",
                   relative_quoted(path, frame), params.center, params.invert,
-                  timestamp_text(path));
+                  timestamp_text(path, frame));
   make_leaf<Surface>(params, csg, code, frame);
 }
 
@@ -217,8 +217,8 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   append_number_field("scale", params.scale, csg);
   csg += fmt::format("convexity = {}, ", params.convexity);
   append_facets(params.facets, csg);
-  make_leaf<Import>(params, csg + ", " + timestamp_text(path) + ")", code,
-                    frame);
+  make_leaf<Import>(params, csg + ", " + timestamp_text(path, frame) + ")",
+                    code, frame);
 }
 
 }  // namespace

@@ -146,9 +146,9 @@ Value builtin_import(const CallCode& code, Frame& frame) {
   const std::string name = file.is_string() ? to_text(file) : std::string();
   const fs::path caller = fs::absolute(code.range.source->path());
   const std::string path =
-      find_file(name, caller.parent_path().string(), frame.in);
+      find_file(name, caller.parent_path().string(), code.range, frame.in);
   frame.in.add_file(path);
-  JsonResult result = read_json(path);
+  JsonResult result = read_json(path, file_access(frame.in));
   if (!result.can_read) {
     return warn(code, frame, fmt::format("Could not read file '{}'", path));
   }

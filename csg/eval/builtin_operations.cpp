@@ -242,7 +242,7 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
     const ImportParams drawing = import_drawing(file, arguments[kLayer], origin,
                                                 params.scale.x, code, frame);
     std::string text = "linear_extrude(" + drawing_text(drawing, frame);
-    text += timestamp_text(std::string(drawing.path)) + ", ";
+    text += timestamp_text(std::string(drawing.path), frame) + ", ";
     append_linear_extrude(params, text);
     params.csg_text = in.keep_text(text + ")");
     make_drawing(drawing, params.csg_text, code, frame);
@@ -282,7 +282,7 @@ void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
     std::string text = "rotate_extrude(" + drawing_text(drawing, frame);
     text += "scale = ";
     append_stream_number(scale, text);
-    text += ", " + timestamp_text(std::string(drawing.path)) + ", ";
+    text += ", " + timestamp_text(std::string(drawing.path), frame) + ", ";
     append_rotate_extrude(extrude, text);
     extrude.csg_text = in.keep_text(text + ")");
     make_drawing(drawing, extrude.csg_text, code, frame);

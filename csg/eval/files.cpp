@@ -5,31 +5,38 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include "csg/eval/conversions.h"
 #include "csg/eval/resolver.h"
 #include "csg/eval/text.h"
+#include "parser/loader.h"
 
 namespace lamina::csg {
 
 namespace fs = std::filesystem;
 
+const FileAccess& file_access(Interpreter& in) {
+  return in.resolver().loader().file_access();
+}
+
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame) {
   const fs::path own = fs::absolute(code.unit->program->source->path());
-  std::string path = find_file(name, own.parent_path().string(), frame.in);
+  std::string path =
+      find_file(name, own.parent_path().string(), code.range, frame.in);
   frame.in.add_file(path);
   return path;
 }
 
 std::string find_file(std::string_view name, const std::string& from,
-                      Interpreter& in) {
-  if (name.empty() || fs::path(name).is_absolute()) return std::string(name);
-  const fs::path here = fs::path(from) / name;
+                      SourceRange place, Interpreter& in) {
+  if (name.empty()) return "";
+  const FileAccess& access = file_access(in);
+  const fs::path here = fs::path(from) / name;  // name, where it is absolute
+  access.require(here, name, place, FileUse::kData);
+  if (fs::path(name).is_absolute()) return std::string(name);
   const fs::path fallback = fs::path(in.design_folder()) / name;
-  std::error_code ignored;
-  if (!fs::exists(here, ignored) && fs::exists(fallback, ignored)) {
+  if (!access.is_there(here) && access.is_there(fallback)) {
     in.deprecate({}, fmt::format("Imported file ({}) found in document root "
                                  "instead of relative to the importing module. "
                                  "This behavior is deprecated",
@@ -40,11 +47,10 @@ std::string find_file(std::string_view name, const std::string& from,
 }
 
 std::string relative_path(const std::string& path, Frame& frame) {
-  std::error_code ignored;
-  const fs::path folder =
-      fs::weakly_canonical(frame.in.design_folder(), ignored);
+  const FileAccess& access = file_access(frame.in);
+  const fs::path folder = access.weakly_canonical(frame.in.design_folder());
   const fs::path file =
-      fs::weakly_canonical(path.empty() ? folder : fs::path(path), ignored);
+      path.empty() ? folder : fs::path(access.weakly_canonical(path));
   const std::string relative = file.lexically_relative(folder).generic_string();
   return relative == "." ? "./" : relative;
 }
@@ -80,10 +86,9 @@ std::string drawing_text(const ImportParams& drawing, Frame& frame) {
   return text + "], ";
 }
 
-std::string timestamp_text(const std::string& path) {
-  struct stat status = {};
-  const bool exists = ::stat(path.c_str(), &status) == 0;
-  return fmt::format("timestamp = {}", exists ? status.st_mtime : 0);
+std::string timestamp_text(const std::string& path, Frame& frame) {
+  const auto status = file_access(frame.in).look_at(path);
+  return fmt::format("timestamp = {}", status ? status->st_mtime : 0);
 }
 
 }  // namespace lamina::csg

@@ -8,18 +8,22 @@
 #include "csg/eval/interpreter.h"
 #include "csg/tree.h"
 #include "csg/vec.h"
+#include "parser/file_access.h"
 
 namespace lamina::csg {
+
+// What the design may read.
+const FileAccess& file_access(Interpreter& in);
 
 // Absolute path of the file `name` as a module call means it: from the folder
 // of the file that holds the call or, deprecated, from the design's folder.
 // Empty for an empty name. The file need not exist; the design depends on it
-// all the same.
+// all the same. Throws AccessError where it may not be read.
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame);
-// The same for a file that code of the folder `from` names.
+// The same for a file that code of the folder `from` names at `place`.
 std::string find_file(std::string_view name, const std::string& from,
-                      Interpreter& in);
+                      SourceRange place, Interpreter& in);
 
 // The path relative to the design's folder, as it is and quoted.
 std::string relative_path(const std::string& path, Frame& frame);
@@ -33,6 +37,6 @@ Vec2 read_origin(const Value& origin, std::string_view shown_name,
 std::string drawing_text(const ImportParams& drawing, Frame& frame);
 
 // "timestamp = " and the seconds of the last change, 0 if there is no file.
-std::string timestamp_text(const std::string& path);
+std::string timestamp_text(const std::string& path, Frame& frame);
 
 }  // namespace lamina::csg

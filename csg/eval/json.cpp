@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -105,16 +104,16 @@ class ValueReader : public nlohmann::json_sax<Json> {
 
 }  // namespace
 
-JsonResult read_json(const std::string& path) {
+JsonResult read_json(const std::string& path, const FileAccess& access) {
   JsonResult result;
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, ignored)) {
+  const OpenFile file = access.open(path);
+  const auto text = file ? file.read_all() : std::nullopt;
+  if (!text) {
     result.can_read = false;
     return result;
   }
   ValueReader reader;
-  Json::sax_parse(file, &reader);
+  Json::sax_parse(*text, &reader);
   result.fault = std::move(reader.fault);
   if (result.fault.empty()) result.value = std::move(reader.value);
   return result;

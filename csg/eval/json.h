@@ -6,6 +6,7 @@
 #include <string>
 
 #include "csg/eval/value.h"
+#include "parser/file_access.h"
 
 namespace lamina::csg {
 
@@ -15,6 +16,7 @@ struct JsonResult {
   std::string fault;  // why it is no JSON; empty: it is
 };
 
-JsonResult read_json(const std::string& path);
+JsonResult read_json(const std::string& path,
+                     const FileAccess& access = kAllFiles);
 
 }  // namespace lamina::csg

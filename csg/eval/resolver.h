@@ -134,6 +134,8 @@ class Resolver {
   // options  must outlive the Resolver
   Resolver(const Loader& loader, const EvaluateOptions& options);
 
+  const Loader& loader() const { return loader_; }
+
   Unit& unit_of(const ast::Program& program);
   // The whole of a file: its assignments and, for the main file, its
   // instantiations.

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <new>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -48,15 +47,6 @@ bool read_all(int file, char* memory, std::size_t size) {
   return true;
 }
 
-struct FileCloser {
-  int file;
-  ~FileCloser() {
-    const int error = errno;
-    ::close(file);
-    errno = error;
-  }
-};
-
 bool is_unchanged(int file, const struct stat& before) {
   struct stat after = {};
   return ::fstat(file, &after) == 0 && after.st_size == before.st_size &&
@@ -66,21 +56,24 @@ bool is_unchanged(int file, const struct stat& before) {
 
 }  // namespace
 
-std::optional<FileBytes> FileBytes::open(const std::string& path) {
-  // A FIFO must not make the run wait for a writer.
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0 && is_machine_fault(errno)) fail(path, std::strerror(errno));
-  if (file < 0) return std::nullopt;
-  const FileCloser closer{file};
+std::optional<FileBytes> FileBytes::open(const std::string& path,
+                                         const FileAccess& access) {
+  const OpenFile file = access.open(path);
+  if (!file && is_machine_fault(errno)) fail(path, std::strerror(errno));
+  if (!file) return std::nullopt;
   struct stat status = {};
-  if (::fstat(file, &status) != 0) fail(path, std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) return std::nullopt;
-  const auto size = static_cast<std::size_t>(status.st_size);
-  FileBytes bytes(map_memory(size), size);
-  if (!read_all(file, static_cast<char*>(bytes.data_), size) && errno != 0) {
+  if (::fstat(file.descriptor(), &status) != 0) {
     fail(path, std::strerror(errno));
   }
-  if (!is_unchanged(file, status)) fail(path, "it changed while it was read");
+  const auto size = static_cast<std::size_t>(status.st_size);
+  FileBytes bytes(map_memory(size), size);
+  if (!read_all(file.descriptor(), static_cast<char*>(bytes.data_), size) &&
+      errno != 0) {
+    fail(path, std::strerror(errno));
+  }
+  if (!is_unchanged(file.descriptor(), status)) {
+    fail(path, "it changed while it was read");
+  }
   return bytes;
 }
 

@@ -12,13 +12,17 @@
 #include <string_view>
 #include <utility>
 
+#include "parser/file_access.h"
+
 namespace lamina::csg {
 
 class FileBytes {
  public:
-  // Nothing where there is no regular file that may be read. Throws FileError
-  // where reading fails, or the file changes meanwhile.
-  static std::optional<FileBytes> open(const std::string& path);
+  // Nothing where there is no regular file that may be read; errno as of
+  // FileAccess::open. Throws FileError where reading fails, or the file changes
+  // meanwhile.
+  static std::optional<FileBytes> open(const std::string& path,
+                                       const FileAccess& access);
 
   FileBytes(FileBytes&& other) noexcept
       : data_(std::exchange(other.data_, nullptr)),

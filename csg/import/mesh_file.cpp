@@ -103,9 +103,10 @@ std::size_t drop_infinite(RawMesh& raw) {
 }  // namespace
 
 std::vector<RawMesh> read_mesh_file(const std::string& path,
-                                    ImportFormat format, SourceRange range,
+                                    ImportFormat format,
+                                    const FileAccess& access, SourceRange range,
                                     Diagnostics& diagnostics) {
-  const auto bytes = FileBytes::open(path);
+  const auto bytes = FileBytes::open(path, access);
   if (!bytes) {
     report_unreadable(path, format, range, diagnostics);
     return {};

@@ -7,6 +7,7 @@
 #include "csg/import/raw_mesh.h"
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 
 namespace lamina::csg {
 
@@ -16,7 +17,8 @@ namespace lamina::csg {
 //
 // format  of a mesh
 std::vector<RawMesh> read_mesh_file(const std::string& path,
-                                    ImportFormat format, SourceRange range,
+                                    ImportFormat format,
+                                    const FileAccess& access, SourceRange range,
                                     Diagnostics& diagnostics);
 
 }  // namespace lamina::csg

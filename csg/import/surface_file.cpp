@@ -174,10 +174,10 @@ Mesh make_surface(const HeightField& field, bool center) {
   return MeshBuilder(field, center).build();
 }
 
-Mesh read_surface_file(const SurfaceParams& params, SourceRange range,
-                       Diagnostics& diagnostics) {
+Mesh read_surface_file(const SurfaceParams& params, const FileAccess& access,
+                       SourceRange range, Diagnostics& diagnostics) {
   const std::string path(params.path);
-  const auto bytes = FileBytes::open(path);
+  const auto bytes = FileBytes::open(path, access);
   if (!bytes) {
     diagnostics.warning(range,
                         fmt::format("The file '{}' couldn't be opened.", path));

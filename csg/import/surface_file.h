@@ -9,6 +9,7 @@
 #include "csg/scene.h"
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 
 namespace lamina::csg {
 
@@ -38,7 +39,7 @@ Mesh make_surface(const HeightField& field, bool center);
 
 // The surface of a file; nothing where it cannot be read, which is reported
 // with OpenSCAD's words at `range`.
-Mesh read_surface_file(const SurfaceParams& params, SourceRange range,
-                       Diagnostics& diagnostics);
+Mesh read_surface_file(const SurfaceParams& params, const FileAccess& access,
+                       SourceRange range, Diagnostics& diagnostics);
 
 }  // namespace lamina::csg

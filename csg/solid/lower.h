@@ -13,6 +13,7 @@
 #include "csg/scene.h"
 #include "csg/tree.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 
 namespace lamina::text {
 class Typesetter;
@@ -29,6 +30,7 @@ struct LowerOptions {
   double chordal_error = 0;
   // For text(), which is an error without.
   text::Typesetter* typesetter = nullptr;
+  const FileAccess* file_access = &kAllFiles;  // what import() may read
   // Of the whole design, outlines too, about its origin (`--scale`); more
   // than 0. Facets are those of the design before.
   double scale = 1;

@@ -47,12 +47,12 @@ Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
   return mesh;
 }
 
-Leaf make_import_leaf(const ImportParams& params, SourceRange range,
-                      Diagnostics& diagnostics) {
+Leaf make_import_leaf(const ImportParams& params, const FileAccess& access,
+                      SourceRange range, Diagnostics& diagnostics) {
   Leaf leaf;
   leaf.may_overlap_itself = true;
   for (RawMesh& raw : read_mesh_file(std::string(params.path), params.format,
-                                     range, diagnostics)) {
+                                     access, range, diagnostics)) {
     leaf.meshes.push_back(make_sound(std::move(raw), range, diagnostics));
   }
   return leaf;
@@ -61,7 +61,8 @@ Leaf make_import_leaf(const ImportParams& params, SourceRange range,
 // --- Drawings ---------------------------------------------------------------
 
 planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
-                        SourceRange range, Diagnostics& diagnostics) {
+                        const FileAccess& access, SourceRange range,
+                        Diagnostics& diagnostics) {
   DxfOptions options{std::string(params.layer),
                      params.origin,
                      params.scale,
@@ -70,7 +71,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
   options.fragments = [&fineness](double r) {
     return circle_fragments(r, fineness);
   };
-  const auto bytes = FileBytes::open(options.path);
+  const auto bytes = FileBytes::open(options.path, access);
   if (!bytes) {
     diagnostics.warning(range,
                         fmt::format("Can't open DXF file '{}'.", options.path));
@@ -116,9 +117,9 @@ SvgContours outline_stroke(std::span<const Vec2> path,
   return planar::stroke(path, stroke.width, join, cap, tolerance).contours;
 }
 
-planar::Region read_svg(const ImportParams& params, SourceRange range,
-                        Diagnostics& diagnostics) {
-  const auto bytes = FileBytes::open(std::string(params.path));
+planar::Region read_svg(const ImportParams& params, const FileAccess& access,
+                        SourceRange range, Diagnostics& diagnostics) {
+  const auto bytes = FileBytes::open(std::string(params.path), access);
   if (!bytes) {
     diagnostics.error(range,
                       fmt::format("Can't open file '{}', import() at line {}",
@@ -167,6 +168,7 @@ Shape Lowerer::lower_op(const Import& op, const Node& node,
 Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
                                         const Fineness& fine,
                                         SourceRange range) {
+  const FileAccess& access = *options_.file_access;
   switch (params.format) {
     case ImportFormat::kUnknown:
       diagnostics_.error(
@@ -175,9 +177,10 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
                              quoted_from_here(params.path), line_of(range)));
       return {Dimension::kSolid};
     case ImportFormat::kDxf:
-      return {Dimension::kFlat, read_dxf(params, fine, range, diagnostics_)};
+      return {Dimension::kFlat,
+              read_dxf(params, fine, access, range, diagnostics_)};
     case ImportFormat::kSvg:
-      return {Dimension::kFlat, read_svg(params, range, diagnostics_)};
+      return {Dimension::kFlat, read_svg(params, access, range, diagnostics_)};
     case ImportFormat::kStl:
     case ImportFormat::kOff:
     case ImportFormat::kObj:
@@ -187,7 +190,7 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
   }
   return {Dimension::kSolid,
           {},
-          add_leaf(make_import_leaf(params, range, diagnostics_))};
+          add_leaf(make_import_leaf(params, access, range, diagnostics_))};
 }
 
 Shape Lowerer::lower_op(const Surface& op, const Node& node,
@@ -197,7 +200,8 @@ Shape Lowerer::lower_op(const Surface& op, const Node& node,
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     Leaf leaf;
-    leaf.meshes.push_back(read_surface_file(params, node.range, diagnostics_));
+    leaf.meshes.push_back(read_surface_file(params, *options_.file_access,
+                                            node.range, diagnostics_));
     entry->second = {Dimension::kSolid, {}, add_leaf(std::move(leaf))};
   }
   return place_file(entry->second, node, world);

@@ -16,6 +16,8 @@ namespace {
 
 class FontEngine : public Engine {
  public:
+  explicit FontEngine(const FontFiles* permitted) : fonts_(permitted) {}
+
   bool add_font(const char* path) noexcept override {
     return fonts_.add_font(path);
   }
@@ -87,10 +89,11 @@ class FontEngine : public Engine {
 }  // namespace lamina::text
 
 extern "C" __attribute__((visibility("default"))) lamina::text::Engine*
-lamina_make_text_engine(int version) noexcept {
+lamina_make_text_engine(int version,
+                        const lamina::text::FontFiles* permitted) noexcept {
   if (version != lamina::text::kEngineVersion) return nullptr;
   try {
-    return new lamina::text::FontEngine();
+    return new lamina::text::FontEngine(permitted);
   } catch (const std::exception&) {
     return nullptr;
   }

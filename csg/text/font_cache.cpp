@@ -6,13 +6,16 @@
 #include <filesystem>
 #include <mutex>
 #include <new>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fontconfig/fcfreetype.h>
 #include <hb-ft.h>
 #include <sys/mman.h>
+#include <unistd.h>
 #include FT_TRUETYPE_IDS_H
 
 namespace lamina::text {
@@ -138,6 +141,34 @@ Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
   return config;
 }
 
+// Fontconfig's rules of what stands for what, without any font.
+Owned<FcConfig> load_rules() {
+  Owned<FcConfig> config(FcConfigCreate());
+  require(config != nullptr);
+  FcConfigParseAndLoad(config.get(), nullptr, FcTrue);
+  return config;
+}
+
+// A permitted font under a path that means the very file that was opened.
+class OpenFontFile {
+ public:
+  OpenFontFile(const FontFiles& files, const std::string& path)
+      : descriptor_(files.open(path)) {}
+  ~OpenFontFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFontFile(const OpenFontFile&) = delete;
+  OpenFontFile& operator=(const OpenFontFile&) = delete;
+
+  // Of nothing where the file may not be read.
+  std::string path() const {
+    return fmt::format("/proc/self/fd/{}", descriptor_);
+  }
+
+ private:
+  int descriptor_;
+};
+
 // Looking for all fonts takes longer than many a design, and finds the same
 // for each. Fontconfig lets threads share what it found.
 Owned<FcConfig> shared_config() {
@@ -190,13 +221,50 @@ bool has_symbols(FT_FaceRec& face) {
 
 }  // namespace
 
-FontCache::FontCache() : config_(shared_config()) {
+FontCache::FontCache(const FontFiles* permitted)
+    : permitted_(permitted),
+      config_(permitted ? load_rules() : shared_config()) {
   FT_Library library = nullptr;
   require(FT_Init_FreeType(&library) == 0);
   library_.reset(library);
+  if (permitted_) add_permitted_folders();
+}
+
+void FontCache::add_permitted_folders() {
+  fonts_to_match_.reset(FcFontSetCreate());
+  require(fonts_to_match_ != nullptr);
+  std::vector<std::string> folders = font_folders();
+  FcStrList* const configured = FcConfigGetFontDirs(config_.get());
+  while (const FcChar8* folder = FcStrListNext(configured)) {
+    folders.emplace_back(from_fc(folder));
+  }
+  FcStrListDone(configured);
+  std::set<std::string> files;
+  for (const std::string& folder : folders) {
+    for (std::string& file : permitted_->files_in(folder)) {
+      files.insert(std::move(file));
+    }
+  }
+  for (const std::string& file : files) add_permitted(file);
+}
+
+bool FontCache::add_permitted(const std::string& path) {
+  const OpenFontFile file(*permitted_, path);
+  const int first = fonts_to_match_->nfont;
+  int count = 0;
+  FcFreeTypeQueryAll(to_fc(file.path().c_str()), static_cast<unsigned>(-1),
+                     nullptr, &count, fonts_to_match_.get());
+  for (int i = first; i < fonts_to_match_->nfont; ++i) {
+    FcPattern* const font = fonts_to_match_->fonts[i];
+    FcPatternDel(font, FC_FILE);
+    FcPatternAddString(font, FC_FILE, to_fc(path.c_str()));
+    FcConfigSubstitute(config_.get(), font, FcMatchScan);
+  }
+  return fonts_to_match_->nfont > first;
 }
 
 bool FontCache::add_font(const char* path) {
+  if (permitted_) return add_permitted(path);
   if (!has_own_config_) config_ = load_config(font_folders());
   has_own_config_ = true;
   return FcConfigAppFontAddFile(config_.get(), to_fc(path)) == FcTrue;
@@ -206,6 +274,31 @@ const Font& FontCache::find(const std::string& name) {
   const auto known = fonts_.find(name);
   if (known != fonts_.end()) return known->second;
   return fonts_.emplace(name, load(name)).first->second;
+}
+
+Owned<FcPattern> FontCache::match(FcPattern& pattern) const {
+  FcResult result = FcResultNoMatch;
+  FcFontSet* set = fonts_to_match_.get();
+  Owned<FcPattern> found(
+      permitted_ ? FcFontSetMatch(config_.get(), &set, 1, &pattern, &result)
+                 : FcFontMatch(config_.get(), &pattern, &result));
+  require(result != FcResultOutOfMemory && errno != ENOMEM);
+  return found;
+}
+
+// Null where the file holds no such face.
+FT_Face FontCache::open_face(const char* path, int index) const {
+  FT_Face face = nullptr;
+  FT_Error fault = 0;
+  if (!permitted_) {
+    fault = FT_New_Face(library_.get(), path, index, &face);
+  } else {
+    // FreeType maps the file and does not ask for its path again.
+    const OpenFontFile file(*permitted_, path);
+    fault = FT_New_Face(library_.get(), file.path().c_str(), index, &face);
+  }
+  require(fault != FT_Err_Out_Of_Memory);
+  return fault == 0 ? face : nullptr;
 }
 
 Font FontCache::load(const std::string& name) const {
@@ -223,25 +316,20 @@ Font FontCache::load(const std::string& name) const {
           FcPatternAddBool(pattern.get(), FC_SCALABLE, FcTrue) &&
           FcConfigSubstitute(config_.get(), pattern.get(), FcMatchPattern));
   FcDefaultSubstitute(pattern.get());
-  FcResult result = FcResultNoMatch;
-  const Owned<FcPattern> match(
-      FcFontMatch(config_.get(), pattern.get(), &result));
-  require(result != FcResultOutOfMemory && errno != ENOMEM);
+  const Owned<FcPattern> matching = match(*pattern);
   FcChar8* file = nullptr;
   int index = 0;
-  if (!match ||
-      FcPatternGetString(match.get(), FC_FILE, 0, &file) != FcResultMatch ||
-      FcPatternGetInteger(match.get(), FC_INDEX, 0, &index) != FcResultMatch) {
+  if (!matching ||
+      FcPatternGetString(matching.get(), FC_FILE, 0, &file) != FcResultMatch ||
+      FcPatternGetInteger(matching.get(), FC_INDEX, 0, &index) !=
+          FcResultMatch) {
     return font;
   }
 
-  FT_Face face = nullptr;
-  const FT_Error fault =
-      FT_New_Face(library_.get(), from_fc(file), index, &face);
-  require(fault != FT_Err_Out_Of_Memory);
-  if (fault != 0) return font;
+  FT_Face face = open_face(from_fc(file), index);
+  if (face == nullptr) return font;
   Owned<FT_FaceRec> owned(face);
-  font.complaint = describe_substitution(*asked, *pattern, *match);
+  font.complaint = describe_substitution(*asked, *pattern, *matching);
   if (!select_best_charmap(*face)) {
     font.complaint = fmt::format("Could not select a char map for font {}/{}'",
                                  face->family_name, face->style_name);

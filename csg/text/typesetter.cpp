@@ -1,6 +1,8 @@
 #include "csg/text/typesetter.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -15,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kModule = "lamina_text.so";
-
 [[noreturn]] void fail(Diagnostics& diagnostics, const std::string& words) {
   diagnostics.error({}, words);
   throw GeometryError({Severity::kError, {}, words});
@@ -27,7 +27,7 @@ constexpr const char* kModule = "lamina_text.so";
 MakeEngine* open_module(const std::vector<std::string>& folders,
                         Diagnostics& diagnostics) {
   for (const std::string& folder : folders) {
-    const std::string path = folder + "/" + kModule;
+    const std::string path = folder + "/" + kModuleName;
     std::error_code error;
     if (!fs::exists(path, error)) continue;
     void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -39,8 +39,46 @@ MakeEngine* open_module(const std::vector<std::string>& folders,
     return reinterpret_cast<MakeEngine*>(symbol);
   }
   fail(diagnostics, fmt::format("Can't find the module for text(), {}, in {}",
-                                kModule, fmt::join(folders, " or ")));
+                                kModuleName, fmt::join(folders, " or ")));
 }
+
+class PermittedFonts : public FontFiles {
+ public:
+  explicit PermittedFonts(const FileAccess& access) : file_access_(access) {}
+
+  std::vector<std::string> files_in(const std::string& folder) const override {
+    std::vector<std::string> files;
+    for (const std::string& part : file_access_.readable_parts(folder)) {
+      collect(part, 0, files);
+    }
+    return files;
+  }
+
+  int open(const std::string& path) const override {
+    return file_access_.open(path).release();
+  }
+
+ private:
+  void collect(const std::string& folder, int depth,
+               std::vector<std::string>& files) const {
+    // Links can lead in a circle.
+    constexpr int kDeepest = 8;
+    if (depth > kDeepest) return;
+    auto names = file_access_.list(folder);
+    if (!names) return;
+    std::sort(names->begin(), names->end());
+    for (const std::string& name : *names) {
+      const std::string path = fmt::format("{}/{}", folder, name);
+      if (file_access_.is_regular_file(path)) {
+        files.push_back(path);
+      } else {
+        collect(path, depth + 1, files);
+      }
+    }
+  }
+
+  const FileAccess& file_access_;
+};
 
 const Typeset& checked(const Typeset* typeset,
                        std::vector<std::string>& warnings) {
@@ -62,8 +100,12 @@ std::vector<std::string> module_folders() {
 }
 
 Typesetter::Typesetter(std::vector<std::string> folders,
-                       Diagnostics& diagnostics)
-    : folders_(std::move(folders)), diagnostics_(diagnostics) {}
+                       Diagnostics& diagnostics, const FileAccess& access)
+    : folders_(std::move(folders)), diagnostics_(diagnostics) {
+  if (access.is_confined()) {
+    permitted_fonts_ = std::make_unique<PermittedFonts>(access);
+  }
+}
 
 Typesetter::~Typesetter() = default;
 
@@ -73,9 +115,10 @@ void Typesetter::add_fonts(const std::vector<std::string>& files) {
 
 Engine& Typesetter::engine() {
   if (engine_) return *engine_;
-  engine_.reset(open_module(folders_, diagnostics_)(kEngineVersion));
+  engine_.reset(open_module(folders_, diagnostics_)(kEngineVersion,
+                                                    permitted_fonts_.get()));
   if (!engine_) {
-    fail(diagnostics_, fmt::format("{} is of another version", kModule));
+    fail(diagnostics_, fmt::format("{} is of another version", kModuleName));
   }
   for (const std::string& file : font_files_) {
     if (!engine_->add_font(file.c_str())) {

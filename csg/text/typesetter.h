@@ -13,8 +13,12 @@
 #include "csg/tree.h"
 #include "csg/vec.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 
 namespace lamina::text {
+
+// The file of the module that holds the font libraries.
+inline constexpr const char* kModuleName = "lamina_text.so";
 
 // Where the program's modules lie: beside it, or in lib/lamina next to its
 // folder where it is installed.
@@ -28,13 +32,16 @@ struct Chords {
 };
 
 class Engine;
+class FontFiles;
 
 class Typesetter : public csg::TextMeasurer {
  public:
   // folders      where the module is looked for, in this order
   // diagnostics  gets what is wrong with fonts that the design brings along;
   //              outlives the typesetter
-  Typesetter(std::vector<std::string> folders, Diagnostics& diagnostics);
+  // access       what fonts may be read; outlives it, too
+  Typesetter(std::vector<std::string> folders, Diagnostics& diagnostics,
+             const FileAccess& access = kAllFiles);
   ~Typesetter() override;
   Typesetter(const Typesetter&) = delete;
   Typesetter& operator=(const Typesetter&) = delete;
@@ -64,6 +71,7 @@ class Typesetter : public csg::TextMeasurer {
   std::vector<std::string> folders_;
   Diagnostics& diagnostics_;
   std::vector<std::string> font_files_;
+  std::unique_ptr<const FontFiles> permitted_fonts_;  // null: all
   std::unique_ptr<Engine> engine_;
 };
 

@@ -1,6 +1,5 @@
 #include "parser/detail/builder.h"
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -16,14 +15,6 @@ namespace lamina::detail {
 
 namespace {
 
-bool is_font(std::string_view file) {
-  std::string end(file.substr(file.size() < 4 ? 0 : file.size() - 4));
-  for (char& c : end) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return end == ".ttf" || end == ".otf";
-}
-
 bool same_file(const Source& a, const Source& b) {
   return &a == &b || absolute_path(a.path()) == absolute_path(b.path());
 }
@@ -36,11 +27,12 @@ std::size_t Builder::ScopedNameHash::operator()(const ScopedName& key) const {
 }
 
 Builder::Builder(const Source& source, const Source* user, SyntaxErrors& errors,
-                 Diagnostics& diagnostics)
+                 const FileAccess& files, Diagnostics& diagnostics)
     : program_{std::make_shared<ast::Arena>(), &source, {}, {}, {}},
       arena_(*program_.arena),
       user_(user),
       errors_(errors),
+      file_access_(files),
       diagnostics_(diagnostics) {}
 
 ast::Program Builder::finish() {
@@ -57,7 +49,7 @@ ast::Program Builder::finish() {
 
 void Builder::add_use(const ast::Use& use) {
   if (is_font(use.file)) {
-    if (!std::filesystem::is_regular_file(use.file)) {
+    if (!file_access_.is_regular_file(std::string(use.file))) {
       diagnostics_.report(
           {Severity::kError,
            {},

@@ -16,6 +16,7 @@
 #include "parser/detail/symbol_values.h"
 #include "parser/detail/syntax_errors.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 #include "parser/source.h"
 
 namespace lamina::detail {
@@ -24,8 +25,9 @@ class Builder {
  public:
   // source  the main text of the program
   // user    the file whose `use` asks for it; null for a main file
+  // files   what fonts may be read
   Builder(const Source& source, const Source* user, SyntaxErrors& errors,
-          Diagnostics& diagnostics);
+          const FileAccess& files, Diagnostics& diagnostics);
 
   ast::Arena& arena() { return arena_; }
 
@@ -121,6 +123,7 @@ class Builder {
   ast::Arena& arena_;
   const Source* user_;
   SyntaxErrors& errors_;
+  const FileAccess& file_access_;
   Diagnostics& diagnostics_;
 
   std::vector<const ast::Expr*> elements_;

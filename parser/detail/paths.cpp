@@ -28,4 +28,12 @@ std::string shown_path(const std::string& path) {
   return relative.starts_with("..") ? path : relative;
 }
 
+bool is_font(std::string_view file) {
+  std::string end(file.substr(file.size() < 4 ? 0 : file.size() - 4));
+  for (char& c : end) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return end == ".ttf" || end == ".otf";
+}
+
 }  // namespace lamina::detail

@@ -2,6 +2,7 @@
 // Names of files as OpenSCAD's messages show them.
 
 #include <string>
+#include <string_view>
 
 namespace lamina::detail {
 
@@ -16,5 +17,8 @@ std::string relative_path(const std::string& path, const std::string& base);
 
 // `path` as a terminal shows it: relative if it lies below the current folder.
 std::string shown_path(const std::string& path);
+
+// Whether the name is that of a font, in any letter case.
+bool is_font(std::string_view file);
 
 }  // namespace lamina::detail

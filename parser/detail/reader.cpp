@@ -100,7 +100,7 @@ std::vector<const Source*> Reader::open_includes() const {
 
 bool Reader::open_include() {
   const std::string path =
-      loader_.find(*files_.back().source, file_name_, open_includes());
+      loader_.find(whole_token(), file_name_, open_includes());
   const Source* source = path.empty() ? nullptr : loader_.open_include(path);
   if (source == nullptr) {
     diagnostics_.report({Severity::kWarning,
@@ -121,8 +121,7 @@ bool Reader::close_include() {
 }
 
 ast::Use* Reader::find_use(SourceRange range) {
-  std::string path =
-      loader_.find(*files_.back().source, file_name_, open_includes());
+  std::string path = loader_.find(range, file_name_, open_includes());
   const bool is_found = !path.empty();
   if (!is_found) {
     diagnostics_.report({Severity::kWarning,

@@ -368,8 +368,9 @@ void read_binary(Numbers& numbers, LayerMaker& maker) {
 
 }  // namespace
 
-LayerFileFacts read_cli(const std::string& path, const TakeLayer& take) {
-  const csg::FileBytes file = open_to_read(path);
+LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
+                        const FileAccess& access) {
+  const csg::FileBytes file = open_to_read(path, access);
   const CliHeader header = read_header(path, file.view());
   LayerMaker maker(header, take);
   if (header.is_binary) {

@@ -13,6 +13,7 @@
 
 namespace lamina::slicer {
 
-LayerFileFacts read_cli(const std::string& path, const TakeLayer& take);
+LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
+                        const FileAccess& access);
 
 }  // namespace lamina::slicer

@@ -20,8 +20,9 @@ namespace {
 // and would break what counts in integers [mm].
 constexpr double kGreatestCoordinate = 1e9;
 
-LayerFileFacts read_slc(const std::string& path, const TakeLayer& take) {
-  SlcReader reader(path);
+LayerFileFacts read_slc(const std::string& path, const TakeLayer& take,
+                        const FileAccess& access) {
+  SlcReader reader(path, access);
   SlcLayer slc_layer;
   while (reader.read_layer(slc_layer)) {
     Layer layer = to_layer(slc_layer);
@@ -34,7 +35,8 @@ LayerFileFacts read_slc(const std::string& path, const TakeLayer& take) {
   return facts;
 }
 
-using Read = LayerFileFacts (*)(const std::string& path, const TakeLayer& take);
+using Read = LayerFileFacts (*)(const std::string& path, const TakeLayer& take,
+                                const FileAccess& access);
 struct Format {
   std::string_view ending;
   Read read;
@@ -73,22 +75,27 @@ bool is_readable_layer_file(std::string_view path) {
   return reader_for(path) != nullptr;
 }
 
-LayerFileFacts read_layers(const std::string& path, const TakeLayer& take) {
+LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
+                           const FileAccess& access) {
   const Read read = reader_for(path);
   if (read == nullptr) {
     fail_to_read(path,
                  "layers are read from .slc, .cli, .svg and .layers.json only");
   }
   std::size_t count = 0;
-  return read(path, [&](Layer& layer) {
-    ++count;
-    if (!is_within_reach(layer)) {
-      fail_to_read(path, fmt::format("layer {} reaches farther than {:g} mm "
-                                     "from the origin",
-                                     count, kGreatestCoordinate));
-    }
-    take(layer);
-  });
+  return read(
+      path,
+      [&](Layer& layer) {
+        ++count;
+        if (!is_within_reach(layer)) {
+          fail_to_read(path,
+                       fmt::format("layer {} reaches farther than {:g} mm "
+                                   "from the origin",
+                                   count, kGreatestCoordinate));
+        }
+        take(layer);
+      },
+      access);
 }
 
 }  // namespace lamina::slicer

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "parser/file_access.h"
 #include "slicer/layer.h"
 
 namespace lamina::slicer {
@@ -38,7 +39,8 @@ struct LayerFileFacts {
 bool is_readable_layer_file(std::string_view path);
 
 // Throws FileError, also for a file whose name is_readable_layer_file() does
-// not take.
-LayerFileFacts read_layers(const std::string& path, const TakeLayer& take);
+// not take, and AccessError for one that may not be read.
+LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
+                           const FileAccess& access = kAllFiles);
 
 }  // namespace lamina::slicer

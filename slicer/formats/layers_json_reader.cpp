@@ -281,9 +281,9 @@ class Walker {
 
 }  // namespace
 
-LayerFileFacts read_layers_json(const std::string& path,
-                                const TakeLayer& take) {
-  const csg::FileBytes file = open_to_read(path);
+LayerFileFacts read_layers_json(const std::string& path, const TakeLayer& take,
+                                const FileAccess& access) {
+  const csg::FileBytes file = open_to_read(path, access);
   const std::string_view text = file.view();
   const char* at = text.data();
   Handler handler(path, take, text, at);

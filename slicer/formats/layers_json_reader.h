@@ -8,6 +8,7 @@
 
 namespace lamina::slicer {
 
-LayerFileFacts read_layers_json(const std::string& path, const TakeLayer& take);
+LayerFileFacts read_layers_json(const std::string& path, const TakeLayer& take,
+                                const FileAccess& access);
 
 }  // namespace lamina::slicer

@@ -18,15 +18,20 @@ OutputFile::OutputFile(std::string path, TemporaryFiles& temporary_files)
     : path_(std::move(path)),
       temporary_files_(temporary_files),
       buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
-  struct stat status {};
-  const bool exists = path_ != "-" && ::stat(path_.c_str(), &status) == 0;
-  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
-  if (path_ == "-" || (exists && !S_ISREG(status.st_mode))) {
-    temporary_.file = open_nameless();
+  const FileAccess& access = temporary_files_.file_access();
+  if (path_ != "-") place_ = access.find_output(path_);
+  if (place_.error != 0) fail(place_.error);
+  const auto there = place_.there;
+  if (there && S_ISDIR(there->st_mode)) fail(EISDIR);
+  if (path_ == "-" || (there && !S_ISREG(there->st_mode))) {
+    place_ = {};
+    temporary_.file = temporary_files_.open_nameless();
   } else {
-    target_path_ = follow_links(path_);
-    if (exists && ::access(target_path_.c_str(), W_OK) != 0) fail(errno);
-    temporary_ = temporary_files_.open_file(target_path_);
+    if (there && ::faccessat(AT_FDCWD, place_.path.c_str(), W_OK,
+                             AT_SYMLINK_NOFOLLOW) != 0) {
+      fail(errno);
+    }
+    temporary_ = temporary_files_.open_file(place_.path);
   }
   if (temporary_.file < 0) fail(errno);
 }
@@ -84,14 +89,14 @@ std::string OutputFile::read(std::uint64_t offset, std::size_t size) {
 
 void OutputFile::commit() {
   flush();
-  if (target_path_.empty()) {
+  if (place_.path.empty()) {
     const int target = path_ == "-"
                            ? STDOUT_FILENO
                            : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     if (target < 0) fail(errno);
     copy_to(target);
     if (target != STDOUT_FILENO && ::close(target) != 0) fail(errno);
-  } else if (!temporary_files_.commit_file(temporary_, target_path_)) {
+  } else if (!temporary_files_.commit_file(temporary_, place_.path)) {
     fail(errno);
   }
   temporary_files_.discard_file(temporary_);

@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 
+#include "parser/file_access.h"
 #include "slicer/formats/temporary_files.h"
 
 namespace lamina::slicer {
@@ -21,7 +22,7 @@ namespace lamina::slicer {
 class OutputFile {
  public:
   // path  "-": standard output
-  // Throws FileError if the file cannot be made.
+  // Throws FileError if the file cannot be made, AccessError if it may not be.
   OutputFile(std::string path, TemporaryFiles& temporary_files);
   ~OutputFile();  // discards what was not committed
   OutputFile(const OutputFile&) = delete;
@@ -64,7 +65,7 @@ class OutputFile {
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string target_path_;  // what is replaced; empty: nothing is
+  OutputPlace place_;  // what is replaced; no path: nothing is
   TemporaryFiles& temporary_files_;
   TemporaryFiles::File temporary_;
   std::unique_ptr<char[]> buffer_;  // kBufferSize bytes

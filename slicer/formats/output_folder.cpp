@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <unordered_set>
 #include <utility>
@@ -25,8 +25,8 @@ using Words = std::unordered_set<std::string>;
 
 // What stands between quotes in a file of contents: the names of the files that
 // it tells of, and its own. None if lamina did not write it.
-Words words_of(const fs::path& contents) {
-  std::ifstream file(contents, std::ios::binary);
+Words words_of(const fs::path& contents, const FileAccess& access) {
+  std::istringstream file(access.read(contents).value_or(""));
   Words words;
   for (std::string word; std::getline(file, word, '"');) words.insert(word);
   const bool is_own = std::any_of(
@@ -55,18 +55,20 @@ OutputFolder::~OutputFolder() { temporary_files_.discard_folder(temporary_); }
 
 // Throws where something stands at the target that lamina did not make.
 void OutputFolder::check_target() const {
-  std::error_code error;
-  const fs::file_status status = fs::status(path_, error);
-  if (!fs::exists(status)) {
-    if (fs::is_symlink(fs::symlink_status(path_, error))) {
+  const FileAccess& access = temporary_files_.file_access();
+  const OutputPlace place = access.find_output(path_);
+  if (!place.there) {
+    std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(place.path, error))) {
       fail("it links to what is not there");
     }
     return;
   }
-  if (!fs::is_directory(status)) fail("it is no folder");
-  const Words own = words_of(fs::path(path_) / contents_);
-  for (fs::directory_iterator entry(path_, error), end; entry != end; ++entry) {
-    const std::string name = entry->path().filename();
+  if (!S_ISDIR(place.there->st_mode)) fail("it is no folder");
+  const Words own = words_of(fs::path(path_) / contents_, access);
+  const auto names = access.list(path_);
+  if (!names) fail(std::strerror(errno));
+  for (const std::string& name : *names) {
     if (!own.contains(name)) {
       fail(
           fmt::format("a folder stands there, and '{}' in it, which lamina "
@@ -74,7 +76,6 @@ void OutputFolder::check_target() const {
                       name));
     }
   }
-  if (error) fail(error.message());
 }
 
 void OutputFolder::add(const std::string& name, std::string_view bytes) {

@@ -22,16 +22,20 @@ void fail_to_read(const std::string& path, std::string_view message) {
       {Severity::kError, {}, fmt::format("{}: {}", path, message), {}});
 }
 
-csg::FileBytes open_to_read(const std::string& path) {
-  errno = 0;
-  std::optional<csg::FileBytes> bytes = csg::FileBytes::open(path);
-  if (bytes) return std::move(*bytes);
+void fail_to_open(const std::string& path) {
   throw FileError(
       {Severity::kError,
        {},
        fmt::format("Can't open input file '{}': {}", path,
                    errno == 0 ? "not a regular file" : std::strerror(errno)),
        {}});
+}
+
+csg::FileBytes open_to_read(const std::string& path, const FileAccess& access) {
+  access.require(path);
+  std::optional<csg::FileBytes> bytes = csg::FileBytes::open(path, access);
+  if (!bytes) fail_to_open(path);
+  return std::move(*bytes);
 }
 
 std::size_t line_at(std::string_view text, std::size_t place) {

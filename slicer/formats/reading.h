@@ -9,6 +9,7 @@
 #include "csg/import/file_bytes.h"
 #include "csg/vec.h"
 #include "ldni/contours.h"
+#include "parser/file_access.h"
 
 namespace lamina::slicer {
 
@@ -16,8 +17,12 @@ namespace lamina::slicer {
 [[noreturn]] void fail_to_read(const std::string& path,
                                std::string_view message);
 
-// Throws FileError where there is no regular file that may be read.
-csg::FileBytes open_to_read(const std::string& path);
+// The same for a file that FileAccess::open could not open: errno says why.
+[[noreturn]] void fail_to_open(const std::string& path);
+
+// Throws FileError where there is no regular file that can be read, AccessError
+// for one that may not be.
+csg::FileBytes open_to_read(const std::string& path, const FileAccess& access);
 
 // The number of the line that holds the byte at `place`, from 1.
 std::size_t line_at(std::string_view text, std::size_t place);

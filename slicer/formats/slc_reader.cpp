@@ -80,15 +80,14 @@ std::optional<double> split_deviation(std::string& package) {
 
 }  // namespace
 
-SlcReader::SlcReader(std::string path)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "rbe")) {
-  if (!file_) {
-    throw FileError({Severity::kError,
-                     {},
-                     fmt::format("Can't open input file '{}': {}", path_,
-                                 std::strerror(errno)),
-                     {}});
-  }
+SlcReader::SlcReader(std::string path, const FileAccess& access)
+    : path_(std::move(path)) {
+  access.require(path_);
+  OpenFile file = access.open(path_);
+  if (!file) fail_to_open(path_);
+  file_.reset(::fdopen(file.descriptor(), "rb"));
+  if (!file_) fail_to_open(path_);
+  file.release();
   read_header();
   read_sampling();
 }

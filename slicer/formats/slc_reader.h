@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "csg/vec.h"
+#include "parser/file_access.h"
 #include "slicer/layer.h"
 
 namespace lamina::slicer {
@@ -57,7 +58,7 @@ class SlcReader {
  public:
   // Reads up to the first layer. Throws FileError, also for the two other
   // formats that bear the suffix.
-  explicit SlcReader(std::string path);
+  explicit SlcReader(std::string path, const FileAccess& access = kAllFiles);
 
   const SlcHeader& header() const { return header_; }
   const std::vector<SlcSampling>& sampling() const { return sampling_; }

@@ -27,8 +27,8 @@ constexpr double kMillimetresPerInch = 25.4;
 
 class SvgReader {
  public:
-  explicit SvgReader(const std::string& path)
-      : path_(path), file_(open_to_read(path)) {
+  SvgReader(const std::string& path, const FileAccess& access)
+      : path_(path), file_(open_to_read(path, access)) {
     const std::string_view bytes = file_.view();
     if (bytes.size() > kMostBytes) fail_to_read(path, "the file is too large");
     const pugi::xml_parse_result result = document_.load_buffer(
@@ -210,8 +210,9 @@ class SvgReader {
 
 }  // namespace
 
-LayerFileFacts read_svg(const std::string& path, const TakeLayer& take) {
-  return SvgReader(path).read(take);
+LayerFileFacts read_svg(const std::string& path, const TakeLayer& take,
+                        const FileAccess& access) {
+  return SvgReader(path, access).read(take);
 }
 
 }  // namespace lamina::slicer

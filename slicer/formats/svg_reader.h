@@ -12,6 +12,7 @@
 
 namespace lamina::slicer {
 
-LayerFileFacts read_svg(const std::string& path, const TakeLayer& take);
+LayerFileFacts read_svg(const std::string& path, const TakeLayer& take,
+                        const FileAccess& access);
 
 }  // namespace lamina::slicer

@@ -7,8 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
-#include <new>
 #include <system_error>
 #include <utility>
 
@@ -179,12 +177,11 @@ int end_writing(int file) {
 
 }  // namespace
 
-int open_nameless() {
-  const char* folder = std::getenv("TMPDIR");
-  if (folder == nullptr || *folder == '\0') folder = "/tmp";
+int TemporaryFiles::open_nameless() const {
+  const std::string folder = access_.scratch_folder();
   int file = open_nameless_in(folder);
   if (file >= 0) return file;
-  std::string path = std::string(folder) + "/lamina-XXXXXX";
+  std::string path = folder + "/lamina-XXXXXX";
   file = ::mkostemp(path.data(), O_CLOEXEC);
   if (file >= 0) {
     ::unlink(path.c_str());
@@ -192,16 +189,6 @@ int open_nameless() {
   }
   // Without such a folder, memory has to do.
   return ::memfd_create("lamina", MFD_CLOEXEC);
-}
-
-std::string follow_links(const std::string& path) {
-  char* resolved = ::realpath(path.c_str(), nullptr);
-  if (resolved == nullptr) {
-    if (errno == ENOMEM) throw std::bad_alloc();
-    return path;  // not there yet
-  }
-  const std::unique_ptr<char, decltype(&::free)> owner(resolved, &::free);
-  return resolved;
 }
 
 void TemporaryFiles::discard_all() {
@@ -283,9 +270,12 @@ void TemporaryFiles::discard_file(File& file) {
 
 TemporaryFiles::Folder TemporaryFiles::make_folder(const std::string& path) {
   const Lock lock(mutex_);
-  const std::string target = follow_links(path);
   Folder folder;
-  folder.lock = make_hidden(target, folder.path, paths_, make_named_folder);
+  folder.place = access_.find_output(path);
+  errno = folder.place.error;
+  if (errno != 0) return folder;
+  folder.lock =
+      make_hidden(folder.place.path, folder.path, paths_, make_named_folder);
   return folder;
 }
 
@@ -300,13 +290,15 @@ int TemporaryFiles::open_file_in(const Folder& folder,
 
 bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
   const Lock lock(mutex_);
-  const std::string target = follow_links(path);
+  const OutputPlace target = access_.find_output(path);
+  errno = target.error;
+  if (errno != 0) return false;
   // A name that is free, or an empty folder, is taken by a rename. Else the
   // two change places at once, where the file system can do that.
-  if (::rename(folder.path.c_str(), target.c_str()) != 0) {
+  if (::rename(folder.path.c_str(), target.path.c_str()) != 0) {
     if (errno != ENOTEMPTY && errno != EEXIST) return false;
-    if (::renameat2(AT_FDCWD, folder.path.c_str(), AT_FDCWD, target.c_str(),
-                    RENAME_EXCHANGE) != 0) {
+    if (::renameat2(AT_FDCWD, folder.path.c_str(), AT_FDCWD,
+                    target.path.c_str(), RENAME_EXCHANGE) != 0) {
       return false;
     }
     remove_all(folder.path);

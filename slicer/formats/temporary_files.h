@@ -12,12 +12,20 @@
 #include <string>
 #include <vector>
 
+#include "parser/file_access.h"
+
 namespace lamina::slicer {
 
 // The temporary files and folders of a run, so that whoever stops the run can
 // remove them. Safe to use from several threads.
 class TemporaryFiles {
  public:
+  // access  what may be written; outlives them
+  explicit TemporaryFiles(const FileAccess& access = kAllFiles)
+      : access_(access) {}
+
+  const FileAccess& file_access() const { return access_; }
+
   // A file on its way to a target.
   struct File {
     int file = -1;     // for reading and writing; −1: none (errno tells why)
@@ -27,6 +35,7 @@ class TemporaryFiles {
   struct Folder {
     std::string path;  // empty: none (errno tells why)
     int lock = -1;
+    OutputPlace place;  // `path` is valid as long as this
   };
 
   // Removes them all and forbids new ones and renames from now on: for the
@@ -34,6 +43,7 @@ class TemporaryFiles {
   // a second is left to the next run.
   void discard_all();
 
+  // `target` is the path of an OutputPlace.
   File open_file(const std::string& target);
   // Puts the file in the place of `target`. False if it cannot (errno). Either
   // way the file stays open.
@@ -41,7 +51,11 @@ class TemporaryFiles {
   // Closes the file and removes it if it was not committed.
   void discard_file(File& file);
 
-  // A new folder beside `path`, or beside what it links to.
+  // A file without a name that nobody will give one; −1 if there is no room for
+  // it (errno).
+  int open_nameless() const;
+
+  // A new folder beside `path`, or beside what it links to. Throws AccessError.
   Folder make_folder(const std::string& path);
   // A new file of that folder, for writing; −1 if it cannot be made (errno).
   int open_file_in(const Folder& folder, const std::string& name);
@@ -55,15 +69,9 @@ class TemporaryFiles {
   bool rename_to(File& file, const std::string& target);
   void forget(const std::string& path);
 
+  const FileAccess& access_;
   std::timed_mutex mutex_;
   std::vector<std::string> paths_;  // those that have a name
 };
-
-// A file without a name that nobody will give one; −1 if there is no room for
-// it (errno).
-int open_nameless();
-
-// Where a rename must go: through symbolic links, to the file itself.
-std::string follow_links(const std::string& path);
 
 }  // namespace lamina::slicer

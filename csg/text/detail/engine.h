@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "csg/text/typesetter.h"
 #include "csg/text_measurer.h"
@@ -35,6 +36,18 @@ struct Typeset {
   csg::FontMetrics font_metrics;
 };
 
+// The fonts of a run that may not read all (`--root`).
+class FontFiles {
+ public:
+  virtual ~FontFiles() = default;
+
+  // The files in a folder and below it that may be read.
+  virtual std::vector<std::string> files_in(
+      const std::string& folder) const = 0;
+  // A descriptor to read from, which the caller closes; negative: none.
+  virtual int open(const std::string& path) const = 0;
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -52,11 +65,13 @@ class Engine {
 };
 
 // Changes whenever something above does.
-constexpr int kEngineVersion = 2;
+constexpr int kEngineVersion = 3;
 
 // The module's function: a new engine; null if it has another version or there
 // is no memory.
-using MakeEngine = Engine*(int version);
+//
+// permitted  outlives the engine; null: all fonts of the system
+using MakeEngine = Engine*(int version, const FontFiles* permitted);
 constexpr const char* kMakeEngineName = "lamina_make_text_engine";
 
 }  // namespace lamina::text

@@ -5,6 +5,10 @@
 // Fontconfig it is the same file: the system's fonts, ~/.fonts, the folders of
 // OPENSCAD_FONT_PATH, the fonts that come with OpenSCAD, those that the
 // design uses.
+//
+// Where a run may not read all files, Fontconfig is given the fonts that it may
+// read, one by one and as open files, and keeps to its rules of matching. It
+// looks into no folder then, and neither reads nor writes its caches.
 
 #include <map>
 #include <memory>
@@ -15,10 +19,13 @@
 #include <hb.h>
 #include FT_FREETYPE_H
 
+#include "csg/text/detail/engine.h"
+
 namespace lamina::text {
 
 // Frees what the C libraries made.
 struct Release {
+  void operator()(FcFontSet* set) const { FcFontSetDestroy(set); }
   void operator()(FcConfig* config) const { FcConfigDestroy(config); }
   void operator()(FcPattern* pattern) const { FcPatternDestroy(pattern); }
   void operator()(FT_Library library) const { FT_Done_FreeType(library); }
@@ -44,7 +51,8 @@ struct Font {
 // Caches share what Fontconfig finds, until a design brings fonts along.
 class FontCache {
  public:
-  FontCache();
+  // permitted  null: all fonts; outlives the cache
+  explicit FontCache(const FontFiles* permitted);
 
   // Before the first find(). False if Fontconfig finds no font in the file.
   bool add_font(const char* path);
@@ -54,9 +62,15 @@ class FontCache {
 
  private:
   Font load(const std::string& name) const;
+  void add_permitted_folders();
+  bool add_permitted(const std::string& path);
+  Owned<FcPattern> match(FcPattern& pattern) const;
+  FT_Face open_face(const char* path, int index) const;
 
+  const FontFiles* permitted_;
   Owned<FcConfig> config_;
-  bool has_own_config_ = false;  // with fonts that no other design sees
+  bool has_own_config_ = false;      // with fonts that no other design sees
+  Owned<FcFontSet> fonts_to_match_;  // of permitted_
   Owned<FT_LibraryRec_> library_;
   std::map<std::string, Font> fonts_;  // must go before the library
 };

@@ -1,0 +1,43 @@
+#include "parser/open_file.h"
+
+#include <algorithm>
+#include <cerrno>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace lamina {
+
+OpenFile::~OpenFile() {
+  if (descriptor_ < 0) return;
+  const int error = errno;
+  ::close(descriptor_);
+  errno = error;
+}
+
+std::optional<std::string> OpenFile::read_all(std::size_t spare) const {
+  constexpr std::size_t kLeastPiece = 1 << 12;
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) return std::nullopt;
+  // One byte more than there are shows the end without growing.
+  const auto expected =
+      static_cast<std::size_t>(std::max<off_t>(status.st_size, 0));
+  std::string bytes;
+  bytes.reserve(expected + 1 + spare);
+  std::size_t size = 0;
+  while (true) {
+    if (size == bytes.size()) {
+      bytes.resize(size == 0 ? std::max(expected + 1, kLeastPiece) : 2 * size);
+    }
+    const ssize_t count =
+        ::read(descriptor_, bytes.data() + size, bytes.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return std::nullopt;
+    if (count == 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace lamina

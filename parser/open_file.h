@@ -1,0 +1,37 @@
+#pragma once
+// An open file that closes itself.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace lamina {
+
+class OpenFile {
+ public:
+  OpenFile() = default;
+  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+  OpenFile(OpenFile&& other) noexcept : descriptor_(other.release()) {}
+  OpenFile& operator=(OpenFile&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~OpenFile();  // keeps errno
+
+  explicit operator bool() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  // The caller closes it from now on.
+  int release() { return std::exchange(descriptor_, -1); }
+
+  // All bytes from here to the end; no value where reading fails (errno tells
+  // why). What is a stream, such as a pipe, is read until it ends.
+  //
+  // spare  bytes that the caller will append: there is room for them
+  std::optional<std::string> read_all(std::size_t spare = 0) const;
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace lamina

@@ -1,0 +1,94 @@
+// Files that a design or a command line names are opened in one place
+// (parser/file_access.h). Whatever else touches files stands on a list here,
+// with the reason why it may.
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = LAMINA_SOURCE_DIR;
+
+// What opens a file, looks at one, changes one, or asks whether there is one.
+const std::regex kTouch(
+    R"(\b[io]?fstream\b|\b(fopen|freopen|opendir|readdir|realpath|mkstemp|)"
+    R"(mkostemp|dlopen|gzopen|unzOpen\w*|zipOpen\w*|png_image_begin_read_from_file|)"
+    R"(load_file|FT_New_Face|FcConfigAppFontAdd\w+|FcInitLoadConfig|)"
+    R"(inotify_add_watch)\s*\()"
+    R"(|(^|[^\w])::(open|openat|stat|lstat|fstatat|access|faccessat|readlink|readlinkat|)"
+    R"(mkdir|mkdirat|rename|renameat2?|unlink|unlinkat|remove|symlink|link|)"
+    R"(truncate|utimensat|chmod|chdir|execvp?e?|posix_spawnp?)\()"
+    R"(|\bfs::(exists|is_\w+|status|symlink_status|canonical|weakly_canonical|)"
+    R"(create_\w+|directory_iterator|recursive_directory_iterator|file_size|)"
+    R"(last_write_time|remove|remove_all|rename|copy\w*|read_symlink|)"
+    R"(temp_directory_path|permissions|resize_file|equivalent|space)\b)"
+    R"(|std::filesystem::(exists|is_\w+|canonical|weakly_canonical|remove\w*|)"
+    R"(temp_directory_path|create_\w+|file_size|last_write_time)\b)");
+
+const std::map<std::string, std::string> kMayTouch = {
+    {"parser/file_access.cpp", "the one place"},
+    {"parser/detail/confined_walk.cpp", "its way through folders"},
+    {"slicer/formats/output_file.cpp",
+     "names beside what FileAccess::find_output found"},
+    {"slicer/formats/output_folder.cpp", "the same"},
+    {"csg/text/font_cache.cpp", "Fontconfig, and fonts that FileAccess opened"},
+    {"csg/text/typesetter.cpp", "the program's own module"},
+    {"ldni/gl_platforms.cpp", "the system's OpenGL"},
+    {"cli/landlock.cpp", "names folders to the kernel"},
+    {"cli/openscad.cpp", "runs openscad; refused with --root"},
+    {"cli/file_watcher.cpp", "--watch; refused with --root"},
+    {"cli/watch.cpp", "the same"},
+    {"cli/report.cpp", "/proc/self/status"},
+    {"cli/machine_memory.cpp", "/proc and /sys"},
+    {"cli/pages/main.cpp", "another program, of the build"},
+};
+
+std::string without_comments(const std::string& line) {
+  return line.substr(0, line.find("//"));
+}
+
+TEST(Files, AreOpenedInOnePlace) {
+  std::map<std::string, bool> is_needed;
+  for (const char* folder : {"parser", "csg", "ldni", "slicer", "api", "cli"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") continue;
+      const std::string file = fs::relative(entry.path(), kRoot).string();
+      std::ifstream text(entry.path());
+      std::string line;
+      for (int number = 1; std::getline(text, line); ++number) {
+        if (!std::regex_search(without_comments(line), kTouch)) continue;
+        is_needed[file] = true;
+        EXPECT_TRUE(kMayTouch.contains(file))
+            << file << ":" << number << ": " << line
+            << "\ntouches files; go through parser/file_access.h";
+      }
+    }
+  }
+  for (const auto& [file, reason] : kMayTouch) {
+    EXPECT_TRUE(is_needed[file]) << file << " needs no place on the list";
+  }
+}
+
+// A default of "all files" is for tests and for other programs.
+TEST(Files, TheProgramHandsOnWhatItMayUse) {
+  const std::regex unconfined(R"(\bkAllFiles\b|\bFileAccess\(\))");
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "cli")) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream text(entry.path());
+    std::string line;
+    while (std::getline(text, line)) {
+      EXPECT_FALSE(std::regex_search(line, unconfined)) << entry.path() << line;
+    }
+  }
+}
+
+}  // namespace
