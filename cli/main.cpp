@@ -16,8 +16,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "cli/access_options.h"
 #include "cli/command.h"
 #include "cli/commands/commands.h"
+#include "cli/landlock.h"
 #include "cli/process_limits.h"
 #include "cli/process_watch.h"
 #include "cli/run_on_stack.h"
@@ -39,19 +41,23 @@ Exit usage_fault(std::string_view message) {
                                    message)};
 }
 
-// Reads the words into the options of `command` and `limits`; a value where
-// that was all.
+// Reads the words into the options of `command`, `limits` and `access`; a value
+// where that was all.
 std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
-                               int argc, const char* const* argv) {
+                               FileAccess& access, int argc,
+                               const char* const* argv) {
   CLI::App app("", "lamina");
   app.set_help_flag("-h,--help");
   app.set_version_flag("-v,--version",
                        fmt::format("lamina {}", slicer::version()));
   command.add_options(app);
   add_process_limits(app, limits);
+  FileAccess::Limits access_limits;
+  add_access_options(app, access_limits);
   try {
     app.parse(argc, argv);
     command.check();
+    access = make_file_access(access_limits);
   } catch (const CLI::CallForHelp&) {
     return Exit{kDone, std::string(command.help())};
   } catch (const CLI::CallForVersion& version) {
@@ -83,8 +89,9 @@ int run_program(int argc, char** argv) {
   const int skipped = command ? 1 : 0;
   if (!command) command = make_slice_command();
   ProcessLimits limits;
-  if (const auto exit =
-          read_words(*command, limits, argc - skipped, argv + skipped)) {
+  FileAccess access;
+  if (const auto exit = read_words(*command, limits, access, argc - skipped,
+                                   argv + skipped)) {
     if (exit->status == kDone) {
       print_out(exit->text);
     } else {
@@ -92,7 +99,8 @@ int run_program(int argc, char** argv) {
     }
     return exit->status;
   }
-  slicer::TemporaryFiles temporary_files;
+  restrict_process(access);
+  slicer::TemporaryFiles temporary_files(access);
   ProcessWatch watch(limits);
   return run_on_stack(temporary_files, watch, [&](std::size_t stack) {
     return command->run(temporary_files, stack, watch);

@@ -9,6 +9,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "cli/access_options.h"
 #include "cli/command.h"
 #include "cli/commands/commands.h"
 #include "cli/process_limits.h"
@@ -163,6 +164,8 @@ CommandPage command_page(const std::string& name, Command& command,
   command.add_options(app);
   ProcessLimits limits;
   add_process_limits(app, limits);
+  FileAccess::Limits access_limits;
+  add_access_options(app, access_limits);
   CommandPage page;
   page.name = name;
   page.help = read_help(command.help());
