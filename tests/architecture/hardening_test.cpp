@@ -1,4 +1,4 @@
-// What the linker puts into a release (LaminaHardening.cmake),
+// What compiler and linker put into a release (LaminaHardening.cmake),
 // read out of the finished files: a flag that is given, yet without effect,
 // would not be seen elsewhere.
 
@@ -59,11 +59,21 @@ TEST_P(Hardening, LiesAtRandomAddresses) {
   EXPECT_TRUE(has(read_elf("--file-header", GetParam()), "DYN ("));
 }
 
+TEST_P(Hardening, ChecksStacks) {
+  EXPECT_TRUE(has(read_elf("--dyn-syms", GetParam()), " __stack_chk_fail@"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Files, Hardening,
                          testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE),
                          [](const auto& file) {
                            return file.index == 0 ? "Program" : "TextModule";
                          });
+
+TEST(HardenedProgram, ChecksBuffersAndContainers) {
+  const std::string symbols = read_elf("--dyn-syms", LAMINA_PROGRAM);
+  EXPECT_TRUE(has(symbols, " __memcpy_chk@")) << symbols;
+  EXPECT_TRUE(has(symbols, "__glibcxx_assert_fail")) << symbols;
+}
 
 }  // namespace
 }  // namespace lamina
