@@ -185,8 +185,8 @@ TEST_P(RootNaming, IsRefusedByNoImportWhereItIsData) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllKinds, RootNaming, testing::ValuesIn(kNamings),
-                         [](const auto& info) {
-                           return std::string(info.param.name);
+                         [](const auto& named) {
+                           return std::string(named.param.name);
                          });
 
 // --- What a command line names ----------------------------------------------
@@ -284,8 +284,8 @@ const std::vector<Words> kWords = {
      true},
 };
 INSTANTIATE_TEST_SUITE_P(AllOptions, RootWords, testing::ValuesIn(kWords),
-                         [](const auto& info) {
-                           return std::string(info.param.name);
+                         [](const auto& named) {
+                           return std::string(named.param.name);
                          });
 
 TEST_F(Root, FoldersOfSeveralOutputsStayInside) {
@@ -338,9 +338,9 @@ TEST_F(Root, MayBeNamedInAnyWay) {
 
 TEST_F(Root, HasToBeAFolder) {
   all_.write("root/d.scad", "cube();\n");
-  for (const std::string& root : {"none", "root/d.scad", ""}) {
+  for (const char* const root : {"none", "root/d.scad", ""}) {
     const auto result =
-        run(all_, {"root/d.scad", "-o", "o.slc", "--root", std::string(root)});
+        run(all_, {"root/d.scad", "-o", "o.slc", "--root", root});
     EXPECT_EQ(result.status, 2) << root << result.errors;
   }
   EXPECT_EQ(run(all_, {"root/d.scad", "--allow-read", "root"}).status, 2);

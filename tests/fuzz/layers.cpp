@@ -39,7 +39,8 @@ void try_to(const Read& read) {
 void read_layers(const std::string& path) {
   try_to([&] { slicer::read_layers(path, check); });
   try_to([&] {
-    const slicer::Inspection found = slicer::inspect_file(path, kMinFeature);
+    const slicer::Inspection found =
+        slicer::inspect_file(path, kMinFeature, FileAccess());
     slicer::inspection_text(found, slicer::LayerList::kAll);
     slicer::inspection_json(found);
   });
