@@ -30,14 +30,16 @@ constexpr std::uint64_t kNever =
     LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SOCK |
     LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_SYM;
 
+int create_ruleset() {
+  landlock_ruleset_attr attributes{};
+  attributes.handled_access_fs = kRead | kWrite | kNever;
+  return static_cast<int>(::syscall(SYS_landlock_create_ruleset, &attributes,
+                                    sizeof(attributes), 0));
+}
+
 class Ruleset {
  public:
-  Ruleset() {
-    landlock_ruleset_attr attributes{};
-    attributes.handled_access_fs = kRead | kWrite | kNever;
-    file_ = OpenFile(static_cast<int>(::syscall(
-        SYS_landlock_create_ruleset, &attributes, sizeof(attributes), 0)));
-  }
+  Ruleset() : file_(create_ruleset()) {}
 
   explicit operator bool() const { return static_cast<bool>(file_); }
 

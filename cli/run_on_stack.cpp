@@ -61,6 +61,7 @@ sigset_t ending_signals() {
   sigval what{};
   what.sival_int = kLostError;
   try {
+    // cppcheck-suppress rethrowNoCurrentException ; asked just before
     if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
     what.sival_int = kLostMemory;
