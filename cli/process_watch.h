@@ -4,7 +4,7 @@
 // The work itself is never asked: it may be deep inside of a library, or in a
 // loop that nobody thought of. The thread that waits for the work looks at the
 // clock and at the memory in use, every 20 ms, and ends the process
-// (cli/run_on_stack.h). A look costs 5 us, and a run that is over before the
+// (cli/run_on_stack.h). A look costs 2 us, and a run that is over before the
 // first one pays nothing.
 //
 // Between two looks a process could take much, so the system is told a limit,
