@@ -97,6 +97,21 @@ FileAccess::FileAccess(const Limits& limits)
   folders_ = std::make_shared<const Folders>(std::move(folders));
 }
 
+void check_machine(const std::string& path, int error) {
+  switch (error) {
+    case EIO:
+    case ENOMEM:
+    case EMFILE:
+    case ENFILE:
+      throw FileError({Severity::kError,
+                       {},
+                       fmt::format("Can't read file '{}': {}.", path,
+                                   std::strerror(error))});
+    default:
+      return;
+  }
+}
+
 std::vector<int> FileAccess::folder_descriptors() const {
   std::vector<int> descriptors;
   if (!is_confined()) return descriptors;
@@ -141,8 +156,9 @@ std::optional<struct stat> FileAccess::look_at(const std::string& path) const {
     return found.status;
   }
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return status;
+  if (::stat(path.c_str(), &status) == 0) return status;
+  check_machine(path, errno);
+  return std::nullopt;
 }
 
 bool FileAccess::is_there(const std::string& path) const {
@@ -166,6 +182,7 @@ std::string FileAccess::canonical(const std::string& path) const {
   }
   std::error_code error;
   const fs::path result = fs::canonical(path, error);
+  check_machine(path, error.value());
   return error ? "" : result.string();
 }
 

@@ -54,6 +54,10 @@ struct OutputPlace {
   std::optional<struct stat> there;  // what does
 };
 
+// Throws FileError where `error` (errno) is the machine's fault and not that of
+// whoever named the file: a disk that fails, no memory, no descriptor left.
+void check_machine(const std::string& path, int error);
+
 class FileAccess {
  public:
   // All files that the user of the program may use.
@@ -87,6 +91,7 @@ class FileAccess {
   // --- Looking ---------------------------------------------------------------
 
   // What stands there, behind all links; nothing for what may not be read.
+  // Where the machine fails to tell, this and all that follow throw FileError.
   std::optional<struct stat> look_at(const std::string& path) const;
   bool is_there(const std::string& path) const;
   // Something other than a folder.

@@ -1,6 +1,7 @@
 #include "parser/loader.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -108,13 +109,19 @@ std::string Loader::look_up(SourceRange place, std::string_view name,
 
 std::optional<std::string> Loader::read(const std::string& path) const {
   const OpenFile file = access_.open(path);
+  if (!file) {
+    check_machine(path, errno);
+    return std::nullopt;
+  }
   struct stat status {};
-  if (!file || ::fstat(file.descriptor(), &status) != 0 ||
+  if (::fstat(file.descriptor(), &status) == 0 &&
       static_cast<std::uintmax_t>(status.st_size) > kLargestText) {
     return std::nullopt;
   }
   // Room for what stands behind the text of a main file.
-  return file.read_all(definitions_.size() + 3);
+  auto text = file.read_all(definitions_.size() + 3);
+  if (!text) check_machine(path, errno);
+  return text;
 }
 
 const Source* Loader::open_include(const std::string& path) {

@@ -4,7 +4,9 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,7 @@ struct Image {
   std::size_t rows = 0;
   std::vector<std::uint8_t> pixels;  // RGBA
   std::string fault;
+  bool lacks_memory = false;
 };
 
 void read_bytes(png_structp png, png_bytep data, std::size_t size) {
@@ -41,6 +44,16 @@ void keep_fault(png_structp png, png_const_charp message) {
   png_longjmp(png, 1);
 }
 void ignore_warning(png_structp, png_const_charp) {}
+
+// libpng tells a lack of memory in many words, and some it passes over.
+png_voidp allocate(png_structp png, png_alloc_size_t size) {
+  void* memory = std::malloc(size);
+  if (memory == nullptr) {
+    static_cast<Image*>(png_get_mem_ptr(png))->lacks_memory = true;
+  }
+  return memory;
+}
+void deallocate(png_structp, png_voidp memory) { std::free(memory); }
 
 // Everything as 8 bits of red, green, blue, alpha, and as it stands: no gamma.
 void ask_for_rgba(png_structp png) {
@@ -83,11 +96,13 @@ bool decode(png_structp png, png_infop info, Image& image) {
 Image read_image(std::string_view bytes) {
   Image image;
   image.bytes = bytes;
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &image,
-                                           keep_fault, ignore_warning);
+  png_structp png =
+      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &image, keep_fault,
+                               ignore_warning, &image, allocate, deallocate);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   const bool is_read = info != nullptr && decode(png, info, image);
   png_destroy_read_struct(&png, &info, nullptr);
+  if (image.lacks_memory) throw std::bad_alloc();
   if (is_too_large(image)) {
     image.fault = fmt::format("{} x {} pixels: {} are the most", image.columns,
                               image.rows, kMostPixels);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -92,10 +93,14 @@ ClipperLib::Paths clip(ClipperLib::ClipType type,
   // Keep points on straight edges: there contours may touch.
   ClipperLib::Clipper clipper;
   clipper.PreserveCollinear(true);
-  clipper.AddPaths(subject, ClipperLib::ptSubject, true);
-  clipper.AddPaths(other, ClipperLib::ptClip, true);
+  const bool has_subject =
+      clipper.AddPaths(subject, ClipperLib::ptSubject, true);
+  const bool has_other = clipper.AddPaths(other, ClipperLib::ptClip, true);
   ClipperLib::Paths result;
-  clipper.Execute(type, result, fill, fill);
+  if (!has_subject && !has_other) return result;
+  // It catches whatever is thrown inside of it; paths on the grid, none beyond
+  // its range, give no other reason than lack of memory.
+  if (!clipper.Execute(type, result, fill, fill)) throw std::bad_alloc();
   return result;
 }
 

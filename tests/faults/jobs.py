@@ -80,8 +80,8 @@ class Job:
     inputs   files that it needs
     outputs  what it makes; a folder ends with "/"
     prints   whether standard output is an output, too
-    may_warn whether a warning excuses another output: of a font or an include that
-             cannot be found
+    may_warn whether a warning excuses another output: of a font that cannot be
+             found
     """
 
     def __init__(self, name, words, inputs, outputs=(), prints=False,
@@ -135,7 +135,7 @@ ALL = [
     Job("view .html", "view a.layers.json -q -o out/a.html", "a.layers.json",
         ["out/a.html"]),
     Job("solids", "solids.scad --layer 0.2 -o out/a.slc",
-        "solids.scad part.scad b.scad", ["out/a.slc"], may_warn=True),
+        "solids.scad part.scad b.scad", ["out/a.slc"]),
     Job("files", "files.scad -q --layer 0.2 -o out/a.slc",
         "files.scad t.stl t.off t.svg t.dxf t.dat t.png", ["out/a.slc"]),
     Job("text", "text.scad --layer 0.2 -o out/a.slc", "text.scad",

@@ -2,6 +2,7 @@
 // XML documents. Entities that a document defines itself are not expanded, so
 // none can be made to grow; no other file is read.
 
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,7 @@ inline void parse_xml(std::string_view bytes, const std::string& format,
   const pugi::xml_parse_result result =
       document.load_buffer(bytes.data(), bytes.size());
   if (result) return;
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   throw FormatError(format + " byte " + std::to_string(result.offset) + ", " +
                     result.description());
 }
