@@ -104,7 +104,6 @@ class Workshop {
   Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
     DesignOptions options = piece.options;
     options.settings.threads = threads_per_piece_;
-    Outcome outcome;
     const ProcessWatch::Piece timed(watch_, piece.prefix);
     Run run(options, temporary_files_, stack, &inbox);
     const int status = run_caught(run.terminal, run.diagnostics, [&] {
@@ -112,7 +111,7 @@ class Workshop {
       make_folder_of(options.output, run.file_access());
       return compile(run);
     });
-    outcome = outcome_of(run.report, status == kDone);
+    Outcome outcome = outcome_of(run.report, status == kDone);
     if (status == kDone && run.report.min_feature > 0) {
       run.terminal.say(feature_lines(run.report));
     }

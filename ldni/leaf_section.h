@@ -33,6 +33,10 @@ struct Chain {
   // overlap itself, -1: below. The winding number changes by this on the way
   // up through the chain.
   std::int32_t winding = 1;
+
+  std::span<const Vec2> points_in(std::span<const Vec2> all) const {
+    return all.subspan(first_point, point_count);
+  }
 };
 
 // A closed loop of a leaf in a layer: so many chains, one after another as it

@@ -57,9 +57,7 @@ class DifferencePicture {
  public:
   DifferencePicture(const ldni::Contours& a, const ldni::Contours& b,
                     const LayerDifference& difference)
-      : a_(a),
-        b_(b),
-        difference_(difference),
+      : difference_(difference),
         image_(2 * kFieldSize + 3 * kMargin,
                kTopStrip + kFieldSize + kFootStrip, kPaper) {
     const std::array regions = {region_of(a), region_of(b)};
@@ -223,8 +221,6 @@ class DifferencePicture {
     }
   }
 
-  const ldni::Contours& a_;
-  const ldni::Contours& b_;
   const LayerDifference& difference_;
   Image image_;
   ldni::Contours both_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slicer/plane.h"
+#include "csg/plane.h"
 
 namespace lamina::slicer {
 namespace {

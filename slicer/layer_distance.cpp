@@ -56,12 +56,15 @@ int LayerDistance::row_of(double y) const {
       std::clamp(row, 0.0, static_cast<double>(row_ends_.size()) - 1));
 }
 
+std::span<const LayerDistance::Edge> LayerDistance::edges_of(int row) const {
+  const auto number = static_cast<std::size_t>(row);
+  const std::uint32_t begin = number == 0 ? 0 : row_ends_[number - 1];
+  return {edges_.data() + begin, row_ends_[number] - begin};
+}
+
 bool LayerDistance::is_inside(Vec2 place) const {
-  const int row = row_of(place.y);
   int winding = 0;
-  for (std::uint32_t i = row == 0 ? 0 : row_ends_[row - 1]; i < row_ends_[row];
-       ++i) {
-    const auto& [from, to] = edges_[i];
+  for (const auto& [from, to] : edges_of(row_of(place.y))) {
     if ((from.y <= place.y) == (to.y <= place.y)) continue;
     const double x =
         from.x + (to.x - from.x) * (place.y - from.y) / (to.y - from.y);
@@ -76,10 +79,9 @@ LayerDistance::Depth LayerDistance::at(Vec2 place) const {
   Vec2 away(0);
   Vec2 along(0);
   const auto look = [&](int row) {
-    for (std::uint32_t i = row == 0 ? 0 : row_ends_[row - 1];
-         i < row_ends_[row]; ++i) {
-      const Vec2 step = edges_[i].to - edges_[i].from;
-      const Vec2 to_place = place - edges_[i].from;
+    for (const auto& [from, to] : edges_of(row)) {
+      const Vec2 step = to - from;
+      const Vec2 to_place = place - from;
       const double length = step.x * step.x + step.y * step.y;
       const double share =
           length == 0

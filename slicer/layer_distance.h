@@ -8,6 +8,7 @@
 // row.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ldni/contours.h"
@@ -34,6 +35,7 @@ class LayerDistance {
   };
 
   int row_of(double y) const;
+  std::span<const Edge> edges_of(int row) const;
   bool is_inside(Vec2 place) const;
 
   double reach_;

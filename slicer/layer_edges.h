@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "csg/plane.h"
 #include "csg/vec.h"
 #include "ldni/contours.h"
 
@@ -21,8 +22,6 @@ struct LayerEdge {
   Vec2 to() const { return from + length * along; }
 };
 
-inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 inline Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
 
 // Distance of the point from the straight line between two points, which may

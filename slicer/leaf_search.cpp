@@ -35,12 +35,12 @@ void LeafSearch::find(const ldni::ChainBlock& block, std::uint32_t layer,
   for (const ldni::Chain& chain : block.layer(layer)) {
     if (chain.instance != instance) look_between_turns(instance);
     instance = chain.instance;
-    const Vec2* const points = block.points.data() + chain.first_point;
-    for (std::uint32_t i = 1; i < chain.point_count; ++i) {
+    const std::span<const Vec2> points = chain.points_in(block.points);
+    for (std::size_t i = 1; i < points.size(); ++i) {
       look_along(points[i - 1], points[i], instance);
     }
-    turns_.push_back(points[0]);
-    turns_.push_back(points[chain.point_count - 1]);
+    turns_.push_back(points.front());
+    turns_.push_back(points.back());
   }
   look_between_turns(instance);
   for (std::size_t i = 0; i < places_.size(); ++i) {

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "csg/lanes.h"
+#include "csg/plane.h"
 #include "csg/vec.h"
 
 namespace lamina::slicer {
@@ -31,15 +32,16 @@ inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
   const Vec2 low = middle - Vec2(half_width);
   const Vec2 high = middle + Vec2(half_width);
   // Without a branch for each side: which one it is nobody could predict.
-  const bool is_beside =
-      (std::max(from.x, to.x) < low.x) | (std::min(from.x, to.x) > high.x) |
-      (std::max(from.y, to.y) < low.y) | (std::min(from.y, to.y) > high.y);
-  if (is_beside) return false;
+  const int sides_beyond = int{std::max(from.x, to.x) < low.x} +
+                           int{std::min(from.x, to.x) > high.x} +
+                           int{std::max(from.y, to.y) < low.y} +
+                           int{std::min(from.y, to.y) > high.y};
+  if (sides_beyond != 0) return false;
   // Corners on both sides of the line, or on it.
   const Vec2 along = to - from;
   const Vec2 aside = middle - from;
   const double reach = half_width * (std::abs(along.x) + std::abs(along.y));
-  return std::abs(along.x * aside.y - along.y * aside.x) <= reach;
+  return std::abs(cross(along, aside)) <= reach;
 }
 
 class LoopTree {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "csg/plane.h"
 #include "parser/check.h"
-#include "slicer/plane.h"
 
 namespace lamina::slicer {
 namespace {

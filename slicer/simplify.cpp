@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "csg/plane.h"
 #include "slicer/farthest_reach.h"
-#include "slicer/plane.h"
 
 namespace lamina::slicer {
 namespace {

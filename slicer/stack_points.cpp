@@ -45,7 +45,7 @@ class StackDrawer {
   }
 
   void add_quad(const std::array<Vec3, 4>& corners) {
-    for (const std::size_t i : {0, 1, 2, 0, 2, 3}) {
+    for (const std::size_t i : {0U, 1U, 2U, 0U, 2U, 3U}) {
       add(corners[i].x, corners[i].y, corners[i].z);
     }
     if (corners_.size() >= kMostCorners) flush();

@@ -10,6 +10,7 @@
 #include "csg/planar/convex_faces.h"
 #include "csg/planar/minkowski.h"
 #include "csg/planar/region.h"
+#include "csg/plane.h"
 #include "csg/solid/detail/convex_hull.h"
 #include "csg/solid/leaf_mesh.h"
 
@@ -77,7 +78,6 @@ std::vector<Draft> draft_extrusion(const Leaf& leaf) {
 
 // Whether the outline runs around the axis and never bends inwards.
 bool is_convex_around_axis(const Contour& outline) {
-  const auto cross = [](Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; };
   const std::size_t count = outline.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 a = outline[i];

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/planar/minkowski.h"
+#include "csg/plane.h"
 #include "csg/solid/detail/convex.h"
 #include "csg/vec.h"
 
@@ -16,8 +17,6 @@ namespace {
 using Edge = Convex::Edge;
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
 Vec2 unit(Vec2 v) {
   const double length = std::hypot(v.x, v.y);

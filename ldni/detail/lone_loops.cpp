@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "csg/lanes.h"
+#include "csg/plane.h"
 
 namespace lamina::ldni::detail {
 namespace {
@@ -22,23 +23,12 @@ constexpr std::uint32_t kPointsPerCandidate = 48;
 constexpr std::int32_t kMostCells = 8;  // along an axis
 constexpr double kCellsPerCandidate = 64;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-
-// Whether a chain bends to the left, or nowhere.
-bool bends_left(std::span<const Vec2> chain) {
+// Whether a chain bends to the side, or nowhere. +1: left, -1: right.
+bool bends_to(int side, std::span<const Vec2> chain) {
   for (std::size_t i = 2; i < chain.size(); ++i) {
-    if (cross(chain[i - 1] - chain[i - 2], chain[i] - chain[i - 1]) < 0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool bends_right(std::span<const Vec2> chain) {
-  for (std::size_t i = 2; i < chain.size(); ++i) {
-    if (cross(chain[i - 1] - chain[i - 2], chain[i] - chain[i - 1]) > 0) {
-      return false;
-    }
+    const double turn =
+        cross(chain[i - 1] - chain[i - 2], chain[i] - chain[i - 1]);
+    if (side * turn < 0) return false;
   }
   return true;
 }
@@ -50,11 +40,6 @@ double area_below(std::span<const Vec2> chain) {
     sum += (chain[i].x - chain[i - 1].x) * (chain[i].y + chain[i - 1].y);
   }
   return sum / 2;
-}
-
-std::span<const Vec2> points_of(const Chain& chain,
-                                std::span<const Vec2> points) {
-  return points.subspan(chain.first_point, chain.point_count);
 }
 
 }  // namespace
@@ -115,7 +100,7 @@ void LoneLoops::find_box(Candidate& candidate) const {
   Lanes low = lanes_of(points_[first.first_point]);
   Lanes high = low;
   for (const Chain& chain : chains_.subspan(candidate.chain, 2)) {
-    for (const Vec2& point : points_of(chain, points_)) {
+    for (const Vec2& point : chain.points_in(points_)) {
       const Lanes place = lanes_of(point);
       low = least(low, place);
       high = greatest(high, place);
@@ -138,13 +123,14 @@ bool LoneLoops::is_alone(std::uint32_t candidate) const {
 // Of the first of the two chains; none where the loop is not convex or too thin
 // for its box.
 LoneLoops::Side LoneLoops::side_of(const Candidate& candidate) const {
-  const auto a = points_of(chains_[candidate.chain], points_);
-  const auto b = points_of(chains_[candidate.chain + 1], points_);
+  const auto a = chains_[candidate.chain].points_in(points_);
+  const auto b = chains_[candidate.chain + 1].points_in(points_);
   const double area = area_below(b) - area_below(a);
   const Vec2 size = candidate.high - candidate.low;
   if (std::abs(area) < kMargin * (size.x + size.y)) return kNoSide;
-  if (area > 0) return bends_left(a) && bends_right(b) ? kLower : kNoSide;
-  return bends_right(a) && bends_left(b) ? kUpper : kNoSide;
+  const int side = area > 0 ? 1 : -1;
+  if (!bends_to(side, a) || !bends_to(-side, b)) return kNoSide;
+  return area > 0 ? kLower : kUpper;
 }
 
 // Cells half as large as a candidate is on the average, but not too many.
@@ -205,10 +191,10 @@ void LoneLoops::block_edges(std::span<const ChainLoop> loops) {
       return chain.winding * loops[i].orientation > 0;
     };
     const Chain& last = chains_[end - 1];
-    const auto last_points = points_of(last, points_);
+    const auto last_points = last.points_in(points_);
     Vec2 from = goes_right(last) ? last_points.back() : last_points.front();
     for (std::uint32_t c = first; c < end; ++c) {
-      const auto chain = points_of(chains_[c], points_);
+      const auto chain = chains_[c].points_in(points_);
       const bool is_forward = goes_right(chains_[c]);
       block(from, is_forward ? chain.front() : chain.back());
       from = is_forward ? chain.back() : chain.front();

@@ -4,15 +4,14 @@
 #include <cmath>
 #include <span>
 
+#include "csg/plane.h"
+
 namespace lamina::ldni::detail {
 namespace {
 
 // Loops with less area [mm²] are dropped: 31 nm squared, the leftovers of
 // faces that coincide up to rounding.
 constexpr double kLeastArea = 1e-9;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; }
 
 }  // namespace
 

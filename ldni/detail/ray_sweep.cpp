@@ -178,9 +178,8 @@ void RaySweep::take_turns(double gather_end) {
       if (status_.is_alive(entry)) end_chain(entry);
       continue;
     }
-    const Chain& chain = chains_[entry];
-    const Vec2& end = points_[chain.first_point + chain.point_count - 1];
-    if (end.x > gather_end) started_.push_back(entry);
+    const double end = chains_[entry].points_in(points_).back().x;
+    if (end > gather_end) started_.push_back(entry);
   }
   for (const std::uint32_t entry : started_) start_chain(entry);
 }
@@ -190,7 +189,7 @@ void RaySweep::pass_lone_loop(std::uint32_t chain) {
   const bool is_lower = lone_loops_.is_lower(chain);
   const Chain& lower = chains_[is_lower ? chain : chain + 1];
   const Chain& upper = chains_[is_lower ? chain + 1 : chain];
-  const std::span<const Vec2> points = points_of(lower);
+  const std::span<const Vec2> points = lower.points_in(points_);
   const double y = points.front().y;
   std::uint32_t below = status_.find_near(y, column_left_);
   while (below != status_.sentinel() && status_.y_at(below, column_left_) > y) {
@@ -207,7 +206,7 @@ void RaySweep::pass_lone_loop(std::uint32_t chain) {
   const int direction = static_cast<int>(sets_.value(within)) -
                         static_cast<int>(sets_.value(around));
   if (direction == 0) return;
-  tracer_.add_loop(points, points_of(upper),
+  tracer_.add_loop(points, upper.points_in(points_),
                    static_cast<std::int8_t>(direction));
 }
 
@@ -233,14 +232,14 @@ void RaySweep::end_chain(std::uint32_t number) {
 
 void RaySweep::start_chain(std::uint32_t number) {
   const Chain& chain = chains_[number];
-  const Vec2* first = &points_[chain.first_point];
+  const std::span<const Vec2> points = chain.points_in(points_);
   Entry entry;
-  entry.cursor = ChainCursor(first, first + chain.point_count - 1);
-  entry.first = first;
+  entry.cursor = ChainCursor(&points.front(), &points.back());
+  entry.first = &points.front();
   entry.step = sets_.step_of(chain.instance, chain.winding);
   entry.is_fresh = true;
   entry.cursor.advance(column_right_);
-  const std::uint32_t below = find_place(*first, entry.cursor);
+  const std::uint32_t below = find_place(points.front(), entry.cursor);
   status_[number] = entry;
   status_.insert_above(below, number);
   status_[below].is_tied = false;

@@ -161,9 +161,6 @@ class RaySweep {
   ContourTracer tracer_;
 
   // The layer in hand.
-  std::span<const Vec2> points_of(const Chain& chain) const {
-    return points_.subspan(chain.first_point, chain.point_count);
-  }
   std::span<const Vec2> points_;
   std::span<const Chain> chains_;
   std::span<const Turn> turns_;

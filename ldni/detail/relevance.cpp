@@ -6,8 +6,11 @@
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+
+#include "csg/plane.h"
 
 namespace lamina::ldni::detail {
 namespace {
@@ -22,8 +25,6 @@ constexpr std::uint32_t kMostQuestions = 64;
 
 constexpr std::uint32_t kNoInstance = 0xffffffff;
 
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
-
 // Radius of the circle about the origin within the outline, where that sees
 // all of it, else 0; and of the one around it.
 std::pair<double, double> radii_of(const std::vector<Vec2>& outline) {
@@ -31,10 +32,9 @@ std::pair<double, double> radii_of(const std::vector<Vec2>& outline) {
   double outer = 0;
   Vec2 from = outline.back();
   for (const Vec2& to : outline) {
-    const double turn = from.x * to.y - from.y * to.x;
-    const double distance = turn / length(to.x - from.x, to.y - from.y);
+    const double distance = cross(from, to) / glm::length(to - from);
     inner = distance > 0 ? std::min(inner, distance) : 0;
-    outer = std::max(outer, length(to.x, to.y));
+    outer = std::max(outer, glm::length(to));
     from = to;
   }
   return {inner, outer};
@@ -214,11 +214,10 @@ Relevance::Count Relevance::value_of_leaf(std::uint32_t number,
   const Vec3 middle =
       body.leaf_from_world * (0.5 * (box.low + box.high) - body.shift);
   const Vec3 half = body.reach * (0.5 * (box.high - box.low));
-  const double x = std::abs(middle.x);
-  const double y = std::abs(middle.y);
-  const double nearest =
-      length(std::max(0.0, x - half.x), std::max(0.0, y - half.y));
-  const double farthest = length(x + half.x, y + half.y);
+  const Vec2 place = glm::abs(Vec2(middle));
+  const Vec2 half_width(half);
+  const double nearest = glm::length(glm::max(place - half_width, 0.0));
+  const double farthest = glm::length(place + half_width);
   const double low = middle.z - half.z;
   const double high = middle.z + half.z;
   const auto [least, greatest] = body.scales_between(low, high);

@@ -50,9 +50,9 @@ std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
   double low = 1e300;
   double high = -1e300;
   for (std::uint32_t i = 0; i < chains.size(); ++i) {
-    const Chain& chain = chains[i];
-    const double start = points[chain.first_point].x;
-    const double end = points[chain.first_point + chain.point_count - 1].x;
+    const std::span<const Vec2> chain = chains[i].points_in(points);
+    const double start = chain.front().x;
+    const double end = chain.back().x;
     unsorted_.push_back({start, 2 * i});
     if (lone_loops.is_lone(i)) {
       ++i;  // the loop's other chain

@@ -33,7 +33,7 @@ struct PermittedFolder {
 struct Destination {
   enum class State { kOutside, kMissing, kThere };
   State state = State::kOutside;
-  int error = EACCES;  // why it is not there, or not to be told of (errno)
+  int error = EACCES;       // why it is not there, or not to be told of (errno)
   bool has_folder = false;  // missing: what would hold it is there
   OpenFile folder;          // that holds it; none for a permitted folder
   std::string name;         // there; no link

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/plane.h"
 #include "tests/support/edge_grid.h"
 
 namespace lamina::support {
@@ -21,7 +22,6 @@ using Loop = std::span<const Vec2>;
 // A broken layer can have as many defects as edges; nobody reads them all.
 constexpr std::size_t kMostDefects = 300;
 
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 double length(Vec2 a) { return std::hypot(a.x, a.y); }
 
 // Distance of `point` from the line through `from` and `to`, positive on its

@@ -116,18 +116,14 @@ TEST(ParseDxf, BlocksInBlocksDoNotGrowWithoutEnd) {
       "0 SECTION 2 BLOCKS 0 BLOCK 2 b 0 LINE 10 0 20 0 11 1 21 0";
   for (int i = 0; i < 40; ++i) text += " 0 INSERT 2 b 10 0 20 0";
   text += " 0 ENDBLK 0 ENDSEC 0 EOF";
-  EXPECT_NE(fault_of([&] {
-              parse(groups(text));
-            }).find("lines to draw"),
+  EXPECT_NE(fault_of([&] { parse(groups(text)); }).find("lines to draw"),
             std::string::npos);
 }
 
 TEST(ParseDxf, ArcsDoNotTurnWithoutEnd) {
   for (const char* arc : {"0 ARC 10 0 20 0 40 1 50 0 51 1e9",
                           "0 ELLIPSE 10 0 20 0 11 1 21 0 40 1 41 0 42 1e300"}) {
-    EXPECT_NE(fault_of([&] {
-                parse(entities(arc));
-              }).find("lines to draw"),
+    EXPECT_NE(fault_of([&] { parse(entities(arc)); }).find("lines to draw"),
               std::string::npos)
         << arc;
   }
