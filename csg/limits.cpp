@@ -20,4 +20,15 @@ void require_triangles(double count) {
                   count, kMostTriangles));
 }
 
+void require_heights(std::size_t columns, std::size_t rows) {
+  if (static_cast<double>(columns) * static_cast<double>(rows) <=
+      kMostHeights) {
+    return;
+  }
+  throw LimitExceeded(
+      fmt::format("Too many heights: {} x {} of a surface, at most {:.7g} can "
+                  "be",
+                  columns, rows, kMostHeights));
+}
+
 }  // namespace lamina::csg

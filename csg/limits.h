@@ -5,6 +5,7 @@
 // They are looked at before anything is made. Who asks does not know the text's
 // place; the walk over the tree does, and makes the exception an error there.
 
+#include <cstddef>
 #include <stdexcept>
 
 namespace lamina::csg {
@@ -16,13 +17,18 @@ constexpr double kMostFragments = 1e6;
 // of them take 2 GB and more.
 constexpr double kMostTriangles = 1e8;
 
+// Of a surface(). A few hundred bytes of PNG may unpack to gigabytes of them,
+// one long row of numbers makes all rows long; each makes four triangles.
+constexpr double kMostHeights = 1 << 23;
+
 class LimitExceeded : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Both throw LimitExceeded where there are more.
+// They throw LimitExceeded where there are more.
 void require_fragments(double count);
 void require_triangles(double count);
+void require_heights(std::size_t columns, std::size_t rows);
 
 }  // namespace lamina::csg

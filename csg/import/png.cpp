@@ -10,18 +10,14 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <png.h>
 
 #include "csg/import/format_error.h"
 #include "csg/import/surface_file.h"
+#include "csg/limits.h"
 
 namespace lamina::csg {
 namespace {
-
-// A few hundred bytes of PNG may unpack to gigabytes of heights, and each pixel
-// makes four triangles.
-constexpr std::size_t kMostPixels = std::size_t{1} << 23;
 
 struct Image {
   std::string_view bytes;  // not yet read
@@ -64,18 +60,31 @@ void ask_for_rgba(png_structp png) {
   png_set_interlace_handling(png);
 }
 
-bool is_too_large(const Image& image) {
-  return image.columns * image.rows > kMostPixels;
-}
+// What libpng keeps while it reads.
+struct Reader {
+  explicit Reader(Image& image)
+      : png(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &image, keep_fault,
+                                     ignore_warning, &image, allocate,
+                                     deallocate)),
+        info(png == nullptr ? nullptr : png_create_info_struct(png)) {}
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
 
-// False where it failed: image.fault says why, or it is too large.
+  png_structp png;
+  png_infop info;
+};
+
+// False where it failed: image.fault says why.
+//
+// throws  LimitExceeded
 bool decode(png_structp png, png_infop info, Image& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &image, read_bytes);
   png_read_info(png, info);
   image.columns = png_get_image_width(png, info);
   image.rows = png_get_image_height(png, info);
-  if (is_too_large(image)) return false;
+  require_heights(image.columns, image.rows);
   ask_for_rgba(png);
   png_read_update_info(png, info);
   const std::size_t stride = png_get_rowbytes(png, info);
@@ -96,17 +105,10 @@ bool decode(png_structp png, png_infop info, Image& image) {
 Image read_image(std::string_view bytes) {
   Image image;
   image.bytes = bytes;
-  png_structp png =
-      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &image, keep_fault,
-                               ignore_warning, &image, allocate, deallocate);
-  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  const bool is_read = info != nullptr && decode(png, info, image);
-  png_destroy_read_struct(&png, &info, nullptr);
+  const Reader reader(image);
+  const bool is_read =
+      reader.info != nullptr && decode(reader.png, reader.info, image);
   if (image.lacks_memory) throw std::bad_alloc();
-  if (is_too_large(image)) {
-    image.fault = fmt::format("{} x {} pixels: {} are the most", image.columns,
-                              image.rows, kMostPixels);
-  }
   if (!is_read) throw FormatError("PNG: " + image.fault);
   return image;
 }

@@ -29,8 +29,6 @@ class MeshBuilder {
   Mesh build() {
     const std::size_t columns = field_.columns;
     const std::size_t rows = field_.rows;
-    require_triangles(4 * static_cast<double>(columns) *
-                      static_cast<double>(rows));
     mesh_.vertices.reserve(2 * columns * rows + 2 * (columns + rows));
     mesh_.triangles.reserve(4 * columns * rows + 6 * (columns + rows));
     for (std::size_t row = 0; row < rows; ++row) {
@@ -134,37 +132,49 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
+// Appends the numbers of a line; one that is none is the field's fault.
+void take_row(std::string_view line, HeightField& field,
+              std::vector<double>& numbers) {
+  while (true) {
+    const std::string_view word = take_word(line);
+    if (word.empty()) return;
+    const auto number = to_number<double>(word);
+    if (!number || !std::isfinite(*number)) {
+      field.fault =
+          "bad lexical cast: source type value could not be interpreted as "
+          "target";
+      return;
+    }
+    numbers.push_back(*number);
+    field.bottom = std::min(field.bottom, *number - 1);
+  }
+}
+
 }  // namespace
 
 HeightField parse_dat(std::string_view bytes) {
   HeightField field;
-  std::vector<std::vector<double>> rows;
+  std::vector<double> numbers;    // of all rows
+  std::vector<std::size_t> ends;  // of each row, in numbers
   TextLines lines(bytes);
   while (const auto line = lines.next()) {
     if (line->empty() || line->front() == '#') continue;
-    std::vector<double>& row = rows.emplace_back();
-    std::string_view rest = *line;
-    while (field.fault.empty()) {
-      const std::string_view word = take_word(rest);
-      if (word.empty()) break;
-      const auto number = to_number<double>(word);
-      if (!number || !std::isfinite(*number)) {
-        field.fault =
-            "bad lexical cast: source type value could not be interpreted as "
-            "target";
-        break;
-      }
-      row.push_back(*number);
-      field.bottom = std::min(field.bottom, *number - 1);
-    }
-    field.columns = std::max(field.columns, row.size());
+    const std::size_t begin = numbers.size();
+    take_row(*line, field, numbers);
+    const std::size_t columns = numbers.size() - begin;
+    if (columns > 0) ends.push_back(numbers.size());
+    field.columns = std::max(field.columns, columns);
+    require_heights(field.columns, ends.size());
     if (!field.fault.empty()) break;
   }
-  if (!rows.empty() && rows.back().empty()) rows.pop_back();
-  field.rows = rows.size();
-  for (std::vector<double>& row : rows) {
-    row.resize(field.columns);
-    field.heights.insert(field.heights.end(), row.begin(), row.end());
+  field.rows = ends.size();
+  field.heights.reserve(field.columns * field.rows);
+  auto begin = numbers.cbegin();
+  for (std::size_t row = 0; row < field.rows; ++row) {
+    const auto end = numbers.cbegin() + static_cast<std::ptrdiff_t>(ends[row]);
+    field.heights.insert(field.heights.end(), begin, end);
+    field.heights.resize((row + 1) * field.columns);
+    begin = end;
   }
   return field;
 }

@@ -24,13 +24,15 @@ struct HeightField {
 
 // Numbers by rows; "#" begins a comment line. Rows that are too short end in 0.
 // A word that is no number ends the field.
+//
+// throws  LimitExceeded, before the short rows are made longer
 HeightField parse_dat(std::string_view bytes);
 
 // Heights are the luminances of the pixels, black 0 and white 100 mm; the
 // image's lowest row comes first. Inverted they are 100/255 mm less what they
 // were, as in OpenSCAD 2021.01.
 //
-// throws  FormatError for what is no PNG image, and for very large ones
+// throws  FormatError for what is no PNG image; LimitExceeded
 HeightField parse_png(std::string_view bytes, bool invert);
 
 // Four triangles to each cell of the grid, around the mean of its corners, and

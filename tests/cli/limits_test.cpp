@@ -308,6 +308,18 @@ TEST(Triangles, OfAPartNameItsCallers) {
       "a.scad:2:1: note: called by 'ball'");
 }
 
+// Made as long as the longest, the rows of this file of 120 kB would take 7 GB.
+TEST(Heights, OfASurfaceAreEightMillionAtMost) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 30000; ++i) text += "0 ";
+  for (int i = 0; i < 30000; ++i) text += "\n0";
+  folder.write("a.dat", text);
+  expect_refused("cube(1);\nsurface(\"" + folder.file("a.dat") + "\");",
+                 "a.scad:2:1: error: Too many heights: 30000 x 280 of a "
+                 "surface, at most 8388608 can be");
+}
+
 TEST(Layers, AreTenMillionAtMost) {
   const std::string error =
       "error: Too many layers: 1e+09 of 1e-09 mm, at most 1e+07 can be; "

@@ -5,6 +5,7 @@
 
 #include "csg/import/format_error.h"
 #include "csg/import/surface_file.h"
+#include "csg/limits.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;
@@ -18,6 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
         csg::parse_png(fuzz::as_text(data, size), false);
     if (field.heights.size() <= kMostPixels) csg::make_surface(field, false);
   } catch (const csg::FormatError&) {
+  } catch (const csg::LimitExceeded&) {
   }
   return 0;
 }
