@@ -81,16 +81,15 @@ Archive open_archive(Stream& stream) {
 ZipArchive::ZipArchive(std::string_view bytes) : bytes_(bytes) {
   Stream stream{bytes};
   const Archive archive = open_archive(stream);
+  std::vector<char> name(UINT16_MAX);  // as long as any can be
   for (int status = unzGoToFirstFile(archive.get()); status == UNZ_OK;
        status = unzGoToNextFile(archive.get())) {
-    std::string name(UINT16_MAX, '\0');
     unz_file_info64 info = {};
     if (unzGetCurrentFileInfo64(archive.get(), &info, name.data(), name.size(),
                                 nullptr, 0, nullptr, 0) != UNZ_OK) {
       throw FormatError("ZIP archive has a broken directory");
     }
-    name.resize(info.size_filename);
-    names_.push_back(std::move(name));
+    names_.emplace_back(name.data(), info.size_filename);
   }
 }
 

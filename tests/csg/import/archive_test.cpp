@@ -121,6 +121,14 @@ TEST(Parse3mf, SaysWhatIsWrong) {
             "3MF, there is no vertex 3");
 }
 
+TEST(ZipArchive, KeepsOfNamesWhatTheyTake) {
+  const ZipArchive archive(make_zip({{"a", ""}, {std::string(300, 'b'), ""}}));
+  ASSERT_EQ(archive.names().size(), 2U);
+  EXPECT_LT(archive.names()[0].capacity(), 100U);
+  EXPECT_EQ(archive.names()[1], std::string(300, 'b'));
+  EXPECT_LT(archive.names()[1].capacity(), 1000U);
+}
+
 TEST(ZipArchive, RefusesToSwellWithoutEnd) {
   const std::string bytes =
       make_zip({{"bomb", std::string(std::size_t{400} << 20, 'x')}});
