@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "slicer/layer_edges.h"
 
 namespace lamina::slicer {
@@ -22,6 +24,10 @@ constexpr double kSameWidth = 1e-7;
 // Cells are no smaller than this share of the width, so that a search for the
 // largest disk visits no more than some hundred.
 constexpr double kLeastCell = 0.125;
+
+// Cells are no smaller than that lines, on the average, reach over so many: a
+// line may be as long as a file says.
+constexpr double kMostCellsPerLine = 1024;
 
 // Disks that touch overlap, whatever rounding says [mm].
 constexpr double kOverlapSlack = 1e-7;
@@ -107,6 +113,12 @@ void FeatureCollector::Places::visit_near(Vec2 from, Vec2 to, double distance,
   // Of two lines within the distance, listed points are within a cell more.
   const auto cells = 1 + static_cast<std::int64_t>(
                              std::ceil((distance + greatest_reach_) / cell_));
+  const double samples = 1 + glm::distance(from, to) / cell_;
+  const auto side = static_cast<double>(2 * cells + 1);
+  if (samples * side * side >= static_cast<double>(placed_.size())) {
+    for (const Placed& placed : placed_) visit(placed);
+    return;
+  }
   visit_samples(from, to, [&](std::int64_t column, std::int64_t row) {
     for (std::int64_t i = column - cells; i <= column + cells; ++i) {
       for (std::int64_t k = row - cells; k <= row + cells; ++k) {
@@ -271,10 +283,15 @@ void FeatureCollector::take(const Layer& layer,
   last_z_ = layer.section_z;
   std::swap(here_, below_);
   double reach = 0;
+  double length = 0;
   for (const ThinStretch& stretch : stretches) {
     reach = std::max(reach, stretch.reach);
+    length += glm::distance(stretch.from, stretch.to);
   }
-  here_.clear(std::max(2 * reach, kLeastCell * width_), stretches.size());
+  const double most_cells =
+      kMostCellsPerLine * static_cast<double>(stretches.size() + 1);
+  here_.clear(std::max({2 * reach, kLeastCell * width_, length / most_cells}),
+              stretches.size());
   for (const ThinStretch& stretch : stretches) {
     const ThinFeature one{stretch.kind,
                           layers_,
