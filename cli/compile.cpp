@@ -1,8 +1,10 @@
 #include "cli/compile.h"
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,13 +20,24 @@ namespace {
 
 using slicer::OutputFormat;
 
-// The rule for make, if one is asked for.
-void write_dependencies(Run& run) {
-  if (run.options.dependencies.empty()) return;
+// The rule for make; null where none is asked for. It is written before the
+// output, which a fault of it ends, and gets its name after the output.
+std::unique_ptr<slicer::OutputFile> begin_rule(Run& run) {
+  if (run.options.dependencies.empty()) return nullptr;
   std::vector<std::string> files = run.loader.files();
   files.insert(files.end(), run.named_files.begin(), run.named_files.end());
-  write_text(run, run.options.dependencies,
-             make_rule(run.options.output, files));
+  const std::string text = make_rule(run.options.output, files);
+  auto rule = std::make_unique<slicer::OutputFile>(run.options.dependencies,
+                                                   run.temporary_files);
+  rule->write(text);
+  return rule;
+}
+
+// The product of a stage before layers, and the rule.
+int finish_text(Run& run, std::string_view text, slicer::OutputFile* rule) {
+  write_text(run, run.options.output, text);
+  if (rule != nullptr) rule->commit();
+  return kDone;
 }
 
 std::string csg_text(Run& run, const csg::Tree& tree) {
@@ -87,24 +100,21 @@ int compile(Run& run) {
   // The syntax tree is written before anything is evaluated: what a design
   // does is no matter of its syntax.
   if (run.options.format == OutputFormat::kAst) {
-    write_dependencies(run);
-    write_text(run, run.options.output, ast::print(loaded.program));
-    return kDone;
+    const auto rule = begin_rule(run);
+    return finish_text(run, ast::print(loaded.program), rule.get());
   }
   Evaluated evaluated = evaluate(run, loaded.program);
   run.named_files = evaluated.tree.files;
   // A run that hard warnings cut short does not know them all.
-  if (evaluated.tree.root != nullptr) write_dependencies(run);
+  const auto rule = evaluated.tree.root != nullptr ? begin_rule(run) : nullptr;
   // Texts end well even where the design failed, as openscad's do.
   if (run.options.format == OutputFormat::kEcho) {
     // For what it warns of.
     if (evaluated.tree.root) csg::select_root(evaluated.tree, run.diagnostics);
-    write_text(run, run.options.output, echo_text(run));
-    return kDone;
+    return finish_text(run, echo_text(run), rule.get());
   }
   if (run.options.format == OutputFormat::kCsg) {
-    write_text(run, run.options.output, csg_text(run, evaluated.tree));
-    return kDone;
+    return finish_text(run, csg_text(run, evaluated.tree), rule.get());
   }
   if (loaded.has_failed || evaluated.has_failed) return kFault;
 
@@ -122,6 +132,7 @@ int compile(Run& run) {
   run.report.deviation = deviation;
   run.report.snapped_layers = writer->snapped_layers();
   writer->commit();
+  if (rule != nullptr) rule->commit();
   run.report.output_bytes = writer->size();
   complete_report(run);
   return kDone;

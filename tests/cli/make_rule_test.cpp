@@ -1,0 +1,143 @@
+// The rule for make: what make itself reads in it.
+
+#include "cli/make_rule.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "parser/diagnostic.h"
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// All that make would be glad to take for something else.
+const char* const kNames[] = {
+    "$(shell touch pwned)x.stl",
+    "${HOME}",
+    "$@ $< $^",
+    "two words",
+    " first",
+    "a#b",
+    "a:b",
+    "c:=b",
+    "a=b",
+    "CC=touch pwned",
+    "a|b",
+    "a%b",
+    "a*b",
+    "a?b",
+    "a[b]",
+    "a\\b",
+    "a\\ b",
+    "a\\\\ b",
+    "a\\#b",
+    "a\\:b",
+    "a\\$b",
+    "a\\=b",
+    "a(b)c",
+    "a&b",
+    "'a'\"b\"`c`",
+    "größe",
+};
+
+// What make understands the rule to say, of `target` and, in front of two
+// files, `name`.
+TEST(MakeRule, IsReadByMakeAsItIsMeant) {
+  for (const std::string name : kNames) {
+    const TemporaryFolder folder;
+    const std::string first = folder.file("first");
+    folder.write("first", "");
+    folder.write(name, "");
+    for (const std::vector<std::string>& files :
+         {std::vector{first, folder.file(name)},
+          std::vector{folder.file(name), first}}) {
+      folder.write("rule", make_rule("out.slc", files) + "\t@touch done\n");
+      const auto result =
+          support::run_process({"make", "-rpn", "-f", "rule"}, folder.path());
+      EXPECT_EQ(result.status, 0) << name << "\n" << result.errors;
+      EXPECT_TRUE(has(result.output, folder.file(name))) << name;
+      EXPECT_TRUE(has(result.output, "out.slc: " + files[0] + " " + files[1]) ||
+                  has(result.output, "out.slc: " + files[1] + " " + files[0]))
+          << name << "\n"
+          << result.output;
+      EXPECT_FALSE(std::filesystem::exists(folder.file("pwned"))) << name;
+    }
+  }
+}
+
+TEST(MakeRule, HasATargetOfAnyName) {
+  for (const std::string target :
+       {"$(shell touch pwned)x", "two words", "a#b", "a:b", "a=b", "a%b",
+        "a\\ b", "a\\%b", "größe"}) {
+    const TemporaryFolder folder;
+    folder.write("a.scad", "");
+    folder.write("rule", make_rule(target, std::vector<std::string>{"a.scad"}) +
+                             "\t@touch done\n");
+    const auto result =
+        support::run_process({"make", "-f", "rule", target}, folder.path());
+    EXPECT_EQ(result.status, 0) << target << "\n" << result.errors;
+    EXPECT_TRUE(std::filesystem::exists(folder.file("done"))) << target;
+    EXPECT_FALSE(std::filesystem::exists(folder.file("pwned"))) << target;
+  }
+}
+
+TEST(MakeRule, RefusesWhatMakeCannotHold) {
+  for (const std::string name : {"x\nall:\n\ttouch pwned\n.stl", "a\tb", "a\rb",
+                                 "a\x7f", "a;touch pwned", "a\\;b", "a\\"}) {
+    EXPECT_THROW(make_rule("out.slc", std::vector{name}), FileError) << name;
+    EXPECT_THROW(make_rule(name, {}), FileError) << name;
+  }
+}
+
+TEST(MakeRule, OfADesignHoldsNoCommands) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "import(\"$(shell touch pwned)x.stl\"); cube(1);");
+  EXPECT_EQ(run(folder, {"a.scad", "-q", "-d", "a.d"}).status, 0);
+  EXPECT_TRUE(has(support::read_file(folder.file("a.d")),
+                  "/$$(shell\\ touch\\ pwned)x.stl"));
+  support::run_process({"make", "-n", "-f", "a.d"}, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder.file("pwned")));
+}
+
+TEST(MakeRule, ThatCannotBeWrittenEndsTheRun) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "import(\"x\\nall:\\n\\ttouch pwned\\n.stl\"); cube(1);");
+  const auto result = run(folder, {"a.scad", "-q", "-d", "a.d"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors,
+                  "error: Can't write a rule for make (-d): it cannot hold the "
+                  "name '"))
+      << result.errors;
+  EXPECT_TRUE(has(result.errors, "/x?all:??touch pwned?.stl'"))
+      << result.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.d")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.slc")));
+}
+
+// It would tell make that the output is made.
+TEST(MakeRule, ComesWithTheOutputOrNotAtAll) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cylinder(r = 30, h = 60, $fn = 500);");
+  const auto late = run(folder, {"a.scad", "-q", "-d", "a.d", "--layer",
+                                 "0.0001", "--max-time", "0.3"});
+  EXPECT_EQ(late.status, 1) << late.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.d")));
+  folder.write("flat.scad", "square(1); assert(false);");
+  const auto failed = run(folder, {"flat.scad", "-q", "-d", "a.d"});
+  EXPECT_EQ(failed.status, 1) << failed.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.d")));
+}
+
+}  // namespace
+}  // namespace lamina::cli
