@@ -9,6 +9,7 @@
 
 #include "parser/detail/literal.h"
 #include "parser/diagnostic.h"
+#include "parser/file_access.h"
 #include "parser/loader.h"
 #include "parser/number.h"
 #include "parser/parser.h"
@@ -54,7 +55,9 @@ std::optional<std::string> read_truth(std::string_view cell) {
 bool is_literal(std::string_view cell) {
   SourceStore sources;
   Diagnostics diagnostics;
-  Loader loader(sources, diagnostics, {});
+  // A cell names no file, and none is opened to find that out.
+  const FileAccess no_file = FileAccess::none();
+  Loader loader(sources, diagnostics, {}, {}, no_file);
   const Source& source = sources.add("", fmt::format("x = {}\n;", cell));
   try {
     const ast::Program program = parse(source, nullptr, loader, diagnostics);
@@ -63,6 +66,8 @@ bool is_literal(std::string_view cell) {
         std::get_if<ast::Assignment>(&program.statements[0]->node);
     return assignment != nullptr && detail::is_literal(*assignment->value);
   } catch (const SyntaxError&) {
+    return false;
+  } catch (const AccessError&) {
     return false;
   }
 }

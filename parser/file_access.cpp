@@ -97,6 +97,12 @@ FileAccess::FileAccess(const Limits& limits)
   folders_ = std::make_shared<const Folders>(std::move(folders));
 }
 
+FileAccess FileAccess::none() {
+  FileAccess access;
+  access.folders_ = std::make_shared<const Folders>();
+  return access;
+}
+
 void check_machine(const std::string& path, int error) {
   switch (error) {
     case EIO:
@@ -126,7 +132,8 @@ Destination FileAccess::find(const std::string& path) const {
 }
 
 Destination FileAccess::find_in_root(const std::string& path) const {
-  return detail::walk(std::span(*folders_).first(1), path);
+  const std::span all(*folders_);
+  return detail::walk(all.first(std::min<std::size_t>(all.size(), 1)), path);
 }
 
 // --- Judging ----------------------------------------------------------------

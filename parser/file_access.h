@@ -71,6 +71,9 @@ class FileAccess {
   // Throws FileError for what is no folder.
   explicit FileAccess(const Limits& limits);
 
+  // Not one file.
+  static FileAccess none();
+
   bool is_confined() const { return folders_ != nullptr; }
   // Of the folders, the root first; none where nothing is confined. They stay
   // open as long as this.

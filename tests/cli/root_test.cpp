@@ -288,6 +288,28 @@ INSTANTIATE_TEST_SUITE_P(AllOptions, RootWords, testing::ValuesIn(kWords),
                            return std::string(named.param.name);
                          });
 
+TEST_F(Root, CellsOfATableOpenNothing) {
+  all_.write("root/d.scad", "size = [1];\ncube(size[0]);\n");
+  for (const std::string word : {"include", "use"}) {
+    for (const std::string& file : {beyond("f.scad"), inside("d.scad")}) {
+      all_.write("root/t.csv",
+                 fmt::format("name,size\na,[2]; {} <{}>\n", word, file));
+      const auto run_table = [&] {
+        return run_confined(
+            {"batch", "d.scad", "--table", "t.csv", "-o", "{name}.slc"});
+      };
+      all_.write("beyond/f.scad", "secret(");
+      const auto there = run_table();
+      EXPECT_EQ(there.status, 1) << there.errors;
+      EXPECT_NE(there.errors.find("a vector such as"), std::string::npos)
+          << there.errors;
+      fs::remove(beyond("f.scad"));
+      EXPECT_EQ(run_table().errors, there.errors)
+          << "tells whether it is there";
+    }
+  }
+}
+
 TEST_F(Root, FoldersOfSeveralOutputsStayInside) {
   all_.write("root/d.scad", "cube(1);\n");
   all_.write("root/e.scad", "cube(1);\n");

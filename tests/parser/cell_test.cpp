@@ -92,6 +92,27 @@ TEST(Cell, MayHaveADecimalCommaWhereCellsAreSeparatedOtherwise) {
   EXPECT_EQ(with_comma("1,234.5", kNumber).find("a number was expected"), 0U);
 }
 
+// Tables may come from strangers.
+TEST(Cell, OpensNoFile) {
+  const support::TemporaryFolder folder;
+  const std::string empty = folder.write("empty.scad", "");
+  const std::string font = folder.write("empty.ttf", "");
+  const std::string missing = folder.file("missing.scad");
+  for (const std::string& file : {empty, font, missing}) {
+    for (const std::string word : {"include", "use"}) {
+      const std::string name = word + " <" + file + ">";
+      for (const std::string& cell :
+           {"[1]; " + name, "[1] " + name, "[" + name + " 1]"}) {
+        EXPECT_TRUE(is_refused(cell, kAny, "a vector such as")) << cell;
+        EXPECT_TRUE(is_refused(cell, kVector, "a vector such as")) << cell;
+      }
+      // Text as it stands, quotes and all.
+      const std::string quoted = "\"a\" " + name + " \"\"";
+      EXPECT_TRUE(value(quoted).starts_with("\"\\\"a")) << quoted;
+    }
+  }
+}
+
 TEST(Variables, AreThoseThatDefinitionsSet) {
   const support::TemporaryFolder folder;
   folder.write("lib.scad", "depth = 0.3; size = [1];");
