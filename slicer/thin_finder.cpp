@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
+
 namespace lamina::slicer {
 namespace {
 
@@ -320,7 +322,8 @@ bool ThinFinder::points_to(std::uint32_t number, Vec2 direction) const {
          dot(direction, edge.along) <= 0;
 }
 
-// Loops that are thin as a whole.
+// Loops that are thin as a whole. One that encloses nothing is neither wall nor
+// gap.
 void ThinFinder::add_small_loops() {
   for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
     const std::uint32_t loop = edges_[begin].loop;
@@ -328,6 +331,8 @@ void ThinFinder::add_small_loops() {
     double doubled_area = 0;
     double length = 0;
     Vec2 moment(0);  // first moment of six times the area
+    Vec2 low = origin;
+    Vec2 high = origin;
     std::size_t longest = begin;
     for (end = begin; end < edges_.size() && edges_[end].loop == loop; ++end) {
       const Vec2 a = edges_[end].from - origin;
@@ -335,11 +340,15 @@ void ThinFinder::add_small_loops() {
       doubled_area += cross(a, b);
       moment += cross(a, b) * (a + b);
       length += edges_[end].length;
+      low = glm::min(low, edges_[end].from);
+      high = glm::max(high, edges_[end].from);
       if (edges_[end].length > edges_[longest].length) longest = end;
     }
     const double width = 2 * std::abs(doubled_area) / length;
-    if (is_thin_[loop] || !(width < width_)) continue;
-    const Vec2 centre = origin + moment / (3 * doubled_area);
+    if (is_thin_[loop] || !(width < width_) || doubled_area == 0) continue;
+    // That of a loop that crosses itself may lie anywhere.
+    const Vec2 centre =
+        glm::clamp(origin + moment / (3 * doubled_area), low, high);
     const Vec2 side = edges_[longest].from +
                       (edges_[longest].length / 2) * edges_[longest].along;
     stretches_->push_back({doubled_area > 0 ? ThinKind::kWall : ThinKind::kGap,

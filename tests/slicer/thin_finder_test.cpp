@@ -275,6 +275,22 @@ Contours section(std::uint64_t seed, support::SceneStyle style, double z) {
   return layers.empty() ? Contours{} : layers[0].contours;
 }
 
+// Layer files may hold loops that cross themselves: what encloses nothing, once
+// counted with its turns, has no middle, and what encloses next to nothing one
+// that is far away.
+TEST(ThinFinder, CrossedLoopsAreThinWithinTheirBoundsOrNotAtAll) {
+  EXPECT_TRUE(
+      find(contours_of({{{0, 0}, {4, 0}, {1, 4}, {5, 4}}}), 0.8).empty());
+  const Points crossed = {{0, 0}, {4, 0}, {1, 4}, {5, 4.001}};
+  const auto stretches = find(contours_of({crossed}), 0.8);
+  EXPECT_FALSE(stretches.empty());
+  for (const ThinStretch& stretch : stretches) {
+    for (const Vec2 place : {stretch.place, stretch.from, stretch.to}) {
+      EXPECT_EQ(place, glm::clamp(place, Vec2(0), Vec2(5, 4.001)));
+    }
+  }
+}
+
 TEST(ThinFinder, WidthsStayUnderTurnsMirrorsAndShifts) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const Contours contours = section(
