@@ -89,6 +89,8 @@ class Workshop {
 
   void work(std::size_t stack) {
     while (const Piece* piece = next()) {
+      // With its messages, which may find nobody who reads them.
+      const ProcessWatch::Piece timed(watch_, piece->prefix);
       const auto index = static_cast<std::size_t>(piece - pieces_.data());
       Inbox inbox{piece->prefix, worker_count_ == 1, "", ""};
       Outcome outcome = make(*piece, stack, inbox);
@@ -104,7 +106,6 @@ class Workshop {
   Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
     DesignOptions options = piece.options;
     options.settings.threads = threads_per_piece_;
-    const ProcessWatch::Piece timed(watch_, piece.prefix);
     Run run(options, temporary_files_, stack, &inbox);
     const int status = run_caught(run.terminal, run.diagnostics, [&] {
       if (!piece.fault.empty()) refuse_geometry(piece.fault);
@@ -170,6 +171,7 @@ int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
       Workshop(pieces, options, temporary_files, watch).run(stack);
   const std::chrono::duration<double> seconds =
       std::chrono::steady_clock::now() - begin;
+  const ProcessWatch::Piece timed(watch, "");
   Terminal terminal(options.is_quiet);
   terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
   if (!options.report.empty()) {

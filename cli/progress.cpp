@@ -9,6 +9,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/streams.h"
+
 namespace lamina::cli {
 namespace {
 
@@ -116,8 +118,8 @@ void end_progress() {
   if (!is_terminal()) return;
   // The lock is never given back.
   drawing.lock();
-  const std::string line = fmt::format("\r{:<{}}\r", "", terminal_width() - 1);
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  // Not by stdio, whose lock a thread may hold that the terminal keeps waiting.
+  print_error(fmt::format("\r{:<{}}\r", "", terminal_width() - 1));
 }
 
 }  // namespace lamina::cli

@@ -54,7 +54,7 @@ class ProgressLine {
 };
 
 // Removes the line and forbids new ones from now on: for the thread that ends
-// the process after an interrupt.
+// the process after an interrupt. Waits as long as the terminal is stopped.
 void end_progress();
 
 }  // namespace lamina::cli

@@ -1,6 +1,7 @@
 #include "cli/run_on_stack.h"
 
 #include <chrono>
+#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "cli/command.h"
@@ -56,6 +58,25 @@ sigset_t ending_signals() {
   return signals;
 }
 
+// The status that exit_soon() ends the process with.
+volatile std::sig_atomic_t status_of_exit = kFault;
+
+// Ends the process in a fifth of a second, whatever its threads wait for: words
+// may be for a pipe that nobody reads, or for a terminal stopped by Ctrl-S.
+void exit_soon(int status) {
+  status_of_exit = status;
+  struct sigaction action {};
+  action.sa_handler = [](int) { ::_exit(status_of_exit); };
+  ::sigaction(SIGALRM, &action, nullptr);
+  sigset_t alarm;
+  ::sigemptyset(&alarm);
+  ::sigaddset(&alarm, SIGALRM);
+  ::pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
+  itimerval time{};
+  time.it_value.tv_usec = 200'000;
+  ::setitimer(ITIMER_REAL, &time, nullptr);
+}
+
 // Instead of abort(): has the waiting thread end the process.
 [[noreturn]] void tell_lost_exception() {
   sigval what{};
@@ -71,6 +92,7 @@ sigset_t ending_signals() {
   ::sigqueue(::getpid(), kLostSignal, what);
   // The waiting thread needs no second, unless it waits for a lock of this one.
   ::sleep(2);
+  exit_soon(kFault);
   print_error("error: out of memory\n");
   ::_exit(kFault);
 }
@@ -80,10 +102,15 @@ sigset_t ending_signals() {
 [[noreturn]] void end_process(slicer::TemporaryFiles& temporary_files,
                               int status, std::string_view message) noexcept {
   std::set_terminate([] { ::_exit(kFault); });
+  // First what counts: the words may find nobody to take them.
+  try {
+    temporary_files.discard_all();
+  } catch (const std::bad_alloc&) {
+    // To remove folders takes memory. The next run removes them.
+  }
+  exit_soon(status);
   end_progress();
-  // First the word: to remove folders takes memory.
   print_error(message);
-  temporary_files.discard_all();
   ::_exit(status);
 }
 

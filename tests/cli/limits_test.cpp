@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cli/machine_memory.h"
@@ -197,6 +198,66 @@ TEST(MaxTime, EndsABatchAndNamesThePiece) {
   // What was done before stays.
   EXPECT_TRUE(std::filesystem::exists(folder.file("good.slc")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("bad.slc")));
+}
+
+// More echoes than a pipe holds.
+constexpr const char* kTalkative =
+    "for (i = [1:300], j = [1:100]) echo(i, j); cube(1);";
+
+// The status of a run whose standard error is a pipe that nobody reads; as
+// after SIGKILL where it needs 20 s.
+//
+// words  of the program, in the language of the shell
+int status_unread(const TemporaryFolder& folder, const std::string& words) {
+  return support::run_process(
+             {"bash", "-c",
+              "mkfifo p; exec 3<>p; rm p; exec timeout -s KILL 20 " +
+                  std::string(LAMINA_PROGRAM) + " " + words + " 2>&3"},
+             folder.path())
+      .status;
+}
+
+TEST(MaxTime, EndsThoughNobodyReadsErrors) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kTalkative);
+  EXPECT_EQ(status_unread(folder, "a.scad --max-time 0.5"), 1);
+  expect_no_output(folder);
+}
+
+TEST(MaxMemory, EndsThoughNobodyReadsErrors) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kTalkative);
+  EXPECT_EQ(status_unread(folder, "a.scad --max-memory 5M"), 1);
+  expect_no_output(folder);
+}
+
+TEST(MaxTime, EndsABatchWhoseMessagesNobodyReads) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kTalkative);
+  folder.write("t.csv", "name\na\nb\nc\n");
+  for (const char* const threads : {"1", "2"}) {
+    EXPECT_EQ(status_unread(folder,
+                            "batch a.scad --table t.csv -o {name}.slc "
+                            "--max-time 0.5 --threads " +
+                                std::string(threads)),
+              1)
+        << threads;
+  }
+}
+
+// What is left to say when all pieces are made.
+TEST(MaxTime, EndsABatchWhoseTableNobodyReads) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  std::string table = "name\n";
+  for (int i = 0; i < 400; ++i) {
+    table += fmt::format("{:x>200}\n", i);
+  }
+  folder.write("t.csv", table);
+  EXPECT_EQ(status_unread(folder,
+                          "batch a.scad --table t.csv -o {name}.slc "
+                          "--layer 0.5 --max-time 1"),
+            1);
 }
 
 // --- Memory

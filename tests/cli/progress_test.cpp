@@ -3,6 +3,9 @@
 #include "cli/progress.h"
 
 #include <gtest/gtest.h>
+#include <pty.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include "tests/cli/lamina.h"
 
@@ -92,6 +95,26 @@ TEST_F(Progress, LeavesNothingBehindAnInterrupt) {
                                                " of 120000 layers");
   EXPECT_EQ(result.status, 130);
   EXPECT_EQ(last_line(result.output), "");
+  EXPECT_EQ(folder.entry_count(), 1U);  // the design
+}
+
+// As by Ctrl-S: who writes to it waits.
+TEST_F(Progress, OnAStoppedTerminalKeepsNoRunAlive) {
+  int terminal = -1;
+  int other_end = -1;
+  char name[256];
+  ASSERT_EQ(::openpty(&terminal, &other_end, name, nullptr, nullptr), 0);
+  ASSERT_EQ(::tcflow(other_end, TCOOFF), 0);
+  const TemporaryFolder folder;
+  std::string line =
+      "exec timeout --foreground --preserve-status -s TERM "
+      "-k 20 1.5";
+  for (const std::string& word : long_run(folder)) line += " " + word;
+  const auto result =
+      support::run_process({"bash", "-c", line + " 2> " + name}, folder.path());
+  ::close(terminal);
+  ::close(other_end);
+  EXPECT_EQ(result.status, 130);
   EXPECT_EQ(folder.entry_count(), 1U);  // the design
 }
 
