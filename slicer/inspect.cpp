@@ -104,8 +104,12 @@ Inspection inspect_file(const std::string& path, double min_feature,
     // Its boundaries as they are: they may be open.
     SlcReader reader(path, access);
     describe_header(reader, found);
-    SlcLayer layer;
-    while (reader.read_layer(layer)) inspector.take(to_layer(layer), layer);
+    SlcLayer slc_layer;
+    while (reader.read_layer(slc_layer)) {
+      const Layer layer = to_layer(slc_layer);
+      require_within_reach(path, layer, found.layers.size() + 1);
+      inspector.take(layer, slc_layer);
+    }
     found.top = reader.top();
     if (!found.layers.empty() && found.top < found.layers.back().bottom) {
       inspector.add_defect(fmt::format(

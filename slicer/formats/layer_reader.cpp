@@ -71,6 +71,14 @@ bool is_within_reach(const Layer& layer) {
 
 }  // namespace
 
+void require_within_reach(const std::string& path, const Layer& layer,
+                          std::size_t number) {
+  if (is_within_reach(layer)) return;
+  fail_to_read(path, fmt::format("layer {} reaches farther than {:g} mm from "
+                                 "the origin",
+                                 number, kGreatestCoordinate));
+}
+
 bool is_readable_layer_file(std::string_view path) {
   return reader_for(path) != nullptr;
 }
@@ -86,13 +94,7 @@ LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
   return read(
       path,
       [&](Layer& layer) {
-        ++count;
-        if (!is_within_reach(layer)) {
-          fail_to_read(path,
-                       fmt::format("layer {} reaches farther than {:g} mm "
-                                   "from the origin",
-                                   count, kGreatestCoordinate));
-        }
+        require_within_reach(path, layer, ++count);
         take(layer);
       },
       access);
