@@ -3,12 +3,6 @@
 #include <sys/mman.h>
 
 namespace lamina::cli {
-namespace {
-
-// A tree of the parser's limit, 250,000 levels, at 4 KiB each, twice over.
-constexpr std::size_t kLargestSize = std::size_t{2} << 30;
-
-}  // namespace
 
 LargeStack::LargeStack() {
   for (size_ = kLargestSize; size_ >= kSmallestSize; size_ /= 2) {

@@ -30,6 +30,8 @@ class LargeStack {
 
   // Of the stack that every thread has.
   static constexpr std::size_t kSmallestSize = std::size_t{8} << 20;
+  // A tree of the parser's limit, 250,000 levels, at 4 KiB each, twice over.
+  static constexpr std::size_t kLargestSize = std::size_t{2} << 30;
 
  private:
   // Below the stack: touching it ends the run instead of spoiling memory.

@@ -46,7 +46,9 @@ class Workshop {
 
   // The calling thread works too.
   std::vector<Outcome> run(std::size_t stack) {
-    std::vector<Worker> workers(worker_count_ - 1);
+    const std::size_t others = worker_count_ - 1;
+    watch_.reserve(std::uint64_t{others} * LargeStack::kLargestSize);
+    std::vector<Worker> workers(others);
     std::size_t started = 0;
     for (Worker& worker : workers) {
       worker.workshop = this;

@@ -20,18 +20,6 @@ std::uint64_t with_room(std::uint64_t bytes) {
   return bytes + bytes / 4 + (std::uint64_t{512} << 20);
 }
 
-// Has the system refuse what goes far beyond `most` at once. What has been
-// asked for and is not in use, such as a stack, stays out of it.
-void limit_writable_memory(std::uint64_t most, std::uint64_t resident) {
-  const std::uint64_t writable = writable_memory();
-  rlimit limit{};
-  if (writable == 0 || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const std::uint64_t unused = writable - std::min(writable, resident);
-  limit.rlim_cur =
-      std::min<std::uint64_t>(limit.rlim_cur, unused + with_room(most));
-  ::setrlimit(RLIMIT_DATA, &limit);
-}
-
 std::string error_line(const std::string& prefix, const std::string& words) {
   return fmt::format("{}error: {}\n", prefix, words);
 }
@@ -52,6 +40,14 @@ ProcessWatch::Piece::Piece(ProcessWatch& watch, const std::string& name)
 ProcessWatch::Piece::~Piece() {
   const std::lock_guard lock(watch_.mutex_);
   watch_.timed_.remove_if([&](const Timed& t) { return &t == timed_; });
+}
+
+void ProcessWatch::reserve(std::uint64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  // Before these are made: the first look takes what is there into account.
+  if (most_bytes_ == 0) begin_to_look(resident_memory());
+  if (writable_bytes_ != 0) writable_bytes_ += bytes;
+  limit_writable_memory();
 }
 
 std::chrono::nanoseconds ProcessWatch::pause() {
@@ -101,9 +97,24 @@ void ProcessWatch::begin_to_look(std::uint64_t resident) {
   }
   if (most_bytes_ == 0) {
     most_bytes_ = kUnknown;
-  } else {
-    limit_writable_memory(most_bytes_, resident);
+    return;
   }
+  const std::uint64_t writable = writable_memory();
+  rlimit limit{};
+  if (writable == 0 || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  granted_bytes_ = limit.rlim_cur;
+  // What has been asked for and is not in use, such as a stack, stays out.
+  const std::uint64_t unused = writable - std::min(writable, resident);
+  writable_bytes_ = unused + with_room(most_bytes_);
+  limit_writable_memory();
+}
+
+// Has the system refuse what goes far beyond the limit at once.
+void ProcessWatch::limit_writable_memory() const {
+  rlimit limit{};
+  if (writable_bytes_ == 0 || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(granted_bytes_, writable_bytes_);
+  ::setrlimit(RLIMIT_DATA, &limit);
 }
 
 std::string ProcessWatch::names_under_way() {

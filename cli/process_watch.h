@@ -48,6 +48,9 @@ class ProcessWatch {
     const void* timed_;
   };
 
+  // Room for stacks that will be made: address space, which is no memory yet.
+  void reserve(std::uint64_t bytes);
+
   // When to look next, at the latest, from now.
   std::chrono::nanoseconds pause();
 
@@ -65,13 +68,16 @@ class ProcessWatch {
 
   // Under the lock:
   void begin_to_look(std::uint64_t resident);
+  void limit_writable_memory() const;
   std::string names_under_way();
 
   const ProcessLimits limits_;
-  std::uint64_t most_bytes_ = 0;  // 0: not looked at yet
 
   std::mutex mutex_;  // for what follows
   std::list<Timed> timed_;
+  std::uint64_t most_bytes_ = 0;      // 0: not looked at yet
+  std::uint64_t writable_bytes_ = 0;  // of address space; 0: no limit
+  std::uint64_t granted_bytes_ = 0;   // of that, by the system at the start
 };
 
 // What to say where an allocation failed: whose limit that was.

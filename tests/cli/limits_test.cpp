@@ -275,6 +275,45 @@ TEST(MaxMemory, EndsARun) {
   expect_no_output(folder);
 }
 
+// Stacks of threads are address space: they are none of the limit, be they made
+// before the first look at the memory or, where it takes long to read a
+// design, after it.
+TEST(MaxMemory, LeavesStacksToManyThreads) {
+  const TemporaryFolder folder;
+  // As deep as a whole stack allows.
+  std::string design =
+      "n = 0; cube(1);\n"
+      "function deep(n) = n == 0 ? 0 : 1 + deep(n - 1);\n"
+      "assert(n > 2 || deep(150000) == 150000);\n";
+  std::string table = "n\n";
+  for (int i = 1; i <= 16; ++i) table += fmt::format("{}\n", i);
+  folder.write("t.csv", table);
+  for (const int functions : {0, 20000}) {
+    for (int i = 0; i < functions; ++i) {
+      design +=
+          fmt::format("function f{0}(x) = x * {0} + sin(x) + [x][0];\n", i);
+    }
+    folder.write("a.scad", design);
+    const auto result =
+        run(folder, {"batch", "a.scad", "--table", "t.csv", "-o", "{n}.slc",
+                     "--threads", "16", "--max-memory", "700M"});
+    EXPECT_EQ(result.status, 0) << functions << "\n" << result.errors;
+  }
+}
+
+// What the system grants is never exceeded for them.
+TEST(MaxMemory, OfTheSystemStaysForManyThreads) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "n = 0; cube(1);");
+  folder.write("t.csv", "n\n1\n2\n3\n4\n");
+  const auto result = support::run_process(
+      {"bash", "-c",
+       std::string("ulimit -d 3000000; exec ") + LAMINA_PROGRAM +
+           " batch a.scad --table t.csv -o {n}.slc --threads 4"},
+      folder.path());
+  EXPECT_EQ(result.status, 0) << result.errors;
+}
+
 TEST(MaxMemory, OfTheSystemIsNamed) {
   const TemporaryFolder folder;
   folder.write("a.scad", kHungry);
