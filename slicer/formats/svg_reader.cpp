@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "csg/import/xml.h"
 #include "slicer/formats/reading.h"
 
 namespace lamina::slicer {
@@ -20,9 +21,6 @@ namespace {
 constexpr double kSlic3rHeightsPerMm = 1e-6;
 constexpr double kGreatestSlic3rHeight = 0.001;
 
-// What pugixml would take several times the memory of is refused.
-constexpr std::size_t kMostBytes = std::size_t{1} << 31;
-
 constexpr double kMillimetresPerInch = 25.4;
 
 class SvgReader {
@@ -30,15 +28,12 @@ class SvgReader {
   SvgReader(const std::string& path, const FileAccess& access)
       : path_(path), file_(open_to_read(path, access)) {
     const std::string_view bytes = file_.view();
-    if (bytes.size() > kMostBytes) fail_to_read(path, "the file is too large");
-    const pugi::xml_parse_result result = document_.load_buffer(
-        bytes.data(), bytes.size(), pugi::parse_default | pugi::parse_comments);
-    if (!result) {
-      fail_to_read(
-          path,
-          fmt::format("line {}: {}",
-                      line_at(bytes, static_cast<std::size_t>(result.offset)),
-                      result.description()));
+    const auto fault = csg::load_xml(
+        bytes, document_, pugi::parse_default | pugi::parse_comments);
+    if (fault) {
+      fail_to_read(path,
+                   fmt::format("line {}: {}", line_at(bytes, fault->place),
+                               fault->words));
     }
     root_ = document_.child("svg");
     if (!root_) fail_to_read(path, "not an SVG file: it has no element <svg>");

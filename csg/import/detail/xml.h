@@ -1,30 +1,23 @@
 #pragma once
-// XML documents. Entities that a document defines itself are not expanded, so
-// none can be made to grow; no other file is read.
+// Elements of XML documents, and what is wrong with those that are none.
 
-#include <new>
-#include <string>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include "csg/import/format_error.h"
+#include "csg/import/xml.h"
 
 namespace lamina::csg {
 
-// What pugixml would take several times the memory of is refused.
-constexpr std::size_t kMostXmlBytes = std::size_t{1} << 31;
-
-// throws  FormatError, whose message begins with `format`
-inline void parse_xml(std::string_view bytes, const std::string& format,
+// throws  FormatError, whose message begins with `format`; std::bad_alloc
+inline void parse_xml(std::string_view bytes, std::string_view format,
                       pugi::xml_document& document) {
-  if (bytes.size() > kMostXmlBytes) throw FormatError(format + " is too large");
-  const pugi::xml_parse_result result =
-      document.load_buffer(bytes.data(), bytes.size());
-  if (result) return;
-  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
-  throw FormatError(format + " byte " + std::to_string(result.offset) + ", " +
-                    result.description());
+  if (const auto fault = load_xml(bytes, document)) {
+    throw FormatError(
+        fmt::format("{} byte {}, {}", format, fault->place, fault->words));
+  }
 }
 
 // The name without a namespace's prefix.

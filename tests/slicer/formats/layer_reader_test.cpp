@@ -4,12 +4,16 @@
 #include "slicer/formats/layer_reader.h"
 
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
+#include <new>
 #include <random>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <pugixml.hpp>
 
 #include "parser/diagnostic.h"
 #include "slicer/formats/cli_writer.h"
@@ -288,6 +292,33 @@ TEST(ReadSvg, KeepsToTheSizeThatTheHeadTells) {
   EXPECT_EQ(
       loops(content.layers.at(0)),
       (std::vector<std::vector<Vec2>>{{{25.4, -25.4}, {25.4, 0}, {0, 0}}}));
+}
+
+// Allocations of pugixml until one fails; none fails at 0.
+std::size_t until_failure = 0;
+
+void* allocate(std::size_t size) {
+  const bool fails = until_failure > 0 && --until_failure == 0;
+  return fails ? nullptr : std::malloc(size);
+}
+
+TEST(ReadSvg, LackOfMemoryIsNoFaultOfTheFile) {
+  std::string body;
+  for (int i = 0; i < 2000; ++i) {
+    body += fmt::format("<g slic3r:z=\"{}\"></g>", i);
+  }
+  const std::string bytes = slic3r_svg(body);
+  const auto usual = pugi::get_memory_allocation_function();
+  pugi::set_memory_management_functions(
+      allocate, pugi::get_memory_deallocation_function());
+  for (std::size_t i : {1, 2, 3}) {
+    until_failure = i;
+    EXPECT_THROW(read("a.svg", bytes), std::bad_alloc) << i;
+  }
+  until_failure = 0;
+  EXPECT_EQ(read("a.svg", bytes).layers.size(), 2000U);
+  pugi::set_memory_management_functions(
+      usual, pugi::get_memory_deallocation_function());
 }
 
 TEST(ReadSvg, NamesThePlaceOfAFault) {
