@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <clipper.hpp>
 
 #include "csg/planar/link_edges.h"
+#include "parser/check.h"
 
 namespace lamina::planar {
 namespace {
@@ -86,6 +88,37 @@ Region to_region(const ClipperLib::Paths& paths) {
   return region;
 }
 
+// Clipper keeps to itself whatever is thrown inside of it, and what it then
+// gives back is empty. That memory ended it cannot hide: operator new tells
+// that to its handler first, on the thread that asked.
+thread_local bool has_memory_ended = false;
+std::new_handler next_handler = nullptr;
+
+void note_end_of_memory() {
+  has_memory_ended = true;
+  if (next_handler == nullptr) throw std::bad_alloc();
+  next_handler();
+}
+
+void hear_of_memory() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    next_handler = std::get_new_handler();
+    std::set_new_handler(note_end_of_memory);
+  });
+}
+
+// Calls clip(), which lets Clipper work.
+//
+// throws  std::bad_alloc where memory ended within
+template <typename Clip>
+void watch_memory(const Clip& clip) {
+  hear_of_memory();
+  has_memory_ended = false;
+  clip();
+  if (has_memory_ended) throw std::bad_alloc();
+}
+
 ClipperLib::Paths clip(ClipperLib::ClipType type,
                        const ClipperLib::Paths& subject,
                        const ClipperLib::Paths& other,
@@ -98,9 +131,10 @@ ClipperLib::Paths clip(ClipperLib::ClipType type,
   const bool has_other = clipper.AddPaths(other, ClipperLib::ptClip, true);
   ClipperLib::Paths result;
   if (!has_subject && !has_other) return result;
-  // It catches whatever is thrown inside of it; paths on the grid, none beyond
-  // its range, give no other reason than lack of memory.
-  if (!clipper.Execute(type, result, fill, fill)) throw std::bad_alloc();
+  bool is_clipped = false;
+  watch_memory([&] { is_clipped = clipper.Execute(type, result, fill, fill); });
+  // Else it found no order of crossings in which only neighbours cross.
+  LAMINA_CHECK_EQ(is_clipped, true);
   return result;
 }
 
@@ -175,7 +209,9 @@ Region offset(const Region& region, double amount, Join join,
                      ClipperLib::etClosedPolygon);
   ClipperLib::Paths result;
   try {
-    offsetter.Execute(result, static_cast<double>(to_grid(amount)));
+    watch_memory([&, distance = static_cast<double>(to_grid(amount))] {
+      offsetter.Execute(result, distance);
+    });
   } catch (const ClipperLib::clipperException&) {
     // A sharp corner's spike went too far.
     fail_range_check();
@@ -190,7 +226,9 @@ Region stroke(std::span<const Vec2> path, double width, Join join, Cap cap,
   offsetter.AddPath(to_path(Contour(path.begin(), path.end())),
                     to_join_type(join), to_end_type(cap));
   ClipperLib::Paths result;
-  offsetter.Execute(result, static_cast<double>(to_grid(width / 2)));
+  watch_memory([&, distance = static_cast<double>(to_grid(width / 2))] {
+    offsetter.Execute(result, distance);
+  });
   return to_region(result);
 }
 
