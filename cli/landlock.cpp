@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include <fcntl.h>
@@ -18,34 +19,51 @@
 namespace lamina::cli {
 namespace {
 
+// Newer than the header may be.
+constexpr std::uint64_t kRefer = 1U << 13;     // since version 2
+constexpr std::uint64_t kTruncate = 1U << 14;  // 3
+constexpr std::uint64_t kIoctlDev = 1U << 15;  // 5
+
 constexpr std::uint64_t kRead =
     LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
 constexpr std::uint64_t kWrite =
     LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
     LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_DIR |
-    LANDLOCK_ACCESS_FS_MAKE_REG;
-// Not to be had anywhere: to run programs, to make devices, pipes, links.
+    LANDLOCK_ACCESS_FS_MAKE_REG | kTruncate;
+// Not to be had anywhere: to run programs, to make devices, pipes, links, to
+// move files between folders, to command devices.
 constexpr std::uint64_t kNever =
     LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
     LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SOCK |
-    LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_SYM;
+    LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_SYM | kRefer |
+    kIoctlDev;
 
-int create_ruleset() {
+// The rights that a version of Landlock knows: it refuses others.
+std::uint64_t known_rights(long version) {
+  if (version < 2) return kRefer - 1;
+  if (version < 3) return kTruncate - 1;
+  if (version < 5) return kIoctlDev - 1;
+  return ~std::uint64_t{0};
+}
+
+int create_ruleset(std::uint64_t rights) {
   landlock_ruleset_attr attributes{};
-  attributes.handled_access_fs = kRead | kWrite | kNever;
+  attributes.handled_access_fs = rights;
   return static_cast<int>(::syscall(SYS_landlock_create_ruleset, &attributes,
                                     sizeof(attributes), 0));
 }
 
 class Ruleset {
  public:
-  Ruleset() : file_(create_ruleset()) {}
+  Ruleset()
+      : handled_((kRead | kWrite | kNever) & known_rights(landlock_version())),
+        file_(create_ruleset(handled_)) {}
 
   explicit operator bool() const { return static_cast<bool>(file_); }
 
   void allow(int folder, std::uint64_t rights) const {
     landlock_path_beneath_attr rule{};
-    rule.allowed_access = rights;
+    rule.allowed_access = rights & handled_;
     rule.parent_fd = folder;
     ::syscall(SYS_landlock_add_rule, file_.descriptor(),
               LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
@@ -69,6 +87,7 @@ class Ruleset {
   }
 
  private:
+  std::uint64_t handled_;
   OpenFile file_;
 };
 
@@ -93,20 +112,24 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// Where Fontconfig looks for its configuration.
+// Where Fontconfig looks for its configuration, but for the user's: HOME may be
+// the root, where strangers write.
 std::set<std::string> fontconfig_places() {
-  const std::string home = variable("HOME");
-  return {"/etc/fonts",
-          "/usr/share/fontconfig",
-          home + "/.config/fontconfig",
-          home + "/.fonts.conf",
-          home + "/.fonts.conf.d",
-          variable("XDG_CONFIG_HOME") + "/fontconfig",
-          variable("FONTCONFIG_FILE"),
-          variable("FONTCONFIG_PATH")};
+  std::set<std::string> places = {"/etc/fonts", "/usr/share/fontconfig",
+                                  variable("FONTCONFIG_FILE")};
+  std::istringstream folders(variable("FONTCONFIG_PATH"));
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    places.insert(folder);
+  }
+  return places;
 }
 
 }  // namespace
+
+long landlock_version() {
+  return ::syscall(SYS_landlock_create_ruleset, nullptr, 0,
+                   LANDLOCK_CREATE_RULESET_VERSION);
+}
 
 void restrict_process(const FileAccess& access) {
   if (!access.is_confined()) return;

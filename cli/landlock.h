@@ -13,6 +13,9 @@
 
 namespace lamina::cli {
 
+// What the kernel offers, 1 and up; less where it does not.
+long landlock_version();
+
 // To be called before there are further threads. Does nothing where nothing is
 // confined, or where the kernel does not offer it. Never undone.
 void restrict_process(const FileAccess& access);

@@ -141,11 +141,16 @@ Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
   return config;
 }
 
-// Fontconfig's rules of what stands for what, without any font.
+// Fontconfig's rules of what stands for what, without any font. They are those
+// of the machine: HOME may be where strangers write.
 Owned<FcConfig> load_rules() {
+  require_room();
+  FcConfigEnableHome(FcFalse);
   Owned<FcConfig> config(FcConfigCreate());
   require(config != nullptr);
+  errno = 0;
   FcConfigParseAndLoad(config.get(), nullptr, FcTrue);
+  require(errno != ENOMEM);
   return config;
 }
 
