@@ -15,7 +15,9 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/magic.h>
 #include <stdlib.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include "parser/detail/confined_walk.h"
@@ -61,13 +63,12 @@ std::string path_in(const OpenFile& folder, const std::string& name) {
   return fmt::format("/proc/self/fd/{}/{}", folder.descriptor(), name);
 }
 
-// A regular file that was opened so as not to wait; none of another kind.
-OpenFile only_regular(OpenFile file) {
-  struct stat status {};
-  if (!file || ::fstat(file.descriptor(), &status) != 0) return {};
-  if (S_ISREG(status.st_mode)) return file;
-  errno = 0;
-  return {};
+// Files that the kernel makes up as it is asked: they tell of processes and of
+// the machine.
+bool is_of_kernel(const OpenFile& file) {
+  struct statfs system {};
+  return ::fstatfs(file.descriptor(), &system) != 0 ||
+         system.f_type == PROC_SUPER_MAGIC || system.f_type == SYSFS_MAGIC;
 }
 
 // Where a rename must go: through symbolic links, to the file itself.
@@ -128,7 +129,9 @@ std::vector<int> FileAccess::folder_descriptors() const {
 }
 
 Destination FileAccess::find(const std::string& path) const {
-  return detail::walk(*folders_, path);
+  Destination found = detail::walk(*folders_, path);
+  check_machine(path, found.error);
+  return found;
 }
 
 Destination FileAccess::find_in_root(const std::string& path) const {
@@ -213,15 +216,20 @@ std::optional<std::vector<std::string>> FileAccess::list(
   } else {
     file = OpenFile(::open(folder.c_str(), kFlags));
   }
-  if (!file) return std::nullopt;
-  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(file.release()),
-                                                    ::closedir);
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(
+      file ? ::fdopendir(file.descriptor()) : nullptr, ::closedir);
+  if (!entries) {
+    check_machine(folder, errno);
+    return std::nullopt;
+  }
+  file.release();  // closedir() closes it
   std::vector<std::string> names;
   errno = 0;
   while (const dirent* entry = ::readdir(entries.get())) {
     const std::string_view name = entry->d_name;
     if (name != "." && name != "..") names.emplace_back(name);
   }
+  check_machine(folder, errno);
   if (errno != 0) return std::nullopt;
   return names;
 }
@@ -245,15 +253,24 @@ std::vector<std::string> FileAccess::readable_parts(
 OpenFile FileAccess::open(const std::string& path) const {
   // A FIFO must not make the run wait for a writer.
   constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
+  OpenFile file;
   if (!is_confined()) {
-    return only_regular(OpenFile(::open(path.c_str(), kFlags)));
+    file = OpenFile(::open(path.c_str(), kFlags));
+  } else if (const Destination found = find(path);
+             found.state == State::kThere && found.folder) {
+    file = OpenFile(::openat(found.folder.descriptor(), found.name.c_str(),
+                             kFlags | O_NOFOLLOW));
+  } else {
+    errno = found.error;
   }
-  const Destination found = find(path);
-  if (found.state == State::kThere && found.folder) {
-    return only_regular(OpenFile(::openat(
-        found.folder.descriptor(), found.name.c_str(), kFlags | O_NOFOLLOW)));
+  struct stat status {};
+  if (!file || ::fstat(file.descriptor(), &status) != 0) {
+    check_machine(path, errno);
+    return {};
   }
-  errno = found.error;
+  const bool is_refused = is_confined() && is_of_kernel(file);
+  if (S_ISREG(status.st_mode) && !is_refused) return file;
+  errno = 0;
   return {};
 }
 
@@ -261,8 +278,9 @@ std::optional<std::string> FileAccess::read(const std::string& path) const {
   const OpenFile file =
       is_confined() ? open(path)
                     : OpenFile(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file) return std::nullopt;
-  return file.read_all();
+  auto bytes = file ? file.read_all() : std::nullopt;
+  if (!bytes) check_machine(path, errno);
+  return bytes;
 }
 
 // --- Writing ----------------------------------------------------------------

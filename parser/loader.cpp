@@ -109,10 +109,7 @@ std::string Loader::look_up(SourceRange place, std::string_view name,
 
 std::optional<std::string> Loader::read(const std::string& path) const {
   const OpenFile file = access_.open(path);
-  if (!file) {
-    check_machine(path, errno);
-    return std::nullopt;
-  }
+  if (!file) return std::nullopt;
   struct stat status {};
   if (::fstat(file.descriptor(), &status) == 0 &&
       static_cast<std::uintmax_t>(status.st_size) > kLargestText) {

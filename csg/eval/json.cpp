@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "csg/eval/object.h"
+#include "csg/import/file_bytes.h"
 
 namespace lamina::csg {
 
@@ -106,14 +107,13 @@ class ValueReader : public nlohmann::json_sax<Json> {
 
 JsonResult read_json(const std::string& path, const FileAccess& access) {
   JsonResult result;
-  const OpenFile file = access.open(path);
-  const auto text = file ? file.read_all() : std::nullopt;
-  if (!text) {
+  const auto bytes = FileBytes::open(path, access);
+  if (!bytes) {
     result.can_read = false;
     return result;
   }
   ValueReader reader;
-  Json::sax_parse(*text, &reader);
+  Json::sax_parse(bytes->view(), &reader);
   result.fault = std::move(reader.fault);
   if (result.fault.empty()) result.value = std::move(reader.value);
   return result;

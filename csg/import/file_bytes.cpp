@@ -14,11 +14,6 @@
 namespace lamina::csg {
 namespace {
 
-// Not a word about the file: the machine has come to an end.
-bool is_machine_fault(int error) {
-  return error == EMFILE || error == ENFILE || error == ENOMEM || error == EIO;
-}
-
 [[noreturn]] void fail(const std::string& path, const char* why) {
   throw FileError(
       {Severity::kError, {}, fmt::format("Can't read '{}': {}", path, why)});
@@ -59,7 +54,6 @@ bool is_unchanged(int file, const struct stat& before) {
 std::optional<FileBytes> FileBytes::open(const std::string& path,
                                          const FileAccess& access) {
   const OpenFile file = access.open(path);
-  if (!file && is_machine_fault(errno)) fail(path, std::strerror(errno));
   if (!file) return std::nullopt;
   struct stat status = {};
   if (::fstat(file.descriptor(), &status) != 0) {
@@ -67,11 +61,10 @@ std::optional<FileBytes> FileBytes::open(const std::string& path,
   }
   const auto size = static_cast<std::size_t>(status.st_size);
   FileBytes bytes(map_memory(size), size);
-  if (!read_all(file.descriptor(), static_cast<char*>(bytes.data_), size) &&
-      errno != 0) {
-    fail(path, std::strerror(errno));
-  }
-  if (!is_unchanged(file.descriptor(), status)) {
+  const bool is_whole =
+      read_all(file.descriptor(), static_cast<char*>(bytes.data_), size);
+  if (!is_whole && errno != 0) fail(path, std::strerror(errno));
+  if (!is_whole || !is_unchanged(file.descriptor(), status)) {
     fail(path, "it changed while it was read");
   }
   return bytes;

@@ -30,7 +30,7 @@ class Walker {
     if (path.front() != '/') {
       std::error_code error;
       push(std::filesystem::current_path(error).string());
-      if (error) return {};
+      if (error) return miss("", error.value());
     }
     enter();
     while (!waiting_.empty()) {
@@ -121,8 +121,9 @@ class Walker {
     std::array<char, PATH_MAX> target{};
     const ssize_t size =
         ::readlinkat(link.descriptor(), "", target.data(), target.size());
+    const int error = size < 0 ? errno : ENOENT;
     if (++links_ > kMostLinks || size <= 0) {
-      result_ = miss(part, links_ > kMostLinks ? ELOOP : ENOENT);
+      result_ = miss(part, links_ > kMostLinks ? ELOOP : error);
       return false;
     }
     push({target.data(), static_cast<std::size_t>(size)});
@@ -136,7 +137,8 @@ class Walker {
     return true;
   }
 
-  // A copy of the descriptor where a permitted folder keeps its own.
+  // A copy of the descriptor where a permitted folder keeps its own; none
+  // where that fails (errno tells why).
   OpenFile take_place() {
     if (files_.empty()) {
       return OpenFile(::fcntl(place(), F_DUPFD_CLOEXEC, 0));
@@ -161,9 +163,11 @@ class Walker {
     std::for_each(waiting_.rbegin(), waiting_.rend(),
                   [&](const std::string& rest) { path /= rest; });
     missing.path = path.lexically_normal().string();
-    missing.has_folder = error == ENOENT && waiting_.empty();
-    if (folder_ != nullptr) missing.folder = take_place();
     missing.name = part;
+    if (folder_ == nullptr) return missing;
+    missing.folder = take_place();
+    if (!missing.folder) missing.error = errno;
+    missing.has_folder = missing.error == ENOENT && waiting_.empty();
     return missing;
   }
 
@@ -174,6 +178,7 @@ class Walker {
     there.error = 0;
     there.path = (std::filesystem::path(path_here()) / part).string();
     there.folder = take_place();
+    if (!there.folder) return miss(part, errno);
     there.name = part;
     there.file = std::move(file);
     there.status = status;
@@ -185,12 +190,16 @@ class Walker {
     if (folder_ == nullptr) return there;
     there.path = path_here();
     there.file = take_place();
-    if (::fstat(there.file.descriptor(), &there.status) != 0) return {};
+    if (!there.file || ::fstat(there.file.descriptor(), &there.status) != 0) {
+      return miss("", errno);
+    }
+    if (!names_.empty()) {
+      there.folder = take_place();
+      if (!there.folder) return miss("", errno);
+      there.name = names_.back();
+    }
     there.state = Destination::State::kThere;
     there.error = 0;
-    if (names_.empty()) return there;
-    there.name = names_.back();
-    there.folder = take_place();
     return there;
   }
 

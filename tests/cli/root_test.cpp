@@ -459,6 +459,71 @@ TEST_F(Root, FontsAreThoseThatMayBeRead) {
             support::read_file(inside("c.slc")));
 }
 
+// Where HOME is the root, strangers write its rules of fonts.
+TEST_F(Root, RulesOfFontsAtHomeAreNotRead) {
+  all_.write("root/d.scad", "linear_extrude(1) text(\"Ag\");\n");
+  const std::string rules = fmt::format(
+      "<fontconfig><include>{}</include></fontconfig>", beyond("f.conf"));
+  fs::create_directories(inside(".config/fontconfig"));
+  all_.write("root/.config/fontconfig/fonts.conf", rules);
+  all_.write("root/.fonts.conf", rules);
+  const auto run_at_home = [&](const std::string& configuration) {
+    std::vector<std::string> words =
+        command({"d.scad", "-q", "-o", "o.slc", "--root", ".", "--allow-read",
+                 "/usr/share/fonts"});
+    words.insert(words.begin(),
+                 {"/usr/bin/env", "HOME=" + inside(""), configuration});
+    return support::run_process(words, all_.file("root"));
+  };
+  for (const std::string& configuration :
+       {std::string("--unset=XDG_CONFIG_HOME"),
+        "XDG_CONFIG_HOME=" + inside(".config")}) {
+    all_.write("beyond/f.conf", "no rules");
+    const auto there = run_at_home(configuration);
+    EXPECT_EQ(there.status, 0) << there.errors;
+    EXPECT_EQ(there.errors.find("f.conf"), std::string::npos) << there.errors;
+    fs::remove(beyond("f.conf"));
+    EXPECT_EQ(run_at_home(configuration).errors, there.errors);
+  }
+}
+
+// --- Few descriptors --------------------------------------------------------
+
+TEST_F(Root, DescriptorsThatEndAreAnError) {
+  fs::create_directories(inside("a/b/c"));
+  all_.write("root/a/b/c/part.scad", "echo(\"part\");\n");
+  fs::create_directory_symlink("b", inside("a/link"));
+  all_.write("root/j.json", "\"json\"");
+  all_.write("root/d.scad",
+             "include <a/link/c/part.scad>\necho(import(\"j.json\"));\n");
+  ASSERT_EQ(run_confined({"d.scad", "-o", "o.echo"}).status, 0);
+  const std::string whole = support::read_file(inside("o.echo"));
+  EXPECT_NE(whole.find("part"), std::string::npos);
+  int done = 0;
+  for (int limit = 4; limit < 24; ++limit) {
+    fs::remove(inside("o.echo"));
+    std::vector<std::string> words =
+        command({"d.scad", "-o", "o.echo", "--root", "."});
+    words.insert(words.begin(),
+                 {"/bin/sh", "-c",
+                  fmt::format("ulimit -n {}; exec \"$@\"", limit), "sh"});
+    const auto result = support::run_process(words, all_.file("root"));
+    if (result.status == 0) {
+      EXPECT_EQ(support::read_file(inside("o.echo")), whole) << limit;
+      ++done;
+      continue;
+    }
+    constexpr int kNoLibraries = 127;  // could be loaded
+    if (result.status == kNoLibraries) continue;
+    EXPECT_TRUE(result.status == 1 || result.status == 2)
+        << limit << ": " << result.status;
+    EXPECT_NE(result.errors.find("oo many open files"), std::string::npos)
+        << limit << ": " << result.errors;
+    EXPECT_FALSE(fs::exists(inside("o.echo"))) << limit;
+  }
+  EXPECT_GT(done, 0);
+}
+
 // --- Links that change meanwhile --------------------------------------------
 
 // Puts in turn two links, or a folder and a link, in one place, until it goes.

@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "tests/support/temporary_folder.h"
 
@@ -111,6 +112,61 @@ TEST_F(ConfinedAccess, AWholeFileSystemIsAFolder) {
       "mine");
   EXPECT_EQ(files.read(all_.file("root/sub/../in")).value_or(""), "mine");
   EXPECT_FALSE(files.open("/dev/null"));
+  EXPECT_FALSE(files.open("/proc/self/environ"));
+  EXPECT_FALSE(files.read("/proc/self/environ"));
+  EXPECT_FALSE(files.read("/sys/devices/system/cpu/online"));
+  EXPECT_TRUE(FileAccess().read("/proc/self/environ"));
+}
+
+// Fills the table of descriptors.
+class NoDescriptors {
+ public:
+  explicit NoDescriptors(rlim_t limit) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit lower{limit, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &lower);
+  }
+  ~NoDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+// Whatever is asked, there is the right answer or an error: never one that
+// reads like a missing file.
+TEST_F(ConfinedAccess, DescriptorsThatEndAreAnError) {
+  fs::create_directory(all_.file("root/sub/deep"));
+  all_.write("root/sub/deep/in", "deep");
+  link("sub/deep", "root/folder");
+  const FileAccess files = access();
+  const std::string file = all_.file("root/folder/in");
+  const std::string top = all_.file("root/in");
+  const std::string folder = all_.file("root/sub");
+  int failures = 0;
+  const auto expect = [&](rlim_t limit, const auto& is_right) {
+    const NoDescriptors few(limit);
+    try {
+      EXPECT_TRUE(is_right()) << limit;
+    } catch (const FileError& error) {
+      ++failures;
+      EXPECT_NE(std::string(error.what()).find(std::strerror(EMFILE)),
+                std::string::npos)
+          << error.what();
+    }
+  };
+  for (rlim_t limit = 1; limit < 40; ++limit) {
+    expect(limit, [&] { return files.read(file) == "deep"; });
+    expect(limit, [&] { return files.read(top) == "mine"; });
+    expect(limit, [&] { return files.is_file(file); });
+    expect(limit, [&] { return files.is_there(all_.file("root")); });
+    expect(limit, [&] { return files.allows(file); });
+    expect(limit, [&] { return !files.canonical(file).empty(); });
+    expect(limit, [&] { return !files.weakly_canonical(file).empty(); });
+    expect(limit, [&] { return files.list(folder).has_value(); });
+    expect(limit, [&] { return FileAccess().list(folder).has_value(); });
+    expect(limit, [&] { return FileAccess().read(top) == "mine"; });
+  }
+  EXPECT_GT(failures, 0);
 }
 
 TEST_F(ConfinedAccess, WritesInTheRootOnly) {
