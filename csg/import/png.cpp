@@ -81,6 +81,11 @@ struct Reader {
 bool decode(png_structp png, png_infop info, Image& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &image, read_bytes);
+  // Of the rest (texts, profiles) libpng would ask for as much memory as its
+  // length says, before it sees that the file is shorter.
+  constexpr int kAllButThePicture = -1;
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr,
+                              kAllButThePicture);
   png_read_info(png, info);
   image.columns = png_get_image_width(png, info);
   image.rows = png_get_image_height(png, info);

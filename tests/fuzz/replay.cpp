@@ -3,7 +3,8 @@
 //     stl_replay FILE|FOLDER…
 //
 // A crash, a sanitizer's report or an exception that a fuzzer does not expect
-// ends the program; the input's name is the last line printed then.
+// ends the program; the input's name is the last line printed then. No input is
+// worth a gigabyte: more is not given, but where sanitizers reserve terabytes.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,6 +15,8 @@
 #include <iterator>
 #include <string>
 #include <vector>
+
+#include <sys/resource.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size);
@@ -44,9 +47,17 @@ void run(const fs::path& path) {
                          bytes.size());
 }
 
+void limit_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr rlimit kGigabyte{1 << 30, 1 << 30};
+  setrlimit(RLIMIT_DATA, &kGigabyte);
+#endif
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
+  limit_memory();
   LLVMFuzzerTestOneInput(nullptr, 0);
   for (int i = 1; i < count; ++i) {
     // A target without findings has no folder of crashes.
