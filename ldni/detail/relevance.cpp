@@ -19,9 +19,9 @@ namespace {
 constexpr double kMargin = 1e-5;
 
 // Operators with more children are not looked into, and for one instance no
-// more leaves are asked: what is not known is open.
+// more leaves and operators are asked: what is not known is open.
 constexpr std::uint32_t kMostChildren = 32;
-constexpr std::uint32_t kMostQuestions = 64;
+constexpr std::uint64_t kMostQuestions = 64;
 
 constexpr std::uint32_t kNoInstance = 0xffffffff;
 
@@ -143,7 +143,7 @@ bool Relevance::matters(std::uint32_t instance) {
   Box3 box = leaf.box;
   box.low -= kMargin;
   box.high += kMargin;
-  questions_ = 0;
+  last_question_ = questions_ + kMostQuestions;
   Child branch{instance, true, false};
   std::uint32_t node = leaf.parent;
   bool is_minuend = leaf.is_minuend;
@@ -160,7 +160,8 @@ bool Relevance::matters(std::uint32_t instance) {
         return false;
       }
     }
-    if (node == 0 || questions_ >= kMostQuestions) return true;
+    if (node == 0 || questions_ == last_question_) return true;
+    ++questions_;
     branch = {node, false, false};
     is_minuend = op.is_minuend;
     node = op.parent;
@@ -188,7 +189,8 @@ Relevance::Count Relevance::count(std::uint32_t node, const Child& left_out,
 
 // 0, 1, or from 0 to 1.
 Relevance::Count Relevance::value(const Child& child, const Box3& box) {
-  if (questions_ >= kMostQuestions) return {0, 1};
+  if (questions_ == last_question_) return {0, 1};
+  ++questions_;
   if (child.is_instance) return value_of_leaf(child.number, box);
   if (scene_.program[child.number].child_count > kMostChildren) return {0, 1};
   const Count sum = count(child.number, {kNoInstance, true, false}, box);
@@ -198,7 +200,6 @@ Relevance::Count Relevance::value(const Child& child, const Box3& box) {
 
 Relevance::Count Relevance::value_of_leaf(std::uint32_t number,
                                           const Box3& box) {
-  ++questions_;
   const csg::Instance& instance = scene_.instances[number];
   for (int axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > instance.box.high[axis] ||

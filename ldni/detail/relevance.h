@@ -38,6 +38,9 @@ class Relevance {
   // that it costs little however many there are.
   bool matters(std::uint32_t instance);
 
+  // To leaves and operators, for all instances so far.
+  std::uint64_t questions() const { return questions_; }
+
  private:
   // A child of an operator: another one, or an instance.
   struct Child {
@@ -72,7 +75,8 @@ class Relevance {
   std::vector<Child> children_;
   std::vector<std::uint32_t> ends_;
   std::unordered_map<std::uint32_t, Body> bodies_;
-  std::uint32_t questions_ = 0;  // about leaves, for the instance in hand
+  std::uint64_t questions_ = 0;
+  std::uint64_t last_question_ = 0;  // for the instance in hand
 };
 
 }  // namespace lamina::ldni::detail
