@@ -89,7 +89,7 @@ int sphere_fragments(double r, const Fineness& fineness) {
   // About π²/n² of the radius; a little fewer to begin with.
   const double error = fineness.chordal_error;
   int n = std::max(to_count(0.9 * pi / std::sqrt(error / r)), kFewest);
-  while (n < kMostFragments && sphere_error(r, n) > error) ++n;
+  while (sphere_error(r, n) > error) require_fragments(++n);
   return n;
 }
 
