@@ -239,11 +239,10 @@ bool EdgeGrid::cross(const Edge& a, const Edge& b) const {
   return passes_through(a, b) || passes_through(b, a);
 }
 
-// Sorts the pairs, each once; false while they are fewer than are told.
-bool are_enough(std::vector<EdgePair>& pairs) {
+// Leaves each pair once, sorted.
+void remove_repeated(std::vector<EdgePair>& pairs) {
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs.size() >= kMostCrossings;
 }
 
 std::vector<EdgePair> EdgeGrid::crossing_edges() const {
@@ -257,11 +256,12 @@ std::vector<EdgePair> EdgeGrid::crossing_edges() const {
         if (!cross(edges_[edges[i]], edges_[edges[j]])) continue;
         crossing.emplace_back(edges[i], edges[j]);
         if (crossing.size() < kMostRepeated) continue;
-        if (are_enough(crossing)) return crossing;
+        remove_repeated(crossing);
+        if (crossing.size() >= kMostCrossings) return crossing;
       }
     }
   }
-  are_enough(crossing);
+  remove_repeated(crossing);
   return crossing;
 }
 
