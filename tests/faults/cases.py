@@ -37,7 +37,6 @@ CALL_ERRORS = {
     "stat": ["ENOMEM"],
     "realpath": ["ENOMEM"],
     "fopen": ["EMFILE"],
-    "fopen64": ["EMFILE"],
     "opendir": ["EMFILE"],
     "mmap": ["ENOMEM"],
     "mremap": ["ENOMEM"],
