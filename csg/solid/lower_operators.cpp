@@ -88,8 +88,7 @@ void Lowerer::flatten(std::size_t mark, const Shape& shape, SourceRange range) {
   builder_.drop(mark);
 }
 
-// --- Children
-// -----------------------------------------------------------------
+// --- Children ----------------------------------------------------------------
 
 Lowerer::Operands Lowerer::lower_operands(const Node& node, const Affine& world,
                                           bool is_union, Dimension dimension) {

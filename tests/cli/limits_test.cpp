@@ -92,8 +92,7 @@ TEST(Limits, OptionsTakeNoNonsense) {
   }
 }
 
-// --- The machine
-// ---------------------------------------------------------------
+// --- The machine -------------------------------------------------------------
 
 void make_group(const TemporaryFolder& folder, const std::string& path,
                 const std::string& file, const std::string& text) {
@@ -145,8 +144,7 @@ TEST(MachineMemory, IsKnown) {
   EXPECT_GT(writable_memory(), 1U << 16);
 }
 
-// --- Time
-// ------------------------------------------------------------------------
+// --- Time --------------------------------------------------------------------
 
 TEST(MaxTime, EndsARunAtOnce) {
   const TemporaryFolder folder;
@@ -260,8 +258,7 @@ TEST(MaxTime, EndsABatchWhoseTableNobodyReads) {
             1);
 }
 
-// --- Memory
-// ------------------------------------------------------------------------
+// --- Memory ------------------------------------------------------------------
 
 TEST(MaxMemory, EndsARun) {
   const TemporaryFolder folder;
@@ -328,8 +325,7 @@ TEST(MaxMemory, OfTheSystemIsNamed) {
   expect_no_output(folder);
 }
 
-// --- What a design may ask for
-// -----------------------------------------------------
+// --- What a design may ask for -----------------------------------------------
 
 // What is refused before it is made: within a second, in little memory.
 void expect_refused(const std::string& design, const std::string& error,
@@ -375,6 +371,10 @@ TEST(Fragments, OfAChordalErrorAreAsMany) {
   expect_refused("cylinder(r = 1e8, h = 1);",
                  "a.scad:1:1: error: Too many fragments: 2.22",
                  {"--chordal-error", "1e-6"});
+  // Its first guess is not too many.
+  expect_refused("sphere(1e3);",
+                 "a.scad:1:1: error: Too many fragments: 1000001 of a circle",
+                 {"--chordal-error", "9e-9"});
 }
 
 TEST(Fragments, OfAMillionAreMade) {

@@ -125,8 +125,7 @@ void shift_and_scale(const Operands& t) {
               mapped(a, [](Vec2 p) { return 2.0 * p; }));
 }
 
-// --- Ways to the same layers
-// --------------------------------------------------
+// --- Ways to the same layers -------------------------------------------------
 void pitch_of_rays(const Operands& t) {
   const Sections plain = cut(t, t.a);
   for (const double pitch : {0.03, 0.5, 10.0}) {
@@ -151,19 +150,24 @@ void number_of_threads(const Operands& t) {
   }
 }
 
+slicer::Settings settings_of(const Operands& t, double tolerance) {
+  slicer::Settings settings;
+  settings.heights = t.heights;
+  settings.threads = 1;
+  settings.tolerance = tolerance;
+  return settings;
+}
+
 // Vertices that are left out move nothing by more than the tolerance, and no
 // loop vanishes.
 void left_out_vertices(const Operands& t) {
   const Sections exact = cut(t, t.a);
-  slicer::Settings settings;
-  settings.heights = t.heights;
-  settings.threads = 1;
-  settings.tolerance = 0.01;
-  const Sections simple = sliced(t.a, settings);
+  constexpr double kTolerance = 0.01;
+  const Sections simple = sliced(t.a, settings_of(t, kTolerance));
   for (std::size_t i = 0; i < exact.size(); ++i) {
     if (count_loops(exact[i]) == count_loops(simple[i]) &&
         (exact[i].is_empty() ||
-         greatest_distance(exact[i], simple[i]) <= settings.tolerance + 1e-9)) {
+         greatest_distance(exact[i], simple[i]) <= kTolerance + 1e-9)) {
       continue;
     }
     throw BrokenLaw{
@@ -175,10 +179,7 @@ void left_out_vertices(const Operands& t) {
 // contour.
 void paper_contours(const Operands& t) {
   const Sections faithful = cut(t, t.a);
-  slicer::Settings settings;
-  settings.heights = t.heights;
-  settings.threads = 1;
-  settings.tolerance = 0;
+  slicer::Settings settings = settings_of(t, 0);
   settings.contour = slicer::ContourMode::kPaper;
   settings.ray_pitch = 0.11;
   const Sections paper = sliced(t.a, settings);
