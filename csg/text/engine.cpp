@@ -16,10 +16,14 @@ namespace {
 
 class FontEngine : public Engine {
  public:
-  explicit FontEngine(const FontFiles* permitted) : fonts_(permitted) {}
+  explicit FontEngine(const FontFiles& files) : fonts_(files) {}
 
-  bool add_font(const char* path) noexcept override {
-    return fonts_.add_font(path);
+  AddedFont add_font(const char* path) noexcept override {
+    try {
+      return fonts_.add_font(path) ? AddedFont::kAdded : AddedFont::kNone;
+    } catch (const std::exception&) {
+      return AddedFont::kNoMemory;
+    }
   }
 
   const Typeset* set(const csg::TextParams& params,
@@ -90,11 +94,13 @@ class FontEngine : public Engine {
 
 extern "C" __attribute__((visibility("default"))) lamina::text::Engine*
 lamina_make_text_engine(int version,
-                        const lamina::text::FontFiles* permitted) noexcept {
+                        const lamina::text::FontFiles* files) noexcept {
+  errno = 0;
   if (version != lamina::text::kEngineVersion) return nullptr;
   try {
-    return new lamina::text::FontEngine(permitted);
+    return new lamina::text::FontEngine(*files);
   } catch (const std::exception&) {
+    errno = ENOMEM;
     return nullptr;
   }
 }

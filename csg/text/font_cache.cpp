@@ -15,7 +15,6 @@
 #include <fontconfig/fcfreetype.h>
 #include <hb-ft.h>
 #include <sys/mman.h>
-#include <unistd.h>
 #include FT_TRUETYPE_IDS_H
 
 namespace lamina::text {
@@ -154,26 +153,6 @@ Owned<FcConfig> load_rules() {
   return config;
 }
 
-// A permitted font under a path that means the very file that was opened.
-class OpenFontFile {
- public:
-  OpenFontFile(const FontFiles& files, const std::string& path)
-      : descriptor_(files.open(path)) {}
-  ~OpenFontFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  OpenFontFile(const OpenFontFile&) = delete;
-  OpenFontFile& operator=(const OpenFontFile&) = delete;
-
-  // Of nothing where the file may not be read.
-  std::string path() const {
-    return fmt::format("/proc/self/fd/{}", descriptor_);
-  }
-
- private:
-  int descriptor_;
-};
-
 // Looking for all fonts takes longer than many a design, and finds the same
 // for each. Fontconfig lets threads share what it found.
 Owned<FcConfig> shared_config() {
@@ -226,53 +205,70 @@ bool has_symbols(FT_FaceRec& face) {
 
 }  // namespace
 
-FontCache::FontCache(const FontFiles* permitted)
-    : permitted_(permitted),
-      config_(permitted ? load_rules() : shared_config()) {
+FontCache::FontCache(const FontFiles& files)
+    : files_(files),
+      config_(files.is_confined() ? load_rules() : shared_config()),
+      own_fonts_(FcFontSetCreate()) {
+  require(own_fonts_ != nullptr);
   FT_Library library = nullptr;
   require(FT_Init_FreeType(&library) == 0);
   library_.reset(library);
-  if (permitted_) add_permitted_folders();
+  if (files.is_confined()) add_permitted_folders();
 }
 
 void FontCache::add_permitted_folders() {
-  fonts_to_match_.reset(FcFontSetCreate());
-  require(fonts_to_match_ != nullptr);
   std::vector<std::string> folders = font_folders();
   FcStrList* const configured = FcConfigGetFontDirs(config_.get());
+  require(configured != nullptr);
   while (const FcChar8* folder = FcStrListNext(configured)) {
     folders.emplace_back(from_fc(folder));
   }
   FcStrListDone(configured);
   std::set<std::string> files;
   for (const std::string& folder : folders) {
-    for (std::string& file : permitted_->files_in(folder)) {
+    for (std::string& file : files_.files_in(folder)) {
       files.insert(std::move(file));
     }
   }
-  for (const std::string& file : files) add_permitted(file);
+  for (const std::string& file : files) add_font(file.c_str());
 }
 
-bool FontCache::add_permitted(const std::string& path) {
-  const OpenFontFile file(*permitted_, path);
-  const int first = fonts_to_match_->nfont;
-  int count = 0;
-  FcFreeTypeQueryAll(to_fc(file.path().c_str()), static_cast<unsigned>(-1),
-                     nullptr, &count, fonts_to_match_.get());
-  for (int i = first; i < fonts_to_match_->nfont; ++i) {
-    FcPattern* const font = fonts_to_match_->fonts[i];
-    FcPatternDel(font, FC_FILE);
-    FcPatternAddString(font, FC_FILE, to_fc(path.c_str()));
-    FcConfigSubstitute(config_.get(), font, FcMatchScan);
-  }
-  return fonts_to_match_->nfont > first;
-}
-
+// The faces of the file, the named instances of each, and the face that varies
+// between them, as FcFreeTypeQueryAll() has them.
 bool FontCache::add_font(const char* path) {
-  if (permitted_) return add_permitted(path);
-  if (!has_own_config_) config_ = load_config(font_folders());
-  has_own_config_ = true;
-  return FcConfigAppFontAddFile(config_.get(), to_fc(path)) == FcTrue;
+  constexpr unsigned kVariable = 0x8000;
+  const std::string bytes = files_.read(path);
+  const int first = own_fonts_->nfont;
+  long faces = 1;
+  for (long i = 0; i < faces; ++i) {
+    const Owned<FT_FaceRec> face = open_face(bytes, i);
+    if (!face) break;
+    faces = face->num_faces;
+    const auto index = static_cast<unsigned>(i);
+    const auto instances = static_cast<unsigned>(face->style_flags >> 16);
+    add_pattern(*face, path, index);
+    for (unsigned k = 1; k <= instances; ++k) {
+      const long instance = i + (static_cast<long>(k) << 16);
+      const Owned<FT_FaceRec> named = open_face(bytes, instance);
+      if (named) add_pattern(*named, path, index + (k << 16));
+    }
+    if (FT_HAS_MULTIPLE_MASTERS(face.get())) {
+      add_pattern(*face, path, index + (kVariable << 16));
+    }
+  }
+  return own_fonts_->nfont > first;
+}
+
+void FontCache::add_pattern(FT_FaceRec& face, const char* path,
+                            unsigned index) {
+  errno = 0;
+  Owned<FcPattern> font(
+      FcFreeTypeQueryFace(&face, to_fc(path), index, nullptr));
+  require(errno != ENOMEM);
+  if (!font) return;
+  require(FcConfigSubstitute(config_.get(), font.get(), FcMatchScan) &&
+          FcFontSetAdd(own_fonts_.get(), font.get()));
+  font.release();  // the set has it
 }
 
 const Font& FontCache::find(const std::string& name) {
@@ -283,27 +279,25 @@ const Font& FontCache::find(const std::string& name) {
 
 Owned<FcPattern> FontCache::match(FcPattern& pattern) const {
   FcResult result = FcResultNoMatch;
-  FcFontSet* set = fonts_to_match_.get();
-  Owned<FcPattern> found(
-      permitted_ ? FcFontSetMatch(config_.get(), &set, 1, &pattern, &result)
-                 : FcFontMatch(config_.get(), &pattern, &result));
+  FcFontSet* sets[] = {FcConfigGetFonts(config_.get(), FcSetSystem),
+                       FcConfigGetFonts(config_.get(), FcSetApplication),
+                       own_fonts_.get()};
+  Owned<FcPattern> found(FcFontSetMatch(config_.get(), sets,
+                                        static_cast<int>(std::size(sets)),
+                                        &pattern, &result));
   require(result != FcResultOutOfMemory && errno != ENOMEM);
   return found;
 }
 
-// Null where the file holds no such face.
-FT_Face FontCache::open_face(const char* path, int index) const {
+// Null where the bytes, which must outlive it, hold no such face.
+Owned<FT_FaceRec> FontCache::open_face(const std::string& bytes,
+                                       long index) const {
   FT_Face face = nullptr;
-  FT_Error fault = 0;
-  if (!permitted_) {
-    fault = FT_New_Face(library_.get(), path, index, &face);
-  } else {
-    // FreeType maps the file and does not ask for its path again.
-    const OpenFontFile file(*permitted_, path);
-    fault = FT_New_Face(library_.get(), file.path().c_str(), index, &face);
-  }
+  const FT_Error fault = FT_New_Memory_Face(
+      library_.get(), reinterpret_cast<const FT_Byte*>(bytes.data()),
+      static_cast<FT_Long>(bytes.size()), index, &face);
   require(fault != FT_Err_Out_Of_Memory);
-  return fault == 0 ? face : nullptr;
+  return Owned<FT_FaceRec>(fault == 0 ? face : nullptr);
 }
 
 Font FontCache::load(const std::string& name) const {
@@ -331,9 +325,10 @@ Font FontCache::load(const std::string& name) const {
     return font;
   }
 
-  FT_Face face = open_face(from_fc(file), index);
+  font.bytes = std::make_unique<const std::string>(files_.read(from_fc(file)));
+  Owned<FT_FaceRec> owned = open_face(*font.bytes, index);
+  FT_Face face = owned.get();
   if (face == nullptr) return font;
-  Owned<FT_FaceRec> owned(face);
   font.complaint = describe_substitution(*asked, *pattern, *matching);
   if (!select_best_charmap(*face)) {
     font.complaint = fmt::format("Could not select a char map for font {}/{}'",

@@ -1,9 +1,12 @@
 #include "csg/text/typesetter.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include <dlfcn.h>
@@ -42,23 +45,58 @@ MakeEngine* open_module(const std::vector<std::string>& folders,
                                 kModuleName, fmt::join(folders, " or ")));
 }
 
-class PermittedFonts : public FontFiles {
- public:
-  explicit PermittedFonts(const FileAccess& access) : file_access_(access) {}
+void add_words(const Typeset& typeset, std::vector<std::string>& warnings) {
+  for (const Message& message : typeset.messages) {
+    warnings.push_back(message.words);
+  }
+}
 
-  std::vector<std::string> files_in(const std::string& folder) const override {
-    std::vector<std::string> files;
-    for (const std::string& part : file_access_.readable_parts(folder)) {
-      collect(part, 0, files);
-    }
-    return files;
+}  // namespace
+
+class ReadableFonts : public FontFiles {
+ public:
+  explicit ReadableFonts(const FileAccess& access) : file_access_(access) {}
+
+  bool is_confined() const noexcept override {
+    return file_access_.is_confined();
   }
 
-  int open(const std::string& path) const override {
-    return file_access_.open(path).release();
+  std::vector<std::string> files_in(
+      const std::string& folder) const noexcept override {
+    return keep_fault([&] {
+      std::vector<std::string> files;
+      for (const std::string& part : file_access_.readable_parts(folder)) {
+        collect(part, 0, files);
+      }
+      return files;
+    });
+  }
+
+  std::string read(const std::string& path) const noexcept override {
+    return keep_fault([&] {
+      const OpenFile file = file_access_.open(path);
+      auto bytes = file ? file.read_all() : std::nullopt;
+      if (!bytes) check_machine(path, errno);
+      return bytes.value_or("");
+    });
+  }
+
+  // Throws what was thrown while the module called.
+  void rethrow_fault() const {
+    if (fault_) std::rethrow_exception(fault_);
   }
 
  private:
+  template <typename Work>
+  auto keep_fault(const Work& work) const noexcept -> decltype(work()) {
+    try {
+      return work();
+    } catch (...) {
+      fault_ = std::current_exception();
+      return {};
+    }
+  }
+
   void collect(const std::string& folder, int depth,
                std::vector<std::string>& files) const {
     // Links can lead in a circle.
@@ -78,18 +116,8 @@ class PermittedFonts : public FontFiles {
   }
 
   const FileAccess& file_access_;
+  mutable std::exception_ptr fault_;
 };
-
-const Typeset& checked(const Typeset* typeset,
-                       std::vector<std::string>& warnings) {
-  if (!typeset) throw std::bad_alloc();
-  for (const Message& message : typeset->messages) {
-    warnings.push_back(message.words);
-  }
-  return *typeset;
-}
-
-}  // namespace
 
 std::vector<std::string> module_folders() {
   std::error_code error;
@@ -101,11 +129,9 @@ std::vector<std::string> module_folders() {
 
 Typesetter::Typesetter(std::vector<std::string> folders,
                        Diagnostics& diagnostics, const FileAccess& access)
-    : folders_(std::move(folders)), diagnostics_(diagnostics) {
-  if (access.is_confined()) {
-    permitted_fonts_ = std::make_unique<PermittedFonts>(access);
-  }
-}
+    : folders_(std::move(folders)),
+      diagnostics_(diagnostics),
+      readable_fonts_(std::make_unique<const ReadableFonts>(access)) {}
 
 Typesetter::~Typesetter() = default;
 
@@ -116,12 +142,18 @@ void Typesetter::add_fonts(const std::vector<std::string>& files) {
 Engine& Typesetter::engine() {
   if (engine_) return *engine_;
   engine_.reset(open_module(folders_, diagnostics_)(kEngineVersion,
-                                                    permitted_fonts_.get()));
+                                                    readable_fonts_.get()));
+  const bool lacks_memory = !engine_ && errno == ENOMEM;
+  readable_fonts_->rethrow_fault();
+  if (lacks_memory) throw std::bad_alloc();
   if (!engine_) {
     fail(diagnostics_, fmt::format("{} is of another version", kModuleName));
   }
   for (const std::string& file : font_files_) {
-    if (!engine_->add_font(file.c_str())) {
+    const AddedFont added = engine_->add_font(file.c_str());
+    readable_fonts_->rethrow_fault();
+    if (added == AddedFont::kNoMemory) throw std::bad_alloc();
+    if (added == AddedFont::kNone) {
       diagnostics_.report({Severity::kPlain,
                            {},
                            fmt::format("Can't register font '{}'", file)});
@@ -130,18 +162,24 @@ Engine& Typesetter::engine() {
   return *engine_;
 }
 
+// What the module returned, where nothing failed meanwhile.
+const Typeset& Typesetter::checked(const Typeset* typeset) const {
+  readable_fonts_->rethrow_fault();
+  if (typeset == nullptr) throw std::bad_alloc();
+  return *typeset;
+}
+
 std::vector<std::vector<Vec2>> Typesetter::outline(
     const csg::TextParams& params, const Chords& chords, SourceRange range,
     Diagnostics& diagnostics) {
-  const Typeset* typeset = engine().set(params, chords);
-  if (!typeset) throw std::bad_alloc();
-  for (const Message& message : typeset->messages) {
+  const Typeset& typeset = checked(engine().set(params, chords));
+  for (const Message& message : typeset.messages) {
     diagnostics.report({message.severity, range, message.words});
   }
   std::vector<std::vector<Vec2>> contours;
   std::size_t begin = 0;
-  for (const std::size_t end : typeset->ends) {
-    const auto points = typeset->points.subspan(begin, end - begin);
+  for (const std::size_t end : typeset.ends) {
+    const auto points = typeset.points.subspan(begin, end - begin);
     contours.emplace_back(points.begin(), points.end());
     begin = end;
   }
@@ -150,14 +188,16 @@ std::vector<std::vector<Vec2>> Typesetter::outline(
 
 std::optional<csg::TextMetrics> Typesetter::measure_text(
     const csg::TextParams& params, std::vector<std::string>& warnings) {
-  const Typeset& typeset = checked(engine().measure_text(params), warnings);
+  const Typeset& typeset = checked(engine().measure_text(params));
+  add_words(typeset, warnings);
   if (!typeset.has_font) return std::nullopt;
   return typeset.text_metrics;
 }
 
 std::optional<csg::FontMetrics> Typesetter::measure_font(
     const csg::TextParams& params, std::vector<std::string>& warnings) {
-  const Typeset& typeset = checked(engine().measure_font(params), warnings);
+  const Typeset& typeset = checked(engine().measure_font(params));
+  add_words(typeset, warnings);
   if (!typeset.has_font) return std::nullopt;
   return typeset.font_metrics;
 }

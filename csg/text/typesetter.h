@@ -32,7 +32,8 @@ struct Chords {
 };
 
 class Engine;
-class FontFiles;
+struct Typeset;
+class ReadableFonts;
 
 class Typesetter : public csg::TextMeasurer {
  public:
@@ -67,11 +68,12 @@ class Typesetter : public csg::TextMeasurer {
 
  private:
   Engine& engine();
+  const Typeset& checked(const Typeset* typeset) const;
 
   std::vector<std::string> folders_;
   Diagnostics& diagnostics_;
   std::vector<std::string> font_files_;
-  std::unique_ptr<const FontFiles> permitted_fonts_;  // null: all
+  std::unique_ptr<const ReadableFonts> readable_fonts_;
   std::unique_ptr<Engine> engine_;
 };
 

@@ -41,7 +41,7 @@ const std::map<std::string, std::string> kMayTouch = {
     {"slicer/formats/output_file.cpp",
      "what FileAccess::find_output found; devices without --root"},
     {"slicer/formats/output_folder.cpp", "the same"},
-    {"csg/text/font_cache.cpp", "Fontconfig, and fonts that FileAccess opened"},
+    {"csg/text/font_cache.cpp", "Fontconfig, which looks for the system's fonts"},
     {"csg/text/typesetter.cpp", "the program's own module"},
     {"csg/import/zip.cpp", "archives in memory"},
     {"slicer/formats/zip_output.cpp", "archives into an OutputFile"},

@@ -78,7 +78,7 @@ def failing_memory(harness):
         runs = []
         for job in harness.some(jobs.QUICK, 6):
             # Fontconfig 2.14 and minizip 1.1 go through null themselves.
-            may_crash = job.name in ("text", "zip", "sl1", "3mf")
+            may_crash = job.name in ("text", "font", "zip", "sl1", "3mf")
             statuses = (0, 1, 2, -11) if may_crash else (0, 1, 2)
             for k in range(harness.count_calls(job, "malloc")):
                 fault = f"malloc {k + 1}{more} errno {errno.ENOMEM}"
@@ -344,20 +344,19 @@ def _take_drained(place):
 
 def inputs(harness):
     """Inputs change, shrink and fail while they are read."""
-    job = jobs.named("files")
     runs = []
-    for words, change in (("emptied", ": > {0}"), ("removed", "rm {0}"),
-                          ("longer", "echo more >> {0}"),
-                          ("halved", "truncate -s 9 {0}")):
-        for name in job.inputs:
-            for call in ("read", "fstat", "mmap"):
-                for k in range(harness.count_calls(job, call)):
-                    fault = f"{call} {k + 1} sh {change.format(name)}"
-                    # It may be another design then: any end is right that is
-                    # no crash and writes no half of a file.
-                    runs.append((fault, dict(
-                        job=job, fault=fault,
-                        after=_sound_output(harness, job))))
+    for job in (jobs.named("files"), jobs.named("font")):
+        for change in (": > {0}", "rm {0}", "echo more >> {0}",
+                       "truncate -s 9 {0}"):
+            for name in job.inputs:
+                for call in ("read", "fstat", "mmap"):
+                    for k in range(harness.count_calls(job, call)):
+                        fault = f"{call} {k + 1} sh {change.format(name)}"
+                        # It may be another design then: any end is right that
+                        # is no crash and writes no half of a file.
+                        runs.append((fault, dict(
+                            job=job, fault=fault,
+                            after=_sound_output(harness, job))))
     if not harness.is_quick and len(runs) > 800:
         runs = harness.random.sample(runs, 800)
     harness.case("inputs change while they are read", harness.some(runs, 10))

@@ -54,6 +54,8 @@ INPUTS = {
                   b'linear_extrude(1) import("t.dxf");\n'
                   b'surface("t.dat"); surface("t.png");\n',
     "text.scad": b'cube(1); linear_extrude(1) text("lamina", size = 4);\n',
+    "font.scad": b"use <t.ttf>\n"
+                 b'linear_extrude(1) text("lamina", size = 4);\n',
     "table.csv": b"name,size\nada,2\nbob,3\ncyd,4\n",
     "tiny.json": _PANEL,
     "a.layers.json": _LAYERS,
@@ -67,6 +69,11 @@ INPUTS = {
     "t.dat": b"0 1\n1 2\n",
     "t.png": _grey_png(),
 }
+
+# One that is installed, as a customer's.
+_FONT = "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"
+with open(_FONT, "rb") as _file:
+    INPUTS["t.ttf"] = _file.read()
 
 # A folder of images such as lamina leaves.
 OLD_FOLDER = {"index.json": b'{"maker":"lamina 0","images":["1.png"]}',
@@ -143,6 +150,8 @@ ALL = [
     Job("solids, confined", "solids.scad --layer 0.2 -o out/a.slc --root .",
         "solids.scad part.scad b.scad", ["out/a.slc"]),
     Job("text", "text.scad --layer 0.2 -o out/a.slc", "text.scad",
+        ["out/a.slc"], may_warn=True),
+    Job("font", "font.scad --layer 0.2 -o out/a.slc", "font.scad t.ttf",
         ["out/a.slc"], may_warn=True),
     Job("slow .slc", "slow.scad -q -o out/a.slc", "slow.scad", ["out/a.slc"],
         is_slow=True),

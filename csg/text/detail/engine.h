@@ -36,24 +36,30 @@ struct Typeset {
   csg::FontMetrics font_metrics;
 };
 
-// The fonts of a run that may not read all (`--root`).
+// The way to the files of fonts. What fails there is kept, and told where the
+// module has returned.
 class FontFiles {
  public:
   virtual ~FontFiles() = default;
 
+  // Whether only some may be read (`--root`).
+  virtual bool is_confined() const noexcept = 0;
   // The files in a folder and below it that may be read.
   virtual std::vector<std::string> files_in(
-      const std::string& folder) const = 0;
-  // A descriptor to read from, which the caller closes; negative: none.
-  virtual int open(const std::string& path) const = 0;
+      const std::string& folder) const noexcept = 0;
+  // All bytes; none where the file may not or cannot be read.
+  virtual std::string read(const std::string& path) const noexcept = 0;
 };
+
+// What became of a font that a design brings along.
+enum class AddedFont { kAdded, kNone, kNoMemory };
 
 class Engine {
  public:
   virtual ~Engine() = default;
 
-  // Lets texts use the font in the file `path`. False if it holds none.
-  virtual bool add_font(const char* path) noexcept = 0;
+  // Lets texts use the font in the file `path`; kNone if it holds none.
+  virtual AddedFont add_font(const char* path) noexcept = 0;
 
   // What these return stays valid until the next call; null: out of memory.
   virtual const Typeset* set(const csg::TextParams& params,
@@ -65,13 +71,13 @@ class Engine {
 };
 
 // Changes whenever something above does.
-constexpr int kEngineVersion = 3;
+constexpr int kEngineVersion = 4;
 
-// The module's function: a new engine; null if it has another version or there
-// is no memory.
+// The module's function: a new engine; null if it has another version, or
+// there is no memory (errno is ENOMEM then).
 //
-// permitted  outlives the engine; null: all fonts of the system
-using MakeEngine = Engine*(int version, const FontFiles* permitted);
+// files  outlives the engine
+using MakeEngine = Engine*(int version, const FontFiles* files);
 constexpr const char* kMakeEngineName = "lamina_make_text_engine";
 
 }  // namespace lamina::text

@@ -6,9 +6,13 @@
 // OPENSCAD_FONT_PATH, the fonts that come with OpenSCAD, those that the
 // design uses.
 //
-// Where a run may not read all files, Fontconfig is given the fonts that it may
-// read, one by one and as open files, and keeps to its rules of matching. It
-// looks into no folder then, and neither reads nor writes its caches.
+// Fonts that a design brings along are given to Fontconfig as bytes of our own.
+// Where a run may not read all files, so are all that it may read, one by one,
+// and Fontconfig keeps to its rules of matching. It looks into no folder then,
+// and neither reads nor writes its caches.
+//
+// FreeType, too, gets bytes and no path: it would map the file, and pages that
+// are gone because somebody shortens it end the process.
 
 #include <map>
 #include <memory>
@@ -37,6 +41,7 @@ template <typename T>
 using Owned = std::unique_ptr<T, Release>;
 
 struct Font {
+  std::unique_ptr<const std::string> bytes;  // of the face; must go after it
   Owned<FT_FaceRec> face;  // null: there is no such font, or it is broken
   Owned<hb_font_t> shaper;
   // Webdings and its like: characters stand at U+F000 and above.
@@ -48,13 +53,13 @@ struct Font {
   static constexpr int kSize = 100000;
 };
 
-// Caches share what Fontconfig finds, until a design brings fonts along.
+// Caches share what Fontconfig finds.
 class FontCache {
  public:
-  // permitted  null: all fonts; outlives the cache
-  explicit FontCache(const FontFiles* permitted);
+  // files  outlives the cache
+  explicit FontCache(const FontFiles& files);
 
-  // Before the first find(). False if Fontconfig finds no font in the file.
+  // Before the first find(). False if there is no font in the file.
   bool add_font(const char* path);
 
   // The best match for a Fontconfig name ("Liberation Sans:style=Bold").
@@ -63,14 +68,13 @@ class FontCache {
  private:
   Font load(const std::string& name) const;
   void add_permitted_folders();
-  bool add_permitted(const std::string& path);
+  void add_pattern(FT_FaceRec& face, const char* path, unsigned index);
   Owned<FcPattern> match(FcPattern& pattern) const;
-  FT_Face open_face(const char* path, int index) const;
+  Owned<FT_FaceRec> open_face(const std::string& bytes, long index) const;
 
-  const FontFiles* permitted_;
+  const FontFiles& files_;
   Owned<FcConfig> config_;
-  bool has_own_config_ = false;      // with fonts that no other design sees
-  Owned<FcFontSet> fonts_to_match_;  // of permitted_
+  Owned<FcFontSet> own_fonts_;  // that Fontconfig was given
   Owned<FT_LibraryRec_> library_;
   std::map<std::string, Font> fonts_;  // must go before the library
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "csg/planar/clip.h"
 #include "csg/planar/region.h"
@@ -418,6 +419,42 @@ TEST_F(TypesetterTest, AFontCutInItsGlyphsDoesNoHarm) {
     csg::TextParams params = params_of("The quick brown fox");
     params.font = "Ziberation Sans";
     typesetter.outline(params, {4}, {}, diagnostics_);
+  }
+}
+
+// Pages of a mapped file that are gone would end the process.
+TEST_F(TypesetterTest, AFontThatIsEmptiedMeanwhileStaysWhole) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.write("own.ttf", renamed_font());
+  typesetter_.add_fonts({file});
+  csg::TextParams params = params_of("A");
+  params.font = "Ziberation Sans";
+  EXPECT_EQ(set(params), set("A"));
+  folder.write("own.ttf", "");
+  params = params_of("The quick brown fox");
+  params.font = "Ziberation Sans";
+  EXPECT_EQ(set(params), set("The quick brown fox"));
+}
+
+TEST_F(TypesetterTest, AFontThatTheMachineCannotReadIsAnError) {
+  const support::TemporaryFolder folder;
+  const std::string file = folder.write("own.ttf", renamed_font());
+  const FileAccess access({folder.path(), {}, false});
+  const auto whole = set("A");  // opens the module, too
+  for (const FileAccess* const files : {&access, &kAllFiles}) {
+    Typesetter typesetter({LAMINA_MODULES}, diagnostics_, *files);
+    typesetter.add_fonts({file});
+    csg::TextParams params = params_of("A");
+    params.font = "Ziberation Sans";
+    rlimit before{};
+    ::getrlimit(RLIMIT_NOFILE, &before);
+    const rlimit none{1, before.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &none);
+    EXPECT_THROW(typesetter.outline(params, {4}, {}, diagnostics_), FileError);
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    Typesetter again({LAMINA_MODULES}, diagnostics_, *files);
+    again.add_fonts({file});
+    EXPECT_EQ(again.outline(params, {4}, {}, diagnostics_), whole);
   }
 }
 
