@@ -106,6 +106,12 @@ FileAccess FileAccess::none() {
 
 void check_machine(const std::string& path, int error) {
   switch (error) {
+    case ESTALE:
+      throw FileError({Severity::kError,
+                       {},
+                       fmt::format("Can't read file '{}': it changed while it "
+                                   "was read.",
+                                   path)});
     case EIO:
     case ENOMEM:
     case EMFILE:

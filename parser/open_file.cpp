@@ -7,6 +7,20 @@
 #include <unistd.h>
 
 namespace lamina {
+namespace {
+
+// Whether the file is as it was before `size` bytes of it were read. What is
+// no regular file, or has no size as those of /proc, has no "before".
+bool is_whole(int file, const struct stat& before, std::size_t size) {
+  if (!S_ISREG(before.st_mode) || before.st_size == 0) return true;
+  struct stat after {};
+  return ::fstat(file, &after) == 0 && after.st_size == before.st_size &&
+         after.st_mtim.tv_sec == before.st_mtim.tv_sec &&
+         after.st_mtim.tv_nsec == before.st_mtim.tv_nsec &&
+         size == static_cast<std::size_t>(before.st_size);
+}
+
+}  // namespace
 
 OpenFile::~OpenFile() {
   if (descriptor_ < 0) return;
@@ -35,6 +49,10 @@ std::optional<std::string> OpenFile::read_all(std::size_t spare) const {
     if (count < 0) return std::nullopt;
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
+  }
+  if (!is_whole(descriptor_, status, size)) {
+    errno = ESTALE;
+    return std::nullopt;
   }
   bytes.resize(size);
   return bytes;

@@ -118,7 +118,13 @@ TEST_F(ConfinedAccess, AWholeFileSystemIsAFolder) {
   EXPECT_TRUE(FileAccess().read("/proc/self/environ"));
 }
 
-// Fills the table of descriptors.
+// A file of sysfs claims a whole page and has a line: as one that is shortened
+// while it is read.
+TEST(FreeAccess, AFileThatIsShorterThanItWasIsAnError) {
+  EXPECT_THROW(FileAccess().read("/sys/devices/system/cpu/online"), FileError);
+}
+
+// Lowers the number of descriptors.
 class NoDescriptors {
  public:
   explicit NoDescriptors(rlim_t limit) {
