@@ -50,17 +50,6 @@ void remove_all(const std::string& path) {
   std::filesystem::remove_all(path, ignored);
 }
 
-// Removes the files of a folder, and closes it. Works where no more files can
-// be opened.
-void empty_folder(int& folder) {
-  DIR* const entries = ::fdopendir(std::exchange(folder, -1));
-  if (entries == nullptr) return;
-  while (const dirent* entry = ::readdir(entries)) {
-    ::unlinkat(::dirfd(entries), static_cast<const char*>(entry->d_name), 0);
-  }
-  ::closedir(entries);
-}
-
 void close_quietly(int& file) {
   const int error = errno;
   if (file >= 0) ::close(file);
@@ -68,9 +57,34 @@ void close_quietly(int& file) {
   errno = error;
 }
 
+// Removes a folder, and then closes it: a name that is not locked may be
+// another run's by now. Works where no more files can be opened.
+void remove_folder(int& folder, const std::string& path) {
+  DIR* const entries = ::fdopendir(folder);
+  if (entries != nullptr) {
+    while (const dirent* entry = ::readdir(entries)) {
+      ::unlinkat(folder, static_cast<const char*>(entry->d_name), 0);
+    }
+  }
+  remove_all(path);
+  if (entries != nullptr) {
+    ::closedir(entries);
+    folder = -1;
+  }
+  close_quietly(folder);
+}
+
 // Whether the lock is ours now, or there are no locks here.
 bool lock(int file) {
   return ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+// Whether what is open is what stands under the name: once it is locked, only
+// we may remove it.
+bool stands_at(const std::string& path, const struct stat& open) {
+  struct stat named = {};
+  return ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+         open.st_ino == named.st_ino;
 }
 
 // Removes what an ended run left under this name; false if there is no such.
@@ -82,7 +96,7 @@ bool remove_abandoned(const std::string& path) {
   const bool is_abandoned =
       ::fstat(file, &status) == 0 && status.st_uid == ::geteuid() &&
       (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
-      ::flock(file, LOCK_EX | LOCK_NB) == 0;
+      ::flock(file, LOCK_EX | LOCK_NB) == 0 && stands_at(path, status);
   if (is_abandoned) remove_all(path);
   close_quietly(file);
   return is_abandoned && ::lstat(path.c_str(), &status) != 0;
@@ -91,11 +105,8 @@ bool remove_abandoned(const std::string& path) {
 // Locks what was just made under this name. False if another run was faster,
 // to which it looked abandoned.
 bool keep(int file, const std::string& path) {
-  struct stat open = {};
-  struct stat named = {};
-  return lock(file) && ::fstat(file, &open) == 0 &&
-         ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
-         open.st_ino == named.st_ino;
+  struct stat status = {};
+  return lock(file) && ::fstat(file, &status) == 0 && stands_at(path, status);
 }
 
 // Makes something under a hidden name beside `target`, locked.
@@ -129,10 +140,16 @@ int make_named_file(const char* path) {
   return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
+int make_private_file(const char* path) {
+  return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+}
+
 int make_named_folder(const char* path) {
   if (::mkdir(path, 0777) != 0) return -1;
   const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) {
+  if (folder < 0 && errno == ENOENT) {
+    errno = EEXIST;  // another run was faster, to which it looked abandoned
+  } else if (folder < 0) {
     const int error = errno;
     ::rmdir(path);
     errno = error;
@@ -177,14 +194,17 @@ int end_writing(int file) {
 
 }  // namespace
 
-int TemporaryFiles::open_nameless() const {
+int TemporaryFiles::open_nameless() {
   const std::string folder = access_.scratch_folder();
   int file = open_nameless_in(folder);
   if (file >= 0) return file;
-  std::string path = folder + "/lamina-XXXXXX";
-  file = ::mkostemp(path.data(), O_CLOEXEC);
+  // A hidden name for a moment.
+  std::string name;
+  const Lock lock(mutex_);
+  file = make_hidden(folder + "/output", name, paths_, make_private_file);
   if (file >= 0) {
-    ::unlink(path.c_str());
+    ::unlink(name.c_str());
+    forget(name);
     return file;
   }
   // Without such a folder, memory has to do.
@@ -238,7 +258,8 @@ bool TemporaryFiles::give_name(File& file, const std::string& target) {
   copy.file = make_hidden(target, copy.name, paths_, make_named_file);
   if (copy.file < 0) return false;
   std::swap(file, copy);
-  const int error = copy_bytes(copy.file, file.file);
+  int error = copy_bytes(copy.file, file.file);
+  if (error == 0) error = end_writing(file.file);
   ::close(copy.file);
   errno = error;
   return error == 0;
@@ -257,13 +278,14 @@ bool TemporaryFiles::commit_file(File& file, const std::string& target) {
 }
 
 void TemporaryFiles::discard_file(File& file) {
-  if (file.file < 0) return;
-  ::close(file.file);
-  file.file = -1;
-  if (file.name.empty()) return;
-  const Lock lock(mutex_);
-  ::unlink(file.name.c_str());
-  forget(file.name);
+  if (!file.name.empty()) {
+    // While it is locked: a free name may be another run's by now.
+    const Lock lock(mutex_);
+    ::unlink(file.name.c_str());
+    forget(file.name);
+    file.name.clear();
+  }
+  close_quietly(file.file);
 }
 
 // --- Folders ----------------------------------------------------------------
@@ -312,8 +334,7 @@ bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
 void TemporaryFiles::discard_folder(Folder& folder) {
   if (folder.path.empty()) return;
   const Lock lock(mutex_);
-  empty_folder(folder.lock);
-  remove_all(folder.path);
+  remove_folder(folder.lock, folder.path);
   forget(folder.path);
   folder.path.clear();
 }

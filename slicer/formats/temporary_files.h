@@ -53,7 +53,7 @@ class TemporaryFiles {
 
   // A file without a name that nobody will give one; −1 if there is no room for
   // it (errno).
-  int open_nameless() const;
+  int open_nameless();
 
   // A new folder beside `path`, or beside what it links to. Throws AccessError.
   Folder make_folder(const std::string& path);

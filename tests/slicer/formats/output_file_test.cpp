@@ -1,7 +1,10 @@
 #include "slicer/formats/output_file.h"
 
+#include <atomic>
 #include <filesystem>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -179,6 +182,29 @@ TEST(TemporaryFiles, WhatAnotherRunIsFillingStays) {
   EXPECT_EQ(folder.entry_count(), 2U);
   one.discard_folder(first);
   other.discard_folder(second);
+  EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+// Whoever discards a name has it locked until it is gone; else it could be that
+// of a run that found it free.
+TEST(TemporaryFiles, RunsThatBeginAndEndTogetherKeepWhatTheyMade) {
+  const TemporaryFolder folder;
+  std::atomic<int> lost = 0;
+  const auto run_again_and_again = [&] {
+    TemporaryFiles files;
+    for (int i = 0; i < 1000; ++i) {
+      auto made = files.make_folder(folder.file("a"));
+      const int file = files.open_file_in(made, "image");
+      ::close(file);
+      const auto image = std::filesystem::path(made.path) / "image";
+      if (file < 0 || !std::filesystem::exists(image)) ++lost;
+      files.discard_folder(made);
+    }
+  };
+  std::vector<std::thread> runs;
+  for (int i = 0; i < 4; ++i) runs.emplace_back(run_again_and_again);
+  for (std::thread& run : runs) run.join();
+  EXPECT_EQ(lost, 0);
   EXPECT_EQ(folder.entry_count(), 0U);
 }
 
