@@ -372,9 +372,9 @@ TEST(Fragments, OfAChordalErrorAreAsMany) {
                  "a.scad:1:1: error: Too many fragments: 2.22",
                  {"--chordal-error", "1e-6"});
   // Its first guess is not too many.
-  expect_refused("sphere(1e3);",
+  expect_refused("sphere(1.11e5);",
                  "a.scad:1:1: error: Too many fragments: 1000001 of a circle",
-                 {"--chordal-error", "9e-9"});
+                 {"--chordal-error", "1e-6"});
 }
 
 TEST(Fragments, OfAMillionAreMade) {
