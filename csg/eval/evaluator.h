@@ -38,14 +38,14 @@ struct EvaluateOptions {
   // may be nested. Where either ends, so does the evaluation, with OpenSCAD's
   // error. Callers should run evaluate() on a thread with a large stack.
   std::size_t stack_bytes = std::size_t{6} << 20;
-  // Calls and turns of loops that the evaluation may take. For who cannot end
-  // the process of one that runs for hours; it is the same on every machine.
+  // Calls and turns of loops that the evaluation may take. For fuzzers, which
+  // end no process; the program has --max-time.
   std::uint64_t max_steps = UINT64_MAX;
   // Calls of functions and modules that may be nested (`--max-depth`), as far
   // as the stack goes.
   std::uint32_t max_depth = kMostNestedCalls;
-  // Nodes without children that the tree may have (`--max-leaves`). On their
-  // way to the layers they take about 1 kB each.
+  // Nodes without children that may be made, left out later or not
+  // (`--max-leaves`). On their way to the layers they take about 1 kB each.
   std::uint32_t max_leaves = 10'000'000;
   // Arguments that a user's module has no parameter for are warned of
   // (`--check-parameters`); those of functions and built-in modules always.
