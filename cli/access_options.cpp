@@ -31,7 +31,7 @@ void add_access_options(CLI::App& app, FileAccess::Limits& limits) {
 FileAccess make_file_access(const FileAccess::Limits& limits) {
   try {
     return FileAccess(limits);
-  } catch (const FileError& error) {
+  } catch (const AccessError& error) {
     throw UsageError(error.what());
   }
 }

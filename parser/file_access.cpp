@@ -38,12 +38,15 @@ PermittedFolder open_folder(const std::string& path) {
   PermittedFolder folder;
   folder.file =
       OpenFile(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  int fault = folder.file ? 0 : errno;
   const fs::path without_links = fs::canonical(path, error);
-  if (!folder.file || error) {
-    throw FileError(
+  if (fault == 0) fault = error.value();
+  check_machine(path, fault);
+  if (fault != 0) {
+    throw AccessError(
         {Severity::kError,
          {},
-         fmt::format("Can't use folder '{}': {}", path, std::strerror(errno))});
+         fmt::format("Can't use folder '{}': {}", path, std::strerror(fault))});
   }
   folder.given_parts = detail::parts_of(fs::absolute(path, error));
   folder.parts = detail::parts_of(without_links);
@@ -113,6 +116,7 @@ void check_machine(const std::string& path, int error) {
                                    "was read.",
                                    path)});
     case EIO:
+    case ENOSPC:
     case ENOMEM:
     case EMFILE:
     case ENFILE:

@@ -68,7 +68,7 @@ class FileAccess {
     std::vector<std::string> readable;  // with `root`: more, to read only
     bool refuses_data = false;          // FileUse::kData
   };
-  // Throws FileError for what is no folder.
+  // Throws AccessError for what is no folder.
   explicit FileAccess(const Limits& limits);
 
   // Not one file.
