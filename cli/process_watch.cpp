@@ -65,7 +65,7 @@ std::chrono::nanoseconds ProcessWatch::pause() {
                                             std::chrono::milliseconds(1));
 }
 
-std::string ProcessWatch::look() {
+std::string ProcessWatch::look(std::uint64_t files) {
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
   for (const Timed& timed : timed_) {
@@ -80,12 +80,13 @@ std::string ProcessWatch::look() {
   }
   const std::uint64_t resident = resident_memory();
   if (most_bytes_ == 0) begin_to_look(resident);
-  if (resident <= most_bytes_) return {};
+  if (resident + files <= most_bytes_) return {};
   return error_line(
       names_under_way(),
       fmt::format("out of memory: {} are in use, more than the limit of {}; "
                   "--max-memory gives it more",
-                  memory_size_text(resident), memory_size_text(most_bytes_)));
+                  memory_size_text(resident + files),
+                  memory_size_text(most_bytes_)));
 }
 
 void ProcessWatch::begin_to_look(std::uint64_t resident) {

@@ -56,7 +56,9 @@ class ProcessWatch {
 
   // What has been exceeded, as a line for the terminal; empty: nothing. Called
   // by one thread.
-  std::string look();
+  //
+  // files  memory that files take and the process does not [B]
+  std::string look(std::uint64_t files);
 
  private:
   using Clock = std::chrono::steady_clock;

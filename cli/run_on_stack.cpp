@@ -147,7 +147,7 @@ void watch_over(const sigset_t& signals,
       default:
         end_process(temporary_files, kInterruptedStatus, "");
     }
-    const std::string exceeded = watch.look();
+    const std::string exceeded = watch.look(temporary_files.bytes_in_memory());
     if (!exceeded.empty()) end_process(temporary_files, kFault, exceeded);
   }
 }

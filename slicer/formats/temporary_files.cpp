@@ -208,7 +208,23 @@ int TemporaryFiles::open_nameless() {
     return file;
   }
   // Without such a folder, memory has to do.
-  return ::memfd_create("lamina", MFD_CLOEXEC);
+  file = ::memfd_create("lamina", MFD_CLOEXEC);
+  if (file >= 0) in_memory_.push_back(file);
+  return file;
+}
+
+std::uint64_t TemporaryFiles::bytes_in_memory() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return bytes_in_memory_;
+  bytes_in_memory_ = 0;
+  for (const int file : in_memory_) {
+    constexpr std::uint64_t kBlock = 512;  // of st_blocks, everywhere
+    struct stat status = {};
+    if (::fstat(file, &status) == 0) {
+      bytes_in_memory_ += kBlock * static_cast<std::uint64_t>(status.st_blocks);
+    }
+  }
+  return bytes_in_memory_;
 }
 
 void TemporaryFiles::discard_all() {
@@ -278,13 +294,14 @@ bool TemporaryFiles::commit_file(File& file, const std::string& target) {
 }
 
 void TemporaryFiles::discard_file(File& file) {
+  const Lock lock(mutex_);
   if (!file.name.empty()) {
     // While it is locked: a free name may be another run's by now.
-    const Lock lock(mutex_);
     ::unlink(file.name.c_str());
     forget(file.name);
     file.name.clear();
   }
+  std::erase(in_memory_, file.file);
   close_quietly(file.file);
 }
 

@@ -8,6 +8,7 @@
 // comes: a hidden name whose lock is free is abandoned, and the next run that
 // wants it removes what stands there.
 
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -54,6 +55,9 @@ class TemporaryFiles {
   // A file without a name that nobody will give one; −1 if there is no room for
   // it (errno).
   int open_nameless();
+  // Of those for which there was no folder: they are held in memory [B]. The
+  // last known number while another thread is busy here. Called by one thread.
+  std::uint64_t bytes_in_memory();
 
   // A new folder beside `path`, or beside what it links to. Throws AccessError.
   Folder make_folder(const std::string& path);
@@ -72,6 +76,8 @@ class TemporaryFiles {
   const FileAccess& access_;
   std::timed_mutex mutex_;
   std::vector<std::string> paths_;  // those that have a name
+  std::vector<int> in_memory_;      // files
+  std::uint64_t bytes_in_memory_ = 0;
 };
 
 }  // namespace lamina::slicer

@@ -272,6 +272,25 @@ TEST(MaxMemory, EndsARun) {
   expect_no_output(folder);
 }
 
+// Where scratch files have no folder they are held in memory.
+TEST(MaxMemory, CountsWhatIsHeldForStandardOutput) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cylinder(r = 10, h = 100, $fn = 2000);");
+  const std::string command = std::string("TMPDIR=/nowhere exec ") +
+                              LAMINA_PROGRAM +
+                              " a.scad -o - --export-format svg --tolerance 0 "
+                              "--layer 0.05 --max-memory ";
+  const auto result =
+      support::run_process({"bash", "-c", command + "60M"}, folder.path());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "error: out of memory")) << result.errors;
+  EXPECT_EQ(result.output, "");
+  EXPECT_EQ(support::run_process({"bash", "-c", command + "1G > /dev/null"},
+                                 folder.path())
+                .status,
+            0);
+}
+
 // Stacks of threads are address space: they are none of the limit, be they made
 // before the first look at the memory or, where it takes long to read a
 // design, after it.
