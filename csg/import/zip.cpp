@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <type_traits>
 
@@ -35,7 +34,8 @@ uLong read_stream(voidpf, voidpf file, void* buffer, uLong size) {
   Stream& stream = to_stream(file);
   const std::size_t count =
       std::min<std::size_t>(size, stream.bytes.size() - stream.place);
-  std::memcpy(buffer, stream.bytes.data() + stream.place, count);
+  std::copy_n(stream.bytes.data() + stream.place, count,
+              static_cast<char*>(buffer));
   stream.place += count;
   return count;
 }
