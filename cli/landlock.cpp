@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <new>
 #include <set>
 #include <sstream>
 #include <string>
@@ -94,17 +95,28 @@ class Ruleset {
 // The folders of the shared libraries that are loaded: others that these need
 // later lie beside them.
 std::set<std::string> library_folders_in_use() {
-  std::set<std::string> folders;
+  struct Folders {
+    std::set<std::string> paths;
+    bool lack_memory = false;
+  };
+  Folders folders;
+  // Nothing is thrown through glibc: without memory it cannot unwind its stack.
   const auto add = [](dl_phdr_info* info, std::size_t, void* data) {
-    const std::string path = info->dlpi_name;
-    const std::size_t slash = path.rfind('/');
-    if (slash != std::string::npos && slash > 0) {
-      static_cast<std::set<std::string>*>(data)->insert(path.substr(0, slash));
+    Folders& found = *static_cast<Folders*>(data);
+    try {
+      const std::string path = info->dlpi_name;
+      const std::size_t slash = path.rfind('/');
+      if (slash != std::string::npos && slash > 0) {
+        found.paths.insert(path.substr(0, slash));
+      }
+    } catch (const std::bad_alloc&) {
+      found.lack_memory = true;
     }
     return 0;
   };
   ::dl_iterate_phdr(add, &folders);
-  return folders;
+  if (folders.lack_memory) throw std::bad_alloc();
+  return folders.paths;
 }
 
 std::string variable(const char* name) {
