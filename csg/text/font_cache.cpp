@@ -117,7 +117,7 @@ std::vector<std::string> font_folders() {
 // Fontconfig falls over where memory ends within it, so it is asked first
 // whether there is as much as it takes.
 void require_room() {
-  constexpr std::size_t kRoom = std::size_t{8} << 20;
+  constexpr std::size_t kRoom = std::size_t{64} << 20;
   void* const room = ::mmap(nullptr, kRoom, PROT_READ | PROT_WRITE,
                             MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   require(room != MAP_FAILED);
