@@ -99,7 +99,8 @@ TEST_F(Compare, ShowsWhatSimplificationDid) {
                      "--report", "r.json"})
                 .status,
             1);
-  for (const auto& layer : report()["layers"]) {
+  const nlohmann::json told = report();
+  for (const auto& layer : told["layers"]) {
     EXPECT_GT(layer["distance"], 5e-4);
     EXPECT_LE(layer["distance"], 0.001002);
   }
