@@ -61,7 +61,7 @@ sigset_t ending_signals() {
 // The status that exit_soon() ends the process with.
 volatile std::sig_atomic_t status_of_exit = kFault;
 
-// Ends the process in a fifth of a second, whatever its threads wait for: words
+// Ends the process in a second, whatever its threads wait for: words
 // may be for a pipe that nobody reads, or for a terminal stopped by Ctrl-S.
 void exit_soon(int status) {
   status_of_exit = status;
@@ -73,7 +73,7 @@ void exit_soon(int status) {
   ::sigaddset(&alarm, SIGALRM);
   ::pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
   itimerval time{};
-  time.it_value.tv_usec = 200'000;
+  time.it_value.tv_sec = 1;
   ::setitimer(ITIMER_REAL, &time, nullptr);
 }
 
