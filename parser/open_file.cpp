@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lamina {
@@ -11,12 +10,10 @@ namespace {
 
 // Whether the file is as it was before `size` bytes of it were read. What is
 // no regular file, or has no size as those of /proc, has no "before".
-bool is_whole(int file, const struct stat& before, std::size_t size) {
+bool is_whole(const OpenFile& file, const struct stat& before,
+              std::size_t size) {
   if (!S_ISREG(before.st_mode) || before.st_size == 0) return true;
-  struct stat after {};
-  return ::fstat(file, &after) == 0 && after.st_size == before.st_size &&
-         after.st_mtim.tv_sec == before.st_mtim.tv_sec &&
-         after.st_mtim.tv_nsec == before.st_mtim.tv_nsec &&
+  return file.is_unchanged_since(before) &&
          size == static_cast<std::size_t>(before.st_size);
 }
 
@@ -27,6 +24,13 @@ OpenFile::~OpenFile() {
   const int error = errno;
   ::close(descriptor_);
   errno = error;
+}
+
+bool OpenFile::is_unchanged_since(const struct stat& before) const {
+  struct stat after {};
+  return ::fstat(descriptor_, &after) == 0 && after.st_size == before.st_size &&
+         after.st_mtim.tv_sec == before.st_mtim.tv_sec &&
+         after.st_mtim.tv_nsec == before.st_mtim.tv_nsec;
 }
 
 std::optional<std::string> OpenFile::read_all(std::size_t spare) const {
@@ -50,7 +54,7 @@ std::optional<std::string> OpenFile::read_all(std::size_t spare) const {
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
   }
-  if (!is_whole(descriptor_, status, size)) {
+  if (!is_whole(*this, status, size)) {
     errno = ESTALE;
     return std::nullopt;
   }

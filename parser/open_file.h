@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include <sys/stat.h>
+
 namespace lamina {
 
 class OpenFile {
@@ -24,8 +26,12 @@ class OpenFile {
   // The caller closes it from now on.
   int release() { return std::exchange(descriptor_, -1); }
 
+  // Whether size and time of the last change are what they were.
+  bool is_unchanged_since(const struct stat& before) const;
+
   // All bytes from here to the end; no value where reading fails (errno tells
-  // why). What is a stream, such as a pipe, is read until it ends.
+  // why; ESTALE: the file changed meanwhile). What is a stream, such as a pipe,
+  // is read until it ends.
   //
   // spare  bytes that the caller will append: there is room for them
   std::optional<std::string> read_all(std::size_t spare = 0) const;

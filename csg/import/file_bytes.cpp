@@ -42,13 +42,6 @@ bool read_all(int file, char* memory, std::size_t size) {
   return true;
 }
 
-bool is_unchanged(int file, const struct stat& before) {
-  struct stat after = {};
-  return ::fstat(file, &after) == 0 && after.st_size == before.st_size &&
-         after.st_mtim.tv_sec == before.st_mtim.tv_sec &&
-         after.st_mtim.tv_nsec == before.st_mtim.tv_nsec;
-}
-
 }  // namespace
 
 std::optional<FileBytes> FileBytes::open(const std::string& path,
@@ -64,7 +57,7 @@ std::optional<FileBytes> FileBytes::open(const std::string& path,
   const bool is_whole =
       read_all(file.descriptor(), static_cast<char*>(bytes.data_), size);
   if (!is_whole && errno != 0) fail(path, std::strerror(errno));
-  if (!is_whole || !is_unchanged(file.descriptor(), status)) {
+  if (!is_whole || !file.is_unchanged_since(status)) {
     fail(path, "it changed while it was read");
   }
   return bytes;
