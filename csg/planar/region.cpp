@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/planar/facets.h"
+#include "csg/plane.h"
 
 namespace lamina::planar {
 
@@ -16,7 +17,7 @@ double signed_area(std::span<const Vec2> contour) {
   for (std::size_t i = 2; i < contour.size(); ++i) {
     const Vec2 a = contour[i - 1] - contour[0];
     const Vec2 b = contour[i] - contour[0];
-    sum += a.x * b.y - a.y * b.x;
+    sum += cross(a, b);
   }
   return sum / 2;
 }

@@ -9,6 +9,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "csg/plane.h"
+
 namespace lamina::testing {
 namespace {
 
@@ -56,7 +58,7 @@ double signed_area_of(const std::vector<Vec2>& polygon) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2& a = polygon[i];
     const Vec2& b = polygon[(i + 1) % polygon.size()];
-    doubled += a.x * b.y - a.y * b.x;
+    doubled += cross(a, b);
   }
   return doubled / 2;
 }
