@@ -61,8 +61,8 @@ sigset_t ending_signals() {
 // The status that exit_soon() ends the process with.
 volatile std::sig_atomic_t status_of_exit = kFault;
 
-// Ends the process in a second, whatever its threads wait for: words
-// may be for a pipe that nobody reads, or for a terminal stopped by Ctrl-S.
+// Ends the process in a second, whatever its threads wait for: words may be for
+// a pipe that nobody reads, or for a terminal stopped by Ctrl-S.
 void exit_soon(int status) {
   status_of_exit = status;
   struct sigaction action {};

@@ -43,8 +43,8 @@ bool is_readable_layer_file(std::string_view path);
 LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
                            const FileAccess& access = kAllFiles);
 
-// Throws FileError for a layer that reaches farther from the origin than a print
-// can: read_layers() gives none.
+// Throws FileError for a layer that reaches farther from the origin than a
+// print can: read_layers() gives none.
 //
 // number  the layer's, from 1
 void require_within_reach(const std::string& path, const Layer& layer,

@@ -239,8 +239,8 @@ def full_disk(harness):
 def folders(harness):
     """The output's folder goes, or is shut, while the run goes on.
 
-    Not a batch's: its pieces make the folder anew, and take with them nothing
-    of what others lose that are whole.
+    Not a batch's: a piece makes the folder anew, while one that is done may
+    lose what it had there.
     """
     some_jobs = [job for job in jobs.QUICK if len(job.outputs) == 1]
     gone, moved, shut = [], [], []
