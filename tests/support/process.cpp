@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
@@ -84,6 +85,10 @@ ProcessResult run_on_terminal(const std::vector<std::string>& arguments,
   const pid_t process = ::forkpty(&terminal, nullptr, nullptr, &size);
   if (process < 0) throw std::runtime_error("forkpty failed");
   if (process == 0) {
+    termios modes{};
+    ::tcgetattr(STDIN_FILENO, &modes);
+    modes.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &modes);
     if (::chdir(folder.c_str()) != 0) ::_exit(126);
     ::execvp(words[0], words.data());
     ::_exit(127);

@@ -24,7 +24,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
 bool has_terminals();
 
 // run_process() on a terminal of 80 columns; `output` is all that it shows.
-// When it shows `cue`, Ctrl-C is pressed.
+// When it shows `cue`, Ctrl-C is pressed; the terminal adds no "^C" of its own.
 ProcessResult run_on_terminal(const std::vector<std::string>& arguments,
                               const std::string& folder,
                               const std::string& cue = "");
