@@ -87,22 +87,25 @@ struct Stages {
 // run_pipeline() without what must be told.
 void run_stages(std::size_t places, const Stages& stages);
 
-// At most `places` items are under way.
+// At most `places` items are under way. Ends when no task runs any more, also
+// where one threw.
 inline void run_pipeline(std::size_t places, const Stages& stages) {
   static char begin;
+  static char end;
   const Stages told = {[&stages](std::size_t place) {
-                         take_over(&begin);
+                         const Turn turn(&begin, &end);
                          return stages.start(place);
                        },
                        [&stages](std::size_t place) {
-                         take_over(&begin);
+                         const Turn turn(&begin, &end);
                          stages.work(place);
                        },
                        [&stages](std::size_t place) {
-                         take_over(&begin);
+                         const Turn turn(&begin, &end);
                          stages.finish(place);
                        }};
   const Lent lent_begin(&begin);
+  const Lent lent_end(&end);
   run_stages(places, told);
 }
 
