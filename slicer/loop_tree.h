@@ -32,10 +32,10 @@ inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
   const Vec2 low = middle - Vec2(half_width);
   const Vec2 high = middle + Vec2(half_width);
   // Without a branch for each side: which one it is nobody could predict.
-  const int sides_beyond = int{std::max(from.x, to.x) < low.x} +
-                           int{std::min(from.x, to.x) > high.x} +
-                           int{std::max(from.y, to.y) < low.y} +
-                           int{std::min(from.y, to.y) > high.y};
+  const int sides_beyond = static_cast<int>(std::max(from.x, to.x) < low.x) +
+                           static_cast<int>(std::min(from.x, to.x) > high.x) +
+                           static_cast<int>(std::max(from.y, to.y) < low.y) +
+                           static_cast<int>(std::min(from.y, to.y) > high.y);
   if (sides_beyond != 0) return false;
   // Corners on both sides of the line, or on it.
   const Vec2 along = to - from;
