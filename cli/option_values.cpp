@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <system_error>
-#include <utility>
 
 #include <CLI/App.hpp>
 #include <fmt/format.h>
@@ -90,15 +89,14 @@ double require_within(const std::string& option, std::string_view text,
 
 CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
-                      std::function<void(const std::string&)> use) {
-  return app.add_option_function<std::string>(name, std::move(use))
-      ->type_name(value);
+                      const std::function<void(const std::string&)>& use) {
+  return app.add_option_function<std::string>(name, use)->type_name(value);
 }
 
 void add_choice(CLI::App& app, const std::string& name,
                 const std::vector<std::string>& words,
-                std::function<void(const std::string&)> use) {
-  add_text(app, name, "word", std::move(use))->check(CLI::IsMember(words));
+                const std::function<void(const std::string&)>& use) {
+  add_text(app, name, "word", use)->check(CLI::IsMember(words));
 }
 
 void add_switch(CLI::App& app, const std::string& name, bool& target) {

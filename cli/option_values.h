@@ -29,12 +29,12 @@ double require_within(const std::string& option, std::string_view text,
 // is what messages call its value.
 CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
-                      std::function<void(const std::string&)> use);
+                      const std::function<void(const std::string&)>& use);
 
 // An option with one of a few words.
 void add_choice(CLI::App& app, const std::string& name,
                 const std::vector<std::string>& words,
-                std::function<void(const std::string&)> use);
+                const std::function<void(const std::string&)>& use);
 
 // An option that takes what openscad takes for true and false.
 void add_switch(CLI::App& app, const std::string& name, bool& target);

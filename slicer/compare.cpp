@@ -1,6 +1,7 @@
 #include "slicer/compare.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -110,6 +111,7 @@ const ldni::Contours& contours_of(const Layer* layer) {
 }  // namespace
 
 LayerDifference compare_pair(const LayerPair& pair, Vec2 shift) {
+  assert(pair.a != nullptr || pair.b != nullptr);
   LayerDifference difference;
   if (pair.b != nullptr && shift != Vec2(0)) {
     ldni::Contours shifted = pair.b->contours;

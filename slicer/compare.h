@@ -53,7 +53,7 @@ LayerDifference compare_layers(const ldni::Contours& a,
 // before.
 void require_rising(const std::vector<Layer>& layers, const std::string& name);
 
-// A layer of each; null: there is none.
+// A layer of each; one may be null: there is none.
 struct LayerPair {
   const Layer* a = nullptr;
   const Layer* b = nullptr;
