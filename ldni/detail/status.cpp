@@ -58,9 +58,7 @@ std::uint32_t Status::find_near(double y, double x) {
     const std::size_t middle = (low + high) / 2;
     std::size_t probe = middle;
     while (probe < high && !is_alive(order_[probe])) ++probe;
-    if (probe == high) {
-      high = middle;
-    } else if (y_at(order_[probe], x) <= y) {
+    if (probe < high && y_at(order_[probe], x) <= y) {
       best = order_[probe];
       low = probe + 1;
     } else {
