@@ -63,6 +63,7 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
     return {Dimension::kSolid, {}, operands.has_boolean};
   }
   std::vector<Operand> terms;
+  terms.reserve(solids.size());
   for (const Scene& scene : solids) terms.push_back(make_operand(scene));
   std::erase_if(terms, [](const Operand& term) { return term.is_empty(); });
   if (terms.empty() || is_lost(terms)) return {};
