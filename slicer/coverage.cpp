@@ -129,6 +129,7 @@ void Coverage::resolve_row(unsigned y, std::vector<GreyRun>& runs) const {
     // Only where an edge passes does anything change.
     if (row[x] != 0) {
       sum += row[x];
+      // Never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
       const auto grey =
           static_cast<std::uint8_t>(255 * std::min(std::abs(sum), 1.0) + 0.5);
       if (grey != run.grey) {

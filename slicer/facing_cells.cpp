@@ -12,16 +12,17 @@ namespace {
 // Cells for each edge, at most: more would cost more to clear than they save.
 constexpr double kCellsPerEdge = 4;
 
-// Directions fall into 64 sectors by y / (|x| + |y|), which needs no angle. A
-// quadrant has 16 of them, so that kFacingAngle spans 8.4 at most.
-constexpr int kSectors = 64;
+// Directions fall into sectors by y / (|x| + |y|), which needs no angle.
+// kFacingAngle spans 8.4 of them at most.
+constexpr int kSectorsInQuadrant = 16;
+constexpr int kSectors = 4 * kSectorsInQuadrant;
 constexpr int kReach = 10;
-static_assert(kFacingAngle * 16 + 1 < kReach);
+static_assert(kFacingAngle * kSectorsInQuadrant + 1 < kReach);
 
 int sector_of(Vec2 along) {
   const double share = along.y / (std::abs(along.x) + std::abs(along.y));
   const double quadrants = along.x >= 0 ? 1 + share : 3 - share;
-  return static_cast<int>(quadrants * (kSectors / 4)) % kSectors;
+  return static_cast<int>(quadrants * kSectorsInQuadrant) % kSectors;
 }
 
 // The sectors from `first` counter-clockwise to `last`.

@@ -258,8 +258,8 @@ class LitStack {
     for (int i = 0; i < kDirections; ++i) {
       double highest = 0;  // sine of the horizon's height
       for (int step = 0; step < kSteps; ++step) {
-        const auto& [dx, dy] =
-            places_[static_cast<std::size_t>(i * kSteps + step)];
+        const auto& [dx, dy] = places_[static_cast<std::size_t>(i) * kSteps +
+                                       static_cast<std::size_t>(step)];
         const int qx = x + dx;
         const int qy = y + dy;
         if (qx < 0 || qy < 0 || qx >= static_cast<int>(width_) ||

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
 #include "slicer/trapezoids.h"
@@ -138,12 +139,8 @@ std::vector<ldni::TaggedPoint> find_stack_points(
                             bounds_of(layers, plates)) *
       glm::translate(camera.view_from_world(), origin);
   std::array<float, 16> matrix{};
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      matrix[static_cast<std::size_t>(4 * column + row)] =
-          static_cast<float>(clip_from_world[column][row]);
-    }
-  }
+  std::copy_n(glm::value_ptr(glm::mat4(clip_from_world)), matrix.size(),
+              matrix.begin());
   const auto osmesa = ldni::open_osmesa();
   ldni::PointRaster raster(*osmesa, width, height, matrix);
   StackDrawer(camera, origin, raster).draw(layers, plates);

@@ -1,5 +1,6 @@
 #include "csg/eval/operators.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -149,6 +150,7 @@ Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
     case BinaryOp::kShiftLeft:
       return Value(static_cast<double>(a << b));
     default:
+      assert(op == BinaryOp::kShiftRight);
       return Value(static_cast<double>(a >> b));
   }
 }

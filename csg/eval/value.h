@@ -15,6 +15,7 @@
 //
 // Freeing never recurses: a vector nested a million deep dies in a loop.
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -307,6 +308,7 @@ class VectorBuilder {
   void make_room(std::size_t count);
   void push(Value value) {
     if (size_ == capacity_) make_room(1);
+    assert(buffer_ != nullptr);
     new (buffer_->data() + size_) Value(std::move(value));
     ++size_;
   }
@@ -314,6 +316,7 @@ class VectorBuilder {
   template <typename Make>
   void push_made(const Make& make) {
     if (size_ == capacity_) make_room(1);
+    assert(buffer_ != nullptr);
     new (buffer_->data() + size_) Value(make());
     ++size_;
   }

@@ -48,6 +48,7 @@ std::vector<std::uint32_t> outermost_first(const Scene& scene) {
   }
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> instances;
+  instances.reserve(order.size());
   for (const auto& [distance, i] : order) instances.push_back(i);
   return instances;
 }

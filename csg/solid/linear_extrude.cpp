@@ -76,8 +76,8 @@ Region split_edges(const Region& region, double longest) {
       const Vec2 begin = contour[i];
       const Vec2 edge = edge_at(contour, i);
       const double parts = part_count(edge, longest);
-      for (double k = 0; k < parts; ++k) {
-        points.push_back(begin + edge * (k / parts));
+      for (std::size_t k = 0; static_cast<double>(k) < parts; ++k) {
+        points.push_back(begin + edge * (static_cast<double>(k) / parts));
       }
     }
   }

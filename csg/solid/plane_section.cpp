@@ -186,7 +186,7 @@ class Frame {
     const double begin = exit_of(chain.back());
     chain.push_back(point_at(begin));
     const double stop = end < begin ? end + 4 : end;
-    for (double corner = std::floor(begin) + 1; corner < stop; ++corner) {
+    for (int corner = static_cast<int>(begin) + 1; corner < stop; ++corner) {
       chain.push_back(point_at(corner));
     }
     chain.push_back(point_at(end));

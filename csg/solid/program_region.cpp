@@ -52,7 +52,7 @@ Value subtract(const LiveNode& node, const Region& window) {
   // A minuend that is not live must hold, and no such subtrahend may.
   const std::int32_t needed = node.minuend ? 0 : 1;
   if (node.count < needed) return Region{};
-  const Value minuend = node.minuend.value_or(Value{});
+  Value minuend = node.minuend.value_or(Value{});
   if (is_empty(minuend)) return Region{};
   std::vector<Region> regions{minuend.value_or(window)};
   for (const Value& value : node.others) {

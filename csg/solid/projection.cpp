@@ -172,7 +172,7 @@ Region cut_at_zero(const Scene& scene) {
     near.push_back(i);
     leaves.emplace_back(scene.leaves[instance.leaf], instance.world_from_leaf);
   }
-  const Region above = evaluate_at(scene, plane, near, leaves, Side::kAbove);
+  Region above = evaluate_at(scene, plane, near, leaves, Side::kAbove);
   const Region below = evaluate_at(scene, plane, near, leaves, Side::kBelow);
   const Region flat = flat_at_zero(scene);
   if (above == below && flat.is_empty()) return above;
