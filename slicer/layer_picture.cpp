@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,19 @@ constexpr Rgb kGap = {0.10F, 0.32F, 0.75F};
 
 // Labels of thin places, the thinnest first: more would hide the layer.
 constexpr std::size_t kMostLabels = 12;
+
+// Multiples of `step` within `reach` of `middle`. They are counted first: where
+// numbers lie farther apart than steps, step by step one would never get on.
+std::vector<double> multiples(double step, double middle, double reach) {
+  const double first = std::ceil((middle - reach) / step) * step;
+  const int most = static_cast<int>(2 * reach / step) + 1;
+  std::vector<double> found;
+  for (int i = 0; i < most; ++i) {
+    const double place = first + i * step;
+    if (place < middle + reach) found.push_back(place);
+  }
+  return found;
+}
 
 class LayerPicture {
  public:
@@ -104,14 +118,11 @@ class LayerPicture {
     const Vec2 corner = bounds_.center();
     const double reach_x = field_.width / pixels_per_mm() / 2;
     const double reach_y = field_.height / pixels_per_mm() / 2;
-    const auto first = [&](double low) { return std::ceil(low / step) * step; };
-    for (double x = first(corner.x - reach_x); x < corner.x + reach_x;
-         x += step) {
+    for (const double x : multiples(step, corner.x, reach_x)) {
       lines.add_stroke(map_({x, corner.y - reach_y}),
                        map_({x, corner.y + reach_y}), 1);
     }
-    for (double y = first(corner.y - reach_y); y < corner.y + reach_y;
-         y += step) {
+    for (const double y : multiples(step, corner.y, reach_y)) {
       lines.add_stroke(map_({corner.x - reach_x, y}),
                        map_({corner.x + reach_x, y}), 1);
     }
@@ -175,7 +186,9 @@ class LayerPicture {
     const Vec2 middle = (box.low + box.high) / 2.0;
     const Vec2 way = middle - place;
     const double length = std::sqrt(way.x * way.x + way.y * way.y);
-    lines.add_stroke(place + way * (kRingRadius / length), middle, 1.2);
+    if (length > kRingRadius) {
+      lines.add_stroke(place + way * (kRingRadius / length), middle, 1.2);
+    }
     blend(image_, lines, field_.x, field_.y, color);
 
     const Vec2 corner = box.low + Vec2(field_.x, field_.y);
@@ -211,9 +224,9 @@ class LayerPicture {
                      std::clamp(at.y, 0.0, most.y));
       return Box{low, low + size};
     };
-    for (double distance = 44; distance < 250; distance += 18) {
+    for (int ring = 0; ring < 12; ++ring) {
       for (int way = 0; way < 16; ++way) {
-        const Box box = box_at(way, distance);
+        const Box box = box_at(way, 44 + 18 * ring);
         if (std::none_of(taken_.begin(), taken_.end(),
                          [&](const Box& other) { return box.meets(other); })) {
           return box;

@@ -185,6 +185,20 @@ TEST(View, ALayerAloneFillsThePicture) {
   EXPECT_NEAR(golden_pixels({"--at", "0"}) / (width * width), 1, 0.01);
 }
 
+// Numbers lie farther apart there than lines of the grid would.
+TEST(View, ALayerAsSmallAsItsRoundingIsDrawn) {
+  const TemporaryFolder folder;
+  folder.write("a.layers.json",
+               R"({"units":"mm","layers":[{"z":1,"contours":[{"points":)"
+               "[[999999999,999999999],[999999999.0000001,999999999],"
+               "[999999999.0000001,999999999.0000001]]}]}]}");
+  const auto result =
+      run(folder, {"view", "a.layers.json", "--at", "1", "-o", "a.png",
+                   "--max-time", "20"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(read_png(folder.file("a.png")).width, 1200U);
+}
+
 std::size_t red_pixels(const Picture& picture) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
