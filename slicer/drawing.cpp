@@ -64,7 +64,7 @@ void draw_text(Image& image, std::string_view text, Vec2 at, double size,
 }
 
 double fitting_size(std::string_view text, double size, double room) {
-  return std::min(size, size * room / text_width(text, size));
+  return std::min(size, size * std::max(room, 0.0) / text_width(text, size));
 }
 
 PixelMap fit(const Bounds& bounds, const Rectangle& area, double padding) {

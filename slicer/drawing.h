@@ -48,7 +48,8 @@ void blend(Image& image, const Coverage& coverage, unsigned x, unsigned y,
 void draw_text(Image& image, std::string_view text, Vec2 at, double size,
                Rgb color = kInk);
 
-// The largest size, `size` at most, at which the text is no wider than `room`.
+// The largest size, `size` at most, at which the text is no wider than `room`;
+// 0 where there is none.
 double fitting_size(std::string_view text, double size, double room);
 
 // Where millimetres go so that the bounds fill the area but for `padding`

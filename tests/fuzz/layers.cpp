@@ -1,12 +1,18 @@
 #include "tests/fuzz/layers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "parser/diagnostic.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/inspect.h"
 #include "slicer/inspection_text.h"
+#include "slicer/layer_picture.h"
+#include "slicer/sheet_picture.h"
+#include "slicer/viewer_page.h"
 #include "tests/fuzz/input.h"
 
 namespace lamina::fuzz {
@@ -44,6 +50,27 @@ void read_layers(const std::string& path) {
     slicer::inspection_text(found, slicer::LayerList::kAll);
     slicer::inspection_json(found);
   });
+}
+
+void draw_layers(const std::string& path) {
+  std::vector<slicer::Layer> layers;
+  try_to([&] {
+    slicer::read_layers(path, [&](slicer::Layer& layer) {
+      layers.push_back(std::move(layer));
+    });
+  });
+  const auto drawn = std::find_if(
+      layers.begin(), layers.end(),
+      [](const slicer::Layer& layer) { return !layer.contours.is_empty(); });
+  if (drawn == layers.end()) return;
+  constexpr unsigned kWidth = 200;  // as small as may be [pixels]
+  slicer::draw_layer_picture(layers,
+                             static_cast<std::size_t>(drawn - layers.begin()),
+                             "layer", {kWidth, kMinFeature});
+  slicer::draw_sheet(layers, "sheet", {kWidth, 4});
+  slicer::ViewerOptions page;
+  page.min_feature = kMinFeature;
+  slicer::viewer_page(layers, page);
 }
 
 }  // namespace lamina::fuzz

@@ -9,4 +9,8 @@ namespace lamina::fuzz {
 // does. That it is no such file is no finding.
 void read_layers(const std::string& path);
 
+// Draws what can be read of it as `lamina view` does: the first layer that has
+// a contour, a sheet, a page.
+void draw_layers(const std::string& path);
+
 }  // namespace lamina::fuzz

@@ -1,4 +1,4 @@
-// Layers of .layers.json files.
+// Layers of .layers.json files, whose coordinates may be any: read and drawn.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +9,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   using namespace lamina::fuzz;
-  read_layers(write_input("input.layers.json", as_text(data, size)));
+  const auto path = write_input("input.layers.json", as_text(data, size));
+  read_layers(path);
+  draw_layers(path);
   return 0;
 }
