@@ -78,6 +78,7 @@ std::optional<int> run_openscad(std::vector<std::string> arguments,
                                 const std::string& words, double limit) {
   arguments.insert(arguments.begin(), "openscad");
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const pid_t child = ::fork();

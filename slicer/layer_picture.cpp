@@ -21,7 +21,8 @@ constexpr unsigned kTopStrip = 78;   // of title and measures [pixels]
 constexpr unsigned kFootStrip = 46;  // of the scale [pixels]
 constexpr double kTitleSize = 17;    // height of a capital [pixels]
 constexpr double kTextSize = 12;
-constexpr double kPadding = 48;  // between the frame and the layer [pixels]
+constexpr double kMostPadding = 48;  // between the frame and the layer [pixels]
+constexpr double kPaddingShare = 0.1;  // of the frame's width, at most
 constexpr double kOutlineWidth = 1.8;  // [pixels]
 constexpr double kMarkWidth = 4;       // of thin places [pixels]
 constexpr double kRingRadius = 9;      // around the thinnest places [pixels]
@@ -56,7 +57,7 @@ class LayerPicture {
         options_(options),
         bounds_(choose_bounds()),
         field_(choose_field()),
-        map_(fit(bounds_, field_, kPadding)),
+        map_(fit(bounds_, field_, padding())),
         image_(options.width, kTopStrip + field_.height + kFootStrip, kPaper) {}
 
   Image draw(const std::string& title) {
@@ -80,11 +81,18 @@ class LayerPicture {
     return bounds;
   }
 
+  unsigned field_width() const { return options_.width - 2 * kMargin; }
+
+  double padding() const {
+    return std::min(kMostPadding, kPaddingShare * field_width());
+  }
+
   Rectangle choose_field() const {
-    const unsigned width = options_.width - 2 * kMargin;
+    const unsigned width = field_width();
     const Vec2 size = bounds_.size();
     const double height =
-        (width - 2 * kPadding) * size.y / std::max(size.x, 1e-9) + 2 * kPadding;
+        (width - 2 * padding()) * size.y / std::max(size.x, 1e-9) +
+        2 * padding();
     return {
         kMargin, kTopStrip, width,
         static_cast<unsigned>(std::clamp(height, 0.35 * width, 1.0 * width))};

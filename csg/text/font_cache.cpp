@@ -268,7 +268,7 @@ void FontCache::add_pattern(FT_FaceRec& face, const char* path,
   if (!font) return;
   require(FcConfigSubstitute(config_.get(), font.get(), FcMatchScan) &&
           FcFontSetAdd(own_fonts_.get(), font.get()));
-  font.release();  // the set has it
+  static_cast<void>(font.release());  // the set has it
 }
 
 const Font& FontCache::find(const std::string& name) {

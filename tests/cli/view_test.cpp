@@ -185,6 +185,21 @@ TEST(View, ALayerAloneFillsThePicture) {
   EXPECT_NEAR(golden_pixels({"--at", "0"}) / (width * width), 1, 0.01);
 }
 
+TEST(View, ASmallPictureHasRoomForAFlatLayer) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube([40, 10, 1]);");
+  const auto result = run(folder, {"view", "a.scad", "--layer", "1", "--at",
+                                   "0.5", "--width", "200", "-o", "a.png"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Picture picture = read_png(folder.file("a.png"));
+  // The field is 164 pixels wide and the layer a tenth of that less on either
+  // side; there are 10 * 40 mm² of gold or its outline.
+  const double pixels_per_mm = 0.8 * 164 / 40;
+  EXPECT_NEAR(golden_share(picture) * picture.width * picture.height /
+                  (400 * pixels_per_mm * pixels_per_mm),
+              1, 0.05);
+}
+
 // Numbers lie farther apart there than lines of the grid would.
 TEST(View, ALayerAsSmallAsItsRoundingIsDrawn) {
   const TemporaryFolder folder;
