@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "parser/diagnostic.h"
+#include "slicer/compare.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/inspect.h"
 #include "slicer/inspection_text.h"
 #include "slicer/layer_picture.h"
 #include "slicer/sheet_picture.h"
+#include "slicer/trapezoids.h"
 #include "slicer/viewer_page.h"
 #include "tests/fuzz/input.h"
 
@@ -52,7 +54,7 @@ void read_layers(const std::string& path) {
   });
 }
 
-void draw_layers(const std::string& path) {
+void use_layers(const std::string& path) {
   std::vector<slicer::Layer> layers;
   try_to([&] {
     slicer::read_layers(path, [&](slicer::Layer& layer) {
@@ -71,6 +73,11 @@ void draw_layers(const std::string& path) {
   slicer::ViewerOptions page;
   page.min_feature = kMinFeature;
   slicer::viewer_page(layers, page);
+  for (const slicer::Layer& layer : layers) {
+    std::vector<slicer::Trapezoid> trapezoids;
+    slicer::cut_into_trapezoids(layer.contours, trapezoids);
+    slicer::compare_layers(layer.contours, drawn->contours);
+  }
 }
 
 }  // namespace lamina::fuzz

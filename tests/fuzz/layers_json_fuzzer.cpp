@@ -1,4 +1,5 @@
-// Layers of .layers.json files, whose coordinates may be any: read and drawn.
+// Layers of .layers.json files, whose coordinates may be any: read, drawn and
+// compared.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   using namespace lamina::fuzz;
   const auto path = write_input("input.layers.json", as_text(data, size));
   read_layers(path);
-  draw_layers(path);
+  use_layers(path);
   return 0;
 }
