@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/sysinfo.h>
 #include <unistd.h>
 
@@ -25,7 +26,7 @@ void apply_limit(const std::string& file, std::uint64_t& least) {
 void apply_groups(const std::string& mount, std::string path,
                   const std::string& name, std::uint64_t& least) {
   while (true) {
-    apply_limit(mount + path + "/" + name, least);
+    apply_limit(fmt::format("{}{}/{}", mount, path, name), least);
     const std::size_t slash = path.rfind('/');
     if (slash == std::string::npos) return;
     path.resize(slash);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -85,6 +86,7 @@ class MeshBuilder {
     for (std::size_t i = back; i > 0; --i) border.push_back({0, i});
     const auto below = static_cast<std::uint32_t>(mesh_.vertices.size());
     const auto count = static_cast<std::uint32_t>(border.size());
+    assert(count > 0);
     for (const auto [column, row] : border) {
       add_vertex(column, row, 0, field_.bottom);
     }
