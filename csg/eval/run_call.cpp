@@ -1,5 +1,7 @@
 // Running function literals, calls and bodies (see run_expression.h).
 
+#include <cassert>
+
 #include <fmt/format.h>
 
 #include "csg/eval/builtin_functions.h"
@@ -112,6 +114,7 @@ bool jump_to_literal(const CallCode& call, const Callable& callable,
                      std::string_view name, std::size_t trail_mark,
                      Frame& frame) {
   if (call.callee == nullptr || call.name != name) return false;
+  assert(frame.closure != nullptr);  // as in all bodies of literals
   if (frame.closure->method != nullptr) return false;
   const Value callee = run(call.callee, frame);
   if (!callee.is_function() || &callee.as_function() != frame.closure) {
