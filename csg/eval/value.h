@@ -307,17 +307,13 @@ class VectorBuilder {
   // Room for `count` more; several calls cost no more than one.
   void make_room(std::size_t count);
   void push(Value value) {
-    if (size_ == capacity_) make_room(1);
-    assert(buffer_ != nullptr);
-    new (buffer_->data() + size_) Value(std::move(value));
+    new (place_of_next()) Value(std::move(value));
     ++size_;
   }
   // Makes a value where it will stand; `make` must not touch the builder.
   template <typename Make>
   void push_made(const Make& make) {
-    if (size_ == capacity_) make_room(1);
-    assert(buffer_ != nullptr);
-    new (buffer_->data() + size_) Value(make());
+    new (place_of_next()) Value(make());
     ++size_;
   }
   void push_all(std::span<const Value> values);
@@ -332,6 +328,11 @@ class VectorBuilder {
 
  private:
   void reserve(std::size_t capacity);
+  void* place_of_next() {
+    if (size_ == capacity_) make_room(1);
+    assert(buffer_ != nullptr);
+    return buffer_->data() + size_;
+  }
 
   VectorBuffer* buffer_ = nullptr;
   std::uint32_t size_ = 0;
