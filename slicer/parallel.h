@@ -92,18 +92,14 @@ void run_stages(std::size_t places, const Stages& stages);
 inline void run_pipeline(std::size_t places, const Stages& stages) {
   static char begin;
   static char end;
-  const Stages told = {[&stages](std::size_t place) {
-                         const Turn turn(&begin, &end);
-                         return stages.start(place);
-                       },
-                       [&stages](std::size_t place) {
-                         const Turn turn(&begin, &end);
-                         stages.work(place);
-                       },
-                       [&stages](std::size_t place) {
-                         const Turn turn(&begin, &end);
-                         stages.finish(place);
-                       }};
+  const auto tell = [](const auto& stage) {
+    return [&stage](std::size_t place) {
+      const Turn turn(&begin, &end);
+      return stage(place);
+    };
+  };
+  const Stages told = {tell(stages.start), tell(stages.work),
+                       tell(stages.finish)};
   const Lent lent_begin(&begin);
   const Lent lent_end(&end);
   run_stages(places, told);
