@@ -44,23 +44,24 @@ void try_to(const Read& read) {
 
 }  // namespace
 
-void read_layers(const std::string& path) {
-  try_to([&] { slicer::read_layers(path, check); });
+std::vector<slicer::Layer> read_layers(const std::string& path) {
+  std::vector<slicer::Layer> layers;
+  try_to([&] {
+    slicer::read_layers(path, [&](slicer::Layer& layer) {
+      check(layer);
+      layers.push_back(std::move(layer));
+    });
+  });
   try_to([&] {
     const slicer::Inspection found =
         slicer::inspect_file(path, kMinFeature, FileAccess());
     slicer::inspection_text(found, slicer::LayerList::kAll);
     slicer::inspection_json(found);
   });
+  return layers;
 }
 
-void use_layers(const std::string& path) {
-  std::vector<slicer::Layer> layers;
-  try_to([&] {
-    slicer::read_layers(path, [&](slicer::Layer& layer) {
-      layers.push_back(std::move(layer));
-    });
-  });
+void use_layers(const std::vector<slicer::Layer>& layers) {
   const auto drawn = std::find_if(
       layers.begin(), layers.end(),
       [](const slicer::Layer& layer) { return !layer.contours.is_empty(); });

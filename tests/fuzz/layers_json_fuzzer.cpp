@@ -10,8 +10,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   using namespace lamina::fuzz;
-  const auto path = write_input("input.layers.json", as_text(data, size));
-  read_layers(path);
-  use_layers(path);
+  use_layers(
+      read_layers(write_input("input.layers.json", as_text(data, size))));
   return 0;
 }
