@@ -19,8 +19,7 @@ namespace lamina::cli {
 // Runs `work` with the stack's size in bytes and returns its result, an exit
 // status. On SIGINT, SIGTERM or SIGHUP it discards the temporary files and
 // ends the process with status 130; where a limit is exceeded, with a message
-// and status 1. A message that nobody takes within a second is
-// dropped.
+// and status 1. A message that nobody takes within a second is dropped.
 int run_on_stack(slicer::TemporaryFiles& temporary_files, ProcessWatch& watch,
                  const std::function<int(std::size_t stack_bytes)>& work);
 

@@ -207,9 +207,8 @@ TEST(View, ALayerAsSmallAsItsRoundingIsDrawn) {
                R"({"units":"mm","layers":[{"z":1,"contours":[{"points":)"
                "[[999999999,999999999],[999999999.0000001,999999999],"
                "[999999999.0000001,999999999.0000001]]}]}]}");
-  const auto result =
-      run(folder, {"view", "a.layers.json", "--at", "1", "-o", "a.png",
-                   "--max-time", "20"});
+  const auto result = run(folder, {"view", "a.layers.json", "--at", "1", "-o",
+                                   "a.png", "--max-time", "20"});
   EXPECT_EQ(result.status, 0) << result.errors;
   EXPECT_EQ(read_png(folder.file("a.png")).width, 1200U);
 }
