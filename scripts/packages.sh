@@ -57,13 +57,17 @@ configure() {
   run_quietly cmake --preset release -DBUILD_TESTING="$1"
 }
 
-# build <target>…
+# build <target>…: what takes longer than a moment says so. (Ninja cannot tell
+# beforehand, as it looks for new files first.)
 build() {
-  # `ninja -n` tells whether there is anything to do.
-  if ! ninja -C build/release -n "$@" | grep -q 'no work to do'; then
-    echo "lamina: building $* (minutes the first time)" >&2
-    run_quietly cmake --build build/release --target "$@"
-  fi
+  local notice status=0
+  { sleep 1 <&- >&- 2>&-
+    echo "lamina: building $* (minutes the first time)" >&2; } &
+  notice=$!
+  disown
+  run_quietly cmake --build build/release --target "$@" || status=$?
+  kill "$notice" 2>/dev/null || true
+  return "$status"
 }
 
 # run_quietly <command>…: shows what it printed only if it fails.
