@@ -20,6 +20,7 @@ const std::vector<double> kTolerances = {0.001, 0.01, 0.05, 0.2};
 std::size_t expect_lawful_layers(const csg::Scene& scene, int count,
                                  const std::string& what) {
   std::vector<double> heights;
+  heights.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     heights.push_back(scene.box.low.z + (scene.box.high.z - scene.box.low.z) *
                                             (i + 0.37) / count);

@@ -30,6 +30,7 @@ TEST(PlanarHull, OfRandomPointsIsStrictlyConvexAndHoldsThemAll) {
   std::uniform_int_distribution<int> tenth(0, 30);
   for (int round = 0; round < 200; ++round) {
     std::vector<Vec2> points;
+    points.reserve(40);
     for (int i = 0; i < 40; ++i) {
       points.emplace_back(tenth(random) * 0.1, tenth(random) * 0.1);
     }
