@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "csg/lanes.h"
 #include "csg/plane.h"
 #include "slicer/farthest_reach.h"
 
@@ -74,19 +75,34 @@ void Simplifier::simplify(ldni::Contours& contours) {
 void Simplifier::copy_loops(const ldni::Contours& contours) {
   points_.clear();
   loops_.clear();
+  Lanes low = both_lanes(0);
+  Lanes high = both_lanes(0);
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);
-    const auto first = std::min_element(
-        loop.begin(), loop.end(), [](const Vec2& a, const Vec2& b) {
-          return a.x < b.x || (a.x == b.x && a.y < b.y);
-        });
+    // All that is asked of every point, on one way past them.
+    const Vec2* first = loop.data();
+    const Lanes origin = lanes_of(loop.front());
+    Lanes products = both_lanes(0);
+    Lanes before = lanes_of(loop.back()) - origin;
+    for (const Vec2& point : loop) {
+      if (point.x <= first->x && (point.x < first->x || point.y < first->y)) {
+        first = &point;
+      }
+      const Lanes here = lanes_of(point);
+      low = least(low, here);
+      high = greatest(high, here);
+      const Lanes step = here - origin;
+      products += before * Lanes{step[1], step[0]};
+      before = step;
+    }
     const auto begin = static_cast<std::uint32_t>(points_.size());
-    points_.insert(points_.end(), first, loop.end());
-    points_.insert(points_.end(), loop.begin(), first + 1);
+    points_.insert(points_.end(), first, loop.data() + loop.size());
+    points_.insert(points_.end(), loop.data(), first + 1);
     loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
-                      2 * ldni::signed_area(loop)});
+                      products[0] - products[1]});
   }
-  clearance_ = kClearance * ldni::greatest_coordinate(contours.points);
+  const Lanes reach = greatest(high, -low);
+  clearance_ = kClearance * std::max(reach[0], reach[1]);
 }
 
 // Chooses vertices as if the loop were alone.
