@@ -74,6 +74,18 @@ ChainBlock::~ChainBlock() = default;
 ChainBlock::ChainBlock(ChainBlock&&) noexcept = default;
 ChainBlock& ChainBlock::operator=(ChainBlock&&) noexcept = default;
 
+bool ChainBlock::repeats(std::uint32_t i) const {
+  if (i == 0) return false;
+  const auto is_same = [this](const Chain& a, const Chain& b) {
+    if (a.instance != b.instance || a.winding != b.winding) return false;
+    // Where one wall was cut once for both, they have the same points.
+    return (a.first_point == b.first_point && a.point_count == b.point_count) ||
+           std::ranges::equal(a.points_in(points), b.points_in(points));
+  };
+  return std::ranges::equal(layer(i), layer(i - 1), is_same) &&
+         std::ranges::equal(loops_of(i), loops_of(i - 1));
+}
+
 struct LeafSectioner::State {
   // Made by the first block that reaches the instance.
   struct IndexedMeshes {

@@ -46,6 +46,8 @@ struct ChainLoop {
   std::uint32_t chain_count = 0;
   // Chains of winding `orientation` lead to the right, the others to the left.
   std::int32_t orientation = 1;
+
+  bool operator==(const ChainLoop&) const = default;
 };
 
 // Extent in x [mm] of a stop of the kinetic ray: what lies within it
@@ -66,7 +68,7 @@ struct ChainBlock {
 
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
-  std::vector<Vec2> points;
+  std::vector<Vec2> points;               // layers may share some
   std::vector<Chain> chains;              // bucketed by layer
   std::vector<std::uint32_t> layer_ends;  // layer i: [ends[i-1], ends[i])
   std::vector<ChainLoop> loops;           // bucketed by layer
@@ -81,6 +83,9 @@ struct ChainBlock {
     const std::uint32_t begin = i == 0 ? 0 : layer_ends[i - 1];
     return {chains.data() + begin, layer_ends[i] - begin};
   }
+  // Whether the layer has the chains of the one before it, point for point, as
+  // where all walls are upright; so it has its contours too.
+  bool repeats(std::uint32_t i) const;
   // All chains of the layer, in their order.
   std::span<const ChainLoop> loops_of(std::uint32_t i) const {
     const std::uint32_t begin = i == 0 ? 0 : loop_ends[i - 1];

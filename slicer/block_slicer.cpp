@@ -25,6 +25,9 @@ class FaithfulSlicer : public BlockSlicer {
     sectioner_.cut(first_layer, layer_count, chains_);
     open_paths_ += chains_.open_paths;
   }
+  bool repeats(std::uint32_t index) const override {
+    return chains_.repeats(index);
+  }
   void make_contours(std::uint32_t index, ldni::Contours& contours) override {
     ray_.sweep(chains_, index, contours);
   }

@@ -24,6 +24,8 @@ class BlockSlicer {
   // Cuts all leaves in those layers; forgets the block before.
   virtual void section(std::uint32_t first_layer,
                        std::uint32_t layer_count) = 0;
+  // Whether layer `index` of the block has the loops of the one before it.
+  virtual bool repeats(std::uint32_t /*index*/) const { return false; }
   // Replaces `contours` by the loops of layer `index` of the block.
   virtual void make_contours(std::uint32_t index, ldni::Contours& contours) = 0;
   // Finds the leaves of thin places of that layer, if it can.

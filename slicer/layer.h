@@ -32,7 +32,8 @@ class LayerSink {
   virtual void begin(const Box3& /*box*/) {}
   // Once, after begin(): no more layers than these will come.
   virtual void expect(std::uint32_t /*layers*/) {}
-  // The part of the work on a layer that needs no other layer. Called by
+  // The part of the work on a layer that needs neither another layer nor its
+  // heights: layers with the same contours share what it makes. Called by
   // several threads at once, between begin() and the layer's take(), for layers
   // with contours.
   virtual std::string encode(const Layer& /*layer*/) const { return {}; }

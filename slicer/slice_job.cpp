@@ -80,10 +80,8 @@ void exchange(Layer& layer, Draft& draft) {
 class Worker {
  public:
   // sink  only asked to encode
-  Worker(const Plan& plan, const ldni::LayerGrid& grid,
-         const Settings& settings, const LayerSink& sink)
+  Worker(const Plan& plan, const Settings& settings, const LayerSink& sink)
       : plan_(plan),
-        grid_(grid),
         sink_(sink),
         compensator_(settings.compensation),
         simplifier_(settings.tolerance) {
@@ -101,15 +99,18 @@ class Worker {
       if (!slicer_) slicer_ = plan_.make_slicer();
       slicer_->section(block.first_layer, block.layer_count);
     });
+    repeats_.assign(block.layer_count, 0);
     block.sweep_seconds = measure([&] {
       for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-        slicer_->make_contours(i, layers[i].contours);
+        repeats_[i] = slicer_->repeats(i) ? 1 : 0;
+        if (repeats_[i] == 0) slicer_->make_contours(i, layers[i].contours);
       }
     });
     // In the exact contours, before anything is moved or left out.
     if (thin_finder_) {
       block.feature_seconds = measure([&] {
         for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+          if (repeats_[i] != 0) continue;
           thin_finder_->find(layers[i].contours, layers[i].thin);
           slicer_->find_leaves(i, layers[i].thin);
         }
@@ -118,11 +119,15 @@ class Worker {
     // Simplification comes last, so that it thins out the arcs too.
     block.finish_seconds = measure([&] {
       for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+        if (repeats_[i] != 0) {
+          layers[i] = layers[i - 1];
+          continue;
+        }
         compensator_.compensate(layers[i].contours);
         simplifier_.simplify(layers[i].contours);
         layers[i].clearance = simplifier_.clearance();
         layers[i].measure();
-        encode(block.first_layer + i, layers[i]);
+        encode(layers[i]);
       }
     });
   }
@@ -133,10 +138,9 @@ class Worker {
   }
 
  private:
-  void encode(std::uint32_t index, Draft& draft) {
+  void encode(Draft& draft) {
     draft.encoded.clear();
     if (draft.contours.is_empty()) return;
-    place(layer_, grid_, index);
     exchange(layer_, draft);
     std::string encoded = sink_.encode(layer_);
     exchange(layer_, draft);
@@ -144,13 +148,13 @@ class Worker {
   }
 
   const Plan& plan_;
-  const ldni::LayerGrid& grid_;
   const LayerSink& sink_;
   std::unique_ptr<BlockSlicer> slicer_;
   std::optional<ThinFinder> thin_finder_;  // if thin places are looked for
   Compensator compensator_;
   Simplifier simplifier_;
-  Layer layer_;
+  std::vector<std::uint8_t> repeats_;  // of the block's layers
+  Layer layer_;                        // without heights
 };
 
 // Hands layers on in order.
@@ -318,7 +322,7 @@ void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
   OrderedOutput output(grid, settings, sink, features, report);
   Job job(plan, grid.layer_count(), output, report);
   const unsigned threads = choose_threads(settings, job.block_count());
-  const auto make_worker = [&] { return Worker(plan, grid, settings, sink); };
+  const auto make_worker = [&] { return Worker(plan, settings, sink); };
   if (threads == 1) {
     run_alone(job, make_worker, report);
   } else {

@@ -117,12 +117,24 @@ void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t instance,
     }
   }
   loop_.clear();
-  const auto chain_count =
+  last_chain_count_ =
       static_cast<std::uint32_t>(chains_.size() - chains_before);
-  if (chain_count > 0) {
-    loops_.push_back({chain_count, orientation});
+  if (last_chain_count_ > 0) {
+    loops_.push_back({last_chain_count_, orientation});
     loop_layers_.push_back(layer);
   }
+}
+
+void ChainBuilder::repeat_loop(std::uint32_t layer) {
+  if (last_chain_count_ == 0) return;
+  for (std::uint32_t i = 0; i < last_chain_count_; ++i) {
+    const Chain chain = chains_[chains_.size() - last_chain_count_];
+    chains_.push_back(chain);
+    layers_.push_back(layer);
+  }
+  const ChainLoop loop = loops_.back();
+  loops_.push_back(loop);
+  loop_layers_.push_back(layer);
 }
 
 // Makes a chain of every maximal run of one direction; extends the loop. Edges

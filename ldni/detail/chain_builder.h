@@ -30,6 +30,10 @@ class ChainBuilder {
   void close_loop(std::uint32_t layer, std::uint32_t instance,
                   std::int32_t orientation);
 
+  // Adds the loop that was closed last to another layer as well, with the same
+  // points.
+  void repeat_loop(std::uint32_t layer);
+
   // Buckets the chains and loops by layer.
   void finish(ChainBlock& block);
 
@@ -48,6 +52,7 @@ class ChainBuilder {
   std::vector<std::uint32_t> layers_;  // of chains_
   std::vector<ChainLoop> loops_;
   std::vector<std::uint32_t> loop_layers_;  // of loops_
+  std::uint32_t last_chain_count_ = 0;      // of the loop closed last
 };
 
 }  // namespace lamina::ldni::detail

@@ -123,15 +123,25 @@ void SweepSectioner::cut_strips() {
 
 void SweepSectioner::cut_strip(std::uint32_t ring, std::uint32_t upper) {
   // The profile rises through the layer: the loop runs with the outline.
-  for (std::uint32_t l = ranges_[ring].high; l < ranges_[upper].low; ++l) {
-    begin(l);
-    add_spoke_points(ring, 0, spoke_count_);
-    close(l);
-  }
+  cut_strip_layers(ring, upper, {ranges_[ring].high, ranges_[upper].low}, 0,
+                   spoke_count_);
   // It falls through the layer: against the outline.
-  for (std::uint32_t l = ranges_[upper].high; l < ranges_[ring].low; ++l) {
+  cut_strip_layers(ring, upper, {ranges_[upper].high, ranges_[ring].low},
+                   spoke_count_, 0);
+}
+
+// Loops from spoke `from` to spoke `to`. Through upright walls all are one.
+void SweepSectioner::cut_strip_layers(std::uint32_t ring, std::uint32_t upper,
+                                      RingRange layers, std::uint32_t from,
+                                      std::uint32_t to) {
+  const bool is_upright = rings_[ring].is_upright_to(rings_[upper]);
+  for (std::uint32_t l = layers.low; l < layers.high; ++l) {
+    if (is_upright && l > layers.low) {
+      builder_->repeat_loop(l);
+      continue;
+    }
     begin(l);
-    add_spoke_points(ring, spoke_count_, 0);
+    add_spoke_points(ring, from, to);
     close(l);
   }
 }

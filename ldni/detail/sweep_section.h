@@ -86,6 +86,11 @@ class SweepSectioner {
       return {both_lanes(scale) * spoke.xy + centre.xy,
               scale * spoke.z + centre.z};
     }
+    // Whether every vertex has the x and y of its neighbour on the other ring.
+    bool is_upright_to(const Ring& other) const {
+      return scale == other.scale &&
+             !holds_for_any(centre.xy != other.centre.xy);
+    }
   };
   // A place on ring `ring` between spokes `spoke` and the next one.
   struct RingEdge {
@@ -100,6 +105,8 @@ class SweepSectioner {
   void find_ranges();
   void cut_strips();
   void cut_strip(std::uint32_t ring, std::uint32_t upper);
+  void cut_strip_layers(std::uint32_t ring, std::uint32_t upper,
+                        RingRange layers, std::uint32_t from, std::uint32_t to);
   void add_spoke_points(std::uint32_t strip, std::uint32_t from,
                         std::uint32_t to);
   void cut_runs();
