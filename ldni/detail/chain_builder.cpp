@@ -18,8 +18,8 @@ int direction_of(const Vec2& from, const Vec2& to, double vertical_width) {
 }
 
 // The end of the run of edges that go right or left, from `point` on.
-const Vec2* end_of_run(const Vec2* point, const Vec2* last, int direction,
-                       double vertical_width) {
+Vec2* end_of_run(Vec2* point, const Vec2* last, int direction,
+                 double vertical_width) {
   ++point;
   if (direction > 0) {
     while (point != last && point[1].x - point[0].x > vertical_width) ++point;
@@ -27,6 +27,19 @@ const Vec2* end_of_run(const Vec2* point, const Vec2* last, int direction,
     while (point != last && point[0].x - point[1].x > vertical_width) ++point;
   }
   return point;
+}
+
+// Gives the ends of an upright edge one x. Not where that could make another
+// edge upright, or where the edge is a repeated point: false.
+bool snap_alone(const Vec2& before, Vec2* edge, const Vec2& after) {
+  constexpr double kStaysWide = 2 * kColumnWidth;
+  if (std::abs(edge[0].x - before.x) < kStaysWide ||
+      std::abs(edge[1].x - after.x) < kStaysWide ||
+      std::abs(edge[1].y - edge[0].y) < kColumnWidth) {
+    return false;
+  }
+  edge[1].x = edge[0].x;
+  return true;
 }
 
 // Sorts items by layer, keeping their order there: counts, then deals out.
@@ -106,7 +119,7 @@ void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t instance,
   chain.instance = instance;
   const std::size_t chains_before = chains_.size();
   const std::size_t size = loop_.size();
-  // Most loops have no vertical edge.
+  // Vertical edges mostly stand alone.
   if (size >= 3 && !cut(loop_, kColumnWidth, layer, chain, orientation)) {
     loop_.resize(size);
     if (is_wide()) {
@@ -138,9 +151,9 @@ void ChainBuilder::repeat_loop(std::uint32_t layer) {
 }
 
 // Makes a chain of every maximal run of one direction; extends the loop. Edges
-// no wider than `vertical_width` belong to no chain; where that is not 0, one
-// such edge, or a loop that may be too narrow, ends the work with nothing done:
-// false.
+// no wider than `vertical_width` belong to no chain. Where that is not 0 they
+// are snapped; one that does not stand alone, or a loop that may be too narrow,
+// ends the work with nothing done: false.
 bool ChainBuilder::cut(std::vector<Vec2>& loop, double vertical_width,
                        std::uint32_t layer, Chain chain,
                        std::int32_t orientation) {
@@ -154,6 +167,10 @@ bool ChainBuilder::cut(std::vector<Vec2>& loop, double vertical_width,
          direction_of(first[0], first[1], vertical_width) == first_direction) {
   }
   const auto start = static_cast<std::size_t>(first - loop.data());
+  if (first_direction == 0 && vertical_width > 0 &&
+      !(start == 1 && snap_alone(loop.end()[-2], loop.data(), loop[2]))) {
+    return false;
+  }
   const std::size_t count = loop.size();
   loop.resize(count + start);
   std::copy_n(loop.begin() + 1, start,
@@ -163,17 +180,18 @@ bool ChainBuilder::cut(std::vector<Vec2>& loop, double vertical_width,
   const std::size_t chains_before = chains_.size();
   double widest = 0;  // of the chains
   last = &loop.back();
-  for (const Vec2* point = &loop[start]; point != last;) {
+  for (Vec2* point = &loop[start]; point != last;) {
     const int direction = direction_of(point[0], point[1], vertical_width);
     if (direction == 0) {
-      if (vertical_width > 0) {
+      if (vertical_width > 0 && point + 1 != last &&
+          !snap_alone(point[-1], point, point[2])) {
         widest = 0;
         break;
       }
       ++point;
       continue;
     }
-    const Vec2* end = end_of_run(point, last, direction, vertical_width);
+    Vec2* end = end_of_run(point, last, direction, vertical_width);
     chain.winding = direction * orientation;
     add_chain({point, end + 1}, direction > 0, chain, layer);
     widest = std::max(widest, std::abs(end->x - point->x));
