@@ -7,6 +7,7 @@ namespace lamina::ldni::detail {
 void Agenda::begin(double low, double high, std::uint32_t slab_count) {
   low_ = low;
   width_ = (high - low) / slab_count;
+  slabs_per_mm_ = slab_count / (high - low);
   slab_count_ = slab_count;
   slab_ = 0;
   changes_.clear();
@@ -24,7 +25,7 @@ void Agenda::note(PairRef pair, const Outlook& outlook) {
   if (outlook.horizon == kNever || is_last_slab()) return;
   // The slab must begin before the outlook ends: what changes right there has
   // to be seen as a change.
-  const double slabs = (outlook.horizon - low_) / width_;
+  const double slabs = (outlook.horizon - low_) * slabs_per_mm_;
   auto when = std::min(static_cast<std::uint32_t>(slabs), slab_count_ - 1);
   while (when > 0 && start_of(when) >= outlook.horizon) --when;
   when = std::max(when, slab_ + 1);

@@ -73,6 +73,7 @@ class Agenda {
 
   double low_ = 0;
   double width_ = 0;
+  double slabs_per_mm_ = 0;
   std::uint32_t slab_count_ = 0;
   std::uint32_t slab_ = 0;
   std::vector<Change> changes_;       // a heap, the next one in front

@@ -372,8 +372,9 @@ Outlook RaySweep::look(std::uint32_t lower, std::uint32_t upper, double x) {
   a.cursor.advance(x);
   b.cursor.advance(x);
   const double limit = std::max(agenda_.slab_end(), x + kColumnWidth);
-  find_band(a, limit);
-  find_band(b, limit);
+  for (Entry* entry : {&a, &b}) {
+    if (entry->band_slab != agenda_.slab()) find_band(*entry, limit);
+  }
   // From where the segments in hand are both there.
   const double left = std::max(a.cursor.left_x(), b.cursor.left_x());
   const Stretch apart = apart_stretch(a.band, b.band, left, tie_distance_);
@@ -412,7 +413,6 @@ Outlook RaySweep::look_outside(const Entry& a, const Entry& b,
 }
 
 void RaySweep::find_band(Entry& entry, double limit) {
-  if (entry.band_slab == agenda_.slab()) return;
   entry.band_slab = agenda_.slab();
   const ChainCursor& cursor = entry.cursor;
   entry.band = Band(cursor.left(), cursor.slope(), cursor.last(), limit);
