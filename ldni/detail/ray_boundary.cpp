@@ -106,10 +106,11 @@ void RaySweep::change_survival(Entry& entry, std::int8_t survival) {
 // other boundary in a point, so that the tracer sees the touch, and where it
 // runs along the column past ends.
 void RaySweep::split_at_touches() {
+  const std::uint32_t sentinel = status_.sentinel();
   for (const std::uint32_t lower : touches_) {
     if (!status_.is_alive(lower)) continue;
     const std::uint32_t upper = status_[lower].above;
-    if (upper == status_.sentinel()) continue;
+    if (upper == sentinel) continue;
     note_disorder_after(lower, upper);
     const double y = y_after(status_[lower]);
     if (std::abs(y_after(status_[upper]) - y) < kColumnWidth) {
@@ -124,8 +125,16 @@ void RaySweep::split_at_touches() {
     if (entry.survival == 0 && !tracer_.has_ends()) continue;
     const double y = y_after(entry);
     if (entry.survival != 0) {
-      note_disorder_after(entry.below, number);
-      note_disorder_after(number, entry.above);
+      // Nothing that is farther off, nor what ties with it, is out of order.
+      const double close = 2 * kMostJump * tie_distance_;
+      if (entry.below != sentinel &&
+          y_after(status_[entry.below]) >= y - close) {
+        note_disorder_after(entry.below, number);
+      }
+      if (entry.above != sentinel &&
+          y_after(status_[entry.above]) <= y + close) {
+        note_disorder_after(number, entry.above);
+      }
       if (std::abs(y_before(entry) - y) >= kColumnWidth) split_piece(entry);
     }
     // One cut is enough for all that is in one point.
