@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "csg/plane.h"
 
@@ -58,8 +59,7 @@ class Cone {
   double greatest_ = kSteepest;
 };
 
-}  // namespace
-
+// The last vertex, at most `end`, that a line from `anchor` reaches.
 std::uint32_t farthest_reach(std::span<const Vec2> points, std::uint32_t anchor,
                              std::uint32_t end, double tolerance) {
   if (end < anchor + 2) return end;
@@ -93,6 +93,22 @@ std::uint32_t farthest_reach(std::span<const Vec2> points, std::uint32_t anchor,
     }
   }
   return reach;
+}
+
+}  // namespace
+
+void choose_farthest(std::span<const Vec2> points, std::uint32_t begin,
+                     std::uint32_t end, double tolerance,
+                     std::vector<std::uint32_t>& chosen) {
+  const std::size_t size = chosen.size();
+  chosen.resize(size + (end - begin) + 1);
+  std::uint32_t* next = chosen.data() + size;
+  for (std::uint32_t anchor = begin; anchor != end;) {
+    *next++ = anchor;
+    anchor = farthest_reach(points, anchor, end, tolerance);
+  }
+  *next++ = end;
+  chosen.resize(static_cast<std::size_t>(next - chosen.data()));
 }
 
 }  // namespace lamina::slicer

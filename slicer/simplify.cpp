@@ -112,7 +112,7 @@ void Simplifier::choose(Loop& loop) {
   for (double tolerance = tolerance_; tolerance > kEndMargin && !is_chosen;
        tolerance /= 2) {
     vertices_.resize(begin);
-    choose_within(loop, tolerance);
+    choose_farthest(points_, loop.begin, loop.end, tolerance, vertices_);
     is_chosen = keeps_area(loop.doubled_area,
                            doubled_area_kept(begin, vertices_.size()));
     loop.has_spare = loop.has_spare || !is_chosen;
@@ -124,14 +124,6 @@ void Simplifier::choose(Loop& loop) {
     }
   }
   ends_.push_back(static_cast<std::uint32_t>(vertices_.size()));
-}
-
-void Simplifier::choose_within(const Loop& loop, double tolerance) {
-  for (std::uint32_t anchor = loop.begin; anchor != loop.end;) {
-    vertices_.push_back(anchor);
-    anchor = farthest_reach(points_, anchor, loop.end, tolerance);
-  }
-  vertices_.push_back(loop.end);
 }
 
 // Writes down the vertices that are kept.
@@ -252,16 +244,21 @@ void Simplifier::thin_out(const Loop& loop, std::uint32_t k,
 }
 
 void Simplifier::write_kept(ldni::Contours& contours) const {
-  contours.clear();
+  contours.ends.clear();
+  contours.points.resize(vertices_.size());
+  Vec2* const first = contours.points.data();
+  Vec2* next = first;
   std::size_t k = 0;
   for (const std::uint32_t end : ends_) {
     for (; k + 1 < end; ++k) {
       const std::uint32_t i = vertices_[k];
-      if (kept_[i] != 0) contours.points.push_back(points_[i]);
+      *next = points_[i];
+      next += kept_[i];
     }
     ++k;  // the copy of the first
-    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
+    contours.ends.push_back(static_cast<std::uint32_t>(next - first));
   }
+  contours.points.resize(contours.ends.back());
 }
 
 // Of the loop that stands at [begin, end) in vertices_.

@@ -75,7 +75,6 @@ class Simplifier {
 
   void copy_loops(const ldni::Contours& contours);
   void choose(Loop& loop);
-  void choose_within(const Loop& loop, double tolerance);
   void list_kept();
   void find_neighbours();
   bool has_meetings() const;
