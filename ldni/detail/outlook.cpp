@@ -36,6 +36,10 @@ class PairCursor {
     return true;
   }
 
+  // By more than the tie distance, all along the piece.
+  bool is_apart() const {
+    return std::min(left_distance_, right_distance_) > tie_distance_;
+  }
   bool crosses() const {
     return std::min(left_distance_, right_distance_) < -tie_distance_ &&
            std::max(left_distance_, right_distance_) > tie_distance_;
@@ -92,6 +96,7 @@ Outlook look_ahead(const ChainCursor& lower, const ChainCursor& upper, double x,
       return outlook;
     }
     if (!pair.step()) return outlook;
+    if (outlook.relation > 0 && pair.is_apart()) continue;
     if (pair.relation_at_left() != outlook.relation ||
         (outlook.relation > 0 && pair.touches_at_left())) {
       outlook.change = pair.left();
