@@ -148,27 +148,30 @@ CompensationCounts& CompensationCounts::operator+=(
   return *this;
 }
 
-void Compensator::compensate(ldni::Contours& contours) {
-  if (amount_ == 0 || contours.is_empty()) return;
+CompensationCounts Compensator::compensate(ldni::Contours& contours) const {
+  if (amount_ == 0 || contours.is_empty()) return {};
   const Region before = to_region(contours);
   Region after = planar::offset(before, -amount_, planar::Join::kRound,
                                 kArcTolerance / kArcExcess);
   // What rounding left of walls exactly as thick as the beam.
   planar::drop_hairlines(after, ldni::kTieDistance);
-  count_losses(before, after);
   copy_to(after, contours);
+  return count_losses(before, after);
 }
 
-void Compensator::count_losses(const Region& before, const Region& after) {
+CompensationCounts Compensator::count_losses(const Region& before,
+                                             const Region& after) const {
+  CompensationCounts counts;
   if (amount_ > 0) {
     const Losses losses = find_losses(before, after, +1);
-    counts_.vanished_regions += losses.vanished;
-    counts_.broken_walls += losses.parted;
+    counts.vanished_regions = losses.vanished;
+    counts.broken_walls = losses.parted;
   } else {
     const Losses losses = find_losses(before, after, -1);
-    counts_.vanished_holes += losses.vanished;
-    counts_.closed_gaps += losses.parted;
+    counts.vanished_holes = losses.vanished;
+    counts.closed_gaps = losses.parted;
   }
+  return counts;
 }
 
 }  // namespace lamina::slicer

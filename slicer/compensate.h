@@ -18,7 +18,7 @@
 
 namespace lamina::slicer {
 
-// Over all layers.
+// Of a layer, or of many.
 struct CompensationCounts {
   std::uint64_t vanished_regions = 0;  // inwards: outer loops, nothing is left
   std::uint64_t vanished_holes = 0;    // outwards: the same of holes
@@ -29,26 +29,23 @@ struct CompensationCounts {
   CompensationCounts& operator+=(const CompensationCounts& other);
 };
 
-// One object per thread.
 class Compensator {
  public:
   // amount  how far contours move into the solid [mm]; negative: out of it
   explicit Compensator(double amount) : amount_(amount) {}
 
-  // Simple, disjoint loops stay so. Arcs are exact within kArcTolerance.
-  // Throws std::range_error for coordinates beyond 1e9 mm.
-  void compensate(ldni::Contours& contours);
-
-  const CompensationCounts& counts() const { return counts_; }
+  // Returns what is lost. Simple, disjoint loops stay so. Arcs are exact within
+  // kArcTolerance. Throws std::range_error for coordinates beyond 1e9 mm.
+  CompensationCounts compensate(ldni::Contours& contours) const;
 
   // A tenth of the default tolerance, which simplification then uses up [mm].
   static constexpr double kArcTolerance = 1e-4;
 
  private:
-  void count_losses(const planar::Region& before, const planar::Region& after);
+  CompensationCounts count_losses(const planar::Region& before,
+                                  const planar::Region& after) const;
 
   double amount_;
-  CompensationCounts counts_;
 };
 
 }  // namespace lamina::slicer

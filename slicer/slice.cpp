@@ -162,15 +162,13 @@ SliceReport slice_outline(const planar::Region& outline,
   if (settings.min_feature > 0) {
     report.features = find_thin_features(layer, settings.min_feature);
   }
-  Compensator compensator(settings.compensation);
-  compensator.compensate(layer.contours);
+  report.losses = Compensator(settings.compensation).compensate(layer.contours);
   report.layers = report.layers_there = 1;
   if (!settings.written.contains(1)) {
     throw_out_of_range(report, settings.written);
   }
   report.loops = layer.contours.loop_count();
   report.points = layer.contours.points.size();
-  report.losses = compensator.counts();
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (layer.contours.is_empty()) throw_empty(report);
   sink.begin(box_of(layer.contours));

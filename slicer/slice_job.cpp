@@ -37,7 +37,8 @@ struct Draft {
   std::uint64_t holes = 0;
   double area = 0;       // [mm²]
   double clearance = 0;  // as of Layer
-  std::string encoded;   // as of Layer
+  CompensationCounts losses;
+  std::string encoded;  // as of Layer
 
   void measure() {
     holes = 0;
@@ -123,7 +124,7 @@ class Worker {
           layers[i] = layers[i - 1];
           continue;
         }
-        compensator_.compensate(layers[i].contours);
+        layers[i].losses = compensator_.compensate(layers[i].contours);
         simplifier_.simplify(layers[i].contours);
         layers[i].clearance = simplifier_.clearance();
         layers[i].measure();
@@ -134,7 +135,6 @@ class Worker {
 
   void report_to(SliceReport& report) const {
     if (slicer_) slicer_->report_to(report);
-    report.losses += compensator_.counts();
   }
 
  private:
@@ -174,6 +174,7 @@ class OrderedOutput {
   }
 
   void take(std::uint32_t index, Draft& draft) {
+    report_.losses += draft.losses;
     if (draft.contours.is_empty() && !keeps_empty_) {
       if (report_.layers_there > 0) ++held_back_;
       return;

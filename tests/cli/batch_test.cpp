@@ -297,7 +297,8 @@ TEST(Batch, ReportsEveryPiece) {
 
 TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {
   const TemporaryFolder folder;
-  folder.write("a.scad", "size = 1; cylinder(r = 9, h = size, $fn = 300);");
+  folder.write("a.scad",
+               "size = 1; cylinder(r1 = 9, r2 = 8, h = size, $fn = 300);");
   folder.write("t.csv", "size\n0.1\n900\n901\n");
   support::BackgroundProcess process(
       command({"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc",

@@ -128,7 +128,7 @@ TEST(MakeRule, ThatCannotBeWrittenEndsTheRun) {
 // It would tell make that the output is made.
 TEST(MakeRule, ComesWithTheOutputOrNotAtAll) {
   const TemporaryFolder folder;
-  folder.write("a.scad", "cylinder(r = 30, h = 60, $fn = 500);");
+  folder.write("a.scad", "cylinder(r1 = 30, r2 = 20, h = 60, $fn = 500);");
   const auto late = run(folder, {"a.scad", "-q", "-d", "a.d", "--layer",
                                  "0.0001", "--max-time", "0.3"});
   EXPECT_EQ(late.status, 1) << late.errors;

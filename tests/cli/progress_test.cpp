@@ -36,7 +36,7 @@ TEST(ProgressText, KnowsNoRateBeforeTheFirstIsDone) {
 
 // Some seconds of work.
 std::vector<std::string> long_run(const TemporaryFolder& folder) {
-  folder.write("a.scad", "cylinder(r = 30, h = 60, $fn = 500);");
+  folder.write("a.scad", "cylinder(r1 = 30, r2 = 20, h = 60, $fn = 500);");
   return command({"a.scad", "--layer", "0.0005", "--threads", "1"});
 }
 

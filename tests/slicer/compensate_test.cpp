@@ -49,9 +49,8 @@ struct Moved {
 };
 
 Moved moved(Contours contours, double amount) {
-  Compensator compensator(amount);
-  compensator.compensate(contours);
-  return {std::move(contours), compensator.counts()};
+  const CompensationCounts counts = Compensator(amount).compensate(contours);
+  return {std::move(contours), counts};
 }
 
 // The definition, probed at random points and along the new contour.
