@@ -1,7 +1,6 @@
 #include "parser/cell.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <variant>
 
@@ -10,6 +9,7 @@
 #include "parser/detail/literal.h"
 #include "parser/diagnostic.h"
 #include "parser/file_access.h"
+#include "parser/letter_case.h"
 #include "parser/loader.h"
 #include "parser/number.h"
 #include "parser/parser.h"
@@ -43,10 +43,7 @@ std::optional<std::string> read_number(std::string_view cell,
 
 // In any case of letters: spreadsheets turn true into TRUE.
 std::optional<std::string> read_truth(std::string_view cell) {
-  std::string word(cell);
-  for (char& c : word) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  const std::string word = lower_case(cell);
   if (word == "true" || word == "false") return word;
   return std::nullopt;
 }

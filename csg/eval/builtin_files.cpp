@@ -13,6 +13,7 @@
 #include "csg/eval/interpreter.h"
 #include "csg/eval/script.h"
 #include "csg/eval/text.h"
+#include "parser/letter_case.h"
 
 namespace lamina::csg {
 
@@ -138,10 +139,7 @@ ImportFormat import_format(std::string_view module, const std::string& path) {
           ? std::string(module.substr(kPrefix.size()))
           : std::filesystem::path(path).extension().string();
   if (extension.starts_with('.')) extension.erase(0, 1);
-  std::transform(
-      extension.begin(), extension.end(), extension.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-      });
+  extension = lower_case(extension);
   static const std::map<std::string_view, ImportFormat> kFormats = {
       {"stl", ImportFormat::kStl}, {"off", ImportFormat::kOff},
       {"obj", ImportFormat::kObj}, {"amf", ImportFormat::kAmf},

@@ -14,6 +14,7 @@
 #include "csg/eval/files.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/text.h"
+#include "parser/letter_case.h"
 
 namespace lamina::csg {
 
@@ -53,10 +54,7 @@ void color(const BuiltinModuleCode& code, Frame& frame) {
       }
     }
   } else if (given.is_string()) {
-    std::string name(given.as_string());
-    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
+    const std::string name = lower_case(given.as_string());
     if (const auto found = find_color(name)) {
       std::copy(found->begin(), found->end(), rgba);
     } else {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "csg/eval/utf8.h"
+#include "parser/letter_case.h"
 
 namespace lamina::csg {
 
@@ -68,12 +69,8 @@ std::string_view script_of(std::uint32_t c) {
 std::string normalized(std::string_view asked) {
   std::string tag(asked.substr(0, 4));
   tag.resize(4, ' ');
-  for (std::size_t i = 0; i < tag.size(); ++i) {
-    const bool is_upper = tag[i] >= 'A' && tag[i] <= 'Z';
-    const bool is_lower = tag[i] >= 'a' && tag[i] <= 'z';
-    if (i == 0 && is_lower) tag[i] = static_cast<char>(tag[i] - 'a' + 'A');
-    if (i > 0 && is_upper) tag[i] = static_cast<char>(tag[i] - 'A' + 'a');
-  }
+  for (char& c : tag) c = lower_case(c);
+  tag[0] = upper_case(tag[0]);
   return tag;
 }
 

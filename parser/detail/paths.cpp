@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "parser/letter_case.h"
+
 namespace lamina::detail {
 
 namespace fs = std::filesystem;
@@ -29,10 +31,8 @@ std::string shown_path(const std::string& path) {
 }
 
 bool is_font(std::string_view file) {
-  std::string end(file.substr(file.size() < 4 ? 0 : file.size() - 4));
-  for (char& c : end) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string end =
+      lower_case(file.substr(file.size() < 4 ? 0 : file.size() - 4));
   return end == ".ttf" || end == ".otf";
 }
 

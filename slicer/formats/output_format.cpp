@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <iterator>
 
 #include <fmt/format.h>
+
+#include "parser/letter_case.h"
 
 namespace lamina::slicer {
 namespace {
@@ -45,14 +46,6 @@ bool has_extension(std::string_view name, std::string_view extension) {
   return name == extension ||
          (name.size() > extension.size() && name.ends_with(extension) &&
           name[name.size() - extension.size() - 1] == '.');
-}
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return result;
 }
 
 }  // namespace
@@ -104,8 +97,7 @@ bool is_named(std::string_view path, std::string_view extension) {
   return path.size() > extension.size() &&
          std::equal(extension.rbegin(), extension.rend(), path.rbegin(),
                     [](char small, char any) {
-                      return small ==
-                             std::tolower(static_cast<unsigned char>(any));
+                      return small == lower_case(any);
                     });
 }
 
