@@ -165,6 +165,9 @@ TEST(TopLevel, HoldsWhatTheMapNames) {
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     const std::string name = entry.path().filename();
     if (name.front() == '.') continue;
+    // What the README's first commands write.
+    const fs::path extension = entry.path().extension();
+    if (extension == ".slc" || extension == ".html") continue;
     EXPECT_NE(std::find(known.begin(), known.end(), name), known.end())
         << name << " stands at the top level and on no map";
   }
