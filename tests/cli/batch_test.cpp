@@ -315,9 +315,10 @@ TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {
 
 TEST(Batch, MakesTheSignetsOfTheExamples) {
   const TemporaryFolder folder;
-  const auto result = run(folder, {"batch", LAMINA_EXAMPLES "/signet.scad",
-                                   "--table", LAMINA_EXAMPLES "/signets.csv",
-                                   "-o", "{name}.slc", "--layer", "0.2"});
+  const std::string examples = LAMINA_EXAMPLES;
+  const auto result = run(folder, {"batch", examples + "/signet.scad",
+                                   "--table", examples + "/signets.csv", "-o",
+                                   "{name}.slc", "--layer", "0.2"});
   EXPECT_EQ(result.status, 0) << result.errors;
   EXPECT_EQ(folder.entry_count(), 4U);
 }
