@@ -168,7 +168,8 @@ bool ChainBuilder::cut(std::vector<Vec2>& loop, double vertical_width,
   }
   const auto start = static_cast<std::size_t>(first - loop.data());
   if (first_direction == 0 && vertical_width > 0 &&
-      !(start == 1 && snap_alone(loop.end()[-2], loop.data(), loop[2]))) {
+      !(start == 1 &&
+        snap_alone(loop[loop.size() - 2], loop.data(), loop[2]))) {
     return false;
   }
   const std::size_t count = loop.size();
