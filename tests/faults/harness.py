@@ -97,13 +97,15 @@ class Harness:
     """Runs jobs under faults, counts what came of them, prints a table."""
 
     def __init__(self, lamina, shim, is_quick, times, threads, seed):
-        self.lamina = os.path.abspath(lamina)
-        self.shim = os.path.abspath(shim)
         self.is_quick = is_quick
         self.times = times
         self.random = random.Random(seed)
         self.work = tempfile.mkdtemp(prefix="lamina-faults-")
         os.chmod(self.work, 0o777)
+        # Copies, for who may not enter the folder of the build, as /root.
+        module = os.path.join(os.path.dirname(lamina), "lamina_text.so")
+        self.lamina, self.shim, _ = (
+            shutil.copy(file, self.work) for file in (lamina, shim, module))
         self.pool = concurrent.futures.ThreadPoolExecutor(threads)
         self.wanted = {}  # of each job: its outputs and what it prints ("-")
         self.broken = []
