@@ -106,11 +106,10 @@ void RaySweep::change_survival(Entry& entry, std::int8_t survival) {
 // other boundary in a point, so that the tracer sees the touch, and where it
 // runs along the column past ends.
 void RaySweep::split_at_touches() {
-  const std::uint32_t sentinel = status_.sentinel();
   for (const std::uint32_t lower : touches_) {
     if (!status_.is_alive(lower)) continue;
     const std::uint32_t upper = status_[lower].above;
-    if (upper == sentinel) continue;
+    if (upper == status_.sentinel()) continue;
     note_disorder_after(lower, upper);
     const double y = y_after(status_[lower]);
     if (std::abs(y_after(status_[upper]) - y) < kColumnWidth) {
@@ -125,16 +124,8 @@ void RaySweep::split_at_touches() {
     if (entry.survival == 0 && !tracer_.has_ends()) continue;
     const double y = y_after(entry);
     if (entry.survival != 0) {
-      // Nothing that is farther off, nor what ties with it, is out of order.
-      const double close = 2 * kMostJump * tie_distance_;
-      if (entry.below != sentinel &&
-          y_after(status_[entry.below]) >= y - close) {
-        note_disorder_after(entry.below, number);
-      }
-      if (entry.above != sentinel &&
-          y_after(status_[entry.above]) <= y + close) {
-        note_disorder_after(number, entry.above);
-      }
+      note_disorder_after(entry.below, number);
+      note_disorder_after(number, entry.above);
       if (std::abs(y_before(entry) - y) >= kColumnWidth) split_piece(entry);
     }
     // One cut is enough for all that is in one point.
@@ -201,6 +192,8 @@ void RaySweep::note_disorder(std::uint32_t lower, std::uint32_t upper,
   const std::uint32_t sentinel = status_.sentinel();
   if (lower == sentinel || upper == sentinel) return;
   const double y = y_of(status_[upper]);
+  // Neighbours that far apart are in order, and so is what ties with them.
+  if (y - y_of(status_[lower]) > 2 * kMostJump * tie_distance_) return;
   const auto is_passed = [&](std::uint32_t e) {
     return e != sentinel && status_[e].survival == 0 &&
            std::abs(y_of(status_[e]) - y) <= kMostJump * tie_distance_;
