@@ -1,25 +1,16 @@
 #include "ldni/contours.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "csg/lanes.h"
+#include "ldni/loop_sums.h"
 
 namespace lamina::ldni {
 
 double signed_area(std::span<const Vec2> loop) {
   if (loop.empty()) return 0;
-  // Relative to the first point, so that a loop far from the origin keeps its
-  // digits.
-  const Lanes origin = lanes_of(loop.front());
-  Lanes products = both_lanes(0);
-  Lanes previous = lanes_of(loop.back()) - origin;
-  for (const Vec2& point : loop) {
-    const Lanes current = lanes_of(point) - origin;
-    products += previous * Lanes{current[1], current[0]};
-    previous = current;
-  }
-  return (products[0] - products[1]) / 2;
+  DoubledArea area(loop.front(), loop.back());
+  for (const Vec2& point : loop) area.add(point);
+  return area.value() / 2;
 }
 
 double perimeter(std::span<const Vec2> loop) {
@@ -32,14 +23,9 @@ double perimeter(std::span<const Vec2> loop) {
 }
 
 double greatest_coordinate(std::span<const Vec2> points) {
-  Lanes low = both_lanes(0);
-  Lanes high = both_lanes(0);
-  for (const Vec2& point : points) {
-    low = least(low, lanes_of(point));
-    high = greatest(high, lanes_of(point));
-  }
-  const Lanes reach = greatest(high, -low);
-  return std::max(reach[0], reach[1]);
+  Reach reach;
+  for (const Vec2& point : points) reach.add(point);
+  return reach.value();
 }
 
 }  // namespace lamina::ldni

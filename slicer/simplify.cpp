@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "csg/lanes.h"
 #include "csg/plane.h"
+#include "ldni/loop_sums.h"
 #include "slicer/farthest_reach.h"
 
 namespace lamina::slicer {
@@ -75,34 +75,25 @@ void Simplifier::simplify(ldni::Contours& contours) {
 void Simplifier::copy_loops(const ldni::Contours& contours) {
   points_.clear();
   loops_.clear();
-  Lanes low = both_lanes(0);
-  Lanes high = both_lanes(0);
+  ldni::Reach reach;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);
-    // All that is asked of every point, on one way past them.
     const Vec2* first = loop.data();
-    const Lanes origin = lanes_of(loop.front());
-    Lanes products = both_lanes(0);
-    Lanes before = lanes_of(loop.back()) - origin;
+    ldni::DoubledArea doubled_area(loop.front(), loop.back());
     for (const Vec2& point : loop) {
       if (point.x <= first->x && (point.x < first->x || point.y < first->y)) {
         first = &point;
       }
-      const Lanes here = lanes_of(point);
-      low = least(low, here);
-      high = greatest(high, here);
-      const Lanes step = here - origin;
-      products += before * Lanes{step[1], step[0]};
-      before = step;
+      reach.add(point);
+      doubled_area.add(point);
     }
     const auto begin = static_cast<std::uint32_t>(points_.size());
     points_.insert(points_.end(), first, loop.data() + loop.size());
     points_.insert(points_.end(), loop.data(), first + 1);
     loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
-                      products[0] - products[1]});
+                      doubled_area.value()});
   }
-  const Lanes reach = greatest(high, -low);
-  clearance_ = kClearance * std::max(reach[0], reach[1]);
+  clearance_ = kClearance * reach.value();
 }
 
 // Chooses vertices as if the loop were alone.
