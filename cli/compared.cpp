@@ -122,7 +122,7 @@ class ComparedDesign : public Compared {
     slicer::Deviation deviation;
     deviation.simplification = options_.settings.tolerance;
     if (options_.settings.compensation != 0) {
-      deviation.compensation = slicer::Compensator::kArcTolerance;
+      deviation.compensation = slicer::kArcTolerance;
     }
     deviation.rounding = rounding_(greatest_coordinate_);
     return deviation.from_section();

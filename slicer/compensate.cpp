@@ -148,21 +148,16 @@ CompensationCounts& CompensationCounts::operator+=(
   return *this;
 }
 
-CompensationCounts Compensator::compensate(ldni::Contours& contours) const {
-  if (amount_ == 0 || contours.is_empty()) return {};
+CompensationCounts compensate(ldni::Contours& contours, double amount) {
+  if (amount == 0 || contours.is_empty()) return {};
   const Region before = to_region(contours);
-  Region after = planar::offset(before, -amount_, planar::Join::kRound,
+  Region after = planar::offset(before, -amount, planar::Join::kRound,
                                 kArcTolerance / kArcExcess);
   // What rounding left of walls exactly as thick as the beam.
   planar::drop_hairlines(after, ldni::kTieDistance);
   copy_to(after, contours);
-  return count_losses(before, after);
-}
-
-CompensationCounts Compensator::count_losses(const Region& before,
-                                             const Region& after) const {
   CompensationCounts counts;
-  if (amount_ > 0) {
+  if (amount > 0) {
     const Losses losses = find_losses(before, after, +1);
     counts.vanished_regions = losses.vanished;
     counts.broken_walls = losses.parted;

@@ -13,7 +13,6 @@
 
 #include <cstdint>
 
-#include "csg/planar/region.h"
 #include "ldni/contours.h"
 
 namespace lamina::slicer {
@@ -29,23 +28,14 @@ struct CompensationCounts {
   CompensationCounts& operator+=(const CompensationCounts& other);
 };
 
-class Compensator {
- public:
-  // amount  how far contours move into the solid [mm]; negative: out of it
-  explicit Compensator(double amount) : amount_(amount) {}
+// Of arcs: a tenth of the default tolerance, which simplification then uses up
+// [mm].
+inline constexpr double kArcTolerance = 1e-4;
 
-  // Returns what is lost. Simple, disjoint loops stay so. Arcs are exact within
-  // kArcTolerance. Throws std::range_error for coordinates beyond 1e9 mm.
-  CompensationCounts compensate(ldni::Contours& contours) const;
-
-  // A tenth of the default tolerance, which simplification then uses up [mm].
-  static constexpr double kArcTolerance = 1e-4;
-
- private:
-  CompensationCounts count_losses(const planar::Region& before,
-                                  const planar::Region& after) const;
-
-  double amount_;
-};
+// Moves contours into the solid by `amount` [mm], out of it where that is
+// negative. Returns what is lost. Simple, disjoint loops stay so. Arcs are
+// exact within kArcTolerance. Throws std::range_error for coordinates beyond
+// 1e9 mm.
+CompensationCounts compensate(ldni::Contours& contours, double amount);
 
 }  // namespace lamina::slicer

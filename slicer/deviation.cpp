@@ -13,7 +13,7 @@ std::optional<Deviation> promised_deviation(const Settings& settings) {
   Deviation deviation;
   deviation.simplification = settings.tolerance;
   if (settings.compensation != 0) {
-    deviation.compensation = Compensator::kArcTolerance;
+    deviation.compensation = kArcTolerance;
   }
   return deviation;
 }

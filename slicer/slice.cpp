@@ -162,7 +162,7 @@ SliceReport slice_outline(const planar::Region& outline,
   if (settings.min_feature > 0) {
     report.features = find_thin_features(layer, settings.min_feature);
   }
-  report.losses = Compensator(settings.compensation).compensate(layer.contours);
+  report.losses = compensate(layer.contours, settings.compensation);
   report.layers = report.layers_there = 1;
   if (!settings.written.contains(1)) {
     throw_out_of_range(report, settings.written);

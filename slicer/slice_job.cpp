@@ -82,10 +82,7 @@ class Worker {
  public:
   // sink  only asked to encode
   Worker(const Plan& plan, const Settings& settings, const LayerSink& sink)
-      : plan_(plan),
-        sink_(sink),
-        compensator_(settings.compensation),
-        simplifier_(settings.tolerance) {
+      : plan_(plan), sink_(sink), simplifier_(settings.tolerance) {
     if (settings.min_feature > 0) thin_finder_.emplace(settings.min_feature);
     layer_.compensation = settings.compensation;
   }
@@ -124,7 +121,7 @@ class Worker {
           layers[i] = layers[i - 1];
           continue;
         }
-        layers[i].losses = compensator_.compensate(layers[i].contours);
+        layers[i].losses = compensate(layers[i].contours, layer_.compensation);
         simplifier_.simplify(layers[i].contours);
         layers[i].clearance = simplifier_.clearance();
         layers[i].measure();
@@ -151,7 +148,6 @@ class Worker {
   const LayerSink& sink_;
   std::unique_ptr<BlockSlicer> slicer_;
   std::optional<ThinFinder> thin_finder_;  // if thin places are looked for
-  Compensator compensator_;
   Simplifier simplifier_;
   std::vector<std::uint8_t> repeats_;  // of the block's layers
   Layer layer_;                        // without heights

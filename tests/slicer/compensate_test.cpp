@@ -49,7 +49,7 @@ struct Moved {
 };
 
 Moved moved(Contours contours, double amount) {
-  const CompensationCounts counts = Compensator(amount).compensate(contours);
+  const CompensationCounts counts = compensate(contours, amount);
   return {std::move(contours), counts};
 }
 
@@ -59,7 +59,7 @@ void expect_offset(const Contours& before, double amount,
   const Contours after = moved(before, amount).contours;
   EXPECT_TRUE(support::are_sound(after)) << what;
   const double distance = std::abs(amount);
-  const double slack = Compensator::kArcTolerance + kRounding;
+  const double slack = kArcTolerance + kRounding;
   for (std::size_t i = 0; i < after.loop_count(); ++i) {
     const auto loop = after.loop(i);
     for (std::size_t j = 0; j < loop.size(); ++j) {
@@ -100,8 +100,7 @@ TEST(Compensate, OutwardsABoxGainsRoundCorners) {
   const Contours after = moved(of({box({0, 0}, {2, 3})}), -r).contours;
   const double area = 6 + 10 * r + kPi * r * r;
   EXPECT_LE(support::total_area(after), area + kRounding);
-  EXPECT_GE(support::total_area(after),
-            area - 2 * kPi * r * Compensator::kArcTolerance);
+  EXPECT_GE(support::total_area(after), area - 2 * kPi * r * kArcTolerance);
 }
 
 TEST(Compensate, HolesGoTheOtherWay) {
@@ -109,10 +108,10 @@ TEST(Compensate, HolesGoTheOtherWay) {
   const Contours plate = of({box({0, 0}, {9, 9}), box({2, 2}, {5, 6}, true)});
   const double widened = 12 + 14 * r + kPi * r * r;
   EXPECT_NEAR(support::total_area(moved(plate, r).contours),
-              8.5 * 8.5 - widened, 2 * kPi * r * Compensator::kArcTolerance);
+              8.5 * 8.5 - widened, 2 * kPi * r * kArcTolerance);
   const double outside = 81 + 36 * r + kPi * r * r;
   EXPECT_NEAR(support::total_area(moved(plate, -r).contours),
-              outside - 2.5 * 3.5, 2 * kPi * r * Compensator::kArcTolerance);
+              outside - 2.5 * 3.5, 2 * kPi * r * kArcTolerance);
 }
 
 TEST(Compensate, TheResultIsTheOffsetByItsDefinition) {
