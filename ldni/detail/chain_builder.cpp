@@ -141,12 +141,10 @@ void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t instance,
 void ChainBuilder::repeat_loop(std::uint32_t layer) {
   if (last_chain_count_ == 0) return;
   for (std::uint32_t i = 0; i < last_chain_count_; ++i) {
-    const Chain chain = chains_[chains_.size() - last_chain_count_];
-    chains_.push_back(chain);
+    chains_.push_back(chains_[chains_.size() - last_chain_count_]);
     layers_.push_back(layer);
   }
-  const ChainLoop loop = loops_.back();
-  loops_.push_back(loop);
+  loops_.push_back(loops_.back());
   loop_layers_.push_back(layer);
 }
 
@@ -167,6 +165,8 @@ bool ChainBuilder::cut(std::vector<Vec2>& loop, double vertical_width,
          direction_of(first[0], first[1], vertical_width) == first_direction) {
   }
   const auto start = static_cast<std::size_t>(first - loop.data());
+  // The edge that leads there comes last below: it is snapped before the
+  // chains.
   if (first_direction == 0 && vertical_width > 0 &&
       !(start == 1 &&
         snap_alone(loop[loop.size() - 2], loop.data(), loop[2]))) {

@@ -1,6 +1,5 @@
 #include "slicer/formats/output_format.h"
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 
@@ -95,10 +94,7 @@ std::vector<std::string> written_extensions() {
 
 bool is_named(std::string_view path, std::string_view extension) {
   return path.size() > extension.size() &&
-         std::equal(extension.rbegin(), extension.rend(), path.rbegin(),
-                    [](char small, char any) {
-                      return small == lower_case(any);
-                    });
+         lower_case(path).ends_with(extension);
 }
 
 bool is_named_as_layers(std::string_view path) {
