@@ -330,10 +330,11 @@ void FileAccess::make_folders(const std::string& path) const {
     const Destination found = find_in_root(path);
     const bool can_be_made =
         found.state == State::kMissing && found.error == ENOENT && found.folder;
-    if (!can_be_made ||
-        ::mkdirat(found.folder.descriptor(), found.name.c_str(), 0777) != 0) {
-      return;
-    }
+    if (!can_be_made) return;
+    const bool is_there =
+        ::mkdirat(found.folder.descriptor(), found.name.c_str(), 0777) == 0 ||
+        errno == EEXIST;  // another thread has just made it
+    if (!is_there) return;
   }
 }
 

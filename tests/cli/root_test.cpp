@@ -328,6 +328,23 @@ TEST_F(Root, FoldersOfSeveralOutputsStayInside) {
   EXPECT_TRUE(fs::exists(inside("x/y/z/e.slc")));
 }
 
+// Designs are compiled side by side, and all want the folder.
+TEST_F(Root, FoldersAreMadeByWhoeverIsFirst) {
+  std::vector<std::string> designs;
+  for (const char* name : {"a.scad", "b.scad", "c.scad", "d.scad"}) {
+    all_.write(std::string("root/") + name, "cube(1);\n");
+    designs.emplace_back(name);
+  }
+  for (int i = 0; i < 60; ++i) {
+    std::vector<std::string> words = designs;
+    const std::string folder = fmt::format("x{}/y/z/", i);
+    words.insert(words.end(), {"-o", folder, "--threads", "4"});
+    const auto result = run_confined(words);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_TRUE(fs::exists(inside(folder + "d.slc")));
+  }
+}
+
 // --- The root ---------------------------------------------------------------
 
 TEST_F(Root, MayBeNamedInAnyWay) {
