@@ -1,4 +1,5 @@
-// The passes of the program (cli/compile.cpp), behind a header without them.
+// The passes of the program (compiler/compile.cpp), behind a header without
+// them.
 
 #include "api/lamina/design.h"
 
@@ -9,13 +10,13 @@
 #include <fmt/format.h>
 
 #include "csg/eval/evaluator.h"
-#include "csg/solid/lower.h"
+#include "csg/lower/lower.h"
 #include "csg/text/typesetter.h"
 #include "parser/loader.h"
-#include "slicer/deviation.h"
+#include "slicer/contour/deviation.h"
 #include "slicer/formats/layer_writer.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/slice.h"
+#include "slicer/slice/slice.h"
 
 namespace lamina {
 namespace {
@@ -230,7 +231,7 @@ void Design::write(const std::string& path, const SliceOptions& options) const {
   }
   Messages messages(state_->show);
   messages.run([&] {
-    slicer::TemporaryFiles temporary_files;
+    TemporaryFiles temporary_files;
     slicer::WriterOptions how;
     how.format = *choice.format;
     how.deviation = slicer::promised_deviation(settings)->from_section();

@@ -11,9 +11,9 @@
 #include <benchmark/benchmark.h>
 
 #include "csg/eval/evaluator.h"
-#include "csg/solid/lower.h"
-#include "ldni/kinetic_ray.h"
-#include "ldni/leaf_section.h"
+#include "csg/lower/lower.h"
+#include "ldni/section/leaf_section.h"
+#include "ldni/sweep/kinetic_ray.h"
 #include "parser/loader.h"
 
 namespace {

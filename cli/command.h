@@ -10,8 +10,8 @@
 
 #include <CLI/App.hpp>
 
-#include "cli/process_watch.h"
-#include "slicer/formats/output_file.h"
+#include "base/file/output_file.h"
+#include "cli/process/process_watch.h"
 
 namespace lamina::cli {
 
@@ -50,7 +50,7 @@ class Command {
 
   // Returns the exit status. Faults have been shown.
   // stack  bytes of the thread that calls
-  virtual int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+  virtual int run(TemporaryFiles& temporary_files, std::size_t stack,
                   ProcessWatch& watch) = 0;
 };
 

@@ -16,15 +16,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "cli/access_options.h"
+#include "base/version.h"
 #include "cli/command.h"
 #include "cli/commands/commands.h"
-#include "cli/landlock.h"
-#include "cli/process_limits.h"
-#include "cli/process_watch.h"
-#include "cli/run_on_stack.h"
-#include "cli/streams.h"
-#include "slicer/version.h"
+#include "cli/options/access_options.h"
+#include "cli/process/landlock.h"
+#include "cli/process/process_limits.h"
+#include "cli/process/process_watch.h"
+#include "cli/process/run_on_stack.h"
+#include "cli/process/streams.h"
 
 namespace lamina::cli {
 namespace {
@@ -48,8 +48,7 @@ std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
                                const char* const* argv) {
   CLI::App app("", "lamina");
   app.set_help_flag("-h,--help");
-  app.set_version_flag("-v,--version",
-                       fmt::format("lamina {}", slicer::version()));
+  app.set_version_flag("-v,--version", fmt::format("lamina {}", version()));
   command.add_options(app);
   add_process_limits(app, limits);
   FileAccess::Limits access_limits;
@@ -100,7 +99,7 @@ int run_program(int argc, char** argv) {
     return exit->status;
   }
   restrict_process(access);
-  slicer::TemporaryFiles temporary_files(access);
+  TemporaryFiles temporary_files(access);
   ProcessWatch watch(limits);
   return run_on_stack(temporary_files, watch, [&](std::size_t stack) {
     return command->run(temporary_files, stack, watch);

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/output_pattern.h"
+#include "base/csv.h"
+#include "cli/options/output_pattern.h"
 #include "parser/cell.h"
-#include "parser/csv.h"
 #include "parser/loader.h"
 #include "parser/parameter_set.h"
 #include "parser/variables.h"

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/design_options.h"
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "base/source.h"
 #include "cli/pieces.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
-#include "parser/source.h"
+#include "compiler/design_options.h"
 
 namespace lamina::cli {
 

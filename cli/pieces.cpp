@@ -14,12 +14,12 @@
 #include <pthread.h>
 
 #include "cli/command.h"
-#include "cli/compile.h"
-#include "cli/large_stack.h"
-#include "cli/output_pattern.h"
-#include "cli/pieces_report.h"
-#include "cli/run.h"
-#include "cli/terminal.h"
+#include "cli/options/output_pattern.h"
+#include "cli/process/large_stack.h"
+#include "cli/report/pieces_report.h"
+#include "cli/report/terminal.h"
+#include "compiler/compile.h"
+#include "compiler/run.h"
 
 namespace lamina::cli {
 namespace {
@@ -27,7 +27,7 @@ namespace {
 class Workshop {
  public:
   Workshop(std::span<const Piece> pieces, const PiecesOptions& options,
-           slicer::TemporaryFiles& temporary_files, ProcessWatch& watch)
+           TemporaryFiles& temporary_files, ProcessWatch& watch)
       : pieces_(pieces),
         options_(options),
         temporary_files_(temporary_files),
@@ -148,7 +148,7 @@ class Workshop {
 
   std::span<const Piece> pieces_;
   const PiecesOptions& options_;
-  slicer::TemporaryFiles& temporary_files_;
+  TemporaryFiles& temporary_files_;
   ProcessWatch& watch_;
   unsigned worker_count_ = 1;
   unsigned threads_per_piece_ = 1;
@@ -165,7 +165,7 @@ class Workshop {
 }  // namespace
 
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
-                slicer::TemporaryFiles& temporary_files, std::size_t stack,
+                TemporaryFiles& temporary_files, std::size_t stack,
                 ProcessWatch& watch) {
   const auto begin = std::chrono::steady_clock::now();
   watch.time_pieces();
@@ -177,7 +177,7 @@ int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
   Terminal terminal(options.is_quiet);
   terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
   if (!options.report.empty()) {
-    slicer::OutputFile report(options.report, temporary_files);
+    OutputFile report(options.report, temporary_files);
     report.write(options.report.ends_with(".csv")
                      ? outcomes_csv(pieces, outcomes)
                      : outcomes_json(pieces, outcomes, seconds.count()));

@@ -13,9 +13,9 @@
 #include <string>
 #include <string_view>
 
-#include "cli/design_options.h"
-#include "cli/process_watch.h"
-#include "slicer/formats/output_file.h"
+#include "base/file/output_file.h"
+#include "cli/process/process_watch.h"
+#include "compiler/design_options.h"
 
 namespace lamina::cli {
 
@@ -40,7 +40,7 @@ struct PiecesOptions {
 // watch   times each piece by itself
 // throws  FileError where the report cannot be written
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
-                slicer::TemporaryFiles& temporary_files, std::size_t stack,
+                TemporaryFiles& temporary_files, std::size_t stack,
                 ProcessWatch& watch);
 
 }  // namespace lamina::cli

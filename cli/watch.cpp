@@ -11,10 +11,10 @@
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
-#include "cli/compile.h"
-#include "cli/file_watcher.h"
-#include "cli/run.h"
-#include "cli/terminal.h"
+#include "cli/process/file_watcher.h"
+#include "cli/report/terminal.h"
+#include "compiler/compile.h"
+#include "compiler/run.h"
 
 namespace lamina::cli {
 namespace {
@@ -48,9 +48,9 @@ std::string change_line(const std::set<std::string>& files) {
 }
 
 // Adds what the run found to depend on; true if it ended well.
-bool compile_once(const DesignOptions& options,
-                  slicer::TemporaryFiles& temporary_files, std::size_t stack,
-                  ProcessWatch& watch, std::set<std::string>& files) {
+bool compile_once(const DesignOptions& options, TemporaryFiles& temporary_files,
+                  std::size_t stack, ProcessWatch& watch,
+                  std::set<std::string>& files) {
   const ProcessWatch::Piece timed(watch, "");
   const double earlier_seconds = process_seconds();
   Run run(options, temporary_files, stack);
@@ -68,8 +68,8 @@ bool compile_once(const DesignOptions& options,
 }  // namespace
 
 void compile_and_watch(const DesignOptions& options,
-                       slicer::TemporaryFiles& temporary_files,
-                       std::size_t stack, ProcessWatch& watch) {
+                       TemporaryFiles& temporary_files, std::size_t stack,
+                       ProcessWatch& watch) {
   watch.time_pieces();
   FileWatcher watcher;
   Terminal terminal(options.is_quiet);

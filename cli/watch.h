@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "cli/design_options.h"
-#include "cli/process_watch.h"
-#include "slicer/formats/output_file.h"
+#include "base/file/output_file.h"
+#include "cli/process/process_watch.h"
+#include "compiler/design_options.h"
 
 namespace lamina::cli {
 
@@ -16,7 +16,7 @@ namespace lamina::cli {
 // watch   times each run by itself
 // throws  FileError where files cannot be watched
 [[noreturn]] void compile_and_watch(const DesignOptions& options,
-                                    slicer::TemporaryFiles& temporary_files,
+                                    TemporaryFiles& temporary_files,
                                     std::size_t stack, ProcessWatch& watch);
 
 }  // namespace lamina::cli

@@ -11,9 +11,9 @@
 #include <memory>
 #include <vector>
 
+#include "base/source.h"
+#include "base/vec.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
-#include "parser/source.h"
 
 namespace lamina::csg {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/vec.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
 
 namespace lamina::csg {
 

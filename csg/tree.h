@@ -18,8 +18,8 @@
 #include <variant>
 #include <vector>
 
-#include "csg/vec.h"
-#include "parser/source.h"
+#include "base/source.h"
+#include "base/vec.h"
 
 namespace lamina::csg {
 
@@ -78,7 +78,7 @@ struct LinearExtrudeParams {
   int convexity = 1;
   double twist_deg = 0;
   bool has_twist = false;
-  int slices = 0;  // 0: not given; csg/planar/facets.h has the rules
+  int slices = 0;  // 0: not given; csg/plane/facets.h has the rules
   Vec2 scale = Vec2(1);
   Facets facets = {};
   // With the deprecated file=: what `.csg` prints, whole. The import that is

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "csg/vec.h"
+#include "base/vec.h"
 
 namespace lamina::csg {
 

@@ -18,8 +18,8 @@
 #include <string_view>
 #include <variant>
 
-#include "parser/arena.h"
-#include "parser/source.h"
+#include "base/arena.h"
+#include "base/source.h"
 
 namespace lamina::ast {
 

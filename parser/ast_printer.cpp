@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/text.h"
 #include "parser/customizer.h"
-#include "parser/text.h"
 
 namespace lamina::ast {
 

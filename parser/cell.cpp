@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "base/letter_case.h"
+#include "base/number.h"
+#include "base/text.h"
 #include "parser/detail/literal.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
-#include "parser/letter_case.h"
 #include "parser/loader.h"
-#include "parser/number.h"
 #include "parser/parser.h"
-#include "parser/text.h"
 
 namespace lamina {
 namespace {

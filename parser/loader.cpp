@@ -9,7 +9,7 @@
 
 #include <sys/stat.h>
 
-#include "parser/detail/paths.h"
+#include "base/paths.h"
 #include "parser/parser.h"
 
 namespace lamina {
@@ -49,8 +49,7 @@ std::vector<std::string> library_folders(const FileAccess& access) {
     std::string_view rest = paths;
     while (true) {
       const std::size_t end = rest.find(':');
-      folders.push_back(
-          detail::absolute_path(std::string(rest.substr(0, end))));
+      folders.push_back(absolute_path(std::string(rest.substr(0, end))));
       if (end == std::string_view::npos) break;
       rest.remove_prefix(end + 1);
     }
@@ -85,7 +84,7 @@ void Loader::add_file(const std::string& path) {
 std::string Loader::look_up(SourceRange place, std::string_view name,
                             std::span<const Source* const> open) const {
   const fs::path local(name);
-  const FileUse use = detail::is_font(name) ? FileUse::kData : FileUse::kCode;
+  const FileUse use = is_font(name) ? FileUse::kData : FileUse::kCode;
   const auto accept = [&](const std::string& path) {
     return access_.is_file(path) && !is_open(path, open);
   };
@@ -93,8 +92,7 @@ std::string Loader::look_up(SourceRange place, std::string_view name,
     access_.require(local, name, place, use);
     return accept(local) ? access_.canonical(local) : "";
   }
-  std::string beside =
-      fs::path(detail::folder_of(place.source->path())) / local;
+  std::string beside = fs::path(folder_of(place.source->path())) / local;
   access_.require(beside, name, place, use);
   if (access_.is_file(beside)) beside = access_.canonical(beside);
   if (accept(beside)) return beside;

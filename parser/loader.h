@@ -16,10 +16,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "base/source.h"
 #include "parser/ast.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
-#include "parser/source.h"
 
 namespace lamina {
 

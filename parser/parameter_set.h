@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
 #include "parser/ast.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
 
 namespace lamina {
 

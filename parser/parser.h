@@ -7,9 +7,9 @@
 // <file>` is found while reading but parsed by the Loader afterwards, as
 // OpenSCAD does.
 
+#include "base/diagnostic.h"
+#include "base/source.h"
 #include "parser/ast.h"
-#include "parser/diagnostic.h"
-#include "parser/source.h"
 
 namespace lamina {
 

@@ -16,11 +16,11 @@
 #include <string>
 #include <string_view>
 
+#include "base/file/output_file.h"
 #include "bench/section_rival/scene_sweep.h"
 #include "csg/eval/evaluator.h"
-#include "csg/solid/lower.h"
+#include "csg/lower/lower.h"
 #include "parser/loader.h"
-#include "slicer/formats/output_file.h"
 
 namespace lamina::rival {
 namespace {
@@ -68,8 +68,8 @@ void run(const Options& options) {
 
   if (lowered.scene() == nullptr) throw std::runtime_error("not a solid");
 
-  slicer::TemporaryFiles files;
-  slicer::OutputFile output(options.output, files);
+  TemporaryFiles files;
+  OutputFile output(options.output, files);
   slice_by_sections(*lowered.scene(), options.thickness, output);
   output.commit();
 }

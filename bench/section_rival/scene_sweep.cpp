@@ -13,7 +13,7 @@
 #include "bench/section_rival/layer_boolean.h"
 #include "bench/section_rival/sectioner.h"
 #include "bench/section_rival/slc_file.h"
-#include "ldni/grid.h"
+#include "ldni/section/grid.h"
 
 namespace lamina::rival {
 namespace {
@@ -65,7 +65,7 @@ class SceneSweep {
         });
   }
 
-  void run(slicer::OutputFile& output) {
+  void run(OutputFile& output) {
     SlcFile file(output, units_per_mm_);
     std::vector<const Path*> paths;
     std::uint32_t empty = 0;  // layers since the last one with a contour
@@ -176,7 +176,7 @@ class SceneSweep {
 }  // namespace
 
 void slice_by_sections(const csg::Scene& scene, double thickness,
-                       slicer::OutputFile& output) {
+                       OutputFile& output) {
   SceneSweep(scene, thickness).run(output);
 }
 

@@ -19,7 +19,7 @@
 
 #include "bench/section_rival/triangle_mesh.h"
 #include "csg/scene.h"
-#include "ldni/grid.h"
+#include "ldni/section/grid.h"
 
 namespace lamina::rival {
 

@@ -7,13 +7,13 @@
 
 #include <polyclipping/clipper.hpp>
 
-#include "slicer/formats/output_file.h"
+#include "base/file/output_file.h"
 
 namespace lamina::rival {
 
 class SlcFile {
  public:
-  SlcFile(slicer::OutputFile& output, double units_per_mm)
+  SlcFile(OutputFile& output, double units_per_mm)
       : output_(output), mm_per_unit_(1 / units_per_mm) {}
 
   // bottom, top  of the layer [mm]
@@ -29,7 +29,7 @@ class SlcFile {
   void begin(double bottom, double top);
   void add_path(const ClipperLib::Path& path);
 
-  slicer::OutputFile& output_;
+  OutputFile& output_;
   double mm_per_unit_;
   bool has_begun_ = false;
   float top_ = 0;

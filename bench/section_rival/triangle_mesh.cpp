@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "csg/planar/triangulate.h"
+#include "csg/plane/triangulate.h"
 
 namespace lamina::rival {
 namespace {

@@ -6,15 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "base/source.h"
 #include "cli/command.h"
 #include "cli/commands/commands.h"
-#include "cli/design_options.h"
-#include "cli/output_options.h"
+#include "cli/options/output_options.h"
 #include "cli/piece_table.h"
 #include "cli/pieces.h"
-#include "cli/run.h"
-#include "cli/terminal.h"
-#include "parser/source.h"
+#include "cli/report/terminal.h"
+#include "compiler/design_options.h"
+#include "compiler/run.h"
 
 namespace lamina::cli {
 namespace {
@@ -75,7 +75,7 @@ class BatchCommand : public Command {
     table_.skipped.insert(skipped_.begin(), skipped_.end());
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+  int run(TemporaryFiles& temporary_files, std::size_t stack,
           ProcessWatch& watch) override {
     const DesignOptions& design = table_.design;
     Terminal terminal(design.is_quiet);

@@ -10,15 +10,15 @@
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
-#include "cli/compared.h"
-#include "cli/comparison.h"
-#include "cli/comparison_text.h"
-#include "cli/contradictions.h"
-#include "cli/design_options.h"
-#include "cli/option_values.h"
-#include "cli/run.h"
-#include "cli/streams.h"
-#include "slicer/difference_picture.h"
+#include "cli/options/contradictions.h"
+#include "cli/options/option_values.h"
+#include "cli/process/streams.h"
+#include "cli/report/compared.h"
+#include "cli/report/comparison.h"
+#include "cli/report/comparison_text.h"
+#include "compiler/design_options.h"
+#include "compiler/run.h"
+#include "slicer/picture/difference_picture.h"
 
 namespace lamina::cli {
 namespace {
@@ -109,7 +109,7 @@ class CompareCommand : public Command {
       }
     }
     if (is_against_openscad_) check_openscad();
-    if (design_.settings.sampler != slicer::SamplerKind::kScanline) {
+    if (design_.settings.paper.sampler != ldni::SamplerKind::kScanline) {
       throw UsageError("compare cuts at heights, which --sampler gl cannot");
     }
     if (!picture_.empty() && !picture_.ends_with(".png")) {
@@ -121,7 +121,7 @@ class CompareCommand : public Command {
     }
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+  int run(TemporaryFiles& temporary_files, std::size_t stack,
           ProcessWatch& /*watch*/) override {
     Terminal terminal(design_.is_quiet);
     return run_caught(terminal, Diagnostics(), [&] {
@@ -150,15 +150,14 @@ class CompareCommand : public Command {
     }
   }
 
-  int compare(Compared& a, Compared& b,
-              slicer::TemporaryFiles& temporary_files) const {
+  int compare(Compared& a, Compared& b, TemporaryFiles& temporary_files) const {
     Comparison comparison(a, b, aligns_);
     ComparisonResult result =
         comparison.run(tolerance_.value_or(comparison.usual_tolerance()));
     if (!result.is_equal() && !aligns_) result.hint = find_hint(a, b, result);
     if (!design_.is_quiet) print_out(comparison_text(result, lists_all_));
     if (!report_.empty()) {
-      slicer::OutputFile output(report_, temporary_files);
+      OutputFile output(report_, temporary_files);
       output.write(comparison_json(result));
       output.commit();
     }
@@ -184,7 +183,7 @@ class CompareCommand : public Command {
   }
 
   void draw(const Comparison& comparison, const ComparisonResult& result,
-            slicer::TemporaryFiles& temporary_files) const {
+            TemporaryFiles& temporary_files) const {
     if (result.layers.empty()) refuse_geometry("there is no layer to draw");
     const std::size_t index =
         layer_number_ ? *layer_number_ - 1 : *result.totals.worst;
@@ -196,7 +195,7 @@ class CompareCommand : public Command {
         comparison.layer_a(index).contours, comparison.layer_b(index).contours,
         result.layers[index],
         {file_name(result.a.name), file_name(result.b.name)});
-    slicer::OutputFile output(picture_, temporary_files);
+    OutputFile output(picture_, temporary_files);
     write_png(picture, output);
     output.commit();
   }

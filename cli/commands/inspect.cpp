@@ -1,19 +1,19 @@
 // lamina inspect: layers of a file or of a design checked, measured and listed.
 
-#include "slicer/inspect.h"
+#include "slicer/check/inspect.h"
 
 #include <optional>
 #include <string>
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
-#include "cli/contradictions.h"
-#include "cli/design_options.h"
-#include "cli/option_values.h"
-#include "cli/run.h"
-#include "cli/streams.h"
+#include "cli/options/contradictions.h"
+#include "cli/options/option_values.h"
+#include "cli/process/streams.h"
+#include "compiler/design_options.h"
+#include "compiler/run.h"
+#include "slicer/check/inspection_text.h"
 #include "slicer/formats/layer_reader.h"
-#include "slicer/inspection_text.h"
 
 namespace lamina::cli {
 namespace {
@@ -56,7 +56,7 @@ class InspectCommand : public Command {
     }
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+  int run(TemporaryFiles& temporary_files, std::size_t stack,
           ProcessWatch& /*watch*/) override {
     Run run(options_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics,

@@ -8,14 +8,14 @@
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
-#include "cli/compile.h"
-#include "cli/design_options.h"
-#include "cli/imported_design.h"
-#include "cli/output_options.h"
-#include "cli/output_pattern.h"
+#include "cli/options/output_options.h"
+#include "cli/options/output_pattern.h"
 #include "cli/pieces.h"
-#include "cli/run.h"
 #include "cli/watch.h"
+#include "compiler/compile.h"
+#include "compiler/design_options.h"
+#include "compiler/imported_design.h"
+#include "compiler/run.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
@@ -182,7 +182,7 @@ class SliceCommand : public Command {
     choose_format(options_, export_format_, options_.output);
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+  int run(TemporaryFiles& temporary_files, std::size_t stack,
           ProcessWatch& watch) override {
     if (designs_.size() > 1) return run_several(temporary_files, stack, watch);
     Run run(options_, temporary_files, stack);
@@ -244,7 +244,7 @@ class SliceCommand : public Command {
     }
   }
 
-  int run_several(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+  int run_several(TemporaryFiles& temporary_files, std::size_t stack,
                   ProcessWatch& watch) {
     std::vector<Piece> pieces;
     for (const std::string& design : designs_) {

@@ -10,22 +10,22 @@
 
 #include <fmt/format.h>
 
-#include "cli/camera_options.h"
+#include "base/file/output_file.h"
 #include "cli/command.h"
 #include "cli/commands/commands.h"
-#include "cli/contradictions.h"
-#include "cli/design_options.h"
-#include "cli/feature_report.h"
-#include "cli/option_values.h"
-#include "cli/run.h"
+#include "cli/options/camera_options.h"
+#include "cli/options/contradictions.h"
+#include "cli/options/option_values.h"
+#include "compiler/design_options.h"
+#include "compiler/feature_report.h"
+#include "compiler/run.h"
 #include "slicer/formats/layer_reader.h"
-#include "slicer/formats/output_file.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/image.h"
-#include "slicer/layer_picture.h"
-#include "slicer/sheet_picture.h"
-#include "slicer/stack_picture.h"
-#include "slicer/viewer_page.h"
+#include "slicer/picture/image.h"
+#include "slicer/picture/layer_picture.h"
+#include "slicer/picture/sheet_picture.h"
+#include "slicer/picture/stack_picture.h"
+#include "slicer/picture/viewer_page.h"
 
 namespace lamina::cli {
 namespace {
@@ -163,7 +163,7 @@ int draw(Run& run, const ViewOptions& options) {
     return kDone;
   }
   const slicer::Image picture = draw_picture(*layers, title, options);
-  slicer::OutputFile output(run.options.output, run.temporary_files);
+  OutputFile output(run.options.output, run.temporary_files);
   write_png(picture, output);
   output.commit();
   return kDone;
@@ -230,7 +230,7 @@ class ViewCommand : public Command {
     }
   }
 
-  int run(slicer::TemporaryFiles& temporary_files, std::size_t stack,
+  int run(TemporaryFiles& temporary_files, std::size_t stack,
           ProcessWatch& /*watch*/) override {
     Run run(design_, temporary_files, stack);
     return run_caught(run.terminal, run.diagnostics,

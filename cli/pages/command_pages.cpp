@@ -9,12 +9,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/access_options.h"
 #include "cli/command.h"
 #include "cli/commands/commands.h"
-#include "cli/process_limits.h"
+#include "cli/options/access_options.h"
+#include "cli/process/process_limits.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/panel.h"
+#include "slicer/formats/panel.h"
 
 namespace lamina::cli {
 namespace {

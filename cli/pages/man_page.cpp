@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "slicer/version.h"
+#include "base/version.h"
 
 namespace lamina::cli {
 namespace {
@@ -162,7 +162,7 @@ std::string man_page(std::span<const CommandPage> pages, std::string frame) {
   for (const CommandPage& page : pages) {
     if (!page.name.empty()) commands += section_of(page);
   }
-  replace(frame, "@VERSION@", slicer::version());
+  replace(frame, "@VERSION@", version());
   replace(frame, "@SYNOPSIS@\n", synopsis_of(pages.front().help));
   replace(frame, "@OPTIONS@\n", options_of(pages.front()));
   replace(frame, "@COMMANDS@\n", commands);

@@ -10,14 +10,14 @@
 
 #include <fmt/format.h>
 
+#include "base/file/file_bytes.h"
+#include "base/file/format_error.h"
 #include "csg/degrees.h"
 #include "csg/eval/conversions.h"
 #include "csg/eval/files.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/text.h"
 #include "csg/import/dxf.h"
-#include "csg/import/file_bytes.h"
-#include "csg/import/format_error.h"
 
 namespace lamina::csg {
 

@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "base/letter_case.h"
 #include "csg/eval/builtin_modules.h"
 #include "csg/eval/conversions.h"
 #include "csg/eval/files.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/script.h"
 #include "csg/eval/text.h"
-#include "parser/letter_case.h"
 
 namespace lamina::csg {
 

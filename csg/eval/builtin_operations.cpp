@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/letter_case.h"
 #include "csg/eval/builtin_modules.h"
 #include "csg/eval/colors.h"
 #include "csg/eval/conversions.h"
@@ -14,7 +15,6 @@
 #include "csg/eval/files.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/text.h"
-#include "parser/letter_case.h"
 
 namespace lamina::csg {
 

@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.h"
 #include "csg/eval/builtin_call.h"
 #include "csg/eval/comparison.h"
 #include "csg/eval/integers.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/text.h"
-#include "csg/eval/utf8.h"
 
 namespace lamina::csg {
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.h"
 #include "csg/eval/builtin_call.h"
 #include "csg/eval/builtin_functions.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/object.h"
 #include "csg/eval/text.h"
-#include "csg/eval/utf8.h"
 
 namespace lamina::csg {
 

@@ -24,9 +24,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/source.h"
 #include "csg/eval/value.h"
 #include "parser/ast.h"
-#include "parser/source.h"
 
 namespace lamina::csg {
 

@@ -3,10 +3,10 @@
 
 #include <optional>
 
+#include "base/vec.h"
 #include "csg/eval/interpreter.h"
 #include "csg/eval/value.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
 
 namespace lamina::csg {
 

@@ -14,10 +14,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/diagnostic.h"
 #include "csg/text_measurer.h"
 #include "csg/tree.h"
 #include "parser/ast.h"
-#include "parser/diagnostic.h"
 
 namespace lamina {
 class Loader;

@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
+#include "base/file/file_access.h"
+#include "base/vec.h"
 #include "csg/eval/code.h"
 #include "csg/eval/interpreter.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
-#include "parser/file_access.h"
 
 namespace lamina::csg {
 

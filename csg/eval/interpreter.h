@@ -12,12 +12,12 @@
 #include <tuple>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "csg/eval/code.h"
 #include "csg/eval/evaluator.h"
 #include "csg/eval/random.h"
 #include "csg/eval/value.h"
 #include "csg/tree.h"
-#include "parser/diagnostic.h"
 
 namespace lamina::csg {
 

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/file/file_bytes.h"
 #include "csg/eval/object.h"
-#include "csg/import/file_bytes.h"
 
 namespace lamina::csg {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "base/file/file_access.h"
 #include "csg/eval/value.h"
-#include "parser/file_access.h"
 
 namespace lamina::csg {
 

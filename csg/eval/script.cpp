@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "csg/eval/utf8.h"
-#include "parser/letter_case.h"
+#include "base/letter_case.h"
+#include "base/utf8.h"
 
 namespace lamina::csg {
 

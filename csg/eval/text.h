@@ -8,9 +8,9 @@
 
 #include <string>
 
+#include "base/text.h"
 #include "csg/eval/value.h"
 #include "parser/ast.h"
-#include "parser/text.h"
 
 namespace lamina::csg {
 

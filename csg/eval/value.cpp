@@ -5,9 +5,9 @@
 #include <limits>
 #include <new>
 
+#include "base/utf8.h"
 #include "csg/eval/memory.h"
 #include "csg/eval/object.h"
-#include "csg/eval/utf8.h"
 
 namespace lamina::csg {
 

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "base/file/format_error.h"
 #include "csg/degrees.h"
 #include "csg/import/detail/dxf_lines.h"
 #include "csg/import/detail/text_lines.h"
-#include "csg/import/format_error.h"
 
 namespace lamina::csg {
 namespace {

@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "csg/vec.h"
+#include "base/vec.h"
 
 namespace lamina::csg {
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "base/file/file_bytes.h"
+#include "base/file/format_error.h"
 #include "csg/import/amf.h"
-#include "csg/import/file_bytes.h"
-#include "csg/import/format_error.h"
 #include "csg/import/obj.h"
 #include "csg/import/off.h"
 #include "csg/import/stl.h"

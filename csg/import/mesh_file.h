@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
 #include "csg/import/raw_mesh.h"
 #include "csg/tree.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
 
 namespace lamina::csg {
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "base/file/format_error.h"
 #include "csg/import/detail/faces.h"
 #include "csg/import/detail/text_lines.h"
-#include "csg/import/format_error.h"
 
 namespace lamina::csg {
 namespace {

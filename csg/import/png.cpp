@@ -12,7 +12,7 @@
 
 #include <png.h>
 
-#include "csg/import/format_error.h"
+#include "base/file/format_error.h"
 #include "csg/import/surface_file.h"
 #include "csg/limits.h"
 

@@ -14,8 +14,8 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
-#include "csg/import/format_error.h"
 #include "csg/vertex_table.h"
 
 namespace lamina::csg {

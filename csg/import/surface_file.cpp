@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "base/file/file_bytes.h"
+#include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
-#include "csg/import/file_bytes.h"
-#include "csg/import/format_error.h"
 #include "csg/limits.h"
 
 namespace lamina::csg {

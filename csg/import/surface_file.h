@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
 #include "csg/scene.h"
 #include "csg/tree.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
 
 namespace lamina::csg {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "base/file/zip.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/detail/xml.h"
-#include "csg/import/zip.h"
 
 namespace lamina::csg {
 namespace {

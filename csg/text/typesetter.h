@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "base/vec.h"
 #include "csg/text_measurer.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
 
 namespace lamina::text {
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/detail/paths.h"
+#include "base/paths.h"
 
 namespace lamina::detail {
 

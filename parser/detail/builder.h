@@ -12,12 +12,12 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "base/source.h"
 #include "parser/ast.h"
 #include "parser/detail/symbol_values.h"
 #include "parser/detail/syntax_errors.h"
-#include "parser/diagnostic.h"
-#include "parser/file_access.h"
-#include "parser/source.h"
 
 namespace lamina::detail {
 

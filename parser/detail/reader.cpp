@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "base/number.h"
 #include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"
-#include "parser/number.h"
 
 namespace lamina::detail {
 

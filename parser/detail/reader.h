@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/source.h"
 #include "parser/ast.h"
 #include "parser/detail/symbol_values.h"
 #include "parser/detail/syntax_errors.h"
-#include "parser/diagnostic.h"
-#include "parser/source.h"
 
 namespace lamina {
 class Loader;

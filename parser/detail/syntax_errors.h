@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "parser/diagnostic.h"
-#include "parser/source.h"
+#include "base/diagnostic.h"
+#include "base/source.h"
 
 namespace lamina::detail {
 

@@ -370,7 +370,7 @@ void read_binary(Numbers& numbers, LayerMaker& maker) {
 
 LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
                         const FileAccess& access) {
-  const csg::FileBytes file = open_to_read(path, access);
+  const FileBytes file = open_to_read(path, access);
   const CliHeader header = read_header(path, file.view());
   LayerMaker maker(header, take);
   if (header.is_binary) {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "parser/diagnostic.h"
-#include "slicer/formats/text_output.h"
+#include "base/diagnostic.h"
+#include "base/file/text_output.h"
 
 namespace lamina::slicer {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "csg/lanes.h"
-#include "slicer/deviation.h"
+#include "base/lanes.h"
+#include "slicer/contour/deviation.h"
 
 namespace lamina::slicer {
 namespace {

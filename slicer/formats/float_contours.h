@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "ldni/contours.h"
-#include "parser/diagnostic.h"
-#include "slicer/layer.h"
-#include "slicer/round_loops.h"
+#include "base/diagnostic.h"
+#include "ldni/section/contours.h"
+#include "slicer/contour/layer.h"
+#include "slicer/contour/round_loops.h"
 
 namespace lamina::slicer {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 
 namespace lamina::slicer {
 

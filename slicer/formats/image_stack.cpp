@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
-#include "slicer/version.h"
+#include "base/version.h"
 
 namespace lamina::slicer {
 namespace {

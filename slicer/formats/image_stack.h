@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "csg/vec.h"
+#include "base/vec.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/panel.h"
+#include "slicer/formats/panel.h"
 
 namespace lamina::slicer {
 

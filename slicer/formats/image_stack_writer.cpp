@@ -9,11 +9,11 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "parser/diagnostic.h"
-#include "slicer/formats/output_folder.h"
-#include "slicer/formats/zip_output.h"
-#include "slicer/grey_png.h"
-#include "slicer/regions.h"
+#include "base/diagnostic.h"
+#include "base/file/output_folder.h"
+#include "base/file/zip_output.h"
+#include "slicer/contour/regions.h"
+#include "slicer/formats/grey_png.h"
 
 namespace lamina::slicer {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "slicer/formats/image_stack.h"
 #include "slicer/formats/layer_writer.h"
-#include "slicer/panel.h"
+#include "slicer/formats/panel.h"
 
 namespace lamina::slicer {
 

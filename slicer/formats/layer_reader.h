@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "parser/file_access.h"
-#include "slicer/layer.h"
+#include "base/file/file_access.h"
+#include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
 

@@ -1,6 +1,6 @@
 #include "slicer/formats/layer_writer.h"
 
-#include "parser/check.h"
+#include "base/check.h"
 #include "slicer/formats/cli_writer.h"
 #include "slicer/formats/image_stack_writer.h"
 #include "slicer/formats/layers_json_writer.h"

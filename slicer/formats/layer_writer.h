@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
-#include "parser/diagnostic.h"
-#include "slicer/formats/output_file.h"
+#include "base/diagnostic.h"
+#include "base/file/output_file.h"
+#include "slicer/contour/layer.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/layer.h"
-#include "slicer/panel.h"
+#include "slicer/formats/panel.h"
 
 namespace lamina::slicer {
 

@@ -283,7 +283,7 @@ class Walker {
 
 LayerFileFacts read_layers_json(const std::string& path, const TakeLayer& take,
                                 const FileAccess& access) {
-  const csg::FileBytes file = open_to_read(path, access);
+  const FileBytes file = open_to_read(path, access);
   const std::string_view text = file.view();
   const char* at = text.data();
   Handler handler(path, take, text, at);

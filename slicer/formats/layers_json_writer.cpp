@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "slicer/formats/text_output.h"
+#include "base/file/text_output.h"
 
 namespace lamina::slicer {
 namespace {

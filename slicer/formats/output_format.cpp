@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/letter_case.h"
+#include "base/letter_case.h"
 
 namespace lamina::slicer {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 
 namespace lamina::slicer {
 
@@ -31,9 +31,9 @@ void fail_to_open(const std::string& path) {
        {}});
 }
 
-csg::FileBytes open_to_read(const std::string& path, const FileAccess& access) {
+FileBytes open_to_read(const std::string& path, const FileAccess& access) {
   access.require(path);
-  std::optional<csg::FileBytes> bytes = csg::FileBytes::open(path, access);
+  std::optional<FileBytes> bytes = FileBytes::open(path, access);
   if (!bytes) fail_to_open(path);
   return std::move(*bytes);
 }

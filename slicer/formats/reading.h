@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "csg/import/file_bytes.h"
-#include "csg/vec.h"
-#include "ldni/contours.h"
-#include "parser/file_access.h"
+#include "base/file/file_access.h"
+#include "base/file/file_bytes.h"
+#include "base/vec.h"
+#include "ldni/section/contours.h"
 
 namespace lamina::slicer {
 
@@ -22,7 +22,7 @@ namespace lamina::slicer {
 
 // Throws FileError where there is no regular file that can be read, AccessError
 // for one that may not be.
-csg::FileBytes open_to_read(const std::string& path, const FileAccess& access);
+FileBytes open_to_read(const std::string& path, const FileAccess& access);
 
 // The number of the line that holds the byte at `place`, from 1.
 std::size_t line_at(std::string_view text, std::size_t place);

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "slicer/formats/reading.h"
 
 namespace lamina::slicer {

@@ -17,9 +17,9 @@
 #include <string_view>
 #include <vector>
 
-#include "csg/vec.h"
-#include "parser/file_access.h"
-#include "slicer/layer.h"
+#include "base/file/file_access.h"
+#include "base/vec.h"
+#include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
 

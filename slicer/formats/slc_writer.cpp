@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "parser/diagnostic.h"
-#include "slicer/formats/text_output.h"
-#include "slicer/version.h"
+#include "base/diagnostic.h"
+#include "base/file/text_output.h"
+#include "base/version.h"
 
 namespace lamina::slicer {
 namespace {

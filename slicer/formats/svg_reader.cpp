@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include "csg/import/xml.h"
+#include "base/file/xml.h"
 #include "slicer/formats/reading.h"
 
 namespace lamina::slicer {
@@ -28,8 +28,8 @@ class SvgReader {
   SvgReader(const std::string& path, const FileAccess& access)
       : path_(path), file_(open_to_read(path, access)) {
     const std::string_view bytes = file_.view();
-    const auto fault = csg::load_xml(
-        bytes, document_, pugi::parse_default | pugi::parse_comments);
+    const auto fault =
+        load_xml(bytes, document_, pugi::parse_default | pugi::parse_comments);
     if (fault) {
       fail_to_read(path,
                    fmt::format("line {}: {}", line_at(bytes, fault->place),
@@ -192,7 +192,7 @@ class SvgReader {
   }
 
   const std::string& path_;
-  csg::FileBytes file_;
+  FileBytes file_;
   pugi::xml_document document_;
   pugi::xml_node root_;
   bool is_slic3r_ = false;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "slicer/formats/text_output.h"
-#include "slicer/version.h"
+#include "base/file/text_output.h"
+#include "base/version.h"
 
 namespace lamina::slicer {
 

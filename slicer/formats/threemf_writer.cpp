@@ -7,7 +7,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "slicer/version.h"
+#include "base/version.h"
 
 namespace lamina::slicer {
 namespace {

@@ -12,8 +12,8 @@
 #include <span>
 #include <string>
 
+#include "base/file/zip_output.h"
 #include "slicer/formats/float_writer.h"
-#include "slicer/formats/zip_output.h"
 
 namespace lamina::slicer {
 

@@ -1,5 +1,5 @@
 // Files that a design or a command line names are opened in one place
-// (parser/file_access.h). Whatever else touches files stands on a list here,
+// (base/file/file_access.h). Whatever else touches files stands on a list here,
 // with the reason why it may.
 
 #include <filesystem>
@@ -34,26 +34,26 @@ const std::regex kTouch(
     R"(temp_directory_path|create_\w+|file_size|last_write_time)\b)");
 
 const std::map<std::string, std::string> kMayTouch = {
-    {"parser/file_access.cpp", "the one place"},
-    {"parser/detail/confined_walk.cpp", "its way through folders"},
-    {"slicer/formats/temporary_files.cpp",
+    {"base/file/file_access.cpp", "the one place"},
+    {"base/file/detail/confined_walk.cpp", "its way through folders"},
+    {"base/file/temporary_files.cpp",
      "names beside what FileAccess::find_output found"},
-    {"slicer/formats/output_file.cpp",
+    {"base/file/output_file.cpp",
      "what FileAccess::find_output found; devices without --root"},
-    {"slicer/formats/output_folder.cpp", "the same"},
+    {"base/file/output_folder.cpp", "the same"},
     {"csg/text/font_cache.cpp",
      "Fontconfig, which looks for the system's fonts"},
     {"csg/text/typesetter.cpp", "the program's own module"},
-    {"csg/import/zip.cpp", "archives in memory"},
-    {"slicer/formats/zip_output.cpp", "archives into an OutputFile"},
-    {"ldni/gl_platforms.cpp", "the system's OpenGL"},
-    {"cli/landlock.cpp", "names folders to the kernel"},
-    {"cli/openscad.cpp", "runs openscad; refused with --root"},
-    {"cli/file_watcher.cpp", "--watch; refused with --root"},
+    {"base/file/zip.cpp", "archives in memory"},
+    {"base/file/zip_output.cpp", "archives into an OutputFile"},
+    {"ldni/gl/gl_platforms.cpp", "the system's OpenGL"},
+    {"cli/process/landlock.cpp", "names folders to the kernel"},
+    {"cli/report/openscad.cpp", "runs openscad; refused with --root"},
+    {"cli/process/file_watcher.cpp", "--watch; refused with --root"},
     {"cli/watch.cpp", "the same"},
-    {"cli/streams.cpp", "stands in for streams that are closed"},
-    {"cli/report.cpp", "/proc/self/status"},
-    {"cli/machine_memory.cpp", "/proc and /sys"},
+    {"cli/process/streams.cpp", "stands in for streams that are closed"},
+    {"compiler/report.cpp", "/proc/self/status"},
+    {"cli/process/machine_memory.cpp", "/proc and /sys"},
     {"cli/pages/main.cpp", "another program, of the build"},
 };
 
@@ -75,7 +75,7 @@ TEST(Files, AreOpenedInOnePlace) {
         is_needed[file] = true;
         EXPECT_TRUE(kMayTouch.contains(file))
             << file << ":" << number << ": " << line
-            << "\ntouches files; go through parser/file_access.h";
+            << "\ntouches files; go through base/file/file_access.h";
       }
     }
   }

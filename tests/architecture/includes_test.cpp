@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 struct Include {
   std::string file;    // relative to the project, "ldni/ray.cpp"
-  std::string target;  // as written, "csg/vec.h" or "fmt/format.h"
+  std::string target;  // as written, "base/vec.h" or "fmt/format.h"
   bool is_quoted = false;
 };
 
@@ -119,8 +119,8 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"polyclipping/", {"csg/planar/"}},
       {"clipper.hpp", {"csg/planar/"}},
       {"libqhull", {"csg/solid/"}},
-      {"GL/", {"ldni/gl_platforms.cpp", "ldni/detail/gl_functions.h"}},
-      {"EGL/", {"ldni/gl_platforms.cpp"}},
+      {"GL/", {"ldni/gl/gl_platforms.cpp", "ldni/gl/detail/gl_functions.h"}},
+      {"EGL/", {"ldni/gl/gl_platforms.cpp"}},
       {"CGAL/", {}},
       {"gtest/", {}},
       {"tbb/", {"slicer/"}},

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <signal.h>
 
-#include "parser/csv.h"
+#include "base/csv.h"
 #include "tests/cli/lamina.h"
 
 namespace lamina::cli {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <signal.h>
 
-#include "ldni/contours.h"
+#include "ldni/section/contours.h"
 #include "slicer/formats/slc_reader.h"
 #include "tests/cli/lamina.h"
 

@@ -1,4 +1,4 @@
-#include "cli/landlock.h"
+#include "cli/process/landlock.h"
 
 #include <cerrno>
 #include <functional>
@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "parser/open_file.h"
+#include "base/file/open_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina::cli {

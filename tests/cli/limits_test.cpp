@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cli/machine_memory.h"
-#include "cli/process_limits.h"
-#include "cli/process_watch.h"
+#include "cli/process/machine_memory.h"
+#include "cli/process/process_limits.h"
+#include "cli/process/process_watch.h"
 #include "tests/cli/lamina.h"
 
 namespace lamina::cli {

@@ -1,6 +1,6 @@
 // The rule for make: what make itself reads in it.
 
-#include "cli/make_rule.h"
+#include "compiler/make_rule.h"
 
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "tests/cli/lamina.h"
 
 namespace lamina::cli {

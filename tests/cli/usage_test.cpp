@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slicer/version.h"
+#include "base/version.h"
 #include "tests/cli/lamina.h"
 
 namespace lamina::cli {
@@ -18,7 +18,7 @@ TEST(Usage, VersionIsOneLineOnStandardOutput) {
   const TemporaryFolder folder;
   const auto result = run(folder, {"--version"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.output, "lamina " + std::string(slicer::version()) + "\n");
+  EXPECT_EQ(result.output, "lamina " + std::string(version()) + "\n");
   EXPECT_EQ(result.errors, "");
 }
 

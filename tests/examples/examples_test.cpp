@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "ldni/contours.h"
+#include "ldni/section/contours.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"

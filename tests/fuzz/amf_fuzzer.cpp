@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/file/format_error.h"
 #include "csg/import/amf.h"
-#include "csg/import/format_error.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   try {
     csg::parse_amf(fuzz::as_text(data, size), "input.amf");
-  } catch (const csg::FormatError&) {
+  } catch (const FormatError&) {
   }
   return 0;
 }

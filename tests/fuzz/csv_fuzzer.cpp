@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
+#include "base/csv.h"
+#include "base/diagnostic.h"
+#include "base/source.h"
 #include "parser/cell.h"
-#include "parser/csv.h"
-#include "parser/diagnostic.h"
-#include "parser/source.h"
 #include "parser/variables.h"
 #include "tests/fuzz/input.h"
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/file/format_error.h"
 #include "csg/import/dxf.h"
-#include "csg/import/format_error.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     const csg::DxfDrawing drawing =
         csg::parse_dxf(fuzz::as_text(data, size), options);
     csg::unknown_entity_warnings(drawing, "", "input.dxf");
-  } catch (const csg::FormatError&) {
+  } catch (const FormatError&) {
   }
   return 0;
 }

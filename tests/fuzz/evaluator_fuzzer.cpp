@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <string>
 
+#include "base/diagnostic.h"
+#include "base/source.h"
 #include "csg/eval/csg_printer.h"
 #include "csg/eval/evaluator.h"
-#include "parser/diagnostic.h"
 #include "parser/loader.h"
-#include "parser/source.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "csg/solid/lower.h"
-#include "parser/diagnostic.h"
-#include "slicer/slice.h"
-#include "tests/csg/solid/tree_builder.h"
+#include "base/diagnostic.h"
+#include "csg/lower/lower.h"
+#include "slicer/slice/slice.h"
+#include "tests/csg/lower/tree_builder.h"
 #include "tests/fuzz/input.h"
 
 namespace lamina::fuzz {

@@ -6,15 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "parser/diagnostic.h"
-#include "slicer/compare.h"
+#include "base/diagnostic.h"
+#include "slicer/check/compare.h"
+#include "slicer/check/inspect.h"
+#include "slicer/check/inspection_text.h"
+#include "slicer/contour/trapezoids.h"
 #include "slicer/formats/layer_reader.h"
-#include "slicer/inspect.h"
-#include "slicer/inspection_text.h"
-#include "slicer/layer_picture.h"
-#include "slicer/sheet_picture.h"
-#include "slicer/trapezoids.h"
-#include "slicer/viewer_page.h"
+#include "slicer/picture/layer_picture.h"
+#include "slicer/picture/sheet_picture.h"
+#include "slicer/picture/viewer_page.h"
 #include "tests/fuzz/input.h"
 
 namespace lamina::fuzz {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "slicer/layer.h"
+#include "slicer/contour/layer.h"
 
 namespace lamina::fuzz {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <string>
 
+#include "base/diagnostic.h"
+#include "base/source.h"
 #include "parser/ast_printer.h"
-#include "parser/diagnostic.h"
 #include "parser/loader.h"
 #include "parser/parameter_set.h"
-#include "parser/source.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;

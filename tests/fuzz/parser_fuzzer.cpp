@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
+#include "base/diagnostic.h"
+#include "base/source.h"
 #include "parser/ast_printer.h"
-#include "parser/diagnostic.h"
 #include "parser/loader.h"
-#include "parser/source.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;

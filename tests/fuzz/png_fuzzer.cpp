@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "csg/import/format_error.h"
+#include "base/file/format_error.h"
 #include "csg/import/surface_file.h"
 #include "csg/limits.h"
 #include "tests/fuzz/input.h"
@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     const csg::HeightField field =
         csg::parse_png(fuzz::as_text(data, size), false);
     if (field.heights.size() <= kMostPixels) csg::make_surface(field, false);
-  } catch (const csg::FormatError&) {
+  } catch (const FormatError&) {
   } catch (const csg::LimitExceeded&) {
   }
   return 0;

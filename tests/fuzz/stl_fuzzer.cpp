@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "csg/import/format_error.h"
+#include "base/file/format_error.h"
 #include "csg/import/stl.h"
 #include "tests/fuzz/input.h"
 
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   try {
     csg::parse_stl(fuzz::as_text(data, size));
-  } catch (const csg::FormatError&) {
+  } catch (const FormatError&) {
   }
   return 0;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "csg/import/format_error.h"
+#include "base/file/format_error.h"
 #include "csg/import/svg.h"
 #include "tests/fuzz/input.h"
 
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   };
   try {
     csg::parse_svg(fuzz::as_text(data, size), options);
-  } catch (const csg::FormatError&) {
+  } catch (const FormatError&) {
   }
   return 0;
 }

@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "slicer/adaptive.h"
+#include "slicer/plan/adaptive.h"
 #include "tests/oracle/openscad.h"
 #include "tests/support/design.h"
 
@@ -114,7 +114,8 @@ TEST_P(AdaptiveCusp, HoldsForEveryFacetThatOpenscadRenders) {
   settings.cusp = kCusp;
   settings.layer_thickness = kThinnest;
   settings.greatest_thickness = kThickest;
-  const ldni::LayerGrid grid = slicer::adaptive_grid(design.scene(), settings);
+  const ldni::LayerGrid grid =
+      slicer::adaptive_grid(design.scene(), {kThinnest, kThickest, kCusp});
   EXPECT_EQ(faults_of(grid, mesh), "");
 
   // Where openscad has walls and nothing else, layers are thicker than that.

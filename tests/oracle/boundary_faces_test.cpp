@@ -1,7 +1,7 @@
 // The boundary faces of small Booleans, against CGAL's Nef polyhedra: volume
 // and area of the same solid, found in a way that shares nothing.
 
-#include "csg/solid/boundary_faces.h"
+#include "csg/boundary/boundary_faces.h"
 
 #include <cstddef>
 #include <string>
@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/nef_solid.h"
 #include "tests/oracle/world_scene.h"
 #include "tests/support/design.h"

@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "base/vec.h"
 #include "csg/scene.h"
-#include "csg/vec.h"
 
 namespace lamina::oracle {
 

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "csg/scene.h"
-#include "ldni/contours.h"
+#include "ldni/section/contours.h"
 #include "tests/oracle/world_scene.h"
 
 namespace lamina::oracle {

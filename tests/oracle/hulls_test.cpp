@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/exact_hull.h"
 #include "tests/oracle/nef_solid.h"
 #include "tests/oracle/whole_solid.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ldni/contours.h"
+#include "ldni/section/contours.h"
 #include "tests/oracle/exact_region.h"
 
 namespace lamina::oracle {

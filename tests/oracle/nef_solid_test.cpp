@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/exact_region.h"
 #include "tests/oracle/test_meshes.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/exact_region.h"
 
 namespace lamina::oracle {

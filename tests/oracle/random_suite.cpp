@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "ldni/sample.h"
-#include "slicer/layer.h"
-#include "tests/ldni/section_reference.h"
+#include "ldni/image/sample.h"
+#include "slicer/contour/layer.h"
+#include "tests/ldni/sweep/section_reference.h"
 #include "tests/oracle/exact_region.h"
 #include "tests/oracle/judge.h"
 #include "tests/oracle/world_scene.h"
@@ -34,7 +34,7 @@ struct Rules {
 Rules rules_of(RandomKind kind) {
   Rules rules;
   if (kind != RandomKind::kNear) return rules;
-  constexpr double kNearDistance = 10 * ldni::kTieDistance;
+  constexpr double kNearDistance = 10 * kTieDistance;
   rules.allowance = {kNearDistance, kNearDistance};
   rules.beside = 2 * kNearDistance;
   rules.least_edge = 10 * kNearDistance;

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/nef_sum.h"
 #include "tests/oracle/whole_solid.h"
 #include "tests/oracle/world_scene.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/judge.h"
 #include "tests/oracle/world_scene.h"
 #include "tests/support/contour_checks.h"

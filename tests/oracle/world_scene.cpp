@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 
 namespace lamina::oracle {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "parser/loader.h"
 #include "parser/variables.h"
 #include "tests/support/temporary_folder.h"

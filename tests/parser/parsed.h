@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "base/diagnostic.h"
+#include "base/source.h"
 #include "parser/ast.h"
-#include "parser/diagnostic.h"
 #include "parser/loader.h"
-#include "parser/source.h"
 
 namespace lamina {
 

@@ -1,7 +1,7 @@
 // Adaptive layers (--adaptive) against closed formulas: the cusp bound holds
 // in every layer, and no layer is thinner than it must be.
 
-#include "slicer/adaptive.h"
+#include "slicer/plan/adaptive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "ldni/contours.h"
+#include "ldni/section/contours.h"
 #include "tests/support/design.h"
 
 namespace lamina {
@@ -29,7 +29,9 @@ Settings settings_for(double cusp, double layer, double greatest = 0) {
 }
 
 ldni::LayerGrid grid_of(const std::string& text, const Settings& settings) {
-  return slicer::adaptive_grid(Design::from_text(text).scene(), settings);
+  return slicer::adaptive_grid(
+      Design::from_text(text).scene(),
+      {settings.layer_thickness, settings.greatest_thickness, settings.cusp});
 }
 
 // Thicknesses in units of the thinnest.

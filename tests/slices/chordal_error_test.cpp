@@ -16,7 +16,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "csg/vec.h"
+#include "base/vec.h"
 #include "tests/support/design.h"
 
 namespace lamina {

@@ -1,6 +1,6 @@
 // The direction of building (--axis auto): laws and closed formulas.
 
-#include "slicer/orientation.h"
+#include "slicer/plan/orientation.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "csg/solid/move_scene.h"
-#include "slicer/surface_heights.h"
+#include "csg/boundary/move_scene.h"
+#include "slicer/plan/surface_heights.h"
 #include "tests/support/design.h"
 
 namespace lamina {

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "csg/plane.h"
+#include "base/plane.h"
 #include "tests/support/edge_grid.h"
 
 namespace lamina::support {

@@ -14,8 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/vec.h"
-#include "ldni/contours.h"
+#include "base/vec.h"
+#include "ldni/section/contours.h"
 
 namespace lamina::support {
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "csg/eval/evaluator.h"
-#include "csg/solid/lower.h"
+#include "csg/lower/lower.h"
 #include "csg/text/typesetter.h"
 #include "parser/loader.h"
-#include "slicer/slice.h"
+#include "slicer/slice/slice.h"
 
 namespace lamina::support {
 

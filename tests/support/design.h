@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "csg/scene.h"
-#include "parser/diagnostic.h"
-#include "slicer/layer.h"
-#include "slicer/settings.h"
+#include "slicer/contour/layer.h"
+#include "slicer/slice/settings.h"
 
 namespace lamina::support {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "csg/vec.h"
-#include "ldni/contours.h"
+#include "base/vec.h"
+#include "ldni/section/contours.h"
 
 namespace lamina::support {
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "base/vec.h"
 #include "csg/scene.h"
-#include "csg/vec.h"
 
 namespace lamina::support {
 

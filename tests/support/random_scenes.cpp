@@ -9,7 +9,7 @@
 
 #include <glm/common.hpp>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/support/leaf_scenes.h"
 
 namespace lamina::support {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/random_design.h"
 #include "tests/support/random_modules.h"

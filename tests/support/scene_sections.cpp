@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "csg/solid/leaf_mesh.h"
-#include "ldni/sample.h"
-#include "slicer/slice.h"
+#include "csg/boundary/leaf_mesh.h"
+#include "ldni/image/sample.h"
+#include "slicer/slice/slice.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
 
@@ -215,7 +215,7 @@ void expect_equal_areas(const std::string& law,
     };
     add(left, 1);
     add(right, -1);
-    if (std::abs(difference) <= 2 * ldni::kTieDistance * (perimeter + 1)) {
+    if (std::abs(difference) <= 2 * kTieDistance * (perimeter + 1)) {
       continue;
     }
     throw BrokenLaw{fmt::format("{}: areas differ by {} mm² in section {}", law,

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "csg/vec.h"
-#include "ldni/contours.h"
-#include "slicer/settings.h"
+#include "base/vec.h"
+#include "ldni/section/contours.h"
+#include "slicer/slice/settings.h"
 
 namespace lamina::support {
 
@@ -31,7 +31,7 @@ using Sections = std::vector<ldni::Contours>;
 
 // Where every edge of a loop must be: at most this far from where exact
 // arithmetic has it, times the few faces that may tie in a row. Points nearer
-// to a boundary are not asked [mm]: 10 · ldni::kTieDistance.
+// to a boundary are not asked [mm]: 10 · kTieDistance.
 constexpr double kDoubt = 1e-5;
 
 // Sections with all their vertices.

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/vec.h"
 #include "csg/import/dxf.h"
-#include "csg/vec.h"
 
 namespace lamina::csg {
 

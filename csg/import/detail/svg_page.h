@@ -3,7 +3,7 @@
 
 #include <pugixml.hpp>
 
-#include "csg/vec.h"
+#include "base/vec.h"
 
 namespace lamina::csg {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "csg/vec.h"
+#include "base/vec.h"
 
 namespace lamina::csg {
 

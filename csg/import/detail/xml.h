@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include "csg/import/format_error.h"
-#include "csg/import/xml.h"
+#include "base/file/format_error.h"
+#include "base/file/xml.h"
 
 namespace lamina::csg {
 

@@ -3,12 +3,12 @@
 
 #include <vector>
 
+#include "base/vec.h"
 #include "csg/text/detail/engine.h"
 #include "csg/text/detail/font_cache.h"
 #include "csg/text/detail/glyph_row.h"
 #include "csg/text_measurer.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
 
 namespace lamina::text {
 

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/vec.h"
 #include "csg/text/typesetter.h"
 #include "csg/text_measurer.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
-#include "parser/diagnostic.h"
 
 namespace lamina::text {
 

@@ -7,10 +7,10 @@
 #include <ft2build.h>
 #include <hb.h>
 
+#include "base/vec.h"
 #include "csg/text/detail/engine.h"
 #include "csg/text/detail/font_cache.h"
 #include "csg/tree.h"
-#include "csg/vec.h"
 #include FT_GLYPH_H
 
 namespace lamina::text {

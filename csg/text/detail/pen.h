@@ -10,8 +10,8 @@
 
 #include <ft2build.h>
 
+#include "base/vec.h"
 #include "csg/text/typesetter.h"
-#include "csg/vec.h"
 #include FT_OUTLINE_H
 
 namespace lamina::text {

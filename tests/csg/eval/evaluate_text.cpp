@@ -7,9 +7,9 @@
 
 #include <pthread.h>
 
+#include "base/diagnostic.h"
 #include "csg/eval/csg_printer.h"
 #include "csg/eval/evaluator.h"
-#include "parser/diagnostic.h"
 #include "parser/loader.h"
 
 namespace lamina::csg {

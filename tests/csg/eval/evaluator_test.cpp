@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/source.h"
 #include "csg/eval/csg_printer.h"
 #include "parser/loader.h"
-#include "parser/source.h"
 #include "tests/csg/eval/evaluate_text.h"
 
 namespace lamina::csg {

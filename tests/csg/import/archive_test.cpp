@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file/zip.h"
 #include "csg/import/amf.h"
 #include "csg/import/threemf.h"
-#include "csg/import/zip.h"
+#include "tests/base/file/zip_writer.h"
 #include "tests/csg/import/byte_changes.h"
-#include "tests/csg/import/zip_writer.h"
 
 namespace lamina::csg {
 namespace {

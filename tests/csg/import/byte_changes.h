@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/import/format_error.h"
+#include "base/file/format_error.h"
 #include "csg/import/raw_mesh.h"
 
 namespace lamina::csg {

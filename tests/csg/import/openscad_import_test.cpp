@@ -15,7 +15,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "csg/solid/leaf_mesh.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/openscad.h"
 #include "tests/support/design.h"
 #include "tests/support/process.h"

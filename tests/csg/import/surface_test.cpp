@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "csg/import/format_error.h"
+#include "base/file/format_error.h"
 #include "csg/import/surface_file.h"
 #include "csg/limits.h"
 #include "tests/csg/import/byte_changes.h"

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "csg/planar/clip.h"
-#include "csg/planar/region.h"
+#include "csg/plane/clip.h"
+#include "csg/plane/region.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 

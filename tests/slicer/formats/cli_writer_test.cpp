@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "tests/slicer/formats/writing.h"
 
 namespace lamina::slicer {

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <png.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "slicer/formats/cli_writer.h"
 #include "slicer/formats/layers_json_writer.h"
 #include "slicer/formats/slc_writer.h"

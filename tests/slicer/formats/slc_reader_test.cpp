@@ -8,7 +8,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina::slicer {

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
+#include "base/version.h"
 #include "slicer/formats/slc_reader.h"
-#include "slicer/version.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/temporary_folder.h"
 

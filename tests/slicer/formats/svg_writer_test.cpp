@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "parser/diagnostic.h"
-#include "slicer/version.h"
+#include "base/diagnostic.h"
+#include "base/version.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/contour_checks.h"
 

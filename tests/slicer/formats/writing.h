@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "parser/diagnostic.h"
+#include "base/diagnostic.h"
 #include "slicer/formats/layer_writer.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/temporary_folder.h"

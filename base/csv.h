@@ -1,0 +1,40 @@
+#pragma once
+// Tables as spreadsheets write them: CSV, as RFC 4180 describes it.
+//
+//     name;size;engraving
+//     ring-1;54,5;"Ada; forever"
+//
+// Lines end with LF, CR or both; a byte order mark in front is passed over. As
+// spreadsheets write commas, semicolons (where the comma is a decimal sign) or
+// tabs between cells, the sign that is most frequent in the first line counts.
+// Departures from RFC 4180, for tables that are written by hand: blanks around
+// a cell belong to it only between quotes, and empty lines are no rows. None of
+// the readers that Debian has for C and C++ tells where a fault is.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/source.h"
+
+namespace lamina {
+
+struct CsvRow {
+  SourceRange range;       // the row's text, without its line break
+  std::uint32_t line = 1;  // on which it begins
+  std::vector<std::string> cells;
+};
+
+struct Csv {
+  char separator = ',';
+  std::vector<CsvRow> rows;  // the header too
+};
+
+// Throws FileError, with the place, where quotes do not match or a byte is no
+// UTF-8 text.
+Csv read_csv(const Source& source);
+
+// A cell as CSV with commas has it: in quotes where it needs them.
+std::string csv_cell(const std::string& text);
+
+}  // namespace lamina

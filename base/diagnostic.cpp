@@ -1,0 +1,237 @@
+#include "base/diagnostic.h"
+
+#include <algorithm>
+#include <deque>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/character_length.h"
+#include "base/paths.h"
+
+namespace lamina {
+
+namespace {
+
+// OpenSCAD shows the places of evaluation relative to the design, those of
+// its parser relative to the folder in which it was started, and only there
+// it does not count carriage returns.
+constexpr std::string_view kParserError = "Parser error: ";
+
+std::string_view openscad_prefix(Severity severity) {
+  switch (severity) {
+    case Severity::kPlain:
+      return "";
+    case Severity::kEcho:
+      return "ECHO: ";
+    case Severity::kDeprecated:
+      return "DEPRECATED: ";
+    case Severity::kWarning:
+      return "WARNING: ";
+    case Severity::kError:
+      return "ERROR: ";
+  }
+  return "";
+}
+
+std::string_view terminal_prefix(Severity severity) {
+  switch (severity) {
+    case Severity::kPlain:
+      return "";
+    case Severity::kEcho:
+      return "ECHO: ";
+    case Severity::kDeprecated:
+      return "deprecated: ";
+    case Severity::kWarning:
+      return "warning: ";
+    case Severity::kError:
+      return "error: ";
+  }
+  return "";
+}
+
+void append_openscad_place(std::string& text, const Source& source,
+                           std::uint32_t line, const std::string& base_folder) {
+  text += fmt::format(" in file {}, line {}",
+                      relative_path(source.path(), base_folder), line);
+}
+
+// A piece of text as a terminal shows it in one column a character: control
+// characters would move the cursor and tabs shift the carets, so both become
+// blanks; bytes that are no UTF-8 become question marks.
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const auto first = static_cast<unsigned char>(text[0]);
+    if (length == 0) {
+      result += '?';
+    } else if (first < 0x20 || first == 0x7f) {
+      result += ' ';
+    } else {
+      result += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
+
+// Columns that UTF-8 text takes, double width neglected.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(),
+      [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80; }));
+}
+
+// The line of `range` and carets below it, to the end of that line at most.
+void append_carets(std::string& text, SourceRange range) {
+  constexpr std::size_t kWidest = 200;  // bytes; longer lines are not shown
+  const LineColumn place = range.source->line_column(range.begin);
+  const std::string_view line = range.source->line_text(place.line);
+  if (line.size() > kWidest) return;
+  const std::string shown = printable(line);
+  if (shown.find_first_not_of(' ') == std::string::npos) return;
+  const std::size_t begin =
+      std::min<std::size_t>(place.column - 1, line.size());
+  const std::size_t end = std::clamp<std::size_t>(
+      begin + (range.end - range.begin), begin, line.size());
+  const std::size_t indent = width(printable(line.substr(0, begin)));
+  const std::size_t length = width(printable(line.substr(begin, end - begin)));
+  text += fmt::format("{:>5} | {}\n      | {:{}}^{:~>{}}\n", place.line, shown,
+                      "", indent, "", length > 0 ? length - 1 : 0);
+}
+
+void append_terminal_text(std::string& text, SourceRange range,
+                          std::string_view prefix, std::string_view message) {
+  if (range.is_known()) {
+    const LineColumn place = range.source->line_column(range.begin);
+    text += fmt::format("{}:{}:{}: ", shown_path(range.source->path()),
+                        place.line, place.column);
+  }
+  text += fmt::format("{}{}\n", prefix, message);
+  if (range.is_known()) append_carets(text, range);
+}
+
+}  // namespace
+
+Error::Error(Diagnostic diagnostic) : diagnostic_(std::move(diagnostic)) {}
+
+const char* Error::what() const noexcept { return diagnostic_.message.c_str(); }
+
+Diagnostics::Diagnostics(Observer observer) : observer_(std::move(observer)) {}
+
+void Diagnostics::report(Diagnostic diagnostic) {
+  all_.push_back(std::move(diagnostic));
+  const Diagnostic& reported = all_.back();
+  if (reported.severity == Severity::kError) has_errors_ = true;
+  if (observer_) observer_(reported);
+  if (hard_warnings_ && reported.severity == Severity::kWarning) {
+    throw Error(reported);
+  }
+}
+
+void Diagnostics::echo(std::string text) {
+  report({Severity::kEcho, {}, std::move(text), {}});
+}
+
+void Diagnostics::warning(SourceRange range, std::string message,
+                          std::vector<Note> notes) {
+  report({Severity::kWarning, range, std::move(message), std::move(notes)});
+}
+
+void Diagnostics::error(SourceRange range, std::string message,
+                        std::vector<Note> notes) {
+  report({Severity::kError, range, std::move(message), std::move(notes)});
+}
+
+namespace {
+
+// The lines of one message, without line breaks.
+std::vector<std::string> openscad_lines(const Diagnostic& diagnostic,
+                                        const std::string& base_folder) {
+  const auto folder_of_document = [&](const Source* document) {
+    return document == nullptr ? base_folder : folder_of(document->path());
+  };
+  std::vector<std::string> lines;
+  std::string text(openscad_prefix(diagnostic.severity));
+  text += diagnostic.message;
+  const SourceRange range = diagnostic.range;
+  if (range.is_known()) {
+    const bool is_from_parser = diagnostic.message.starts_with(kParserError);
+    append_openscad_place(
+        text, *range.source,
+        is_from_parser ? range.source->line_column(range.begin).line
+                       : range.source->openscad_line(range.begin),
+        is_from_parser ? "" : folder_of_document(diagnostic.document));
+  }
+  lines.push_back(std::move(text));
+  for (const Note& note : diagnostic.notes) {
+    std::string line = "TRACE: " + note.message;
+    if (note.range.is_known()) {
+      const Source& source = *note.range.source;
+      append_openscad_place(line, source,
+                            source.openscad_line(note.range.begin),
+                            folder_of_document(note.document));
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string openscad_line(const Diagnostic& diagnostic,
+                          const std::string& base_folder) {
+  std::string text;
+  for (const std::string& line : openscad_lines(diagnostic, base_folder)) {
+    text += line + '\n';
+  }
+  return text;
+}
+
+std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
+                          const std::string& base_folder) {
+  constexpr std::size_t kRemembered = 5;
+  std::deque<std::string> last;
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    if (diagnostic.audience == Audience::kTerminal) continue;
+    const bool can_fold = diagnostic.severity == Severity::kWarning ||
+                          diagnostic.severity == Severity::kError;
+    for (std::string& line : openscad_lines(diagnostic, base_folder)) {
+      if (can_fold) {
+        if (last.size() == kRemembered &&
+            std::count(last.begin(), last.end(), line) == std::ssize(last)) {
+          continue;
+        }
+        if (last.size() == kRemembered) last.pop_front();
+        last.push_back(line);
+      }
+      text += line + '\n';
+    }
+  }
+  return text;
+}
+
+std::string caret_text(const Diagnostic& diagnostic) {
+  if (diagnostic.audience == Audience::kEcho) return "";
+  std::string text;
+  if (diagnostic.severity == Severity::kEcho) {
+    return "ECHO: " + diagnostic.message + "\n";
+  }
+  if (diagnostic.severity == Severity::kPlain) return diagnostic.message + "\n";
+  append_terminal_text(text, diagnostic.range,
+                       terminal_prefix(diagnostic.severity),
+                       diagnostic.message);
+  for (const Note& note : diagnostic.notes) {
+    append_terminal_text(text, note.range, "note: ", note.message);
+  }
+  for (const Note& hint : diagnostic.hints) {
+    append_terminal_text(text, hint.range, "note: ", hint.message);
+  }
+  return text;
+}
+
+}  // namespace lamina

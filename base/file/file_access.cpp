@@ -1,0 +1,347 @@
+#include "base/file/file_access.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/magic.h>
+#include <stdlib.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include "base/file/detail/confined_walk.h"
+
+namespace lamina {
+
+namespace fs = std::filesystem;
+
+
+namespace {
+
+using State = Destination::State;
+
+PermittedFolder open_folder(const std::string& path) {
+  std::error_code error;
+  PermittedFolder folder;
+  folder.file =
+      OpenFile(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  int fault = folder.file ? 0 : errno;
+  const fs::path without_links = fs::canonical(path, error);
+  if (fault == 0) fault = error.value();
+  check_machine(path, fault);
+  if (fault != 0) {
+    throw AccessError(
+        {Severity::kError,
+         {},
+         fmt::format("Can't use folder '{}': {}", path, std::strerror(fault))});
+  }
+  folder.given_parts = parts_of(fs::absolute(path, error));
+  folder.parts = parts_of(without_links);
+  return folder;
+}
+
+[[noreturn]] void refuse(std::string_view written, std::string_view fault,
+                         SourceRange range) {
+  throw AccessError(
+      {Severity::kError, range, fmt::format("'{}' {}", written, fault)});
+}
+
+constexpr std::string_view kOutside = "is outside of --root";
+
+// The path of an entry of an open folder.
+std::string path_in(const OpenFile& folder, const std::string& name) {
+  return fmt::format("/proc/self/fd/{}/{}", folder.descriptor(), name);
+}
+
+// Files that the kernel makes up as it is asked: they tell of processes and of
+// the machine.
+bool is_of_kernel(const OpenFile& file) {
+  struct statfs system {};
+  return ::fstatfs(file.descriptor(), &system) != 0 ||
+         system.f_type == PROC_SUPER_MAGIC || system.f_type == SYSFS_MAGIC;
+}
+
+// Where a rename must go: through symbolic links, to the file itself.
+std::string follow_links(const std::string& path) {
+  const std::unique_ptr<char, void (*)(void*)> resolved(
+      ::realpath(path.c_str(), nullptr), ::free);
+  if (!resolved && errno == ENOMEM) throw std::bad_alloc();
+  return resolved ? resolved.get() : path;  // not there yet
+}
+
+bool begins_with(const std::vector<std::string>& parts,
+                 const std::vector<std::string>& beginning) {
+  return parts.size() >= beginning.size() &&
+         std::equal(beginning.begin(), beginning.end(), parts.begin());
+}
+
+}  // namespace
+
+FileAccess::FileAccess(const Limits& limits)
+    : refuses_data_(limits.refuses_data) {
+  if (limits.root.empty()) return;
+  Folders folders;
+  folders.push_back(open_folder(limits.root));
+  for (const std::string& folder : limits.readable) {
+    folders.push_back(open_folder(folder));
+  }
+  folders_ = std::make_shared<const Folders>(std::move(folders));
+}
+
+FileAccess FileAccess::none() {
+  FileAccess access;
+  access.folders_ = std::make_shared<const Folders>();
+  return access;
+}
+
+void check_machine(const std::string& path, int error) {
+  switch (error) {
+    case ESTALE:
+      throw FileError({Severity::kError,
+                       {},
+                       fmt::format("Can't read file '{}': it changed while it "
+                                   "was read.",
+                                   path)});
+    case EIO:
+    case ENOSPC:
+    case ENOMEM:
+    case EMFILE:
+    case ENFILE:
+      throw FileError({Severity::kError,
+                       {},
+                       fmt::format("Can't read file '{}': {}.", path,
+                                   std::strerror(error))});
+    default:
+      return;
+  }
+}
+
+std::vector<int> FileAccess::folder_descriptors() const {
+  std::vector<int> descriptors;
+  if (!is_confined()) return descriptors;
+  for (const PermittedFolder& folder : *folders_) {
+    descriptors.push_back(folder.file.descriptor());
+  }
+  return descriptors;
+}
+
+Destination FileAccess::find(const std::string& path) const {
+  Destination found = walk(*folders_, path);
+  check_machine(path, found.error);
+  return found;
+}
+
+Destination FileAccess::find_in_root(const std::string& path) const {
+  const std::span all(*folders_);
+  return walk(all.first(std::min<std::size_t>(all.size(), 1)), path);
+}
+
+// --- Judging ----------------------------------------------------------------
+
+bool FileAccess::allows(const std::string& path) const {
+  return !is_confined() || find(path).state != State::kOutside;
+}
+
+void FileAccess::require(const std::string& path, std::string_view written,
+                         SourceRange range, FileUse use) const {
+  if (use == FileUse::kData && refuses_data_) {
+    refuse(written, "is not read: --no-import", range);
+  }
+  if (!allows(path)) refuse(written, kOutside, range);
+}
+
+void FileAccess::require(const std::string& path) const {
+  require(path, path, {}, FileUse::kCode);
+}
+
+// --- Looking ----------------------------------------------------------------
+
+std::optional<struct stat> FileAccess::look_at(const std::string& path) const {
+  if (is_confined()) {
+    const Destination found = find(path);
+    if (found.state != State::kThere) return std::nullopt;
+    return found.status;
+  }
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return status;
+  check_machine(path, errno);
+  return std::nullopt;
+}
+
+bool FileAccess::is_there(const std::string& path) const {
+  return look_at(path).has_value();
+}
+
+bool FileAccess::is_file(const std::string& path) const {
+  const auto status = look_at(path);
+  return status && !S_ISDIR(status->st_mode);
+}
+
+bool FileAccess::is_regular_file(const std::string& path) const {
+  const auto status = look_at(path);
+  return status && S_ISREG(status->st_mode);
+}
+
+std::string FileAccess::canonical(const std::string& path) const {
+  if (is_confined()) {
+    Destination found = find(path);
+    return found.state == State::kThere ? std::move(found.path) : "";
+  }
+  std::error_code error;
+  const fs::path result = fs::canonical(path, error);
+  check_machine(path, error.value());
+  return error ? "" : result.string();
+}
+
+std::string FileAccess::weakly_canonical(const std::string& path) const {
+  std::error_code error;
+  if (!is_confined()) return fs::weakly_canonical(path, error).string();
+  const Destination found = find(path);
+  if (found.state != State::kOutside) return found.path;
+  return fs::absolute(path, error).lexically_normal().string();
+}
+
+std::optional<std::vector<std::string>> FileAccess::list(
+    const std::string& folder) const {
+  constexpr int kFlags = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+  OpenFile file;
+  if (is_confined()) {
+    const Destination found = find(folder);
+    errno = found.error;
+    if (found.state != State::kThere) return std::nullopt;
+    file = OpenFile(::openat(found.file.descriptor(), ".", kFlags));
+  } else {
+    file = OpenFile(::open(folder.c_str(), kFlags));
+  }
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(
+      file ? ::fdopendir(file.descriptor()) : nullptr, ::closedir);
+  if (!entries) {
+    check_machine(folder, errno);
+    return std::nullopt;
+  }
+  file.release();  // closedir() closes it
+  std::vector<std::string> names;
+  errno = 0;
+  while (const dirent* entry = ::readdir(entries.get())) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") names.emplace_back(name);
+  }
+  check_machine(folder, errno);
+  if (errno != 0) return std::nullopt;
+  return names;
+}
+
+std::vector<std::string> FileAccess::readable_parts(
+    const std::string& folder) const {
+  if (allows(folder)) return {folder};
+  const std::vector<std::string> parts = parts_of(folder);
+  std::vector<std::string> readable;
+  for (const PermittedFolder& permitted : *folders_) {
+    if (begins_with(permitted.parts, parts) ||
+        begins_with(permitted.given_parts, parts)) {
+      readable.push_back(join_parts(permitted.parts));
+    }
+  }
+  return readable;
+}
+
+// --- Opening ----------------------------------------------------------------
+
+OpenFile FileAccess::open(const std::string& path) const {
+  // A FIFO must not make the run wait for a writer.
+  constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
+  OpenFile file;
+  if (!is_confined()) {
+    file = OpenFile(::open(path.c_str(), kFlags));
+  } else if (const Destination found = find(path);
+             found.state == State::kThere && found.folder) {
+    file = OpenFile(::openat(found.folder.descriptor(), found.name.c_str(),
+                             kFlags | O_NOFOLLOW));
+  } else {
+    errno = found.error;
+  }
+  struct stat status {};
+  if (!file || ::fstat(file.descriptor(), &status) != 0) {
+    check_machine(path, errno);
+    return {};
+  }
+  const bool is_refused = is_confined() && is_of_kernel(file);
+  if (S_ISREG(status.st_mode) && !is_refused) return file;
+  errno = 0;
+  return {};
+}
+
+std::optional<std::string> FileAccess::read(const std::string& path) const {
+  const OpenFile file =
+      is_confined() ? open(path)
+                    : OpenFile(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  auto bytes = file ? file.read_all() : std::nullopt;
+  if (!bytes) check_machine(path, errno);
+  return bytes;
+}
+
+// --- Writing ----------------------------------------------------------------
+
+OutputPlace FileAccess::find_output(const std::string& path) const {
+  if (is_confined()) return find_confined_output(path);
+  return {follow_links(path), {}, 0, look_at(path)};
+}
+
+OutputPlace FileAccess::find_confined_output(const std::string& path) const {
+  Destination found = find_in_root(path);
+  if (found.state == State::kOutside) refuse(path, kOutside, {});
+  OutputPlace place;
+  if (found.state == State::kThere) {
+    const bool is_plain =
+        S_ISREG(found.status.st_mode) || S_ISDIR(found.status.st_mode);
+    if (!is_plain)
+      refuse(path, "is no regular file, which --root asks for", {});
+    place.there = found.status;
+    if (!found.folder) place.error = EISDIR;  // the root itself
+  } else if (!found.has_folder) {
+    place.error = found.error;
+  }
+  if (place.error == 0) place.path = path_in(found.folder, found.name);
+  place.folder = std::move(found.folder);
+  return place;
+}
+
+void FileAccess::make_folders(const std::string& path) const {
+  if (!is_confined()) {
+    std::error_code ignored;
+    fs::create_directories(path, ignored);
+    return;
+  }
+  // Each turn makes one that lay in the way, of no more than a path can have.
+  for (int i = 0; i < PATH_MAX; ++i) {
+    const Destination found = find_in_root(path);
+    const bool can_be_made =
+        found.state == State::kMissing && found.error == ENOENT && found.folder;
+    if (!can_be_made) return;
+    const bool is_there =
+        ::mkdirat(found.folder.descriptor(), found.name.c_str(), 0777) == 0 ||
+        errno == EEXIST;  // another thread has just made it
+    if (!is_there) return;
+  }
+}
+
+std::string FileAccess::scratch_folder() const {
+  if (is_confined()) {
+    return fmt::format("/proc/self/fd/{}", folders_->front().file.descriptor());
+  }
+  const char* folder = std::getenv("TMPDIR");
+  return folder == nullptr || *folder == '\0' ? "/tmp" : folder;
+}
+
+}  // namespace lamina

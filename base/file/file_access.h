@@ -1,0 +1,150 @@
+#pragma once
+// Which files a run may use, and the one way to them.
+//
+// A design says which files are read, and whoever runs the program may have it
+// from a stranger. So whatever a design or a command line names is opened here,
+// and asked for here whether it is there: under --root only what lies in that
+// folder, or for reading in one of --allow-read, after all symbolic links. What
+// is outside is not even asked for, so nothing tells whether it exists. What is
+// opened is what was judged: the way to it is walked folder by folder through
+// descriptors (detail/confined_walk.h), and a link put in its place meanwhile
+// gains nothing. Hard links cannot be told from files of the folder.
+//
+// What the program needs for itself (its libraries, its text module, /proc,
+// Fontconfig's configuration) does not pass here.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sys/stat.h>
+
+#include "base/diagnostic.h"
+#include "base/file/open_file.h"
+#include "base/source.h"
+
+namespace lamina {
+
+struct PermittedFolder;
+struct Destination;
+
+// A file that may not be used, wherever it is named.
+class AccessError : public Error {
+ public:
+  using Error::Error;
+};
+
+// What a design names a file for.
+enum class FileUse {
+  kCode,  // include, use
+  kData,  // import(), surface(), dxf_dim(), dxf_cross(), fonts
+};
+
+// Where an output goes.
+struct OutputPlace {
+  // Through no link any more, and valid as long as `folder`: under --root it
+  // begins with that descriptor.
+  std::string path;
+  OpenFile folder;
+  int error = 0;                     // why nothing can stand there (errno)
+  std::optional<struct stat> there;  // what does
+};
+
+// Throws FileError where `error` (errno) is the machine's fault and not that of
+// whoever named the file: a disk that fails, no memory, no descriptor left.
+void check_machine(const std::string& path, int error);
+
+class FileAccess {
+ public:
+  // All files that the user of the program may use.
+  FileAccess() = default;
+
+  struct Limits {
+    std::string root;  // all files are in it; empty: everywhere
+    std::vector<std::string> readable;  // with `root`: more, to read only
+    bool refuses_data = false;          // FileUse::kData
+  };
+  // Throws AccessError for what is no folder.
+  explicit FileAccess(const Limits& limits);
+
+  // Not one file.
+  static FileAccess none();
+
+  bool is_confined() const { return folders_ != nullptr; }
+  // Of the folders, the root first; none where nothing is confined. They stay
+  // open as long as this.
+  std::vector<int> folder_descriptors() const;
+
+  // --- Judging ---------------------------------------------------------------
+
+  // Whether the file may be read, be it there or not.
+  bool allows(const std::string& path) const;
+
+  // Throws AccessError at `range` where a design may not read the file that it
+  // calls `written`.
+  void require(const std::string& path, std::string_view written,
+               SourceRange range, FileUse use) const;
+  // The same for a file of the command line.
+  void require(const std::string& path) const;
+
+  // --- Looking ---------------------------------------------------------------
+
+  // What stands there, behind all links; nothing for what may not be read.
+  // Where the machine fails to tell, this and all that follow throw FileError.
+  std::optional<struct stat> look_at(const std::string& path) const;
+  bool is_there(const std::string& path) const;
+  // Something other than a folder.
+  bool is_file(const std::string& path) const;
+  bool is_regular_file(const std::string& path) const;
+
+  // The path without links and dots; empty for what is not there.
+  std::string canonical(const std::string& path) const;
+  // The same as far as it is there, and in words behind that.
+  std::string weakly_canonical(const std::string& path) const;
+
+  // Names of what stands in a folder, in no order, without "." and ".."; no
+  // value where it cannot be read (errno tells why).
+  std::optional<std::vector<std::string>> list(const std::string& folder) const;
+
+  // The parts of a folder that may be read: itself, folders in it, or none.
+  std::vector<std::string> readable_parts(const std::string& folder) const;
+
+  // --- Opening ---------------------------------------------------------------
+
+  // A regular file, to read. No value where that fails: errno tells why, 0 for
+  // what is no regular file. Never waits.
+  OpenFile open(const std::string& path) const;
+
+  // All bytes of a file, or, where nothing is confined, of a stream such as a
+  // pipe. errno as above.
+  std::optional<std::string> read(const std::string& path) const;
+
+  // --- Writing ---------------------------------------------------------------
+
+  // Throws AccessError for what may not be written.
+  OutputPlace find_output(const std::string& path) const;
+
+  // Makes a folder and those around it, as far as that can be.
+  void make_folders(const std::string& path) const;
+
+  // A folder for what has to wait before it is written elsewhere: TMPDIR, or
+  // the root.
+  std::string scratch_folder() const;
+
+ private:
+  using Folders = std::vector<PermittedFolder>;
+
+  Destination find(const std::string& path) const;
+  Destination find_in_root(const std::string& path) const;
+  OutputPlace find_confined_output(const std::string& path) const;
+
+  std::shared_ptr<const Folders> folders_;  // the root first; null: all
+  bool refuses_data_ = false;
+};
+
+// For whoever is given no other.
+inline const FileAccess kAllFiles;
+
+}  // namespace lamina

@@ -1,0 +1,76 @@
+#pragma once
+// An output that appears whole or not at all.
+//
+// Bytes go to a temporary file (temporary_files.h), which takes the target's
+// name at the end; whatever ends the run before that leaves nothing behind.
+// What cannot be renamed over (standard output, a device, a FIFO) gets its
+// bytes at the end from an unnamed temporary file, so that formats whose
+// header is known last (SLC) can still be patched. Everything goes through one
+// large buffer: writers append small pieces, the kernel sees megabytes.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "base/file/file_access.h"
+#include "base/file/temporary_files.h"
+
+namespace lamina {
+
+class OutputFile {
+ public:
+  // path  "-": standard output
+  // Throws FileError if the file cannot be made, AccessError if it may not be.
+  OutputFile(std::string path, TemporaryFiles& temporary_files);
+  ~OutputFile();  // discards what was not committed
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+  // Room for `size` bytes (at most kLargestPiece) at the end of the output;
+  // `advance` then says how many of them were written.
+  char* reserve(std::size_t size) {
+    if (kBufferSize - used_ < size) flush();
+    return buffer_.get() + used_;
+  }
+  void advance(std::size_t size) { used_ += size; }
+  static constexpr std::size_t kLargestPiece = 1 << 16;
+
+  // Throws FileError, as do all that follow.
+  void write(std::string_view bytes);
+
+  // Replaces bytes written before.
+  void patch(std::uint64_t offset, std::string_view bytes);
+
+  // Puts bytes between bytes written before. Cost: all that stand behind them
+  // are moved.
+  void insert(std::uint64_t offset, std::string_view bytes);
+
+  // Makes the output visible under its name.
+  void commit();
+
+  // Bytes so far.
+  std::uint64_t size() const { return flushed_ + used_; }
+
+ private:
+  // Large enough that system calls do not show, small beside a program's 12 MB.
+  static constexpr std::size_t kBufferSize = 1 << 18;
+
+  void flush();
+  std::string read(std::uint64_t offset, std::size_t size);
+  void copy_to(int target);
+  [[noreturn]] void fail(int error) const;
+
+  std::string path_;
+  OutputPlace place_;  // what is replaced; no path: nothing is
+  TemporaryFiles& temporary_files_;
+  TemporaryFiles::File temporary_;
+  std::unique_ptr<char[]> buffer_;  // kBufferSize bytes
+  std::size_t used_ = 0;
+  std::uint64_t flushed_ = 0;
+};
+
+}  // namespace lamina

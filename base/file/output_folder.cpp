@@ -1,0 +1,104 @@
+#include "base/file/output_folder.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/diagnostic.h"
+#include "base/file/write_all.h"
+
+namespace lamina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::unordered_set<std::string>;
+
+// What stands between quotes in a file of contents: the names of the files that
+// it tells of, and its own. None if lamina did not write it.
+Words words_of(const fs::path& contents, const FileAccess& access) {
+  std::istringstream file(access.read(contents).value_or(""));
+  Words words;
+  for (std::string word; std::getline(file, word, '"');) words.insert(word);
+  const bool is_own = std::any_of(
+      words.begin(), words.end(),
+      [](const std::string& word) { return word.starts_with("lamina "); });
+  if (!is_own) return {};
+  words.insert(contents.filename());
+  return words;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(std::string path, std::string contents,
+                           TemporaryFiles& temporary_files)
+    : path_(std::move(path)),
+      contents_(std::move(contents)),
+      temporary_files_(temporary_files) {
+  while (path_.size() > 1 && path_.ends_with('/')) path_.pop_back();
+  if (path_ == "-") fail("standard output takes no folder");
+  check_target();
+  temporary_ = temporary_files_.make_folder(path_);
+  if (temporary_.lock < 0) fail(std::strerror(errno));
+}
+
+OutputFolder::~OutputFolder() { temporary_files_.discard_folder(temporary_); }
+
+// Throws where something stands at the target that lamina did not make.
+void OutputFolder::check_target() const {
+  const FileAccess& access = temporary_files_.file_access();
+  const OutputPlace place = access.find_output(path_);
+  if (!place.there) {
+    std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(place.path, error))) {
+      fail("it links to what is not there");
+    }
+    return;
+  }
+  if (!S_ISDIR(place.there->st_mode)) fail("it is no folder");
+  const Words own = words_of(fs::path(path_) / contents_, access);
+  const auto names = access.list(path_);
+  if (!names) fail(std::strerror(errno));
+  for (const std::string& name : *names) {
+    if (!own.contains(name)) {
+      fail(
+          fmt::format("a folder stands there, and '{}' in it, which lamina "
+                      "did not make, would be lost",
+                      name));
+    }
+  }
+}
+
+void OutputFolder::add(const std::string& name, std::string_view bytes) {
+  const int file = temporary_files_.open_file_in(temporary_, name);
+  if (file < 0) fail(std::strerror(errno));
+  int error = write_all(file, bytes);
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) fail(std::strerror(error));
+  size_ += bytes.size();
+}
+
+void OutputFolder::commit() {
+  check_target();
+  if (!temporary_files_.commit_folder(temporary_, path_)) {
+    fail(std::strerror(errno));
+  }
+}
+
+void OutputFolder::fail(std::string_view fault) const {
+  throw FileError({Severity::kError,
+                   {},
+                   fmt::format("Can't write '{}': {}", path_, fault),
+                   {}});
+}
+
+}  // namespace lamina

@@ -1,0 +1,359 @@
+#include "base/file/temporary_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/file/write_all.h"
+
+namespace lamina {
+namespace {
+
+using Lock = std::lock_guard<std::timed_mutex>;
+
+// --- Hidden names -----------------------------------------------------------
+
+// Names have 255 bytes.
+constexpr std::size_t kLongestShown = 200;
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+std::string hidden_sibling(const std::string& path, int attempt) {
+  const std::size_t slash = path.rfind('/');
+  const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
+  return fmt::format("{}.{}.lamina-{}", path.substr(0, name),
+                     path.substr(name, kLongestShown), attempt);
+}
+
+// A file, or a folder with all that it holds.
+void remove_all(const std::string& path) {
+  if (::rmdir(path.c_str()) == 0) return;
+  std::error_code ignored;
+  std::filesystem::remove_all(path, ignored);
+}
+
+void close_quietly(int& file) {
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  file = -1;
+  errno = error;
+}
+
+// Removes a folder, and then closes it: a name that is not locked may be
+// another run's by now. Works where no more files can be opened.
+void remove_folder(int& folder, const std::string& path) {
+  DIR* const entries = ::fdopendir(folder);
+  if (entries != nullptr) {
+    while (const dirent* entry = ::readdir(entries)) {
+      ::unlinkat(folder, static_cast<const char*>(entry->d_name), 0);
+    }
+  }
+  remove_all(path);
+  if (entries != nullptr) {
+    ::closedir(entries);
+    folder = -1;
+  }
+  close_quietly(folder);
+}
+
+// Whether the lock is ours now, or there are no locks here.
+bool lock(int file) {
+  return ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+// Whether what is open is what stands under the name: once it is locked, only
+// we may remove it.
+bool stands_at(const std::string& path, const struct stat& open) {
+  struct stat named = {};
+  return ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+         open.st_ino == named.st_ino;
+}
+
+// Removes what an ended run left under this name; false if there is no such.
+bool remove_abandoned(const std::string& path) {
+  int file =
+      ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return false;
+  struct stat status = {};
+  const bool is_abandoned =
+      ::fstat(file, &status) == 0 && status.st_uid == ::geteuid() &&
+      (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+      ::flock(file, LOCK_EX | LOCK_NB) == 0 && stands_at(path, status);
+  if (is_abandoned) remove_all(path);
+  close_quietly(file);
+  return is_abandoned && ::lstat(path.c_str(), &status) != 0;
+}
+
+// Locks what was just made under this name. False if another run was faster,
+// to which it looked abandoned.
+bool keep(int file, const std::string& path) {
+  struct stat status = {};
+  return lock(file) && ::fstat(file, &status) == 0 && stands_at(path, status);
+}
+
+// Makes something under a hidden name beside `target`, locked.
+//
+// name   the name it got
+// names  gets it too, before it stands for anything: nothing can fail between
+// make   makes it and returns it open, or −1 (errno)
+template <typename Make>
+int make_hidden(const std::string& target, std::string& name,
+                std::vector<std::string>& names, const Make& make) {
+  for (int attempt = 0;;) {
+    name = hidden_sibling(target, attempt);
+    names.push_back(name);
+    int file = make(name.c_str());
+    if (file >= 0) {
+      if (keep(file, name)) return file;
+      close_quietly(file);
+      ++attempt;
+    } else if (errno != EEXIST) {
+      names.pop_back();
+      name.clear();
+      return -1;
+    } else if (!remove_abandoned(name)) {
+      ++attempt;
+    }
+    names.pop_back();
+  }
+}
+
+int make_named_file(const char* path) {
+  return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+int make_private_file(const char* path) {
+  return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+}
+
+int make_named_folder(const char* path) {
+  if (::mkdir(path, 0777) != 0) return -1;
+  const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0 && errno == ENOENT) {
+    errno = EEXIST;  // another run was faster, to which it looked abandoned
+  } else if (folder < 0) {
+    const int error = errno;
+    ::rmdir(path);
+    errno = error;
+  }
+  return folder;
+}
+
+// --- Files without a name ---------------------------------------------------
+
+int open_nameless_in(const std::string& folder) {
+  return ::open(folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+}
+
+bool link_file(int file, const std::string& path) {
+  std::array<char, 32> itself{};
+  std::snprintf(itself.data(), itself.size(), "/proc/self/fd/%d", file);
+  return ::linkat(AT_FDCWD, itself.data(), AT_FDCWD, path.c_str(),
+                  AT_SYMLINK_FOLLOW) == 0;
+}
+
+// Returns 0 or the error number.
+int copy_bytes(int from, int to) {
+  std::array<char, 1 << 16> buffer;
+  for (off_t offset = 0;;) {
+    const ssize_t count = ::pread(from, buffer.data(), buffer.size(), offset);
+    if (count == 0) return 0;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    const int error =
+        write_all(to, {buffer.data(), static_cast<std::size_t>(count)});
+    if (error != 0) return error;
+    offset += count;
+  }
+}
+
+// Network file systems tell at the end of the writing that there is no room.
+// Returns 0 or the error number.
+int end_writing(int file) {
+  const int copy = ::fcntl(file, F_DUPFD_CLOEXEC, 0);
+  return copy >= 0 && ::close(copy) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+int TemporaryFiles::open_nameless() {
+  const std::string folder = access_.scratch_folder();
+  int file = open_nameless_in(folder);
+  if (file >= 0) return file;
+  // A hidden name for a moment.
+  std::string name;
+  const Lock lock(mutex_);
+  file = make_hidden(folder + "/output", name, paths_, make_private_file);
+  if (file >= 0) {
+    ::unlink(name.c_str());
+    forget(name);
+    return file;
+  }
+  // Without such a folder, memory has to do.
+  file = ::memfd_create("lamina", MFD_CLOEXEC);
+  if (file >= 0) in_memory_.push_back(file);
+  return file;
+}
+
+std::uint64_t TemporaryFiles::bytes_in_memory() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return bytes_in_memory_;
+  bytes_in_memory_ = 0;
+  for (const int file : in_memory_) {
+    constexpr std::uint64_t kBlock = 512;  // of st_blocks, everywhere
+    struct stat status = {};
+    if (::fstat(file, &status) == 0) {
+      bytes_in_memory_ += kBlock * static_cast<std::uint64_t>(status.st_blocks);
+    }
+  }
+  return bytes_in_memory_;
+}
+
+void TemporaryFiles::discard_all() {
+  // The lock is never given back: no output can be committed any more.
+  if (!mutex_.try_lock_for(std::chrono::seconds(1))) return;
+  for (const std::string& path : paths_) remove_all(path);
+}
+
+void TemporaryFiles::forget(const std::string& path) {
+  std::erase(paths_, path);
+}
+
+// --- Files ------------------------------------------------------------------
+
+TemporaryFiles::File TemporaryFiles::open_file(const std::string& target) {
+  const Lock lock(mutex_);
+  remove_abandoned(hidden_sibling(target, 0));
+  File file;
+  file.file = open_nameless_in(folder_of(target));
+  if (file.file >= 0) return file;
+  file.file = make_hidden(target, file.name, paths_, make_named_file);
+  return file;
+}
+
+bool TemporaryFiles::rename_to(File& file, const std::string& target) {
+  if (::rename(file.name.c_str(), target.c_str()) != 0) return false;
+  forget(file.name);
+  file.name.clear();
+  return true;
+}
+
+// Gives a file that has no name a hidden one.
+bool TemporaryFiles::give_name(File& file, const std::string& target) {
+  lock(file.file);
+  for (int attempt = 0;;) {
+    file.name = hidden_sibling(target, attempt);
+    paths_.push_back(file.name);
+    if (link_file(file.file, file.name)) return true;
+    const int error = errno;
+    paths_.pop_back();
+    if (error != EEXIST) break;
+    if (!remove_abandoned(file.name)) ++attempt;
+  }
+  file.name.clear();
+  // Some systems do not allow that: a copy has a name from the start.
+  File copy;
+  copy.file = make_hidden(target, copy.name, paths_, make_named_file);
+  if (copy.file < 0) return false;
+  std::swap(file, copy);
+  int error = copy_bytes(copy.file, file.file);
+  if (error == 0) error = end_writing(file.file);
+  ::close(copy.file);
+  errno = error;
+  return error == 0;
+}
+
+bool TemporaryFiles::commit_file(File& file, const std::string& target) {
+  const Lock lock(mutex_);
+  errno = end_writing(file.file);
+  if (errno != 0) return false;
+  if (file.name.empty()) {
+    // A name that is free is taken in one step.
+    if (link_file(file.file, target)) return true;
+    if (!give_name(file, target)) return false;
+  }
+  return rename_to(file, target);
+}
+
+void TemporaryFiles::discard_file(File& file) {
+  const Lock lock(mutex_);
+  if (!file.name.empty()) {
+    // While it is locked: a free name may be another run's by now.
+    ::unlink(file.name.c_str());
+    forget(file.name);
+    file.name.clear();
+  }
+  std::erase(in_memory_, file.file);
+  close_quietly(file.file);
+}
+
+// --- Folders ----------------------------------------------------------------
+
+TemporaryFiles::Folder TemporaryFiles::make_folder(const std::string& path) {
+  const Lock lock(mutex_);
+  Folder folder;
+  folder.place = access_.find_output(path);
+  errno = folder.place.error;
+  if (errno != 0) return folder;
+  folder.lock =
+      make_hidden(folder.place.path, folder.path, paths_, make_named_folder);
+  return folder;
+}
+
+int TemporaryFiles::open_file_in(const Folder& folder,
+                                 const std::string& name) {
+  // Under the lock: a file that came while discard_all() empties the folder
+  // would keep it.
+  const Lock lock(mutex_);
+  return ::openat(folder.lock, name.c_str(),
+                  O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
+  const Lock lock(mutex_);
+  const OutputPlace target = access_.find_output(path);
+  errno = target.error;
+  if (errno != 0) return false;
+  // A name that is free, or an empty folder, is taken by a rename. Else the
+  // two change places at once, where the file system can do that.
+  if (::rename(folder.path.c_str(), target.path.c_str()) != 0) {
+    if (errno != ENOTEMPTY && errno != EEXIST) return false;
+    if (::renameat2(AT_FDCWD, folder.path.c_str(), AT_FDCWD,
+                    target.path.c_str(), RENAME_EXCHANGE) != 0) {
+      return false;
+    }
+    remove_all(folder.path);
+  }
+  forget(folder.path);
+  folder.path.clear();
+  close_quietly(folder.lock);
+  return true;
+}
+
+void TemporaryFiles::discard_folder(Folder& folder) {
+  if (folder.path.empty()) return;
+  const Lock lock(mutex_);
+  remove_folder(folder.lock, folder.path);
+  forget(folder.path);
+  folder.path.clear();
+}
+
+}  // namespace lamina

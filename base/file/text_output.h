@@ -1,0 +1,27 @@
+#pragma once
+// Formatted text straight into an output's buffer.
+
+#include <cstddef>
+#include <string>
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include "base/file/output_file.h"
+
+namespace lamina {
+
+// At most 512 bytes come of `values`; `format` is compiled (FMT_COMPILE).
+template <typename Format, typename... Values>
+void print(OutputFile& output, const Format& format, const Values&... values) {
+  constexpr std::size_t kLongest = 512;
+  char* const begin = output.reserve(kLongest);
+  const char* const end = fmt::format_to(begin, format, values...);
+  output.advance(static_cast<std::size_t>(end - begin));
+}
+
+// `value` in as many characters as any other (13), filled up with decimals: for
+// numbers that are written over when they are known.
+std::string fixed_width(double value);
+
+}  // namespace lamina

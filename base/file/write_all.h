@@ -1,0 +1,31 @@
+#pragma once
+// Writing to the system, whatever it takes to get all bytes there.
+
+#include <cerrno>
+#include <cstddef>
+#include <string_view>
+
+#include <unistd.h>
+
+namespace lamina {
+
+// Writes all bytes at the file's position, or, with an offset ≥ 0, there.
+// Returns 0 or the error number.
+inline int write_all(int file, std::string_view bytes, off_t offset = -1) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        offset < 0 ? ::write(file, bytes.data(), bytes.size())
+                   : ::pwrite(file, bytes.data(), bytes.size(), offset);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    // What takes nothing and names no error never will.
+    if (count == 0) return ENOSPC;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    if (offset >= 0) offset += count;
+  }
+  return 0;
+}
+
+}  // namespace lamina

@@ -1,0 +1,38 @@
+#pragma once
+// XML documents. Entities that a document defines itself are not expanded, so
+// none can be made to grow; no other file is read.
+
+#include <cstddef>
+#include <new>
+#include <optional>
+#include <string_view>
+
+#include <pugixml.hpp>
+
+namespace lamina {
+
+// What pugixml would take several times the memory of is refused.
+constexpr std::size_t kMostXmlBytes = std::size_t{1} << 31;
+
+struct XmlFault {
+  std::size_t place = 0;  // of the byte where it is
+  std::string_view words;
+};
+
+// Makes `document` of the bytes.
+//
+// options  of pugixml, what it keeps of a document
+// returns  why they are none
+// throws   std::bad_alloc
+inline std::optional<XmlFault> load_xml(
+    std::string_view bytes, pugi::xml_document& document,
+    unsigned options = pugi::parse_default) {
+  if (bytes.size() > kMostXmlBytes) return {{0, "the file is too large"}};
+  const pugi::xml_parse_result result =
+      document.load_buffer(bytes.data(), bytes.size(), options);
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
+  if (result) return std::nullopt;
+  return {{static_cast<std::size_t>(result.offset), result.description()}};
+}
+
+}  // namespace lamina

@@ -1,0 +1,37 @@
+#pragma once
+// ZIP archives, which zipped AMF and 3MF files are.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lamina {
+
+class ZipArchive {
+ public:
+  // bytes  must stay as long as this object
+  //
+  // throws  FormatError where they are no archive
+  explicit ZipArchive(std::string_view bytes);
+
+  static bool is_zip(std::string_view bytes) {
+    return bytes.starts_with("PK\3\4");
+  }
+
+  // Of the entries, folders included, in the order of the directory.
+  const std::vector<std::string>& names() const { return names_; }
+
+  // The contents of an entry; nothing where there is none of that name. Case
+  // counts.
+  //
+  // throws  FormatError where the entry is broken, or swells beyond what a
+  //         model does: a few bytes may unpack to gigabytes
+  std::optional<std::string> read(const std::string& name) const;
+
+ private:
+  std::string_view bytes_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,51 @@
+#pragma once
+// Writes a ZIP archive, entry by entry, into an output file.
+//
+// Entries have no date (ZIP's first, 1 January 1980), so that the same design
+// gives the same bytes.
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "base/file/output_file.h"
+
+namespace lamina {
+
+class ZipOutput {
+ public:
+  // `output` must be empty and outlive the archive.
+  explicit ZipOutput(OutputFile& output);
+  ~ZipOutput();
+  ZipOutput(const ZipOutput&) = delete;
+  ZipOutput& operator=(const ZipOutput&) = delete;
+
+  // What is packed already (images) is stored as it is. Throw FileError.
+  void add_packed(const std::string& name, std::string_view bytes);
+  void add_text(const std::string& name, std::string_view bytes);
+
+  // A text in pieces; below 4 GB in all. Throw FileError.
+  void begin_text(const std::string& name);
+  void write(std::string_view bytes);
+  void end_entry();
+
+  // Writes the directory; nothing may be added then. Throws FileError.
+  void finish();
+
+  // For the library that makes the archive: a file with a place in it.
+  struct Stream {
+    OutputFile& output;
+    std::uint64_t place = 0;
+    std::exception_ptr fault;  // of the output: none may pass through C
+  };
+
+ private:
+  void begin(const std::string& name, int method);
+  void check(int status);
+
+  Stream stream_;
+  void* archive_ = nullptr;
+};
+
+}  // namespace lamina

@@ -1,0 +1,108 @@
+#pragma once
+// Tasks of oneTBB, and what ThreadSanitizer must be told of them.
+//
+// Debian's library is not instrumented: the tool sees neither its queues nor
+// its locks, and would take every object that one task hands to the next for a
+// race. So the order that oneTBB promises is said where it is relied on, object
+// by object; where it is not said, a race is a race. In other builds nothing
+// remains of it.
+
+#include <cstddef>
+#include <functional>
+
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace lamina {
+
+inline void hand_over([[maybe_unused]] void* object) {
+#if defined(__SANITIZE_THREAD__)
+  __tsan_release(object);
+#endif
+}
+
+inline void take_over([[maybe_unused]] void* object) {
+#if defined(__SANITIZE_THREAD__)
+  __tsan_acquire(object);
+#endif
+}
+
+// An object that tasks have in turns, while this lives. The thread that makes
+// it has the object before and after.
+class Lent {
+ public:
+  explicit Lent(void* object) : object_(object) { hand_over(object_); }
+  ~Lent() { take_over(object_); }
+  Lent(const Lent&) = delete;
+  Lent& operator=(const Lent&) = delete;
+
+ private:
+  void* object_;
+};
+
+// A task's turn with an object.
+class TaskTurn {
+ public:
+  explicit TaskTurn(void* object) : TaskTurn(object, object) {}
+  // Goes on where `from` was handed over; hands over `to`. Tasks that hand over
+  // another object than they take are in no order.
+  TaskTurn(void* from, void* to) : to_(to) { take_over(from); }
+  ~TaskTurn() { hand_over(to_); }
+  TaskTurn(const TaskTurn&) = delete;
+  TaskTurn& operator=(const TaskTurn&) = delete;
+
+ private:
+  void* to_;
+};
+
+// for_each_index() without what must be told.
+void run_tasks(std::size_t count, const std::function<void(std::size_t)>& task);
+
+// Calls body(0) … body(count - 1), several at a time, in any order; ends when
+// all have.
+inline void for_each_index(std::size_t count,
+                           const std::function<void(std::size_t)>& body) {
+  // Static: a task finds them before it has taken over anything else.
+  static char begin;
+  static char end;
+  const std::function<void(std::size_t)> task = [&body](std::size_t i) {
+    const TaskTurn turn(&begin, &end);
+    body(i);
+  };
+  const Lent lent_begin(&begin);
+  const Lent lent_end(&end);
+  run_tasks(count, task);
+}
+
+// What is done to each of a row of items: start and finish take one at a time,
+// in order; work takes several at a time. An item is known by its place among
+// those under way; start is false where there is none left.
+struct Stages {
+  std::function<bool(std::size_t)> start;
+  std::function<void(std::size_t)> work;
+  std::function<void(std::size_t)> finish;
+};
+
+// run_pipeline() without what must be told.
+void run_stages(std::size_t places, const Stages& stages);
+
+// At most `places` items are under way. Ends when no task runs any more, also
+// where one threw.
+inline void run_pipeline(std::size_t places, const Stages& stages) {
+  static char begin;
+  static char end;
+  const auto tell = [](const auto& stage) {
+    return [&stage](std::size_t place) {
+      const TaskTurn turn(&begin, &end);
+      return stage(place);
+    };
+  };
+  const Stages told = {tell(stages.start), tell(stages.work),
+                       tell(stages.finish)};
+  const Lent lent_begin(&begin);
+  const Lent lent_end(&end);
+  run_stages(places, told);
+}
+
+}  // namespace lamina

@@ -1,0 +1,80 @@
+#include "base/text.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include <double-conversion/double-conversion.h>
+
+namespace lamina {
+
+namespace {
+
+// The parameters with which OpenSCAD 2021.01 makes its converter.
+const double_conversion::DoubleToStringConverter& converter() {
+  using double_conversion::DoubleToStringConverter;
+  static const DoubleToStringConverter instance(
+      DoubleToStringConverter::UNIQUE_ZERO |
+          DoubleToStringConverter::EMIT_POSITIVE_EXPONENT_SIGN,
+      "inf", "nan", 'e', -6, 21, 5, 0);
+  return instance;
+}
+constexpr int kDigits = 6;
+
+// Cuts zeros off the end of the fraction, and the point with them.
+void append_trimmed(std::string_view digits, std::string& text) {
+  const std::size_t point = digits.find('.');
+  if (point == std::string_view::npos) {
+    text += digits;
+    return;
+  }
+  const std::size_t exponent = std::min(digits.find('e'), digits.size());
+  std::size_t end = exponent;
+  while (digits[end - 1] == '0') --end;
+  if (end == point + 1) end = point;
+  text += digits.substr(0, end);
+  text += digits.substr(exponent);
+}
+
+// Whole numbers of up to six digits are most of all numbers and need no
+// general conversion.
+bool append_small_integer(double number, std::string& text) {
+  if (!(std::fabs(number) < 1e6)) return false;
+  const int integer = static_cast<int>(number);
+  if (integer != number) return false;
+  text += std::to_string(integer);
+  return true;
+}
+
+}  // namespace
+
+void append_number(double number, std::string& text) {
+  if (append_small_integer(number, text)) return;
+  if (!std::isfinite(number)) {
+    text += std::isnan(number) ? "nan" : number < 0 ? "-inf" : "inf";
+    return;
+  }
+  char buffer[128];
+  double_conversion::StringBuilder builder(buffer, sizeof buffer);
+  converter().ToPrecision(number, kDigits, &builder);
+  const int length = builder.position();
+  builder.Finalize();
+  append_trimmed({buffer, static_cast<std::size_t>(length)}, text);
+}
+
+void append_quoted(std::string_view content, std::string& text) {
+  constexpr std::string_view kEscaped = "\t\n\r\"\\";
+  constexpr std::string_view kLetters = "tnr\"\\";
+  text += '"';
+  for (const char c : content) {
+    const std::size_t escaped = kEscaped.find(c);
+    if (escaped == std::string_view::npos) {
+      text += c;
+    } else {
+      text += '\\';
+      text += kLetters[escaped];
+    }
+  }
+  text += '"';
+}
+
+}  // namespace lamina

@@ -1,0 +1,98 @@
+#include "cli/options/camera_options.h"
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cli/options/option_values.h"
+#include "slicer/picture/color_scheme.h"
+
+namespace lamina::cli {
+namespace {
+
+constexpr double kLargestPicture = 4096;  // either way [pixels]
+
+std::vector<double> require_numbers(const std::string& option,
+                                    std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    numbers.push_back(require_number(option, text.substr(0, comma)));
+    if (comma == std::string_view::npos) return numbers;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::vector<double> parse_camera(const std::string& text) {
+  std::vector<double> numbers = require_numbers("--camera", text);
+  if (numbers.size() != 6 && numbers.size() != 7) {
+    throw CLI::ValidationError(
+        "--camera",
+        fmt::format("6 or 7 numbers were expected, not '{}'", text));
+  }
+  if (!(slicer::Camera::from_numbers(numbers).distance > 0)) {
+    throw CLI::ValidationError("--camera", "the distance must be more than 0");
+  }
+  return numbers;
+}
+
+std::vector<double> parse_size(const std::string& text) {
+  std::vector<double> size = require_numbers("--imgsize", text);
+  const auto is_good = [](double pixels) {
+    return pixels >= 1 && pixels <= kLargestPicture &&
+           pixels == static_cast<unsigned>(pixels);
+  };
+  if (size.size() != 2 || !is_good(size[0]) || !is_good(size[1])) {
+    throw CLI::ValidationError(
+        "--imgsize", fmt::format("two whole numbers up to {} were expected, "
+                                 "not '{}'",
+                                 kLargestPicture, text));
+  }
+  return size;
+}
+
+}  // namespace
+
+void CameraOptions::add_to(CLI::App& app) {
+  add_text(app, "--camera", "numbers", [this](const std::string& text) {
+    is_given_ = true;
+    camera_ = parse_camera(text);
+  });
+  const auto add_flag = [&](const std::string& name, bool& flag) {
+    app.add_flag_callback(name, [this, &flag] { is_given_ = flag = true; });
+  };
+  add_flag("--viewall", views_all_);
+  add_flag("--autocenter", centers_);
+  add_choice(app, "--projection",
+             {"p", "perspective", "o", "ortho", "orthogonal"},
+             [this](const std::string& word) {
+               is_given_ = true;
+               projection_ = word.front() == 'o'
+                                 ? slicer::Camera::Projection::kOrthogonal
+                                 : slicer::Camera::Projection::kPerspective;
+             });
+  add_text(app, "--imgsize", "width,height", [this](const std::string& text) {
+    is_given_ = true;
+    size_ = parse_size(text);
+  });
+  add_choice(app, "--colorscheme", slicer::color_scheme_names(),
+             [this](const std::string& name) {
+               is_given_ = true;
+               colors_ = name;
+             });
+}
+
+slicer::StackOptions CameraOptions::stack() const {
+  slicer::StackOptions options;
+  options.width = static_cast<unsigned>(size_[0]);
+  options.height = static_cast<unsigned>(size_[1]);
+  const bool has_camera = !camera_.empty();
+  if (has_camera) options.camera = slicer::Camera::from_numbers(camera_);
+  options.camera.projection = projection_;
+  options.shows_all = views_all_ || !has_camera;
+  options.centers = centers_ || !has_camera;
+  options.colors = slicer::find_color_scheme(colors_);
+  return options;
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,121 @@
+#include "cli/options/option_values.h"
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <system_error>
+
+#include <CLI/App.hpp>
+#include <fmt/format.h>
+
+#include "base/number.h"
+#include "slicer/check/thin_finder.h"
+
+namespace lamina::cli {
+namespace {
+
+double require_thin_width(const std::string& option, std::string_view text) {
+  const double value = require_number(option, text);
+  if (!(value >= slicer::kLeastThinWidth &&
+        value <= slicer::kGreatestThinWidth)) {
+    throw CLI::ValidationError(
+        option,
+        fmt::format("must be {} to {} mm, not {}", slicer::kLeastThinWidth,
+                    slicer::kGreatestThinWidth, text));
+  }
+  return value;
+}
+
+// "3:7", "3:", ":7" or "3".
+slicer::LayerRange parse_layers(const std::string& text) {
+  const auto number = [&](std::string_view word, std::uint32_t otherwise) {
+    if (word.empty()) return otherwise;
+    std::uint32_t value = 0;
+    const auto [end, fault] =
+        std::from_chars(word.data(), word.data() + word.size(), value);
+    if (fault != std::errc() || end != word.data() + word.size() ||
+        value == 0) {
+      throw CLI::ValidationError(
+          "--layers", fmt::format("layers from 1 were expected, such as 3:7, "
+                                  "3: or :7, not '{}'",
+                                  text));
+    }
+    return value;
+  };
+  const std::string_view all = text;
+  const std::size_t colon = all.find(':');
+  slicer::LayerRange range;
+  range.first = number(all.substr(0, colon), range.first);
+  range.last = colon == std::string_view::npos
+                   ? range.first
+                   : number(all.substr(colon + 1), range.last);
+  if (all.empty() || range.last < range.first) {
+    throw CLI::ValidationError("--layers",
+                               fmt::format("'{}' has no layers", text));
+  }
+  return range;
+}
+
+}  // namespace
+
+double require_number(const std::string& option, std::string_view text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value) {
+    throw CLI::ValidationError(
+        option, fmt::format("a number was expected, not '{}'", text));
+  }
+  return *value;
+}
+
+double require_positive(const std::string& option, std::string_view text) {
+  const double value = require_number(option, text);
+  if (!(value > 0)) {
+    throw CLI::ValidationError(
+        option, fmt::format("must be more than 0 mm, not {}", text));
+  }
+  return value;
+}
+
+double require_within(const std::string& option, std::string_view text,
+                      double least, double greatest, std::string_view unit) {
+  const double value = require_number(option, text);
+  if (!(value >= least && value <= greatest)) {
+    throw CLI::ValidationError(
+        option, fmt::format("must be from {} to {}{}, not {}", least, greatest,
+                            unit, text));
+  }
+  return value;
+}
+
+CLI::Option* add_text(CLI::App& app, const std::string& name,
+                      const std::string& value,
+                      const std::function<void(const std::string&)>& use) {
+  return app.add_option_function<std::string>(name, use)->type_name(value);
+}
+
+void add_choice(CLI::App& app, const std::string& name,
+                const std::vector<std::string>& words,
+                const std::function<void(const std::string&)>& use) {
+  add_text(app, name, "word", use)->check(CLI::IsMember(words));
+}
+
+void add_switch(CLI::App& app, const std::string& name, bool& target) {
+  const std::vector<std::string> words = {"true", "false", "on",
+                                          "off",  "1",     "0"};
+  add_text(app, name, "word", [&target](const std::string& word) {
+    target = word == "true" || word == "on" || word == "1";
+  })->transform(CLI::IsMember(words, CLI::ignore_case));
+}
+
+void add_thin_width(CLI::App& app, double& width) {
+  add_text(app, "--min-feature", "length", [&width](const std::string& text) {
+    width = require_thin_width("--min-feature", text);
+  });
+}
+
+void add_layer_range(CLI::App& app, slicer::LayerRange& range) {
+  add_text(app, "--layers", "range",
+           [&range](const std::string& text) { range = parse_layers(text); });
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,48 @@
+#pragma once
+// Options of the command line whose values are checked as they are read. What
+// is wrong with a value is thrown as CLI::ValidationError, which names the
+// option.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "slicer/slice/settings.h"
+
+namespace lamina::cli {
+
+// A finite number and nothing else.
+double require_number(const std::string& option, std::string_view text);
+
+// A length of more than 0 mm.
+double require_positive(const std::string& option, std::string_view text);
+
+// A number from `least` to `greatest`; `unit` is for the message, such as
+// " mm".
+double require_within(const std::string& option, std::string_view text,
+                      double least, double greatest, std::string_view unit);
+
+// An option whose text `use` reads; `use` throws CLI::ValidationError. `value`
+// is what messages call its value.
+CLI::Option* add_text(CLI::App& app, const std::string& name,
+                      const std::string& value,
+                      const std::function<void(const std::string&)>& use);
+
+// An option with one of a few words.
+void add_choice(CLI::App& app, const std::string& name,
+                const std::vector<std::string>& words,
+                const std::function<void(const std::string&)>& use);
+
+// An option that takes what openscad takes for true and false.
+void add_switch(CLI::App& app, const std::string& name, bool& target);
+
+// --min-feature: the width of walls and gaps to be told of.
+void add_thin_width(CLI::App& app, double& width);
+
+// --layers: which of them are written.
+void add_layer_range(CLI::App& app, slicer::LayerRange& range);
+
+}  // namespace lamina::cli

@@ -1,0 +1,36 @@
+#pragma once
+// Names of outputs where there are several: patterns with words in braces,
+// such as "out/{name}.slc".
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/file/file_access.h"
+
+namespace lamina::cli {
+
+// The words in braces, in the order in which they stand there.
+std::vector<std::string> words_of_pattern(std::string_view pattern);
+
+// The pattern with its words replaced.
+std::string fill_pattern(
+    std::string_view pattern,
+    const std::function<std::string(const std::string& word)>& value_of);
+
+// Why `text` cannot be a part of the name of a file, for the user: "is empty".
+// Empty if it can.
+std::string fault_of_name(std::string_view text);
+
+// Makes the folder of an output, and those around it. Where that cannot be,
+// opening the output tells why.
+void make_folder_of(const std::string& output, const FileAccess& access);
+
+// The same for two paths if they name the same file in the same words.
+std::string normal_path(const std::string& path);
+
+// The last part of a path without its extension: "ring" of "in/ring.scad".
+std::string stem(const std::string& path);
+
+}  // namespace lamina::cli

@@ -1,0 +1,93 @@
+#include "cli/process/file_watcher.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include "base/diagnostic.h"
+
+namespace lamina::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the steps of one save lie apart, at most.
+constexpr int kQuietMilliseconds = 100;
+
+constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO;
+
+[[noreturn]] void fail() {
+  throw FileError({Severity::kError,
+                   {},
+                   fmt::format("Can't watch files: {}", std::strerror(errno))});
+}
+
+}  // namespace
+
+FileWatcher::FileWatcher() : inotify_(::inotify_init1(IN_CLOEXEC)) {
+  if (inotify_ < 0) fail();
+}
+
+FileWatcher::~FileWatcher() { ::close(inotify_); }
+
+void FileWatcher::watch(const std::set<std::string>& files,
+                        fs::file_time_type since) {
+  names_.clear();
+  for (const std::string& file : files) {
+    watch_folder_of(file, file);
+    std::error_code error;
+    // Where a link stands, and where it leads to.
+    const fs::path target = fs::canonical(file, error);
+    if (!error) watch_folder_of(target, file);
+    const fs::file_time_type time = fs::last_write_time(file, error);
+    if (!error && time > since && !files_.contains(file)) changed_.insert(file);
+  }
+  files_ = files;
+}
+
+void FileWatcher::watch_folder_of(const fs::path& path,
+                                  const std::string& file) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const int id = ::inotify_add_watch(inotify_, folder.c_str(), kEvents);
+  if (id >= 0) {
+    names_[id][path.filename()] = file;
+  } else if (errno != ENOENT && errno != EACCES) {
+    fail();
+  }
+}
+
+std::set<std::string> FileWatcher::wait() {
+  while (changed_.empty()) take_events(-1);
+  while (take_events(kQuietMilliseconds)) {
+  }
+  return std::exchange(changed_, {});
+}
+
+bool FileWatcher::take_events(int milliseconds) {
+  pollfd ready = {inotify_, POLLIN, 0};
+  if (::poll(&ready, 1, milliseconds) <= 0) return false;
+  alignas(inotify_event) std::array<char, 1 << 14> buffer;
+  const ssize_t size = ::read(inotify_, buffer.data(), buffer.size());
+  bool is_ours = false;
+  for (ssize_t i = 0; i < size;) {
+    const auto& event =
+        *reinterpret_cast<const inotify_event*>(buffer.data() + i);
+    i += static_cast<ssize_t>(sizeof(inotify_event) + event.len);
+    const auto folder = names_.find(event.wd);
+    if (event.len == 0 || folder == names_.end()) continue;
+    const auto name = folder->second.find(event.name);
+    if (name == folder->second.end()) continue;
+    changed_.insert(name->second);
+    is_ours = true;
+  }
+  return is_ours;
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,23 @@
+#pragma once
+// A second line of defence behind FileAccess: the kernel, where it has Landlock
+// (Linux 5.13 and later).
+//
+// From then on this process can read only in the folders that it may use and in
+// those that it needs itself: shared libraries, Fontconfig's configuration,
+// what /proc and /sys tell of it and of the machine. It writes in the root
+// alone. So a fault in lamina, or in a library that reads a stranger's file,
+// reaches no further. Landlock does not hide whether a file exists; FileAccess
+// does.
+
+#include "base/file/file_access.h"
+
+namespace lamina::cli {
+
+// What the kernel offers, 1 and up; less where it does not.
+long landlock_version();
+
+// To be called before there are further threads. Does nothing where nothing is
+// confined, or where the kernel does not offer it. Never undone.
+void restrict_process(const FileAccess& access);
+
+}  // namespace lamina::cli

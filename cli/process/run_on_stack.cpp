@@ -1,0 +1,187 @@
+#include "cli/process/run_on_stack.h"
+
+#include <chrono>
+#include <csignal>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "cli/command.h"
+#include "cli/process/large_stack.h"
+#include "cli/process/streams.h"
+#include "cli/report/progress.h"
+
+namespace lamina::cli {
+namespace {
+
+constexpr int kInterruptedStatus = 130;
+
+// Sent to the waiting thread: "done", by the working one, and "an exception
+// cannot be passed on", by any.
+constexpr int kDoneSignal = SIGUSR1;
+constexpr int kLostSignal = SIGUSR2;
+
+// With kLostSignal: what was thrown.
+enum Lost { kLostMemory, kLostError };
+
+struct Run {
+  const std::function<int(std::size_t)>& work;
+  std::size_t stack_bytes;
+  pthread_t waiting_thread;
+  int status = 0;
+};
+
+void* work_and_tell(void* argument) {
+  Run& run = *static_cast<Run*>(argument);
+  run.status = run.work(run.stack_bytes);
+  ::pthread_kill(run.waiting_thread, kDoneSignal);
+  return nullptr;
+}
+
+// The signals that end a run, save those that the caller wants ignored
+// (nohup).
+sigset_t ending_signals() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    ::sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) ::sigaddset(&signals, signal);
+  }
+  return signals;
+}
+
+// The status that exit_soon() ends the process with.
+volatile std::sig_atomic_t status_of_exit = kFault;
+
+// Ends the process in a second, whatever its threads wait for: words may be for
+// a pipe that nobody reads, or for a terminal stopped by Ctrl-S.
+void exit_soon(int status) {
+  status_of_exit = status;
+  struct sigaction action {};
+  action.sa_handler = [](int) { ::_exit(status_of_exit); };
+  ::sigaction(SIGALRM, &action, nullptr);
+  sigset_t alarm;
+  ::sigemptyset(&alarm);
+  ::sigaddset(&alarm, SIGALRM);
+  ::pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
+  itimerval time{};
+  time.it_value.tv_sec = 1;
+  ::setitimer(ITIMER_REAL, &time, nullptr);
+}
+
+// Instead of abort(): has the waiting thread end the process.
+[[noreturn]] void tell_lost_exception() {
+  sigval what{};
+  what.sival_int = kLostError;
+  try {
+    // cppcheck-suppress rethrowNoCurrentException ; asked just before
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    what.sival_int = kLostMemory;
+  } catch (...) {
+  }
+  // To the process: all threads but the waiting one block it.
+  ::sigqueue(::getpid(), kLostSignal, what);
+  // The waiting thread needs no second, unless it waits for a lock of this one.
+  ::sleep(2);
+  exit_soon(kFault);
+  print_error("error: out of memory\n");
+  ::_exit(kFault);
+}
+
+// The end of a process whose other threads still run. Nothing here may throw,
+// be it for lack of memory.
+[[noreturn]] void end_process(TemporaryFiles& temporary_files, int status,
+                              std::string_view message) noexcept {
+  std::set_terminate([] { ::_exit(kFault); });
+  // First what counts: the words may find nobody to take them.
+  try {
+    temporary_files.discard_all();
+  } catch (const std::bad_alloc&) {
+    // To remove folders takes memory. The next run removes them.
+  }
+  exit_soon(status);
+  end_progress();
+  print_error(message);
+  ::_exit(status);
+}
+
+std::string lost_text(int what) {
+  return fmt::format("error: {}\n",
+                     what == kLostMemory
+                         ? out_of_memory_text()
+                         : "internal error, please report: an exception that "
+                           "nothing catches");
+}
+
+// What `signals` bring within the time; SI of 0: nothing.
+siginfo_t wait_for(const sigset_t& signals, std::chrono::nanoseconds time) {
+  timespec pause{};
+  pause.tv_nsec = time.count();
+  siginfo_t received{};
+  if (::sigtimedwait(&signals, &received, &pause) < 0) received.si_signo = 0;
+  return received;
+}
+
+// Returns when the work is done.
+void watch_over(const sigset_t& signals, TemporaryFiles& temporary_files,
+                ProcessWatch& watch) {
+  while (true) {
+    const siginfo_t received = wait_for(signals, watch.pause());
+    switch (received.si_signo) {
+      case kDoneSignal:
+        return;
+      case kLostSignal:
+        end_process(temporary_files, kFault,
+                    lost_text(received.si_value.sival_int));
+      case 0:
+        break;
+      default:
+        end_process(temporary_files, kInterruptedStatus, "");
+    }
+    const std::string exceeded = watch.look(temporary_files.bytes_in_memory());
+    if (!exceeded.empty()) end_process(temporary_files, kFault, exceeded);
+  }
+}
+
+}  // namespace
+
+int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
+                 const std::function<int(std::size_t)>& work) {
+  // A reader that closes its pipe early, and a file larger than the user may
+  // write, are failed writes, not a death.
+  ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(tell_lost_exception);
+  // All threads inherit the mask: signals reach the waiting thread alone.
+  sigset_t signals = ending_signals();
+  ::sigaddset(&signals, kDoneSignal);
+  ::sigaddset(&signals, kLostSignal);
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+
+  const LargeStack stack;
+  Run run{work, stack.size(), ::pthread_self()};
+  pthread_t thread{};
+  if (!stack.start(thread, &work_and_tell, &run)) {
+    end_process(temporary_files, kFault,
+                "error: the system grants no second thread, or no stack for "
+                "it (ulimit -u, -v)\n");
+  }
+  try {
+    watch_over(signals, temporary_files, watch);
+  } catch (const std::bad_alloc&) {
+    end_process(temporary_files, kFault, "error: out of memory\n");
+  }
+  ::pthread_join(thread, nullptr);
+  return run.status;
+}
+
+}  // namespace lamina::cli

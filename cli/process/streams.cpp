@@ -1,0 +1,33 @@
+#include "cli/process/streams.h"
+
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/diagnostic.h"
+#include "base/file/write_all.h"
+
+namespace lamina::cli {
+
+void open_missing_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    // The lowest number that is free is this one.
+    if (::open("/", O_PATH) < 0) return;
+  }
+}
+
+void print_out(std::string_view text) {
+  const int error = write_all(STDOUT_FILENO, text);
+  if (error == 0) return;
+  throw FileError(
+      {Severity::kError,
+       {},
+       fmt::format("Can't write 'standard output': {}", std::strerror(error))});
+}
+
+void print_error(std::string_view text) { write_all(STDERR_FILENO, text); }
+
+}  // namespace lamina::cli

@@ -1,0 +1,266 @@
+#include "cli/report/compared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+#include "cli/command.h"
+#include "cli/report/openscad.h"
+#include "compiler/imported_design.h"
+#include "compiler/run.h"
+#include "slicer/contour/compensate.h"
+#include "slicer/contour/deviation.h"
+#include "slicer/formats/layer_reader.h"
+#include "slicer/formats/output_format.h"
+
+namespace lamina::cli {
+namespace {
+
+using slicer::Layer;
+
+// What is assumed of files that do not tell: --tolerance of lamina unless it is
+// given [mm].
+const double kUsualSimplification = slicer::Settings().tolerance;
+
+// OpenSCAD unites and offsets outlines on a grid of 2^-16 mm.
+constexpr double kOpenScadGrid = 1.0 / 65536;
+
+double greatest_coordinate(const std::vector<Layer>& layers) {
+  double greatest = 0;
+  for (const Layer& layer : layers) {
+    greatest =
+        std::max(greatest, ldni::greatest_coordinate(layer.contours.points));
+  }
+  return greatest;
+}
+
+class ComparedFile : public Compared {
+ public:
+  ComparedFile(const std::string& path, const FileAccess& access)
+      : Compared(path), file_access_(access) {}
+
+  std::string description() const override {
+    return facts_.writer.empty()
+               ? facts_.format
+               : fmt::format("{} by {}", facts_.format, facts_.writer);
+  }
+
+  const std::vector<Layer>& layers() override {
+    if (!layers_) {
+      layers_.emplace();
+      facts_ = slicer::read_layers(
+          name(), [&](Layer& layer) { layers_->push_back(std::move(layer)); },
+          file_access_);
+    }
+    return *layers_;
+  }
+
+  bool has_sides() const override { return facts_.has_sides; }
+
+  double precision() const override {
+    slicer::Deviation deviation;
+    deviation.simplification = kUsualSimplification;
+    const double rounding =
+        facts_.is_float32
+            ? slicer::float32_rounding(greatest_coordinate(*layers_))
+            : 0;
+    return facts_.deviation.value_or(deviation.from_section()) + rounding;
+  }
+  bool is_precision_assumed() const override { return !facts_.deviation; }
+
+ private:
+  const FileAccess& file_access_;
+  slicer::LayerFileFacts facts_;
+  std::optional<std::vector<Layer>> layers_;
+};
+
+// How a mesh rounds the coordinates of the design that it came from [mm]; sees
+// the greatest coordinate.
+using Rounding = double (*)(double greatest);
+
+double no_rounding(double /*greatest*/) { return 0; }
+
+double openscad_rounding(double greatest) {
+  return kOpenScadGrid + slicer::float32_rounding(greatest);
+}
+
+class ComparedDesign : public Compared {
+ public:
+  ComparedDesign(std::string name, DesignOptions options, Rounding rounding,
+                 TemporaryFiles& temporary_files, std::size_t stack)
+      : Compared(std::move(name)),
+        options_(std::move(options)),
+        rounding_(rounding),
+        run_(options_, temporary_files, stack) {}
+
+  std::string description() const override {
+    return is_imported(options_.design) ? "mesh" : "design";
+  }
+
+  const std::vector<Layer>& layers() override {
+    if (!layers_) layers_ = sliced(options_.settings);
+    return *layers_;
+  }
+
+  bool can_be_cut() const override { return true; }
+
+  std::vector<Layer> cut(const std::vector<double>& heights) override {
+    if (heights.empty()) return {};
+    slicer::Settings settings = options_.settings;
+    settings.heights = heights;
+    return sliced(settings);
+  }
+
+  double precision() const override {
+    slicer::Deviation deviation;
+    deviation.simplification = options_.settings.tolerance;
+    if (options_.settings.compensation != 0) {
+      deviation.compensation = slicer::kArcTolerance;
+    }
+    deviation.rounding = rounding_(greatest_coordinate_);
+    return deviation.from_section();
+  }
+
+ private:
+  std::vector<Layer> sliced(const slicer::Settings& settings) {
+    LayerList list;
+    const int status = run_caught(run_.terminal, run_.diagnostics, [&] {
+      if (!lowered_) prepare();
+      slice(run_, *lowered_, settings, list);
+      return kDone;
+    });
+    if (status != kDone) throw ShownFault();
+    greatest_coordinate_ =
+        std::max(greatest_coordinate_, greatest_coordinate(list.layers));
+    return std::move(list.layers);
+  }
+
+  void prepare() {
+    auto tree = load_tree(run_);
+    if (!tree) throw ShownFault();
+    tree_ = std::move(*tree);
+    lowered_ = lower(run_, tree_);
+  }
+
+  const DesignOptions options_;
+  const Rounding rounding_;
+  Run run_;
+  csg::Tree tree_;
+  std::optional<csg::Lowered> lowered_;
+  std::optional<std::vector<Layer>> layers_;
+  double greatest_coordinate_ = 0;
+};
+
+bool is_design(const std::string& path) {
+  return slicer::is_named(path, ".scad") || slicer::is_named(path, ".csg");
+}
+
+// What goes for a mesh, too.
+DesignOptions mesh_options(const std::string& path,
+                           const DesignOptions& options) {
+  DesignOptions own = options;
+  own.design = path;
+  own.definitions.clear();
+  own.parameter_file.clear();
+  own.parameter_set.clear();
+  own.chordal_error = 0;
+  return own;
+}
+
+class ComparedOpenScad : public Compared {
+ public:
+  ComparedOpenScad(const std::string& design, const DesignOptions& options,
+                   double time_limit, TemporaryFiles& temporary_files,
+                   std::size_t stack)
+      : Compared("openscad"),
+        options_(options),
+        time_limit_(time_limit),
+        temporary_files_(temporary_files),
+        stack_(stack) {
+    options_.design = design;
+  }
+
+  std::string description() const override {
+    return fmt::format("{}, rendered in {:.1f} s", version_, render_seconds_);
+  }
+  const std::vector<Layer>& layers() override { return mesh().layers(); }
+  bool can_be_cut() const override { return true; }
+  std::vector<Layer> cut(const std::vector<double>& heights) override {
+    return mesh().cut(heights);
+  }
+  double precision() const override { return mesh_->precision(); }
+
+ private:
+  Compared& mesh() {
+    if (!mesh_) {
+      const ScratchFolder folder(temporary_files_);
+      version_ = openscad_version(folder);
+      const OpenScadMesh rendered =
+          render_with_openscad(options_, time_limit_, folder);
+      render_seconds_ = rendered.seconds;
+      mesh_ = std::make_unique<ComparedDesign>(
+          name(), mesh_options(rendered.path, options_), openscad_rounding,
+          temporary_files_, stack_);
+      // Has it read while it is there.
+      mesh_->cut({0});
+    }
+    return *mesh_;
+  }
+
+  DesignOptions options_;
+  double time_limit_;
+  TemporaryFiles& temporary_files_;
+  std::size_t stack_;
+  std::string version_;
+  double render_seconds_ = 0;
+  std::unique_ptr<ComparedDesign> mesh_;
+};
+
+}  // namespace
+
+std::vector<Layer> Compared::cut(const std::vector<double>& /*heights*/) {
+  LAMINA_CHECK_EQ(can_be_cut(), true);
+  return {};
+}
+
+bool can_compare(const std::string& path) {
+  return slicer::is_readable_layer_file(path) || is_design(path) ||
+         is_imported(path);
+}
+
+std::unique_ptr<Compared> open_compared(const std::string& path,
+                                        const DesignOptions& options,
+                                        TemporaryFiles& temporary_files,
+                                        std::size_t stack) {
+  if (slicer::is_readable_layer_file(path)) {
+    return std::make_unique<ComparedFile>(path, temporary_files.file_access());
+  }
+  if (is_imported(path)) {
+    const Rounding rounding =
+        slicer::is_named(path, ".stl") ? slicer::float32_rounding : no_rounding;
+    return std::make_unique<ComparedDesign>(path, mesh_options(path, options),
+                                            rounding, temporary_files, stack);
+  }
+  DesignOptions own = options;
+  own.design = path;
+  return std::make_unique<ComparedDesign>(path, std::move(own), no_rounding,
+                                          temporary_files, stack);
+}
+
+std::unique_ptr<Compared> open_openscad(const std::string& design,
+                                        const DesignOptions& options,
+                                        double time_limit,
+                                        TemporaryFiles& temporary_files,
+                                        std::size_t stack) {
+  return std::make_unique<ComparedOpenScad>(design, options, time_limit,
+                                            temporary_files, stack);
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,56 @@
+#pragma once
+// Two things brought to the same heights and compared.
+//
+// What can be cut is cut at the sections of the other one, and once below and
+// once above them: a file that ends too early differs there. Heights are
+// rounded, in files and in meshes, so where a section lies in a horizontal face
+// the two can be on different sides of it, which is no difference of the part.
+// Layers that differ are cut again just below and just above.
+
+#include <list>
+#include <vector>
+
+#include "cli/report/compared.h"
+#include "cli/report/comparison_text.h"
+#include "slicer/check/compare.h"
+
+namespace lamina::cli {
+
+class Comparison {
+ public:
+  // Both outlive it. Cuts and pairs layers; throws GeometryError where their
+  // heights do not match.
+  //
+  // aligns  moves b so that the lower left corners of boxes and the lowest
+  //         layers agree
+  Comparison(Compared& a, Compared& b, bool aligns);
+
+  // The tolerance that follows from what both say of themselves [mm].
+  double usual_tolerance() const;
+
+  // tolerance  [mm]
+  ComparisonResult run(double tolerance);
+
+  // Of the layer with this index in the result, b's moved as --align has it.
+  slicer::Layer layer_a(std::size_t index) const;
+  slicer::Layer layer_b(std::size_t index) const;
+
+ private:
+  void pair_at(double rise);
+  std::vector<double> heights_of(Compared& side, double shift) const;
+  void move_off_faces(ComparisonResult& result);
+  void drop_empty(ComparisonResult& result);
+  Vec3 find_shift();
+
+  Compared& a_;
+  Compared& b_;
+  Vec3 shift_ = Vec3(0);  // of b
+  // One of them points to what was cut.
+  const std::vector<slicer::Layer>* layers_a_ = nullptr;
+  const std::vector<slicer::Layer>* layers_b_ = nullptr;
+  std::vector<slicer::Layer> cut_;
+  std::list<slicer::Layer> cut_beside_faces_;
+  std::vector<slicer::LayerPair> pairs_;
+};
+
+}  // namespace lamina::cli

@@ -1,0 +1,79 @@
+#pragma once
+// What a user sees on standard error: messages as they come up, progress, a
+// closing line.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "base/diagnostic.h"
+#include "cli/report/progress.h"
+#include "slicer/contour/layer.h"
+
+namespace lamina::cli {
+
+// Takes the messages of a run that is one of several, instead of standard
+// error: they are shown together when it has ended.
+struct Inbox {
+  std::string prefix;         // of every message: "orders.csv:17: "
+  bool has_progress = false;  // nothing else runs: it may draw its progress
+  std::string text;
+  std::string first_error;  // its words alone
+};
+
+class Terminal {
+ public:
+  // is_quiet  shows nothing but errors
+  // inbox     null: standard error; else it outlives the terminal
+  explicit Terminal(bool is_quiet, Inbox* inbox = nullptr);
+  ~Terminal();  // finishes
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  // Shows a message in caret form. One that was shown before is only counted;
+  // equal echoes are counted while they follow each other.
+  void show(const Diagnostic& diagnostic);
+
+  // A line of its own; not when quiet.
+  void say(std::string_view line);
+
+  // The line that tells how far the run is; messages are written above it.
+  ProgressLine& progress() { return progress_; }
+
+  // Tells how often messages were repeated.
+  void finish();
+
+ private:
+  void write(std::string_view text);
+  void end_echoes();
+
+  bool is_quiet_;
+  Inbox* inbox_;
+  ProgressLine progress_;
+  std::string last_echo_;
+  std::uint64_t echo_count_ = 0;
+  std::map<std::string, std::uint64_t> counts_;  // caret text → times
+};
+
+// Passes layers on and shows how many of them are done.
+class ProgressSink : public slicer::LayerSink {
+ public:
+  ProgressSink(slicer::LayerSink& sink, ProgressLine& line)
+      : sink_(sink), line_(line) {}
+  ~ProgressSink() override { line_.erase(); }
+
+  void begin(const Box3& box) override { sink_.begin(box); }
+  void expect(std::uint32_t layers) override;
+  std::string encode(const slicer::Layer& layer) const override {
+    return sink_.encode(layer);
+  }
+  void take(const slicer::Layer& layer) override;
+
+ private:
+  slicer::LayerSink& sink_;
+  ProgressLine& line_;
+  std::uint64_t done_ = 0;
+};
+
+}  // namespace lamina::cli

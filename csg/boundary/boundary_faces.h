@@ -1,0 +1,46 @@
+#pragma once
+// The boundary of a Boolean, face by face.
+//
+// Who needs the explicit boundary of a subtree (hull, minkowski, resize,
+// projection) asks here. No mesh of the whole is built: each face of each leaf
+// is judged alone. Most faces lie wholly inside or wholly outside of each
+// other leaf, and that is found for many at once, by boxes. What is left is a
+// plane problem: the leaves that meet the face are cut by its plane, the
+// Boolean is evaluated in that plane just inside and just outside of the face,
+// and the part of the face that separates the two is boundary.
+
+#include <functional>
+#include <vector>
+
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// A plane polygon in space, with holes.
+struct BoundaryFace {
+  Vec3 normal;  // unit length, out of the solid
+  // First points are not repeated. Seen from outside, outer contours run
+  // counter-clockwise and holes clockwise; there may be several outer ones.
+  std::vector<std::vector<Vec3>> contours;
+};
+
+Box3 box_of(const BoundaryFace& face);
+
+// The faces together cover the boundary once, up to kTieDistance; they
+// are not joined: neighbours may have vertices on each other's edges, and an
+// edge's two sides may differ by kClipGrid. A face that the Boolean does not
+// touch keeps the leaf's vertices, bit by bit. Coplanar neighbours are not
+// merged. Cost: about n log n of the faces, plus the plane problems.
+std::vector<BoundaryFace> boundary_faces(const Scene& scene);
+
+// The same one by one, for those who need not all of them. Leaves come from the
+// outermost to the innermost.
+//
+// is_wanted  false where no face within the box is; asked often, and may change
+//            its mind from true to false as faces are taken
+// take       is called with each face that is wanted, and some others
+void visit_boundary_faces(const Scene& scene,
+                          const std::function<bool(const Box3&)>& is_wanted,
+                          const std::function<void(BoundaryFace)>& take);
+
+}  // namespace lamina::csg

@@ -1,0 +1,258 @@
+#include "csg/boundary/convex_hull.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csetjmp>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <libqhull_r/qhull_ra.h>
+
+#include "base/check.h"
+#include "csg/boundary/leaf_mesh.h"
+#include "csg/greatest_coordinate.h"
+#include "csg/plane/convex_hull.h"
+
+namespace lamina::csg {
+namespace {
+
+// Points no further from a plane (or a line) than this share of their extent
+// lie in it: the rounding of coordinates alone can put them there.
+constexpr double kFlatness = 1e-12;
+
+bool is_less(Vec3 a, Vec3 b) {
+  if (a.x != b.x) return a.x < b.x;
+  return a.y < b.y || (a.y == b.y && a.z < b.z);
+}
+
+bool is_too_far(Vec3 p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >
+         kGreatestCoordinate;
+}
+
+// Sorts the points and leaves each of them once; those beyond all numbers have
+// no place.
+void make_unique(std::vector<Vec3>& points) {
+  // 0 · x is NaN where x is not finite.
+  std::erase_if(points, [](Vec3 p) { return glm::dot(p, Vec3(0)) != 0; });
+  if (std::any_of(points.begin(), points.end(), is_too_far)) {
+    throw std::range_error("point too far for a hull");
+  }
+  std::sort(points.begin(), points.end(), is_less);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
+// The point for which `measure` is greatest.
+template <typename Measure>
+Vec3 find_greatest(const std::vector<Vec3>& points, Measure measure) {
+  Vec3 best = points[0];
+  double greatest = measure(best);
+  for (const Vec3 point : points) {
+    const double size = measure(point);
+    if (size > greatest) {
+      greatest = size;
+      best = point;
+    }
+  }
+  return best;
+}
+
+// What points span: a point or line (1), a plane (2) with its normal, space.
+struct Span {
+  int dimension = 1;
+  Vec3 normal = Vec3(0);
+};
+
+Span find_span(const std::vector<Vec3>& points) {
+  // Each corner of a simplex lies farthest from those before.
+  const Vec3 a = points[0];
+  const Vec3 b =
+      find_greatest(points, [&](Vec3 p) { return glm::distance(p, a); });
+  const double length = glm::distance(a, b);
+  if (length == 0) return {};
+  const Vec3 along = (b - a) / length;
+  const auto off_line = [&](Vec3 p) { return glm::cross(along, p - a); };
+  const Vec3 c =
+      find_greatest(points, [&](Vec3 p) { return glm::length(off_line(p)); });
+  const double width = glm::length(off_line(c));
+  if (width <= kFlatness * length) return {};
+  const Vec3 normal = off_line(c) / width;
+  const auto height = [&](Vec3 p) { return std::abs(glm::dot(normal, p - a)); };
+  const bool is_flat =
+      height(find_greatest(points, height)) <= kFlatness * length;
+  return {is_flat ? 2 : 3, normal};
+}
+
+using Facet = std::vector<std::uint32_t>;
+
+// One run of Qhull. Its memory is freed whatever happens.
+class QhullRun {
+ public:
+  // points  span space; they stay where they are
+  explicit QhullRun(std::vector<Vec3>& points)
+      : points_(points), messages_(open_memstream(&text_, &text_size_)) {
+    qh_zero(&qh_, messages_);
+    char options[] = "qhull";
+    exit_code_ = qh_new_qhull(&qh_, 3, static_cast<int>(points.size()),
+                              &points[0].x, False, options, nullptr, messages_);
+  }
+  QhullRun(const QhullRun&) = delete;
+  QhullRun& operator=(const QhullRun&) = delete;
+  ~QhullRun() {
+    qh_freeqhull(&qh_, qh_ALL);
+    int memory_left = 0;
+    int piece_count = 0;
+    qh_memfreeshort(&qh_, &memory_left, &piece_count);
+    std::fclose(messages_);
+    std::free(text_);
+  }
+
+  // Corners of the facets in order, all counter-clockwise from outside or all
+  // clockwise.
+  std::vector<Facet> facets() {
+    std::vector<Facet> result;
+    if (exit_code_ == 0) read_facets(result);
+    if (exit_code_ != 0) {
+      fail_check(__FILE__, __LINE__, "Qhull's messages", messages(), "none");
+    }
+    return result;
+  }
+
+ private:
+  // The library leaves by longjmp where it fails, past no destructor here.
+  void read_facets(std::vector<Facet>& result) {
+    exit_code_ = setjmp(qh_.errexit);
+    if (exit_code_ != 0) return;
+    qh_.NOerrexit = False;
+    qhT* qh = &qh_;
+    facetT* facet = nullptr;
+    FORALLfacets add_facet(facet, result);
+    qh_.NOerrexit = True;
+  }
+
+  void add_facet(facetT* facet, std::vector<Facet>& result) {
+    setT* vertices = qh_facet3vertex(&qh_, facet);
+    result.emplace_back();
+    vertexT* vertex = nullptr;
+    vertexT** vertexp = nullptr;
+    FOREACHvertex_(vertices) {
+      // cppcheck-suppress nullPointer ; Qhull's macro sets it
+      const auto index = (vertex->point - &points_[0].x) / 3;
+      result.back().push_back(static_cast<std::uint32_t>(index));
+    }
+    qh_settempfree(&qh_, &vertices);
+  }
+
+  std::string messages() {
+    std::fflush(messages_);
+    return text_;
+  }
+
+  std::vector<Vec3>& points_;
+  char* text_ = nullptr;
+  std::size_t text_size_ = 0;
+  FILE* messages_;
+  int exit_code_ = 0;
+  qhT qh_{};
+};
+
+// The facets' triangles, on those points only that are corners.
+Mesh mesh_of(const std::vector<Vec3>& points,
+             const std::vector<Facet>& facets) {
+  Mesh mesh;
+  std::unordered_map<std::uint32_t, std::uint32_t> ids;
+  const auto vertex = [&](std::uint32_t point) {
+    const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
+    const auto [place, is_new] = ids.try_emplace(point, next);
+    if (is_new) mesh.vertices.push_back(points[point]);
+    return place->second;
+  };
+  for (const Facet& facet : facets) {
+    for (std::size_t i = 2; i < facet.size(); ++i) {
+      mesh.triangles.push_back(
+          {vertex(facet[0]), vertex(facet[i - 1]), vertex(facet[i])});
+    }
+  }
+  return mesh;
+}
+
+// The corners of unique points in a plane.
+FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
+  // Seen along the axis nearest to the normal.
+  const Vec3 size = glm::abs(normal);
+  int drop = size.y > size.x ? 1 : 0;
+  if (size.z > size[drop]) drop = 2;
+  std::map<std::pair<double, double>, Vec3> from_shadow;
+  std::vector<Vec2> shadow;
+  for (const Vec3 point : points) {
+    shadow.emplace_back(point[(drop + 1) % 3], point[(drop + 2) % 3]);
+    from_shadow[{shadow.back().x, shadow.back().y}] = point;
+  }
+  const planar::Region hull = planar::convex_hull(std::move(shadow));
+  if (hull.is_empty()) return {points, normal};
+  FlatHull result{{}, normal[drop] > 0 ? normal : -normal};
+  for (const Vec2 corner : hull.contours[0]) {
+    result.corners.push_back(from_shadow.at({corner.x, corner.y}));
+  }
+  return result;
+}
+
+Mesh hull_of_solid(std::vector<Vec3>& points) {
+  // Qhull judges by the size of coordinates: let it be that of the solid.
+  std::vector<Vec3> centred = points;
+  const Vec3 centre = 0.5 * (points.front() + points.back());
+  for (Vec3& point : centred) point -= centre;
+  Mesh mesh = mesh_of(points, QhullRun(centred).facets());
+  // Closed and of one piece.
+  LAMINA_CHECK_EQ(mesh.triangles.size() + 4, 2 * mesh.vertices.size());
+  if (signed_volume(mesh) < 0) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh convex_hull(std::vector<Vec3> points) {
+  make_unique(points);
+  if (points.size() < 4 || find_span(points).dimension < 3) return {};
+  return hull_of_solid(points);
+}
+
+std::vector<Vec3> extreme_points(std::vector<Vec3> points) {
+  make_unique(points);
+  if (points.size() <= 4) return points;
+  const Span span = find_span(points);
+  switch (span.dimension) {
+    case 1:
+      return {points.front(), points.back()};
+    case 2:
+      return hull_in_plane(points, span.normal).corners;
+    default:
+      return hull_of_solid(points).vertices;
+  }
+}
+
+FlatHull flat_hull(std::vector<Vec3> points) {
+  make_unique(points);
+  if (points.size() < 2) return {points, Vec3(0, 0, 1)};
+  const Span span = find_span(points);
+  if (span.dimension > 1) return hull_in_plane(points, span.normal);
+  const Vec3 along = points.back() - points.front();
+  const Vec3 size = glm::abs(along);
+  Vec3 other(0);
+  other[size.x > size.y ? 1 : 0] = 1;
+  return {{points.front(), points.back()},
+          glm::normalize(glm::cross(along, other))};
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,75 @@
+#include "csg/boundary/leaf_box.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+
+namespace lamina::csg {
+namespace {
+
+struct Range {
+  double low = 1e300;
+  double high = -1e300;
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// Range of row · vertex over all vertices of the sweep.
+Range range_along(const Sweep& sweep, Vec3 row) {
+  Range plan;
+  for (const Vec2 point : *sweep.outline) {
+    plan.add(row.x * point.x + row.y * point.y);
+  }
+  Range range;
+  for (const Vec2 ring : sweep.profile) {
+    range.add(ring.x * plan.low + row.z * ring.y);
+    range.add(ring.x * plan.high + row.z * ring.y);
+  }
+  return range;
+}
+
+void extend(Box3& box, const Sweep& sweep, const Affine& linear) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 row(linear[0][axis], linear[1][axis], linear[2][axis]);
+    const Range range = range_along(sweep, row);
+    box.low[axis] = std::min(box.low[axis], range.low);
+    box.high[axis] = std::max(box.high[axis], range.high);
+  }
+}
+
+void extend(Box3& box, const Mesh& mesh, const Affine& linear) {
+  Range x, y, z;
+  for (const Vec3 v : mesh.vertices) {
+    x.add(linear[0].x * v.x + linear[1].x * v.y + linear[2].x * v.z);
+    y.add(linear[0].y * v.x + linear[1].y * v.y + linear[2].y * v.z);
+    z.add(linear[0].z * v.x + linear[1].z * v.y + linear[2].z * v.z);
+  }
+  box.low = glm::min(box.low, Vec3(x.low, y.low, z.low));
+  box.high = glm::max(box.high, Vec3(x.high, y.high, z.high));
+}
+
+}  // namespace
+
+Box3 bound_leaf(const Leaf& leaf, const Affine& linear) {
+  Box3 box;
+  for (const Sweep& sweep : leaf.sweeps) extend(box, sweep, linear);
+  for (const Mesh& mesh : leaf.meshes) extend(box, mesh, linear);
+  return box;
+}
+
+Box3 shift_box(const Box3& box, Vec3 shift) {
+  return {box.low + shift, box.high + shift};
+}
+
+Box3 unite_boxes(const Box3& a, const Box3& b) {
+  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+Box3 intersect_boxes(const Box3& a, const Box3& b) {
+  return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,112 @@
+#include "csg/boundary/leaf_mesh.h"
+
+#include <cstddef>
+
+#include <glm/geometric.hpp>
+
+#include "csg/plane/triangulate.h"
+
+namespace lamina::csg {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+void add_triangle(Mesh& mesh, bool is_cavity, Triangle t) {
+  if (is_cavity) std::swap(t[1], t[2]);
+  mesh.triangles.push_back(t);
+}
+
+// Appends one sweep; an apex is one vertex, not a ring of equal ones.
+class SweepExpander {
+ public:
+  SweepExpander(const Sweep& sweep, bool is_cavity, Mesh& mesh)
+      : sweep_(sweep), is_cavity_(is_cavity), mesh_(mesh) {}
+
+  void expand() {
+    add_vertices();
+    const std::size_t rings = sweep_.profile.size();
+    const std::size_t bands = sweep_.is_closed_profile ? rings : rings - 1;
+    for (std::size_t i = 0; i < bands; ++i) add_band(i, (i + 1) % rings);
+    if (sweep_.is_closed_profile) return;
+    add_cap(0, true);
+    add_cap(rings - 1, false);
+  }
+
+ private:
+  bool is_apex(std::size_t ring) const { return sweep_.profile[ring].x == 0; }
+
+  void add_vertices() {
+    for (const Vec2 ring : sweep_.profile) {
+      ring_begins_.push_back(static_cast<std::uint32_t>(mesh_.vertices.size()));
+      if (ring.x == 0) {
+        mesh_.vertices.push_back({0, 0, ring.y});
+        continue;
+      }
+      for (const Vec2 point : *sweep_.outline) {
+        mesh_.vertices.push_back({ring.x * point.x, ring.x * point.y, ring.y});
+      }
+    }
+  }
+
+  std::uint32_t vertex(std::size_t ring, std::size_t j) const {
+    const std::size_t point = is_apex(ring) ? 0 : j % sweep_.outline->size();
+    return ring_begins_[ring] + static_cast<std::uint32_t>(point);
+  }
+
+  void add_band(std::size_t low, std::size_t high) {
+    for (std::size_t j = 0; j < sweep_.outline->size(); ++j) {
+      if (!is_apex(low)) {
+        add_triangle(mesh_, is_cavity_,
+                     {vertex(low, j), vertex(low, j + 1), vertex(high, j + 1)});
+      }
+      if (!is_apex(high)) {
+        add_triangle(mesh_, is_cavity_,
+                     {vertex(low, j), vertex(high, j + 1), vertex(high, j)});
+      }
+    }
+  }
+
+  void add_cap(std::size_t ring, bool faces_down) {
+    if (is_apex(ring)) return;
+    const planar::Region cap{{*sweep_.outline}};
+    for (const Triangle& t : planar::triangulate(cap)) {
+      add_triangle(
+          mesh_, is_cavity_ != faces_down,
+          {vertex(ring, t[0]), vertex(ring, t[1]), vertex(ring, t[2])});
+    }
+  }
+
+  const Sweep& sweep_;
+  const bool is_cavity_;
+  Mesh& mesh_;
+  std::vector<std::uint32_t> ring_begins_;
+};
+
+}  // namespace
+
+Mesh explicit_mesh(const Leaf& leaf) {
+  Mesh result;
+  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
+    SweepExpander(leaf.sweeps[i], leaf.sweep_is_cavity[i], result).expand();
+  }
+  for (const Mesh& mesh : leaf.meshes) {
+    const auto shift = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.insert(result.vertices.end(), mesh.vertices.begin(),
+                           mesh.vertices.end());
+    for (const Triangle& t : mesh.triangles) {
+      result.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    }
+  }
+  return result;
+}
+
+double signed_volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    sum += glm::dot(mesh.vertices[t[0]],
+                    glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
+  }
+  return sum / 6;
+}
+
+}  // namespace lamina::csg

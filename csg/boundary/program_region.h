@@ -1,0 +1,31 @@
+#pragma once
+// The Boolean program evaluated in a plane.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "csg/plane/region.h"
+#include "csg/program_state.h"
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// A leaf that is neither wholly inside nor wholly outside.
+struct LiveInstance {
+  std::uint32_t instance = 0;
+  // Contours with its winding numbers: inside is where they are not 0.
+  planar::Region section;
+};
+
+// Where in the window the program holds, given the sections of the leaves that
+// divide it; `state` has those of the others that contain all of it, and none
+// of the live ones. No value: everywhere. Only operators above live instances
+// are looked at.
+//
+// throws  std::range_error for coordinates beyond 1e9 mm
+std::optional<planar::Region> evaluate_in_window(
+    const Scene& scene, const ProgramState& state,
+    const std::vector<LiveInstance>& live, const planar::Region& window);
+
+}  // namespace lamina::csg

@@ -1,0 +1,22 @@
+#pragma once
+// Solids seen from above, and cut at z = 0.
+
+#include "csg/plane/region.h"
+#include "csg/scene.h"
+
+namespace lamina::csg {
+
+// Both throw std::range_error for coordinates beyond 1e9 mm.
+
+// The shadow of the solid on the plane z = 0.
+planar::Region project(Scene scene);
+
+// The section at z = 0 of the solid with its surface: a solid that only touches
+// the plane leaves what it touches there. So it is the section just above and
+// the one just below, both.
+planar::Region cut_at_zero(const Scene& scene);
+
+// Whether there is a solid, and all of it is above or below the plane z = 0.
+bool misses_zero(Scene scene);
+
+}  // namespace lamina::csg

@@ -1,0 +1,189 @@
+#pragma once
+// The walk that lowers a tree, one overload for each kind of node.
+//
+// Cut by what a node is: lower_operators.cpp has the operators and how
+// operands of two and three dimensions meet, lower_leaves.cpp the solids that
+// stand at the bottom, lower_planar.cpp what lies in the plane, lower_files.cpp
+// what is read from files, lower_boundary.cpp the operators that need the
+// explicit boundary of their subtree (hull, resize, projection), and
+// lower_minkowski.cpp the sum.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "csg/lower/detail/fineness.h"
+#include "csg/lower/detail/leaf_store.h"
+#include "csg/lower/detail/program_builder.h"
+#include "csg/lower/lower.h"
+#include "csg/plane/region.h"
+#include "csg/scene.h"
+#include "csg/tree.h"
+
+namespace lamina::csg {
+
+// What a subtree is. A solid's parts stand on the program builder's stack, and
+// there may be none: an empty solid still is three-dimensional.
+enum class Dimension { kNone, kFlat, kSolid };
+struct Shape {
+  Dimension dimension = Dimension::kNone;
+  planar::Region region = {};
+  // Of a solid: OpenSCAD would have evaluated a Boolean for it, and not hold it
+  // as one list of faces. Scaled by 0 the former is removed, the latter flat.
+  bool is_boolean = false;
+};
+
+struct Operand;
+
+class Lowerer {
+ public:
+  // instances  about as many as there will be
+  Lowerer(std::size_t instances, const LowerOptions& options,
+          Diagnostics& diagnostics);
+
+  // The solid parts of the subtree are left on top of the builder's stack, in
+  // world coordinates; a region is in the node's own coordinates.
+  // Throws GeometryError where something has to be clipped beyond 1e9 mm.
+  Shape lower(const Node& node, const Affine& world);
+
+  Scene take_scene();
+  // Without what is flat.
+  Scene take_solids();
+
+ private:
+  // --- lower_operators.cpp --------------------------------------------------
+  Shape lower_op(const Group&, const Node& node, const Affine& world);
+  Shape lower_op(const Union&, const Node& node, const Affine& world);
+  Shape lower_op(const Render&, const Node& node, const Affine& world);
+  Shape lower_op(const Color&, const Node& node, const Affine& world);
+  Shape lower_op(const Difference&, const Node& node, const Affine& world);
+  Shape lower_op(const Intersection&, const Node& node, const Affine& world);
+  Shape lower_op(const Transform& op, const Node& node, const Affine& world);
+
+  // The parts above the mark, of this shape, were put in the world by a
+  // singular matrix.
+  void flatten(std::size_t mark, const Shape& shape, SourceRange range);
+
+  // The operands of an operator: those of the first child's dimension.
+  struct Operands {
+    Dimension dimension = Dimension::kNone;
+    std::size_t count = 0;
+    std::vector<std::size_t> begins;  // on the stack; not kept for a union
+    std::vector<planar::Region> regions;
+    std::vector<const Node*> strays;  // of the other dimension
+    const Node* first_mixed = nullptr;
+    std::size_t solid_count = 0;  // of those that are not empty
+    bool has_boolean = false;     // among these
+  };
+  // All children; `dimension` decides unless it is kNone.
+  Operands lower_operands(const Node& node, const Affine& world, bool is_union,
+                          Dimension dimension);
+  void add_operand(const Node& child, const Affine& world, bool is_union,
+                   Operands& operands);
+  static bool is_boolean(BooleanOp op, const Operands& operands);
+  void report_strays(const Operands& operands);
+  Shape lower_children(const Node& node, const Affine& world, BooleanOp op);
+
+  // --- lower_leaves.cpp -----------------------------------------------------
+  Shape lower_op(const Cube& cube, const Node& node, const Affine& world);
+  Shape lower_op(const Sphere& sphere, const Node& node, const Affine& world);
+  Shape lower_op(const Cylinder& c, const Node& node, const Affine& world);
+  Shape lower_op(const Polyhedron& polyhedron, const Node& node,
+                 const Affine& world);
+  Shape lower_op(const LinearExtrude& op, const Node& node,
+                 const Affine& world);
+  Shape lower_op(const RotateExtrude& op, const Node& node,
+                 const Affine& world);
+
+  // For a node with these $fn, $fa, $fs.
+  Fineness fineness(const Facets& facets, const Affine& world) const;
+  // flatten_children with a share of the chordal error.
+  Shape flatten_finely(const Node& node, const Affine& world, double share);
+
+  void place_leaf(Leaf leaf, const Node& node, const Affine& world);
+  // Nothing for a leaf without a surface.
+  std::optional<std::uint32_t> add_leaf(Leaf leaf);
+  void place(std::uint32_t leaf, Vec3 size, const Node& node,
+             const Affine& world);
+  Box3 bound(std::uint32_t leaf, const Affine& m);
+
+  // --- lower_planar.cpp -----------------------------------------------------
+  Shape lower_op(const Square& op, const Node& node, const Affine& world);
+  Shape lower_op(const Circle& op, const Node& node, const Affine& world);
+  Shape lower_op(const Polygon& op, const Node& node, const Affine& world);
+  Shape lower_op(const Offset& op, const Node& node, const Affine& world);
+  Shape lower_op(const Fill& op, const Node& node, const Affine& world);
+  Shape lower_op(const Text& op, const Node& node, const Affine& world);
+
+  // The children's union in the plane, whatever else there is.
+  Shape flatten_children(const Node& node, const Affine& world);
+
+  // --- lower_files.cpp ------------------------------------------------------
+  // A solid or a region: its file says.
+  Shape lower_op(const Import& op, const Node& node, const Affine& world);
+  Shape lower_op(const Surface& op, const Node& node, const Affine& world);
+
+  // What a file holds: read once, however often the design names it.
+  struct FileShape {
+    Dimension dimension = Dimension::kNone;
+    planar::Region region = {};
+    std::optional<std::uint32_t> leaf = std::nullopt;
+  };
+  FileShape read_import(const ImportParams& params, const Fineness& fine,
+                        SourceRange range);
+  Shape place_file(const FileShape& shape, const Node& node,
+                   const Affine& world);
+  // --- lower_boundary.cpp ---------------------------------------------------
+  Shape lower_op(const Hull& op, const Node& node, const Affine& world);
+  Shape lower_op(const Resize& op, const Node& node, const Affine& world);
+  Shape lower_op(const Projection& op, const Node& node, const Affine& world);
+
+  // A node's children lowered by themselves, in the node's coordinates.
+  struct Apart {
+    Dimension dimension = Dimension::kNone;
+    std::vector<planar::Region> regions;  // one for each child that has one
+    Scene scene;                          // their union
+    bool is_boolean = false;              // as Shape's
+  };
+  Apart lower_apart(const Node& node, const Affine& world,
+                    bool takes_corners = false);
+  // A lowerer for those children; nothing lowered yet.
+  Lowerer make_inner(const Node& node, const Affine& world);
+
+  // --- lower_minkowski.cpp --------------------------------------------------
+  Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
+  std::vector<Scene> take_scenes(const std::vector<std::size_t>& begins);
+  void place_sum(const Operand& sum, const Node& node, const Affine& world);
+
+  // --- place_scene.cpp ------------------------------------------------------
+  // Leaves a scene that was lowered apart on top of the stack, as its
+  // program's parts.
+  void place_scene(const Scene& scene, const Affine& world);
+
+  struct KeptBox {
+    std::uint32_t leaf = 0;
+    Affine linear{0.0};
+    Box3 box;
+  };
+
+  LowerOptions options_;
+  Diagnostics& diagnostics_;
+  // All that becomes of the next leaf are its corners: it is below a hull, and
+  // alone all the way. So it may be any heap of faces.
+  bool takes_corners_ = false;
+  LeafStore leaves_;
+  ProgramBuilder builder_;
+  std::array<KeptBox, 64> kept_boxes_;
+  std::map<std::string, FileShape> file_shapes_;  // by path and csg_text
+};
+
+// Throws GeometryError, with the node's chain of calls.
+[[noreturn]] void fail_unsupported(const Node& node, std::string_view module);
+
+}  // namespace lamina::csg

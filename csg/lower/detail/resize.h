@@ -1,0 +1,20 @@
+#pragma once
+// resize(): by how much, with OpenSCAD's rules.
+
+#include "csg/plane/region.h"
+#include "csg/scene.h"
+#include "csg/tree.h"
+
+namespace lamina::csg {
+
+// A size of 0 keeps that direction, or with `auto` scales it as the direction
+// of the greatest new size. Negative sizes keep it, too; only the result of a
+// Boolean they mirror (there OpenSCAD 2021.01 has another code for it). What
+// has no extent in a direction keeps that.
+Vec2 resize_factor(const Resize& op, const planar::Region& region);
+Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean);
+
+// The box of the solid itself, however its leaves are combined.
+Box3 box_of_result(const Scene& scene);
+
+}  // namespace lamina::csg

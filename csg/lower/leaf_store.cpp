@@ -1,0 +1,158 @@
+#include "csg/lower/detail/leaf_store.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "csg/boundary/leaf_box.h"
+#include "csg/degrees.h"
+#include "csg/limits.h"
+#include "csg/plane/facets.h"
+
+namespace lamina::csg {
+namespace {
+
+// As a mesh the sweep would have about so many.
+double triangle_count(const Sweep& sweep) {
+  return 2.0 * static_cast<double>(sweep.outline->size()) *
+         static_cast<double>(sweep.profile.size());
+}
+
+double triangle_count(const Leaf& leaf) {
+  double count = 0;
+  for (const Sweep& sweep : leaf.sweeps) count += triangle_count(sweep);
+  for (const Mesh& mesh : leaf.meshes) {
+    count += static_cast<double>(mesh.triangles.size());
+  }
+  return count;
+}
+
+Leaf make_leaf(Sweep sweep) {
+  require_triangles(triangle_count(sweep));
+  Leaf leaf;
+  leaf.sweeps.push_back(std::move(sweep));
+  leaf.sweep_is_cavity.push_back(false);
+  leaf.box = bound_leaf(leaf, Affine(1.0));
+  return leaf;
+}
+
+// Half of the rings' angles lie off the poles: a sphere ends in two small
+// polygons, not in two points.
+std::vector<Vec2> sphere_profile(int fragments) {
+  const int rings = (fragments + 1) / 2;
+  std::vector<Vec2> profile;
+  for (int i = rings - 1; i >= 0; --i) {
+    const double angle_deg = 180.0 * (i + 0.5) / rings;
+    profile.push_back({sin_deg(angle_deg), cos_deg(angle_deg)});
+  }
+  return profile;
+}
+
+// Word by word; equal content gives equal hashes, nothing else is asked of it.
+class ContentHash {
+ public:
+  void add(std::uint64_t word) {
+    state_ = (std::rotl(state_, 23) ^ word) * 0x9e3779b97f4a7c15u;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(Vec2 v) { add(v.x), add(v.y); }
+  void add(Vec3 v) { add(v.x), add(v.y), add(v.z); }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+std::uint64_t hash(const Leaf& leaf) {
+  ContentHash hash;
+  for (const Sweep& sweep : leaf.sweeps) {
+    for (const Vec2 point : *sweep.outline) hash.add(point);
+    for (const Vec2 ring : sweep.profile) hash.add(ring);
+  }
+  for (const Mesh& mesh : leaf.meshes) {
+    for (const Vec3 vertex : mesh.vertices) hash.add(vertex);
+    hash.add(std::uint64_t{mesh.triangles.size()});
+  }
+  return hash.value();
+}
+
+bool are_equal(const Sweep& a, const Sweep& b) {
+  return a.is_closed_profile == b.is_closed_profile && a.profile == b.profile &&
+         (a.outline == b.outline || *a.outline == *b.outline);
+}
+
+bool are_equal(const Mesh& a, const Mesh& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles;
+}
+
+bool are_equal(const Leaf& a, const Leaf& b) {
+  const auto equal = [](const auto& x, const auto& y) {
+    return are_equal(x, y);
+  };
+  return a.may_overlap_itself == b.may_overlap_itself &&
+         a.sweep_is_cavity == b.sweep_is_cavity &&
+         std::equal(a.sweeps.begin(), a.sweeps.end(), b.sweeps.begin(),
+                    b.sweeps.end(), equal) &&
+         std::equal(a.meshes.begin(), a.meshes.end(), b.meshes.begin(),
+                    b.meshes.end(), equal);
+}
+
+}  // namespace
+
+template <typename Make>
+std::uint32_t LeafStore::find_or_add(const Key& key, Make make) {
+  const auto [place, is_new] =
+      primitives_.try_emplace(key, static_cast<std::uint32_t>(leaves_.size()));
+  if (is_new) leaves_.push_back(make_leaf(make()));
+  return place->second;
+}
+
+std::uint32_t LeafStore::unit_cube(bool center) {
+  return find_or_add({Shape::kCube, center, 4, 1, 1}, [&] {
+    const double low = center ? -0.5 : 0;
+    const double high = low + 1;
+    Sweep sweep;
+    sweep.outline = std::make_shared<const std::vector<Vec2>>(
+        planar::square(Vec2(1), center).contours.front());
+    sweep.profile = {{1, low}, {1, high}};
+    return sweep;
+  });
+}
+
+std::uint32_t LeafStore::unit_sphere(int fragments) {
+  return find_or_add({Shape::kSphere, true, fragments, 1, 1}, [&] {
+    return Sweep{circle(fragments), sphere_profile(fragments), false};
+  });
+}
+
+std::uint32_t LeafStore::unit_height_cone(double r1, double r2, bool center,
+                                          int fragments) {
+  return find_or_add({Shape::kCone, center, fragments, r1, r2}, [&] {
+    const double low = center ? -0.5 : 0;
+    return Sweep{circle(fragments), {{r1, low}, {r2, low + 1}}, false};
+  });
+}
+
+std::uint32_t LeafStore::add(Leaf leaf) {
+  require_triangles(triangle_count(leaf));
+  const std::uint64_t key = hash(leaf);
+  const auto [begin, end] = others_.equal_range(key);
+  for (auto other = begin; other != end; ++other) {
+    if (are_equal(leaves_[other->second], leaf)) return other->second;
+  }
+  leaf.box = bound_leaf(leaf, Affine(1.0));
+  const auto id = static_cast<std::uint32_t>(leaves_.size());
+  leaves_.push_back(std::move(leaf));
+  others_.emplace(key, id);
+  return id;
+}
+
+SharedOutline LeafStore::circle(int n) {
+  SharedOutline& table = circles_[n];
+  if (!table) {
+    table = std::make_shared<const std::vector<Vec2>>(planar::unit_circle(n));
+  }
+  return table;
+}
+
+}  // namespace lamina::csg

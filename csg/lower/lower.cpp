@@ -1,0 +1,129 @@
+#include "csg/lower/lower.h"
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "csg/greatest_coordinate.h"
+#include "csg/limits.h"
+#include "csg/lower/detail/lowerer.h"
+
+namespace lamina::csg {
+namespace {
+
+// What a walk over the tree tells before it is lowered.
+struct Survey {
+  const Node* root_modifier = nullptr;  // first node with `!`
+  std::size_t childless = 0;            // most of these are leaves
+};
+
+void survey(const Node& node, Survey& result) {
+  if (node.children.empty()) ++result.childless;
+  for (const Node* child : node.children) {
+    if (child->is_root && !result.root_modifier) result.root_modifier = child;
+    survey(*child, result);
+  }
+}
+
+std::vector<Note> call_chain(const CallFrame* caller) {
+  std::vector<Note> notes;
+  for (const CallFrame* frame = caller; frame; frame = frame->caller) {
+    notes.push_back({frame->range, fmt::format("called by '{}'", frame->name)});
+  }
+  return notes;
+}
+
+[[noreturn]] void fail_too_far(SourceRange range, const CallFrame* caller) {
+  throw GeometryError({Severity::kError, range,
+                       "Coordinates beyond 1e9 mm: too large for exact layers",
+                       call_chain(caller)});
+}
+
+bool is_too_far(double coordinate) {
+  return !(std::abs(coordinate) <= kGreatestCoordinate);
+}
+
+// Whether the instance is what stretches the scene's box too far.
+bool stretches(const Box3& box, const Box3& whole) {
+  for (int i = 0; i < 3; ++i) {
+    if (box.low[i] == whole.low[i] && is_too_far(box.low[i])) return true;
+    if (box.high[i] == whole.high[i] && is_too_far(box.high[i])) return true;
+  }
+  return false;
+}
+
+// Judges what the layers can show: a cutter may be as large as it likes.
+void check_range(const Scene& scene) {
+  if (scene.box.is_empty()) return;
+  for (const Instance& instance : scene.instances) {
+    if (stretches(instance.box, scene.box)) {
+      fail_too_far(instance.range, instance.caller);
+    }
+  }
+}
+
+}  // namespace
+
+void fail_unsupported(const Node& node, std::string_view module) {
+  throw GeometryError({Severity::kError, node.range,
+                       fmt::format("Module '{}' is not supported yet", module),
+                       call_chain(node.caller)});
+}
+
+Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
+                 Diagnostics& diagnostics)
+    : options_(options), diagnostics_(diagnostics) {
+  builder_.reserve(instances);
+}
+
+Shape Lowerer::lower(const Node& node, const Affine& world) {
+  try {
+    return std::visit([&](const auto& op) { return lower_op(op, node, world); },
+                      node.op);
+  } catch (const std::range_error&) {
+    fail_too_far(node.range, node.caller);
+  } catch (const LimitExceeded& limit) {
+    throw GeometryError(
+        {Severity::kError, node.range, limit.what(), call_chain(node.caller)});
+  }
+}
+
+Scene Lowerer::take_scene() {
+  Scene scene;
+  builder_.finish(scene);
+  scene.leaves = leaves_.take();
+  return scene;
+}
+
+Scene Lowerer::take_solids() {
+  builder_.drop_flat();
+  return take_scene();
+}
+
+Lowered lower(const Tree& tree, const LowerOptions& options,
+              Diagnostics& diagnostics) {
+  Survey found;
+  survey(*tree.root, found);
+  const Node* root = found.root_modifier ? found.root_modifier : tree.root;
+  Lowerer lowerer(found.childless, options, diagnostics);
+  Shape shape = lowerer.lower(
+      *root, options.world_from_design * Mat4(glm::dmat3(options.scale)));
+  if (!shape.region.is_empty()) {
+    for (planar::Contour& contour : shape.region.contours) {
+      for (Vec2& point : contour) point *= options.scale;
+    }
+    return {std::move(shape.region)};
+  }
+  Scene scene = lowerer.take_solids();
+  if (scene.instances.empty()) return {};
+  check_range(scene);
+  return {std::move(scene)};
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,60 @@
+#pragma once
+// From the CSG tree to the scene.
+//
+// Transforms are pushed down to the leaves, colours and groups vanish, 2D
+// subtrees become regions and then extrusions, and what remains is a flat
+// Boolean program over instances of few shared leaves. Parts that are provably
+// empty are left out. What is 2D, 3D, empty or mixed follows OpenSCAD 2021.01,
+// warnings included.
+
+#include <variant>
+
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "csg/plane/region.h"
+#include "csg/scene.h"
+#include "csg/tree.h"
+
+namespace lamina::text {
+class Typesetter;
+}
+
+namespace lamina::csg {
+
+struct LowerOptions {
+  // Put in front of every instance's matrix (`--axis`). Orthogonal. An outline
+  // is not turned.
+  Affine world_from_design{1.0};
+  // Greatest distance in the world of facets from the round surface that they
+  // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
+  double chordal_error = 0;
+  // For text(), which is an error without.
+  text::Typesetter* typesetter = nullptr;
+  const FileAccess* file_access = &kAllFiles;  // what import() may read
+  // Of the whole design, outlines too, about its origin (`--scale`); more
+  // than 0. Facets are those of the design before.
+  double scale = 1;
+};
+
+// What a design is: nothing, an outline in the plane, or a solid.
+struct Lowered {
+  std::variant<std::monostate, planar::Region, Scene> geometry;
+
+  bool is_empty() const { return geometry.index() == 0; }
+  const planar::Region* outline() const {
+    return std::get_if<planar::Region>(&geometry);
+  }
+  const Scene* scene() const { return std::get_if<Scene>(&geometry); }
+};
+
+// Lowers the whole tree, or the subtree of the `!` modifier. Recurses as deep
+// as the tree is nested. Time and memory are linear in the tree.
+//
+// throws  GeometryError where the solid, or a polygon or face that has to be
+//         clipped on the way, reaches beyond 1e9 mm; by csg/limits.h
+//
+// The scene keeps pointers to the tree's call frames, to nothing else in it.
+Lowered lower(const Tree& tree, const LowerOptions& options,
+              Diagnostics& diagnostics);
+
+}  // namespace lamina::csg

@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/file/file_bytes.h"
+#include "base/file/format_error.h"
+#include "csg/import/dxf.h"
+#include "csg/import/mesh_file.h"
+#include "csg/import/surface_file.h"
+#include "csg/import/svg.h"
+#include "csg/lower/detail/face.h"
+#include "csg/lower/detail/flat.h"
+#include "csg/lower/detail/lowerer.h"
+#include "csg/lower/detail/mend.h"
+#include "csg/plane/clip.h"
+
+namespace lamina::csg {
+namespace {
+
+std::uint32_t line_of(SourceRange range) {
+  return range.is_known() ? range.source->openscad_line(range.begin) : 0;
+}
+
+// As OpenSCAD shows a path in quotes.
+std::string quoted_from_here(std::string_view path) {
+  return fmt::format("\"{}\"",
+                     std::filesystem::path(path)
+                         .lexically_proximate(std::filesystem::current_path())
+                         .generic_string());
+}
+
+// --- Meshes -----------------------------------------------------------------
+
+// Closed and consistent, whatever the file has.
+Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
+  Mesh mesh = std::move(raw.mesh);
+  for (const std::vector<std::uint32_t>& polygon : raw.polygons) {
+    for (const auto& t : triangulate_face(mesh.vertices, polygon)) {
+      mesh.triangles.push_back(t);
+    }
+  }
+  mend_and_report(mesh, range, diagnostics,
+                  raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
+  return mesh;
+}
+
+Leaf make_import_leaf(const ImportParams& params, const FileAccess& access,
+                      SourceRange range, Diagnostics& diagnostics) {
+  Leaf leaf;
+  leaf.may_overlap_itself = true;
+  for (RawMesh& raw : read_mesh_file(std::string(params.path), params.format,
+                                     access, range, diagnostics)) {
+    leaf.meshes.push_back(make_sound(std::move(raw), range, diagnostics));
+  }
+  return leaf;
+}
+
+// --- Drawings ---------------------------------------------------------------
+
+planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
+                        const FileAccess& access, SourceRange range,
+                        Diagnostics& diagnostics) {
+  DxfOptions options{std::string(params.layer),
+                     params.origin,
+                     params.scale,
+                     {},
+                     std::string(params.path)};
+  options.fragments = [&fineness](double r) {
+    return circle_fragments(r, fineness);
+  };
+  const auto bytes = FileBytes::open(options.path, access);
+  if (!bytes) {
+    diagnostics.warning(range,
+                        fmt::format("Can't open DXF file '{}'.", options.path));
+    return {};
+  }
+  DxfDrawing drawing;
+  try {
+    drawing = parse_dxf(bytes->view(), options);
+  } catch (const FormatError& fault) {
+    diagnostics.error(range, fmt::format("{} importing file '{}'", fault.what(),
+                                         options.path));
+    return {};
+  }
+  for (std::string& warning : drawing.warnings) {
+    diagnostics.warning(range, std::move(warning));
+  }
+  for (std::string& warning : unknown_entity_warnings(
+           drawing, options.layer, quoted_from_here(options.path))) {
+    diagnostics.warning(range, std::move(warning));
+  }
+  std::vector<planar::Contour> contours;
+  for (DxfPath& path : drawing.paths) {
+    contours.push_back(std::move(path.points));  // open ones are closed, too
+  }
+  return fill_shapes({&contours, 1});
+}
+
+SvgContours outline_stroke(std::span<const Vec2> path,
+                           const SvgStroke& stroke) {
+  // OpenSCAD's, in the units of the drawing; of strokes that are wider than a
+  // metre such a share of their width that a circle has 10,000 sides.
+  constexpr double kArcTolerance = 2.5e-5;
+  constexpr double kArcShare = 2.5e-8;
+  const double tolerance = std::max(kArcTolerance, kArcShare * stroke.width);
+  const planar::Join join =
+      stroke.join == SvgStroke::Join::kRound   ? planar::Join::kRound
+      : stroke.join == SvgStroke::Join::kBevel ? planar::Join::kBevel
+                                               : planar::Join::kMiter;
+  const planar::Cap cap =
+      stroke.cap == SvgStroke::Cap::kButt    ? planar::Cap::kButt
+      : stroke.cap == SvgStroke::Cap::kRound ? planar::Cap::kRound
+                                             : planar::Cap::kSquare;
+  return planar::stroke(path, stroke.width, join, cap, tolerance).contours;
+}
+
+planar::Region read_svg(const ImportParams& params, const FileAccess& access,
+                        SourceRange range, Diagnostics& diagnostics) {
+  const auto bytes = FileBytes::open(std::string(params.path), access);
+  if (!bytes) {
+    diagnostics.error(range,
+                      fmt::format("Can't open file '{}', import() at line {}",
+                                  params.path, line_of(range)));
+    return {};
+  }
+  SvgOptions options{params.dpi, params.center, outline_stroke};
+  std::vector<SvgContours> shapes;
+  try {
+    shapes = parse_svg(bytes->view(), options);
+  } catch (const FormatError& fault) {
+    Diagnostic diagnostic{
+        Severity::kError, range,
+        fmt::format("Error parsing file '{}', import() at line {}", params.path,
+                    line_of(range))};
+    diagnostic.hints.push_back({range, fault.what()});
+    diagnostics.report(std::move(diagnostic));
+    return {};
+  }
+  return fill_shapes(shapes);
+}
+
+}  // namespace
+
+Shape Lowerer::lower_op(const Import& op, const Node& node,
+                        const Affine& world) {
+  const ImportParams& params = *op.params;
+  const Fineness fine = fineness(params.facets, world);
+  const std::string key =
+      fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
+  const auto [entry, is_new] = file_shapes_.try_emplace(key);
+  if (is_new) {
+    const std::size_t messages = diagnostics_.all().size();
+    entry->second = read_import(params, fine, node.range);
+    const bool is_empty =
+        !entry->second.leaf && entry->second.region.is_empty();
+    if (is_empty && diagnostics_.all().size() == messages) {
+      diagnostics_.warning(node.range,
+                           fmt::format("File {} holds nothing to import",
+                                       quoted_from_here(params.path)));
+    }
+  }
+  return place_file(entry->second, node, world);
+}
+
+Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
+                                        const Fineness& fine,
+                                        SourceRange range) {
+  const FileAccess& access = *options_.file_access;
+  switch (params.format) {
+    case ImportFormat::kUnknown:
+      diagnostics_.error(
+          range, fmt::format("Unsupported file format while trying to import "
+                             "file '{}', import() at line {}",
+                             quoted_from_here(params.path), line_of(range)));
+      return {Dimension::kSolid};
+    case ImportFormat::kDxf:
+      return {Dimension::kFlat,
+              read_dxf(params, fine, access, range, diagnostics_)};
+    case ImportFormat::kSvg:
+      return {Dimension::kFlat, read_svg(params, access, range, diagnostics_)};
+    case ImportFormat::kStl:
+    case ImportFormat::kOff:
+    case ImportFormat::kObj:
+    case ImportFormat::kAmf:
+    case ImportFormat::k3mf:
+      break;
+  }
+  return {Dimension::kSolid,
+          {},
+          add_leaf(make_import_leaf(params, access, range, diagnostics_))};
+}
+
+Shape Lowerer::lower_op(const Surface& op, const Node& node,
+                        const Affine& world) {
+  const SurfaceParams& params = *op.params;
+  const std::string key = fmt::format("{} {}", params.path, params.csg_text);
+  const auto [entry, is_new] = file_shapes_.try_emplace(key);
+  if (is_new) {
+    Leaf leaf;
+    leaf.meshes.push_back(read_surface_file(params, *options_.file_access,
+                                            node.range, diagnostics_));
+    entry->second = {Dimension::kSolid, {}, add_leaf(std::move(leaf))};
+  }
+  return place_file(entry->second, node, world);
+}
+
+Shape Lowerer::place_file(const FileShape& shape, const Node& node,
+                          const Affine& world) {
+  if (shape.leaf) place(*shape.leaf, Vec3(1), node, world);
+  return {shape.dimension, shape.region};
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,164 @@
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "csg/boundary/leaf_box.h"
+#include "csg/lower/detail/extrude.h"
+#include "csg/lower/detail/lowerer.h"
+#include "csg/lower/detail/polyhedron.h"
+
+namespace lamina::csg {
+namespace {
+
+// Whether the map turns and scales nothing.
+bool is_shift(const Affine& m) {
+  return m[0] == Vec3(1, 0, 0) && m[1] == Vec3(0, 1, 0) &&
+         m[2] == Vec3(0, 0, 1);
+}
+
+// Other sizes than these make OpenSCAD's primitives empty.
+bool is_size(double x) { return x > 0 && std::isfinite(x); }
+
+}  // namespace
+
+Shape Lowerer::lower_op(const Cube& cube, const Node& node,
+                        const Affine& world) {
+  if (is_size(cube.size.x) && is_size(cube.size.y) && is_size(cube.size.z)) {
+    place(leaves_.unit_cube(cube.center), cube.size, node, world);
+  }
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Sphere& sphere, const Node& node,
+                        const Affine& world) {
+  if (is_size(sphere.r)) {
+    const int n = sphere_fragments(sphere.r, fineness(sphere.facets, world));
+    place(leaves_.unit_sphere(n), Vec3(sphere.r), node, world);
+  }
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Cylinder& c, const Node& node,
+                        const Affine& world) {
+  const double r = std::fmax(c.r1, c.r2);
+  if (!is_size(c.h) || !is_size(r) || !(c.r1 >= 0 && c.r2 >= 0)) {
+    return {Dimension::kSolid};
+  }
+  const int n = circle_fragments(r, fineness(c.facets, world));
+  // A cone keeps its radii: their ratio would not give back the same bits.
+  const bool is_straight = c.r1 == c.r2;
+  const Vec3 size = is_straight ? Vec3(r, r, c.h) : Vec3(1, 1, c.h);
+  const std::uint32_t leaf =
+      is_straight ? leaves_.unit_height_cone(1, 1, c.center, n)
+                  : leaves_.unit_height_cone(c.r1, c.r2, c.center, n);
+  place(leaf, size, node, world);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
+                        const Affine& world) {
+  Leaf leaf;
+  leaf.meshes.push_back(
+      takes_corners_
+          ? make_corners(*polyhedron.params, node.range, diagnostics_)
+          : make_polyhedron(*polyhedron.params, node.range, diagnostics_));
+  leaf.may_overlap_itself = true;
+  place_leaf(std::move(leaf), node, world);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const LinearExtrude& op, const Node& node,
+                        const Affine& world) {
+  const LinearExtrudeParams& params = *op.params;
+  // Where the sides are curved they and the outline share the chordal error.
+  const bool is_curved = params.has_twist || params.scale.x != params.scale.y;
+  const double share = is_curved ? 0.25 : 1;
+  const Shape shape = flatten_finely(node, world, share);
+  if (shape.dimension == Dimension::kNone) return {};
+  const double error =
+      (1 - share) * fineness(params.facets, world).chordal_error;
+  place_leaf(extrude_linearly(params, shape.region, error), node, world);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
+                        const Affine& world) {
+  // The turn and its profile share the chordal error.
+  constexpr double kShare = 0.5;
+  const Shape shape = flatten_finely(node, world, kShare);
+  if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
+  const ProfileRange range = profile_range(shape.region);
+  if (range.crosses_axis()) {
+    diagnostics_.error(
+        node.range,
+        fmt::format("all points for rotate_extrude() must have the same X "
+                    "coordinate sign (range is {:.2f} -> {:.2f})",
+                    range.low, range.high));
+    return {};
+  }
+  Fineness turn = fineness(op.facets, world);
+  turn.chordal_error *= 1 - kShare;
+  const int n = turn_fragments(range, op.angle_deg, turn);
+  place_leaf(extrude_around(shape.region, op.angle_deg, n), node, world);
+  return {Dimension::kSolid};
+}
+
+Fineness Lowerer::fineness(const Facets& facets, const Affine& world) const {
+  if (options_.chordal_error == 0) return {facets};
+  return {facets, options_.chordal_error / greatest_stretch(world)};
+}
+
+Shape Lowerer::flatten_finely(const Node& node, const Affine& world,
+                              double share) {
+  const double whole = options_.chordal_error;
+  options_.chordal_error *= share;
+  Shape shape = flatten_children(node, world);
+  options_.chordal_error = whole;
+  return shape;
+}
+
+void Lowerer::place_leaf(Leaf leaf, const Node& node, const Affine& world) {
+  if (const auto index = add_leaf(std::move(leaf))) {
+    place(*index, Vec3(1), node, world);
+  }
+}
+
+std::optional<std::uint32_t> Lowerer::add_leaf(Leaf leaf) {
+  std::erase_if(leaf.meshes,
+                [](const Mesh& mesh) { return mesh.triangles.empty(); });
+  if (leaf.sweeps.empty() && leaf.meshes.empty()) return std::nullopt;
+  return leaves_.add(std::move(leaf));
+}
+
+void Lowerer::place(std::uint32_t leaf, Vec3 size, const Node& node,
+                    const Affine& world) {
+  Instance instance;
+  instance.leaf = leaf;
+  instance.world_from_leaf = {world[0] * size.x, world[1] * size.y,
+                              world[2] * size.z, world[3]};
+  instance.box = bound(leaf, instance.world_from_leaf);
+  instance.range = node.range;
+  instance.caller = node.caller;
+  builder_.push(instance);
+}
+
+// Many instances of a leaf differ in their shift only: recent boxes are kept.
+Box3 Lowerer::bound(std::uint32_t leaf, const Affine& m) {
+  const double mix = m[0].x + 3 * m[0].y + 5 * m[1].y + 7 * m[2].z + leaf;
+  const std::size_t slot =
+      (std::bit_cast<std::uint64_t>(mix) * 0x9e3779b97f4a7c15u) >> 58;
+  KeptBox& kept = kept_boxes_[slot];
+  const bool is_same = kept.leaf == leaf && kept.linear[0] == m[0] &&
+                       kept.linear[1] == m[1] && kept.linear[2] == m[2];
+  if (!is_same) {
+    const Box3 box =
+        is_shift(m) ? leaves_[leaf].box : bound_leaf(leaves_[leaf], m);
+    kept = {leaf, m, box};
+  }
+  return shift_box(kept.box, m[3]);
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,100 @@
+// minkowski(): the sum of its children.
+//
+// Each child is lowered apart, in the node's own coordinates, so that the sum
+// is made before the world's matrix puts noise on what is flat or parallel.
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "csg/boundary/convex_hull.h"
+#include "csg/lower/detail/flat.h"
+#include "csg/lower/detail/lowerer.h"
+#include "csg/minkowski/minkowski.h"
+
+namespace lamina::csg {
+namespace {
+
+bool is_flat(const Operand& term) {
+  return term.bodies.empty() &&
+         std::all_of(term.convex.begin(), term.convex.end(),
+                     [](const Convex& part) { return part.is_flat; });
+}
+
+// Whether OpenSCAD, which adds one term after another, loses the sum on the
+// way: a sum without volume is empty to it, and so is all that is added to
+// that.
+bool is_lost(const std::vector<Operand>& terms) {
+  if (terms.size() < 3 || !is_flat(terms[0]) || !is_flat(terms[1])) {
+    return false;
+  }
+  const Operand first = add_operands({terms[0], terms[1]});
+  return std::all_of(first.convex.begin(), first.convex.end(),
+                     [](const Convex& part) {
+                       return convex_hull(part.vertices).triangles.empty();
+                     });
+}
+
+}  // namespace
+
+Shape Lowerer::lower_op(const Minkowski&, const Node& node,
+                        const Affine& world) {
+  LowerOptions options = options_;
+  options.chordal_error = fineness({}, world).chordal_error;
+  Lowerer apart(node.children.size(), options, diagnostics_);
+  const Operands operands =
+      apart.lower_operands(node, Affine(1.0), false, Dimension::kNone);
+  report_strays(operands);
+  switch (operands.dimension) {
+    case Dimension::kNone:
+      return {};
+    case Dimension::kFlat:
+      return {Dimension::kFlat, add_regions(operands.regions)};
+    case Dimension::kSolid:
+      break;
+  }
+  std::vector<Scene> solids = apart.take_scenes(operands.begins);
+  std::erase_if(solids,
+                [](const Scene& scene) { return scene.instances.empty(); });
+  if (solids.empty()) return {};
+  if (solids.size() == 1) {
+    place_scene(solids[0], world);
+    return {Dimension::kSolid, {}, operands.has_boolean};
+  }
+  std::vector<Operand> terms;
+  terms.reserve(solids.size());
+  for (const Scene& scene : solids) terms.push_back(make_operand(scene));
+  std::erase_if(terms, [](const Operand& term) { return term.is_empty(); });
+  if (terms.empty() || is_lost(terms)) return {};
+  const Operand sum = add_operands(std::move(terms));
+  place_sum(sum, node, world);
+  return {Dimension::kSolid, {}, !sum.bodies.empty() || sum.convex.size() > 1};
+}
+
+void Lowerer::place_sum(const Operand& sum, const Node& node,
+                        const Affine& world) {
+  for (const Body& body : sum.bodies) {
+    Affine moved = world;
+    moved[3] = world * Vec4(body.shift, 1);
+    place_scene(*body.scene, moved);
+  }
+  place_leaf(make_leaf(sum.convex), node, world);
+}
+
+// The operands on the stack, each with all leaves it needs.
+std::vector<Scene> Lowerer::take_scenes(
+    const std::vector<std::size_t>& begins) {
+  std::vector<Scene> scenes;
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    scenes.emplace_back();
+    builder_.copy(begins[i],
+                  i + 1 < begins.size() ? begins[i + 1] : builder_.mark(),
+                  scenes.back());
+  }
+  const std::vector<Leaf> leaves = leaves_.take();
+  for (Scene& scene : scenes) scene.leaves = leaves;
+  return scenes;
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,178 @@
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "csg/lower/detail/flat.h"
+#include "csg/lower/detail/lowerer.h"
+
+namespace lamina::csg {
+namespace {
+
+double determinant(const Affine& m) {
+  return glm::dot(m[0], glm::cross(m[1], m[2]));
+}
+
+bool is_finite(const Mat4& m) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!std::isfinite(m[column][row])) return false;
+    }
+  }
+  return true;
+}
+
+Vec3 apply_linear(const Affine& m, Vec3 v) {
+  return m[0] * v.x + m[1] * v.y + m[2] * v.z;
+}
+
+Affine compose(const Affine& outer, const Mat4& inner) {
+  const Affine m(inner);
+  return {apply_linear(outer, m[0]), apply_linear(outer, m[1]),
+          apply_linear(outer, m[2]), apply_linear(outer, m[3]) + outer[3]};
+}
+
+}  // namespace
+
+Shape Lowerer::lower_op(const Group&, const Node& node, const Affine& world) {
+  return lower_children(node, world, BooleanOp::kUnion);
+}
+
+Shape Lowerer::lower_op(const Union&, const Node& node, const Affine& world) {
+  return lower_children(node, world, BooleanOp::kUnion);
+}
+
+Shape Lowerer::lower_op(const Render&, const Node& node, const Affine& world) {
+  return lower_children(node, world, BooleanOp::kUnion);
+}
+
+Shape Lowerer::lower_op(const Color&, const Node& node, const Affine& world) {
+  return lower_children(node, world, BooleanOp::kUnion);
+}
+
+Shape Lowerer::lower_op(const Difference&, const Node& node,
+                        const Affine& world) {
+  return lower_children(node, world, BooleanOp::kDifference);
+}
+
+Shape Lowerer::lower_op(const Intersection&, const Node& node,
+                        const Affine& world) {
+  return lower_children(node, world, BooleanOp::kIntersection);
+}
+
+Shape Lowerer::lower_op(const Transform& op, const Node& node,
+                        const Affine& world) {
+  const std::size_t mark = builder_.mark();
+  if (!is_finite(*op.matrix)) {
+    diagnostics_.warning(node.range,
+                         "Transformation matrix contains Not-a-Number and/or "
+                         "Infinity - removing object.");
+    return {};
+  }
+  Shape shape =
+      lower_children(node, compose(world, *op.matrix), BooleanOp::kUnion);
+  if (shape.dimension == Dimension::kFlat) {
+    return {Dimension::kFlat,
+            transform_region(std::move(shape.region), *op.matrix, node.range,
+                             diagnostics_)};
+  }
+  if (determinant(Affine(*op.matrix)) == 0) flatten(mark, shape, node.range);
+  return shape;
+}
+
+void Lowerer::flatten(std::size_t mark, const Shape& shape, SourceRange range) {
+  builder_.flatten(mark);
+  if (!shape.is_boolean || builder_.mark() == mark) return;
+  diagnostics_.warning(range, "Scaling a 3D object with 0 - removing object");
+  builder_.drop(mark);
+}
+
+// --- Children ----------------------------------------------------------------
+
+Lowerer::Operands Lowerer::lower_operands(const Node& node, const Affine& world,
+                                          bool is_union, Dimension dimension) {
+  Operands operands;
+  operands.dimension = dimension;
+  for (const Node* child : node.children) {
+    if (!child->is_background) add_operand(*child, world, is_union, operands);
+  }
+  return operands;
+}
+
+void Lowerer::add_operand(const Node& child, const Affine& world, bool is_union,
+                          Operands& operands) {
+  const std::size_t begin = builder_.mark();
+  Shape shape = lower(child, world);
+  if (operands.dimension == Dimension::kNone) {
+    operands.dimension = shape.dimension;
+  } else if (shape.dimension != Dimension::kNone &&
+             shape.dimension != operands.dimension) {
+    const bool is_empty = shape.region.is_empty() && builder_.mark() == begin;
+    if (!is_empty && !operands.first_mixed) operands.first_mixed = &child;
+    operands.strays.push_back(&child);
+    builder_.drop(begin);
+    shape.region = {};
+  }
+  ++operands.count;
+  if (builder_.mark() > begin) {
+    ++operands.solid_count;
+    operands.has_boolean = operands.has_boolean || shape.is_boolean;
+  }
+  if (!is_union) operands.begins.push_back(begin);
+  if (operands.dimension != Dimension::kSolid &&
+      !(is_union && shape.region.is_empty())) {
+    operands.regions.push_back(std::move(shape.region));
+  }
+}
+
+bool Lowerer::is_boolean(BooleanOp op, const Operands& operands) {
+  // What is empty takes no part in a union.
+  const bool is_union = op == BooleanOp::kUnion;
+  return operands.has_boolean ||
+         (is_union ? operands.solid_count : operands.count) > 1;
+}
+
+void Lowerer::report_strays(const Operands& operands) {
+  if (operands.first_mixed) {
+    diagnostics_.warning(operands.first_mixed->range,
+                         "Mixing 2D and 3D objects is not supported");
+  }
+  const bool is_solid = operands.dimension == Dimension::kSolid;
+  for (const Node* stray : operands.strays) {
+    diagnostics_.warning(
+        stray->range, is_solid ? "Ignoring 2D child object for 3D operation"
+                               : "Ignoring 3D child object for 2D operation");
+  }
+}
+
+Shape Lowerer::lower_children(const Node& node, const Affine& world,
+                              BooleanOp op) {
+  const std::size_t mark = builder_.mark();
+  const bool took_corners = takes_corners_;
+  takes_corners_ = takes_corners_ && node.children.size() == 1;
+  const Operands operands =
+      lower_operands(node, world, op == BooleanOp::kUnion, Dimension::kNone);
+  takes_corners_ = took_corners;
+  report_strays(operands);
+  switch (operands.dimension) {
+    case Dimension::kNone:
+      return {};
+    case Dimension::kFlat:
+      if (operands.regions.empty()) return {Dimension::kFlat};
+      return {Dimension::kFlat, combine_regions(op, operands.regions)};
+    case Dimension::kSolid:
+      break;
+  }
+  if (op == BooleanOp::kDifference) {
+    builder_.apply_difference(operands.begins);
+  } else if (op == BooleanOp::kIntersection) {
+    builder_.apply_intersection(operands.begins);
+  }
+  const bool is_nothing = builder_.mark() == mark && operands.count > 1;
+  return {is_nothing ? Dimension::kNone : Dimension::kSolid,
+          {},
+          is_boolean(op, operands)};
+}
+
+}  // namespace lamina::csg

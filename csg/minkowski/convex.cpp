@@ -1,0 +1,291 @@
+#include "csg/minkowski/convex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace lamina::csg {
+namespace {
+
+using Edge = Convex::Edge;
+
+// Sine of the angle by which an edge may be reflex and the solid count as
+// convex: what rounding does to facets a thousand times longer than wide.
+constexpr double kReflexSine = 1e-9;
+
+// Top and base of a prism agree to this part of its size.
+constexpr double kPrismPrecision = 1e-13;
+
+struct HalfEdge {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  std::uint32_t facet = 0;
+  bool is_rising = false;  // runs from low to high
+};
+
+std::vector<HalfEdge> half_edges(const Convex& body) {
+  std::vector<HalfEdge> result;
+  result.reserve(body.corners.size());
+  for (std::uint32_t f = 0; f < body.facet_count(); ++f) {
+    const auto loop = body.facet(f);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t a = loop[i];
+      const std::uint32_t b = loop[i + 1 == loop.size() ? 0 : i + 1];
+      result.push_back({std::min(a, b), std::max(a, b), f, a < b});
+    }
+  }
+  std::sort(result.begin(), result.end(),
+            [](const HalfEdge& a, const HalfEdge& b) {
+              return std::tie(a.low, a.high, a.is_rising, a.facet) <
+                     std::tie(b.low, b.high, b.is_rising, b.facet);
+            });
+  return result;
+}
+
+}  // namespace
+
+void find_edges(Convex& body) {
+  const std::vector<HalfEdge> sides = half_edges(body);
+  body.edges.clear();
+  body.is_closed = true;
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    std::size_t rising = begin;
+    while (end < sides.size() && sides[end].low == sides[begin].low &&
+           sides[end].high == sides[begin].high) {
+      if (!sides[end].is_rising) rising = end + 1;
+      ++end;
+    }
+    if (rising - begin != end - rising) {
+      body.is_closed = false;
+      continue;
+    }
+    for (std::size_t i = rising; i < end; ++i) {
+      body.edges.push_back({sides[i].low, sides[i].high, sides[i].facet,
+                            sides[begin + i - rising].facet});
+    }
+  }
+}
+
+namespace {
+
+bool has_reflex_edge(const Convex& body) {
+  return std::any_of(
+      body.edges.begin(), body.edges.end(), [&](const Edge& edge) {
+        const Vec3 along = body.vertices[edge.to] - body.vertices[edge.from];
+        const Vec3 turn =
+            glm::cross(body.normals[edge.left], body.normals[edge.right]);
+        return glm::dot(turn, along) < -kReflexSine * glm::length(along);
+      });
+}
+
+Vec3 middle_of(const Convex& body, std::span<const std::uint32_t> loop) {
+  Vec3 sum(0);
+  for (const std::uint32_t corner : loop) sum += body.vertices[corner];
+  return sum / static_cast<double>(loop.size());
+}
+
+// Whether the facet meets the ray from `origin` along `direction`, which
+// leaves the body there.
+bool is_hit(const Convex& body, std::size_t facet, const Vec3& origin,
+            const Vec3& direction) {
+  if (glm::dot(body.normals[facet], direction) <= 0) return false;
+  const auto loop = body.facet(facet);
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec3 a = body.vertices[loop[i]] - origin;
+    const Vec3 b =
+        body.vertices[loop[i + 1 == loop.size() ? 0 : i + 1]] - origin;
+    if (glm::dot(glm::cross(a, b), direction) < 0) return false;
+  }
+  return true;
+}
+
+// Whether a surface without reflex edges bounds a convex solid: its facets all
+// face away from the middle, which sees each direction once.
+bool is_seen_once(const Convex& body) {
+  const Vec3 center = middle(body);
+  for (std::size_t f = 0; f < body.facet_count(); ++f) {
+    const Vec3 corner = body.vertices[body.facet(f).front()];
+    const bool is_line = body.normals[f] == Vec3(0);
+    if (!is_line && glm::dot(body.normals[f], corner - center) <= 0) {
+      return false;
+    }
+  }
+  const auto normal = std::find_if(body.normals.begin(), body.normals.end(),
+                                   [](const Vec3& n) { return n != Vec3(0); });
+  if (normal == body.normals.end()) return false;
+  const auto aim = static_cast<std::size_t>(normal - body.normals.begin());
+  const Vec3 direction = middle_of(body, body.facet(aim)) - center;
+  int hits = 0;
+  for (std::size_t f = 0; f < body.facet_count(); ++f) {
+    hits += is_hit(body, f, center, direction) ? 1 : 0;
+  }
+  return hits == 1;
+}
+
+// The shift from the base to the other facet, if it is the same everywhere.
+std::optional<Vec3> prism_axis(const Convex& solid,
+                               std::span<const std::uint32_t> base) {
+  std::vector<bool> is_base(solid.vertices.size(), false);
+  for (const std::uint32_t corner : base) is_base[corner] = true;
+  double size = 0;
+  for (const Vec3& vertex : solid.vertices) {
+    size = std::max(size, glm::length(vertex));
+  }
+  std::optional<Vec3> axis;
+  std::size_t sides = 0;
+  for (const Edge& edge : solid.edges) {
+    if (is_base[edge.from] == is_base[edge.to]) continue;
+    const Vec3 rise = solid.vertices[edge.to] - solid.vertices[edge.from];
+    const Vec3 shift = is_base[edge.from] ? rise : -rise;
+    if (!axis) axis = shift;
+    if (glm::distance(*axis, shift) > kPrismPrecision * size) return {};
+    ++sides;
+  }
+  if (sides != base.size()) return {};
+  return axis;
+}
+
+// Twice the area of a polygon, along its normal.
+Vec3 area_of(std::span<const Vec3> vertices,
+             std::span<const std::uint32_t> loop) {
+  Vec3 sum(0);
+  for (std::size_t i = 2; i < loop.size(); ++i) {
+    sum += glm::cross(vertices[loop[i - 1]] - vertices[loop[0]],
+                      vertices[loop[i]] - vertices[loop[0]]);
+  }
+  return sum;
+}
+
+// Facets of no area have no direction of their own: they take that of their
+// neighbours.
+void aim_needles(Convex& body) {
+  std::vector<Vec3> sums(body.facet_count(), Vec3(0));
+  for (const Edge& edge : body.edges) {
+    sums[edge.left] += body.normals[edge.right];
+    sums[edge.right] += body.normals[edge.left];
+  }
+  for (std::size_t f = 0; f < sums.size(); ++f) {
+    const double size = glm::length(sums[f]);
+    if (body.normals[f] == Vec3(0) && size > 0) {
+      body.normals[f] = sums[f] / size;
+    }
+  }
+}
+
+// Leaves out vertices that no facet names.
+void drop_unused_vertices(Convex& body) {
+  constexpr std::uint32_t kUnused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> renamed(body.vertices.size(), kUnused);
+  std::vector<Vec3> used;
+  for (std::uint32_t& corner : body.corners) {
+    if (renamed[corner] == kUnused) {
+      renamed[corner] = static_cast<std::uint32_t>(used.size());
+      used.push_back(body.vertices[corner]);
+    }
+    corner = renamed[corner];
+  }
+  body.vertices = std::move(used);
+}
+
+}  // namespace
+
+void Convex::add_facet(std::span<const std::uint32_t> loop, Vec3 normal) {
+  corners.insert(corners.end(), loop.begin(), loop.end());
+  facet_ends.push_back(static_cast<std::uint32_t>(corners.size()));
+  normals.push_back(normal);
+}
+
+Convex make_flat(std::vector<Vec3> polygon, Vec3 normal) {
+  polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+  while (polygon.size() > 1 && polygon.front() == polygon.back()) {
+    polygon.pop_back();
+  }
+  Convex body;
+  body.is_flat = true;
+  body.vertices = std::move(polygon);
+  const auto count = static_cast<std::uint32_t>(body.vertices.size());
+  std::vector<std::uint32_t> loop(count);
+  std::iota(loop.begin(), loop.end(), 0U);
+  body.add_facet(loop, normal);
+  std::reverse(loop.begin(), loop.end());
+  body.add_facet(loop, -normal);
+  if (count == 1) return body;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t next = i + 1 == count ? 0 : i + 1;
+    const Vec3 out = glm::cross(body.vertices[next] - body.vertices[i], normal);
+    const std::uint32_t sides[2] = {next, i};
+    const auto side = static_cast<std::uint32_t>(body.facet_count());
+    body.add_facet(sides, out / glm::length(out));
+    body.edges.push_back({i, next, 0, side});
+    body.edges.push_back({i, next, side, 1});
+  }
+  return body;
+}
+
+Convex make_solid(std::vector<Vec3> vertices,
+                  std::span<const std::vector<std::uint32_t>> loops) {
+  Convex body;
+  body.vertices = std::move(vertices);
+  for (const auto& loop : loops) {
+    const Vec3 area = area_of(body.vertices, loop);
+    const double size = glm::length(area);
+    body.add_facet(loop, size > 0 ? area / size : Vec3(0));
+  }
+  drop_unused_vertices(body);
+  find_edges(body);
+  aim_needles(body);
+  return body;
+}
+
+bool is_convex(const Convex& body) {
+  return body.is_closed && body.facet_count() >= 4 && !has_reflex_edge(body) &&
+         is_seen_once(body);
+}
+
+Vec3 middle(const Convex& body) {
+  Vec3 sum(0);
+  for (const Vec3& vertex : body.vertices) sum += vertex;
+  return sum / static_cast<double>(body.vertices.size());
+}
+
+std::optional<Prism> as_prism(const Convex& solid) {
+  // The base is one of two facets that have all vertices between them.
+  const std::size_t count = solid.vertices.size() / 2;
+  if (solid.is_flat || solid.vertices.size() % 2 != 0 ||
+      solid.facet_count() != count + 2) {
+    return std::nullopt;
+  }
+  for (std::size_t f = 0; f < solid.facet_count(); ++f) {
+    if (solid.facet(f).size() != count) continue;
+    if (const auto axis = prism_axis(solid, solid.facet(f))) {
+      std::vector<Vec3> polygon;
+      for (const std::uint32_t corner : solid.facet(f)) {
+        polygon.push_back(solid.vertices[corner]);
+      }
+      const Vec3 across = glm::cross(*axis, polygon[1] - polygon[0]);
+      return Prism{make_flat(std::move(polygon), solid.normals[f]),
+                   make_flat({Vec3(0), *axis}, across / glm::length(across))};
+    }
+  }
+  return std::nullopt;
+}
+
+void append_triangles(const Convex& body, Mesh& mesh) {
+  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), body.vertices.begin(),
+                       body.vertices.end());
+  for (std::size_t f = 0; f < body.facet_count(); ++f) {
+    const auto loop = body.facet(f);
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+      mesh.triangles.push_back(
+          {loop[0] + shift, loop[i - 1] + shift, loop[i] + shift});
+    }
+  }
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,32 @@
+#pragma once
+// How round things become polygons: $fn, $fa, $fs.
+//
+// The rules are OpenSCAD 2021.01's, so that a design has the same vertices
+// here and there.
+
+#include <memory>
+#include <vector>
+
+#include "base/vec.h"
+#include "csg/tree.h"
+
+namespace lamina::planar {
+
+// Number of sides of a circle of radius r [mm], 3 to csg::kMostFragments.
+int fragment_count(double r, const csg::Facets& facets);
+
+// Number of chords of a curve in a text of this size: fewer than of a circle,
+// as the curves of letters are short.
+int curve_segment_count(double size, const csg::Facets& facets);
+
+// (cos, sin) of 360° · i / n, counter-clockwise from +x.
+std::vector<Vec2> unit_circle(int n);
+
+// Number of slices of a linear_extrude that says none.
+//
+// max_radius  greatest distance of a vertex of the outline from the axis [mm]
+// max_shift   greatest distance that a vertex moves in x, y without twist [mm]
+int slice_count(const csg::LinearExtrudeParams& params, double max_radius,
+                double max_shift);
+
+}  // namespace lamina::planar

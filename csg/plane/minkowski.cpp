@@ -1,0 +1,96 @@
+#include "csg/plane/minkowski.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "csg/plane/clip.h"
+#include "csg/plane/convex_faces.h"
+#include "csg/plane/orientation.h"
+#include "csg/plane/triangulate.h"
+
+namespace lamina::planar {
+namespace {
+
+// The lowest point, of these the leftmost: where directions begin.
+std::size_t lowest(const Contour& contour) {
+  const auto point = std::min_element(
+      contour.begin(), contour.end(), [](const Vec2& a, const Vec2& b) {
+        return a.y != b.y ? a.y < b.y : a.x < b.x;
+      });
+  return static_cast<std::size_t>(point - contour.begin());
+}
+
+Vec2 at(const Contour& contour, std::size_t i) {
+  return contour[i % contour.size()];
+}
+
+// Whether `a` points into the upper half of the plane or along +x.
+bool is_in_upper_half(Vec2 a) { return a.y > 0 || (a.y == 0 && a.x > 0); }
+
+// Compares directions by angle from +x, in [0, 360°): -1, 0 or 1.
+int compare_angles(Vec2 a, Vec2 b) {
+  const bool is_upper = is_in_upper_half(a);
+  if (is_upper != is_in_upper_half(b)) return is_upper ? -1 : 1;
+  return -orientation(Vec2(0), a, b);
+}
+
+}  // namespace
+
+std::vector<Contour> cut_into_convex(const Region& region) {
+  std::vector<Vec3> points;
+  for (const Contour& contour : region.contours) {
+    for (const Vec2 p : contour) points.emplace_back(p.x, p.y, 0);
+  }
+  std::vector<Contour> pieces;
+  for (const Face& face : merge_to_convex(points, triangulate(region))) {
+    Contour piece;
+    for (const std::uint32_t corner : face.corners) {
+      piece.emplace_back(points[corner].x, points[corner].y);
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+Contour add_convex(const Contour& a, const Contour& b) {
+  const std::size_t a_begin = lowest(a);
+  const std::size_t b_begin = lowest(b);
+  Contour sum;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() || j < b.size()) {
+    const Vec2 a_corner = at(a, a_begin + i);
+    const Vec2 b_corner = at(b, b_begin + j);
+    sum.push_back(a_corner + b_corner);
+    const int order = i == a.size() ? 1
+                      : j == b.size()
+                          ? -1
+                          : compare_angles(at(a, a_begin + i + 1) - a_corner,
+                                           at(b, b_begin + j + 1) - b_corner);
+    if (order <= 0) ++i;
+    if (order >= 0) ++j;
+  }
+  return sum;
+}
+
+Region add(const Region& a, const Region& b) {
+  const std::vector<Contour> a_pieces = cut_into_convex(a);
+  const std::vector<Contour> b_pieces = cut_into_convex(b);
+  std::vector<Region> sums;
+  for (const Contour& p : a_pieces) {
+    for (const Contour& q : b_pieces) sums.push_back({{add_convex(p, q)}});
+  }
+  return sums.empty() ? Region{} : unite(sums);
+}
+
+Region fill(const Region& region) {
+  std::vector<Region> outer;
+  for (const Contour& contour : region.contours) {
+    if (signed_area(contour) > 0) outer.push_back({{contour}});
+  }
+  return outer.empty() ? Region{} : unite(outer);
+}
+
+}  // namespace lamina::planar

@@ -1,0 +1,28 @@
+#pragma once
+// Minkowski sums in the plane.
+//
+// Both regions are cut into convex polygons; the sum is the union of the sums
+// of any two. Corners of pieces are rounded to the clipper's grid first, so
+// that sums are exact and neighbours keep their common sides: the union has no
+// cracks.
+
+#include "csg/plane/region.h"
+
+namespace lamina::planar {
+
+// Convex polygons that cover the region and do not overlap, counter-clockwise,
+// on the region's own corners.
+std::vector<Contour> cut_into_convex(const Region& region);
+
+// The sum of two convex polygons, each counter-clockwise: its sides are theirs
+// by direction. Polygons of one or two points are fine.
+Contour add_convex(const Contour& a, const Contour& b);
+
+// The sum of two regions; empty if one is. Throws std::range_error for
+// coordinates beyond 1e9 mm.
+Region add(const Region& a, const Region& b);
+
+// The region without its holes.
+Region fill(const Region& region);
+
+}  // namespace lamina::planar

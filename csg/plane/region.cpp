@@ -1,0 +1,57 @@
+#include "csg/plane/region.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include <glm/geometric.hpp>
+
+#include "base/plane.h"
+#include "csg/plane/facets.h"
+
+namespace lamina::planar {
+
+double signed_area(std::span<const Vec2> contour) {
+  // Taken from the first point, so that a small contour far from the origin
+  // loses no digits.
+  double sum = 0;
+  for (std::size_t i = 2; i < contour.size(); ++i) {
+    const Vec2 a = contour[i - 1] - contour[0];
+    const Vec2 b = contour[i] - contour[0];
+    sum += cross(a, b);
+  }
+  return sum / 2;
+}
+
+double area(const Region& region) {
+  double sum = 0;
+  for (const Contour& contour : region.contours) sum += signed_area(contour);
+  return sum;
+}
+
+void drop_hairlines(Region& region, double width) {
+  std::erase_if(region.contours, [&](const Contour& contour) {
+    double perimeter = 0;
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      perimeter += glm::distance(contour[i], contour[(i + 1) % contour.size()]);
+    }
+    return std::abs(signed_area(contour)) < 0.5 * width * perimeter;
+  });
+}
+
+Region square(Vec2 size, bool center) {
+  if (!(size.x > 0 && size.y > 0) || std::isinf(size.x) || std::isinf(size.y)) {
+    return {};
+  }
+  const Vec2 low = center ? -size / 2.0 : Vec2(0);
+  const Vec2 high = center ? size / 2.0 : size;
+  return {{{low, {high.x, low.y}, high, {low.x, high.y}}}};
+}
+
+Region circle(double r, int fragments) {
+  if (!(r > 0) || std::isinf(r)) return {};
+  Contour contour = unit_circle(fragments);
+  for (Vec2& point : contour) point *= r;
+  return {{std::move(contour)}};
+}
+
+}  // namespace lamina::planar

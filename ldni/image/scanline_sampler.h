@@ -1,0 +1,42 @@
+#pragma once
+// The exact sampler: faces are intersected with layers, the segments that arise
+// with rays, in double precision. The reference for all others.
+//
+// A face is a triangle of a mesh, or of a sweep a whole side quad or cap: they
+// are planar, so that is half the segments, and no triangle of a primitive is
+// ever stored.
+//
+// Watertight by three rules. A vertex is above a section or not by
+// LayerGrid::layers_below alone. Where an edge crosses a section is computed
+// from its lower to its upper end, so that both faces beside it get the same
+// bits. And RayGrid::rays_below of these points decides which rays a segment
+// meets. So the segments of a layer form closed loops, every ray enters a leaf
+// as often as it leaves it, and rounding can only move a sample.
+
+#include <cstdint>
+#include <memory>
+
+#include "csg/scene.h"
+#include "ldni/image/ray_grid.h"
+#include "ldni/image/sampler.h"
+
+namespace lamina::ldni {
+
+class ScanlineSampler final : public Sampler {
+ public:
+  // All arguments must outlive the sampler.
+  ScanlineSampler(const csg::Scene& scene, const RayGrid& rays,
+                  const LayerGrid& layers);
+  ~ScanlineSampler() override;
+
+  // Cost: the rings of sweeps, the vertices of rings that meet the box, the
+  // vertices and triangles of meshes, the samples, the pixels of the box.
+  void sample(std::uint32_t instance, const GridBox& box,
+              LeafImages& out) override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lamina::ldni

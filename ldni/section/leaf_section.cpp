@@ -1,0 +1,190 @@
+#include "ldni/section/leaf_section.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/detail/layer_index.h"
+#include "ldni/section/detail/loft_section.h"
+#include "ldni/section/detail/mesh_index.h"
+#include "ldni/section/detail/mesh_section.h"
+#include "ldni/section/detail/relevance.h"
+
+namespace lamina::ldni {
+
+namespace detail {
+
+struct SectionScratch {
+  BlockLayers layers;
+  ChainBuilder builder;
+  SweepSectioner sweeps;
+  MeshSectioner meshes;
+};
+
+}  // namespace detail
+
+namespace {
+
+using detail::LayerRange;
+
+// An instance is looked for this much [mm] beyond its box, which may have been
+// rounded in another way than its vertices.
+constexpr double kBoxMargin = 1e-6;
+
+bool boxes_meet(const csg::Instance& instance, const Box3& box) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (instance.box.low[axis] > box.high[axis] + kBoxMargin) return false;
+    if (instance.box.high[axis] < box.low[axis] - kBoxMargin) return false;
+  }
+  return true;
+}
+
+// Layers that each instance may reach. Outside the scene's box the result is
+// empty whatever the leaves are there, so what lies wholly outside is left out,
+// as is what others decide.
+std::vector<LayerRange> layer_ranges(const csg::Scene& scene,
+                                     const LayerGrid& grid) {
+  std::vector<LayerRange> ranges;
+  ranges.reserve(scene.instances.size());
+  detail::Relevance relevance(scene);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const csg::Instance& instance = scene.instances[i];
+    LayerRange range;
+    if (!instance.box.is_empty() && boxes_meet(instance, scene.box) &&
+        relevance.matters(i)) {
+      range.first = grid.layers_below(instance.box.low.z - kBoxMargin);
+      range.last = grid.layers_below(instance.box.high.z + kBoxMargin);
+    }
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+}  // namespace
+
+ChainBlock::ChainBlock() = default;
+ChainBlock::~ChainBlock() = default;
+ChainBlock::ChainBlock(ChainBlock&&) noexcept = default;
+ChainBlock& ChainBlock::operator=(ChainBlock&&) noexcept = default;
+
+bool ChainBlock::repeats(std::uint32_t i) const {
+  if (i == 0) return false;
+  const auto is_same = [this](const Chain& a, const Chain& b) {
+    if (a.instance != b.instance || a.winding != b.winding) return false;
+    // Where one wall was cut once for both, they have the same points.
+    return (a.first_point == b.first_point && a.point_count == b.point_count) ||
+           std::ranges::equal(a.points_in(points), b.points_in(points));
+  };
+  return std::ranges::equal(layer(i), layer(i - 1), is_same) &&
+         std::ranges::equal(loops_of(i), loops_of(i - 1));
+}
+
+struct LeafSectioner::State {
+  // Made by the first block that reaches the instance.
+  struct IndexedMeshes {
+    std::mutex making;
+    std::atomic<bool> is_made = false;
+    std::vector<detail::MeshIndex> indices;  // one a mesh
+  };
+
+  State(const csg::Scene& s, const LayerGrid& g)
+      : scene(s), grid(g), index(layer_ranges(s, g), g.layer_count()) {
+    for (std::uint32_t i = 0; i < s.instances.size(); ++i) {
+      if (!s.leaves[s.instances[i].leaf].meshes.empty()) meshes[i];
+    }
+  }
+
+  void cut_instance(std::uint32_t number,
+                    detail::SectionScratch& scratch) const;
+  const std::vector<detail::MeshIndex>& index_meshes(
+      std::uint32_t number) const;
+
+  const csg::Scene& scene;
+  const LayerGrid& grid;
+  detail::LayerIndex index;
+  // Of the instances that have meshes.
+  mutable std::unordered_map<std::uint32_t, IndexedMeshes> meshes;
+};
+
+void LeafSectioner::State::cut_instance(std::uint32_t number,
+                                        detail::SectionScratch& scratch) const {
+  const csg::Instance& instance = scene.instances[number];
+  const csg::Leaf& leaf = scene.leaves[instance.leaf];
+  const Affine& matrix = instance.world_from_leaf;
+  const double determinant = glm::determinant(glm::dmat3(matrix));
+  const std::int32_t mirror = determinant < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
+    const std::int32_t orientation = leaf.sweep_is_cavity[i] ? -mirror : mirror;
+    scratch.sweeps.cut(leaf.sweeps[i], matrix, number, orientation,
+                       scratch.layers, scratch.builder);
+  }
+  if (leaf.meshes.empty()) return;
+  const std::vector<detail::MeshIndex>& indices = index_meshes(number);
+  for (std::size_t i = 0; i < leaf.meshes.size(); ++i) {
+    scratch.meshes.cut(leaf.meshes[i], indices[i], matrix, number, mirror,
+                       scratch.layers, scratch.builder);
+  }
+}
+
+const std::vector<detail::MeshIndex>& LeafSectioner::State::index_meshes(
+    std::uint32_t number) const {
+  IndexedMeshes& indexed = meshes.at(number);
+  if (indexed.is_made.load(std::memory_order_acquire)) return indexed.indices;
+  // Not by std::call_once: an exception that passes through it aborts where no
+  // memory is left, since glibc then loads a library to unwind the stack.
+  const std::lock_guard lock(indexed.making);
+  if (indexed.is_made.load(std::memory_order_relaxed)) return indexed.indices;
+  indexed.indices.clear();  // of what an earlier call did not end
+  const csg::Instance& instance = scene.instances[number];
+  for (const csg::Mesh& mesh : scene.leaves[instance.leaf].meshes) {
+    indexed.indices.emplace_back(mesh, instance.world_from_leaf, grid);
+  }
+  indexed.is_made.store(true, std::memory_order_release);
+  return indexed.indices;
+}
+
+LeafSectioner::LeafSectioner(const csg::Scene& scene, const LayerGrid& grid)
+    : state_(std::make_unique<const State>(scene, grid)) {}
+
+LeafSectioner::~LeafSectioner() = default;
+
+void LeafSectioner::cut(std::uint32_t first_layer, std::uint32_t layer_count,
+                        ChainBlock& block) const {
+  if (!block.scratch) {
+    block.scratch = std::make_unique<detail::SectionScratch>();
+  }
+  detail::SectionScratch& scratch = *block.scratch;
+  block.first_layer = first_layer;
+  block.layer_count = layer_count;
+
+  // Tabulate the block's sections.
+  const LayerGrid& grid = state_->grid;
+  detail::BlockLayers& layers = scratch.layers;
+  layers.first = first_layer;
+  layers.heights.clear();
+  layers.thresholds.clear();
+  for (std::uint32_t l = first_layer; l < first_layer + layer_count; ++l) {
+    layers.heights.push_back(grid.section_z(l));
+    layers.thresholds.push_back(grid.threshold(l));
+  }
+  const double thickness = grid.thickness();
+  layers.layers_per_mm = thickness > 0 ? 1 / thickness : 0;
+
+  // Cut the instances that reach it.
+  const std::uint64_t open_before = scratch.meshes.open_paths();
+  scratch.builder.begin(block);
+  state_->index.visit(
+      {first_layer, first_layer + layer_count},
+      [&](std::uint32_t instance) { state_->cut_instance(instance, scratch); });
+  scratch.builder.finish(block);
+  block.open_paths = scratch.meshes.open_paths() - open_before;
+}
+
+}  // namespace lamina::ldni

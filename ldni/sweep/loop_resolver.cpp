@@ -1,0 +1,58 @@
+#include "ldni/sweep/loop_resolver.h"
+
+#include <utility>
+
+#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/leaf_section.h"
+#include "ldni/sweep/detail/ray_sweep.h"
+
+namespace lamina::ldni {
+namespace {
+
+csg::Scene one_leaf() {
+  csg::Scene scene;
+  scene.leaves.resize(1);
+  scene.leaves[0].may_overlap_itself = true;
+  scene.instances.resize(1);
+  scene.program.push_back({csg::BooleanOp::kUnion, 0, false, 1});
+  return scene;
+}
+
+}  // namespace
+
+struct LoopResolver::State {
+  State(double tie_distance, double merge_distance)
+      : scene(one_leaf()),
+        sweep(scene, {0, tie_distance, merge_distance,
+                      detail::LeafSets::Rule::kPositive}) {
+    block.layer_count = 1;
+  }
+
+  const csg::Scene scene;
+  detail::RaySweep sweep;
+  detail::ChainBuilder builder;
+  ChainBlock block;
+};
+
+LoopResolver::LoopResolver(double tie_distance, double merge_distance)
+    : state_(std::make_unique<State>(tie_distance, merge_distance)) {}
+
+LoopResolver::~LoopResolver() = default;
+
+void LoopResolver::resolve(Contours& contours) {
+  detail::ChainBuilder& builder = state_->builder;
+  builder.begin(state_->block);
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const auto loop = contours.loop(i);
+    builder.loop().assign(loop.begin(), loop.end());
+    builder.close_loop(0, 0, 1);
+  }
+  builder.finish(state_->block);
+  state_->sweep.sweep(state_->block, 0, contours);
+}
+
+const SweepCounts& LoopResolver::counts() const {
+  return std::as_const(state_->sweep).counts();
+}
+
+}  // namespace lamina::ldni

@@ -1,0 +1,37 @@
+#pragma once
+// Loops that run into themselves or each other, made regular: solid is where
+// they wind around in the positive sense.
+//
+// The moving ray does it, with one leaf that may overlap itself.
+
+#include <memory>
+
+#include "ldni/section/contours.h"
+#include "ldni/sweep/sweep_counts.h"
+
+namespace lamina::ldni {
+
+class LoopResolver {
+ public:
+  // tie_distance    edges nearer than this at both ends are one [mm]
+  // merge_distance  points nearer than this are one, and one that is nearer
+  //                 than this to the line through its neighbours is left out
+  //                 [mm]
+  LoopResolver(double tie_distance, double merge_distance);
+  ~LoopResolver();
+  LoopResolver(const LoopResolver&) = delete;
+  LoopResolver& operator=(const LoopResolver&) = delete;
+
+  // Replaces the loops by those of the solid: simple, outer ones
+  // counter-clockwise, holes clockwise.
+  void resolve(Contours& contours);
+
+  // Of all sweeps since construction.
+  const SweepCounts& counts() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lamina::ldni

@@ -1,0 +1,214 @@
+#include "slicer/check/compare.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "base/diagnostic.h"
+#include "base/parallel.h"
+
+namespace lamina::slicer {
+namespace {
+
+LoopCount count_loops(const ldni::Contours& contours) {
+  LoopCount count;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    if (ldni::signed_area(contours.loop(i)) < 0) {
+      ++count.holes;
+    } else {
+      ++count.regions;
+    }
+  }
+  return count;
+}
+
+bool is_sliver(std::span<const Vec2> loop) {
+  return 2 * std::abs(ldni::signed_area(loop)) <=
+         kSliverWidth * ldni::perimeter(loop);
+}
+
+ldni::Contours without_slivers(const ldni::Contours& contours) {
+  ldni::Contours kept;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const auto loop = contours.loop(i);
+    if (is_sliver(loop)) continue;
+    kept.points.insert(kept.points.end(), loop.begin(), loop.end());
+    kept.ends.push_back(static_cast<std::uint32_t>(kept.points.size()));
+  }
+  return kept;
+}
+
+[[noreturn]] void fail(const std::string& words) {
+  throw GeometryError({Severity::kError, {}, words});
+}
+
+// One of the two while they are walked through.
+struct Walk {
+  const std::vector<Layer>& layers;
+  double shift;
+  const std::string& name;
+  std::size_t at = 0;
+
+  bool is_over() const { return at == layers.size(); }
+  double height(std::size_t i) const { return layers[i].section_z + shift; }
+  // Of the layer in hand; infinite behind the last one.
+  double height() const {
+    return is_over() ? std::numeric_limits<double>::infinity() : height(at);
+  }
+  bool reaches_over(double z) const {
+    return !layers.empty() && z > height(0) && z < height(layers.size() - 1);
+  }
+  double height_nearest_to(double z) const {
+    const bool is_low =
+        at > 0 && (is_over() || z - height(at - 1) < height(at) - z);
+    return height(is_low ? at - 1 : at);
+  }
+};
+
+// A layer of `walk` that has no partner. Null where it is nothing to compare.
+const Layer* take_alone(Walk& walk, const Walk& other) {
+  const Layer& layer = walk.layers[walk.at];
+  const double z = walk.height();
+  ++walk.at;
+  if (layer.contours.is_empty()) return nullptr;
+  if (other.reaches_over(z)) {
+    fail(fmt::format(
+        "layers of different heights cannot be compared: {} has one at z "
+        "{:.6g}, {} has its nearest at z {:.6g}; cut one of them at the "
+        "heights "
+        "of the other, or compare each with the design",
+        walk.name, z, other.name, other.height_nearest_to(z)));
+  }
+  return &layer;
+}
+
+struct Box {
+  Vec2 low = Vec2(1e300);
+  std::optional<double> bottom;
+};
+
+Box box_of(const std::vector<Layer>& layers) {
+  Box box;
+  for (const Layer& layer : layers) {
+    if (layer.contours.is_empty()) continue;
+    if (!box.bottom) box.bottom = layer.bottom;
+    for (const Vec2& point : layer.contours.points) {
+      box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
+    }
+  }
+  return box;
+}
+
+const ldni::Contours& contours_of(const Layer* layer) {
+  static const ldni::Contours none;
+  return layer != nullptr ? layer->contours : none;
+}
+
+}  // namespace
+
+LayerDifference compare_pair(const LayerPair& pair, Vec2 shift) {
+  assert(pair.a != nullptr || pair.b != nullptr);
+  LayerDifference difference;
+  if (pair.b != nullptr && shift != Vec2(0)) {
+    ldni::Contours shifted = pair.b->contours;
+    for (Vec2& point : shifted.points) point += shift;
+    difference = compare_layers(contours_of(pair.a), shifted);
+  } else {
+    difference = compare_layers(contours_of(pair.a), contours_of(pair.b));
+  }
+  difference.z = pair.a != nullptr ? pair.a->section_z : pair.b->section_z;
+  for (const Layer* layer : {pair.a, pair.b}) {
+    if (layer == nullptr) continue;
+    difference.thickness =
+        std::max(difference.thickness, layer->top - layer->bottom);
+  }
+  return difference;
+}
+
+void require_rising(const std::vector<Layer>& layers, const std::string& name) {
+  for (std::size_t i = 1; i < layers.size(); ++i) {
+    if (layers[i].section_z > layers[i - 1].section_z) continue;
+    fail(
+        fmt::format("{}: layer {} at z {:.6g} is not higher than the one "
+                    "before, at z {:.6g}",
+                    name, i + 1, layers[i].section_z, layers[i - 1].section_z));
+  }
+}
+
+LayerDifference compare_layers(const ldni::Contours& a,
+                               const ldni::Contours& b) {
+  LayerDifference difference;
+  difference.areas = measure_regions(a, b);
+  difference.loops_a = count_loops(a);
+  difference.loops_b = count_loops(b);
+  difference.distance =
+      greatest_distance(without_slivers(a), without_slivers(b));
+  return difference;
+}
+
+std::vector<LayerPair> pair_layers(const std::vector<Layer>& a,
+                                   const std::vector<Layer>& b, double shift,
+                                   const std::string& name_a,
+                                   const std::string& name_b) {
+  require_rising(a, name_a);
+  require_rising(b, name_b);
+  Walk walk_a{a, 0, name_a};
+  Walk walk_b{b, shift, name_b};
+  std::vector<LayerPair> pairs;
+  while (!walk_a.is_over() || !walk_b.is_over()) {
+    const double ahead = walk_b.height() - walk_a.height();
+    if (std::abs(ahead) <= kSameHeight) {
+      pairs.push_back({&a[walk_a.at++], &b[walk_b.at++]});
+    } else if (ahead > 0) {
+      if (const Layer* layer = take_alone(walk_a, walk_b)) {
+        pairs.push_back({layer, nullptr});
+      }
+    } else if (const Layer* layer = take_alone(walk_b, walk_a)) {
+      pairs.push_back({nullptr, layer});
+    }
+  }
+  return pairs;
+}
+
+std::vector<LayerDifference> compare(const std::vector<LayerPair>& pairs,
+                                     Vec2 shift) {
+  std::vector<LayerDifference> differences(pairs.size());
+  for_each_index(pairs.size(), [&](std::size_t i) {
+    differences[i] = compare_pair(pairs[i], shift);
+    differences[i].number = i + 1;
+  });
+  return differences;
+}
+
+Vec3 aligning_shift(const std::vector<Layer>& a, const std::vector<Layer>& b) {
+  const Box box_a = box_of(a);
+  const Box box_b = box_of(b);
+  if (!box_a.bottom || !box_b.bottom) return Vec3(0);
+  return {box_a.low - box_b.low, *box_a.bottom - *box_b.bottom};
+}
+
+ComparisonTotals sum_up(const std::vector<LayerDifference>& layers,
+                        double tolerance) {
+  ComparisonTotals totals;
+  totals.layers = layers.size();
+  const auto rank = [&](std::size_t i) {
+    return std::tuple(layers[i].distance.distance, layers[i].area());
+  };
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const LayerDifference& layer = layers[i];
+    totals.outside += layer.distance.distance > tolerance ? 1 : 0;
+    totals.other_loops += layer.loops_a == layer.loops_b ? 0 : 1;
+    totals.volume_a += layer.areas.a() * layer.thickness;
+    totals.volume_b += layer.areas.b() * layer.thickness;
+    totals.volume_only_a += layer.areas.only_a * layer.thickness;
+    totals.volume_only_b += layer.areas.only_b * layer.thickness;
+    if (!totals.worst || rank(i) > rank(*totals.worst)) totals.worst = i;
+  }
+  return totals;
+}
+
+}  // namespace lamina::slicer

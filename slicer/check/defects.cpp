@@ -1,0 +1,383 @@
+#include "slicer/check/defects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "ldni/section/contours.h"
+
+namespace lamina::slicer {
+namespace {
+
+struct Edge {
+  Vec2 from;
+  Vec2 to;
+  std::uint32_t boundary;
+  std::uint32_t next;  // the edge that follows
+};
+
+// Relative rounding of a difference of two products of doubles, with room.
+constexpr double kTurnRounding = 4e-16;
+
+// Sign of a * b - c * d, exact for factors that are exact themselves.
+int exact_sign(double a, double b, double c, double d) {
+  const double left = a * b;
+  const double right = c * d;
+  const double high = left - right;
+  const double low = std::fma(a, b, -left) - std::fma(c, d, -right);
+  const double sum = high + low;
+  return (sum > 0) - (sum < 0);
+}
+
+// +1: c lies left of the line from a to b; -1: right; 0: on it.
+int turn(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 u = b - a;
+  const Vec2 v = c - a;
+  const double left = u.x * v.y;
+  const double right = u.y * v.x;
+  const double value = left - right;
+  if (std::abs(value) > kTurnRounding * (std::abs(left) + std::abs(right))) {
+    return value > 0 ? 1 : -1;
+  }
+  return exact_sign(u.x, v.y, u.y, v.x);
+}
+
+// Whether the direction at→c lies strictly between at→a and at→b,
+// counter-clockwise from a.
+bool is_in_sector(Vec2 at, Vec2 a, Vec2 b, Vec2 c) {
+  const int ab = turn(at, a, b);
+  const int ac = turn(at, a, c);
+  const int cb = turn(at, c, b);
+  if (ab > 0) return ac > 0 && cb > 0;
+  return ac > 0 || cb > 0;  // a reflex sector
+}
+
+// `p` is on the line of the edge: is it between its ends?
+bool is_within(const Edge& edge, Vec2 p) {
+  return std::min(edge.from.x, edge.to.x) <= p.x &&
+         p.x <= std::max(edge.from.x, edge.to.x) &&
+         std::min(edge.from.y, edge.to.y) <= p.y &&
+         p.y <= std::max(edge.from.y, edge.to.y);
+}
+
+using EdgePair = std::pair<std::uint32_t, std::uint32_t>;
+
+// The edges of a layer, and where they are.
+class EdgeGrid {
+ public:
+  explicit EdgeGrid(const SlcLayer& layer);
+
+  void find_crossings(std::vector<Defect>& defects) const;
+
+  // Sum of windings of the other boundaries around a point of `boundary`; none
+  // where one of them passes through it.
+  std::optional<int> winding_around(Vec2 point, std::uint32_t boundary) const;
+
+ private:
+  void collect_edges(const SlcLayer& layer);
+  void choose_cells();
+  std::uint32_t column_of(double x) const {
+    return cell_of((x - low_.x) * cells_per_mm_.x, columns_);
+  }
+  std::uint32_t row_of(double y) const {
+    return cell_of((y - low_.y) * cells_per_mm_.y, rows_);
+  }
+  static std::uint32_t cell_of(double place, std::uint32_t count) {
+    return static_cast<std::uint32_t>(
+        std::clamp(place, 0.0, static_cast<double>(count - 1)));
+  }
+  template <typename Visit>
+  void visit_cells(const Edge& edge, const Visit& visit) const;
+  bool cross(const Edge& a, const Edge& b) const;
+  std::vector<EdgePair> crossing_edges() const;
+  bool passes_through(const Edge& at, const Edge& other) const;
+  std::span<const std::uint32_t> members(std::size_t cell) const {
+    return {members_.data() + starts_[cell], starts_[cell + 1] - starts_[cell]};
+  }
+
+  std::vector<Edge> edges_;
+  Vec2 low_ = Vec2(0);
+  Vec2 high_ = Vec2(0);
+  Vec2 cells_per_mm_ = Vec2(1);
+  std::uint32_t columns_ = 1;
+  std::uint32_t rows_ = 1;
+  std::vector<std::uint32_t> starts_;  // of each cell, in members_
+  std::vector<std::uint32_t> members_;
+};
+
+EdgeGrid::EdgeGrid(const SlcLayer& layer) {
+  collect_edges(layer);
+  choose_cells();
+  // Sort by counting: sizes first, then places.
+  const std::size_t cells = std::size_t{columns_} * rows_;
+  starts_.assign(cells + 1, 0);
+  for (const Edge& edge : edges_) {
+    visit_cells(edge, [&](std::size_t cell) { ++starts_[cell + 1]; });
+  }
+  for (std::size_t i = 0; i < cells; ++i) starts_[i + 1] += starts_[i];
+  members_.resize(starts_[cells]);
+  std::vector<std::uint32_t> fill(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+    visit_cells(edges_[i],
+                [&](std::size_t cell) { members_[fill[cell]++] = i; });
+  }
+}
+
+void EdgeGrid::collect_edges(const SlcLayer& layer) {
+  for (std::uint32_t b = 0; b < layer.boundaries.size(); ++b) {
+    const std::vector<Vec2>& points = layer.boundaries[b].points;
+    const auto first = static_cast<std::uint32_t>(edges_.size());
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      if (points[i] == points[i + 1]) continue;  // told as a repeat
+      const auto next = static_cast<std::uint32_t>(edges_.size()) + 1;
+      edges_.push_back({points[i], points[i + 1], b, next});
+    }
+    if (edges_.size() > first) edges_.back().next = first;
+  }
+}
+
+// About one cell an edge, square if that can be. Long edges must not stand in
+// more cells than kMostCells: few cells along them then, and more across.
+void EdgeGrid::choose_cells() {
+  constexpr double kMostCells = 64;
+  if (edges_.empty()) return;
+  low_ = high_ = edges_.front().from;
+  Vec2 way(0);
+  for (const Edge& edge : edges_) {
+    low_ = glm::min(low_, glm::min(edge.from, edge.to));
+    high_ = glm::max(high_, glm::max(edge.from, edge.to));
+    way += glm::abs(edge.to - edge.from);
+  }
+  // A layer without width has one column.
+  constexpr double kNoSize = 1e-150;
+  const Vec2 size = glm::max(high_ - low_, Vec2(kNoSize));
+  const auto wanted = static_cast<double>(edges_.size());
+  const Vec2 most = kMostCells * wanted * size / glm::max(way, size);
+  const double columns = std::clamp(std::sqrt(wanted * size.x / size.y), 1.0,
+                                    std::min(wanted, most.x));
+  const double rows = std::clamp(wanted / columns, 1.0, most.y);
+  columns_ = static_cast<std::uint32_t>(columns);
+  rows_ = static_cast<std::uint32_t>(rows);
+  cells_per_mm_ = Vec2(columns_, rows_) / size;
+}
+
+// Calls visit(cell) for every cell that the edge meets, and perhaps a few
+// beside them.
+template <typename Visit>
+void EdgeGrid::visit_cells(const Edge& edge, const Visit& visit) const {
+  const Vec2 lower = edge.from.y <= edge.to.y ? edge.from : edge.to;
+  const Vec2 upper = edge.from.y <= edge.to.y ? edge.to : edge.from;
+  const double slope =
+      upper.y > lower.y ? (upper.x - lower.x) / (upper.y - lower.y) : 0;
+  // Far above rounding, far below a cell.
+  const Vec2 margin = 1e-6 / cells_per_mm_;
+  const std::uint32_t last_row = row_of(upper.y + margin.y);
+  for (std::uint32_t row = row_of(lower.y - margin.y); row <= last_row; ++row) {
+    double x0 = lower.x;
+    double x1 = upper.x;
+    if (upper.y > lower.y) {
+      const double bottom = low_.y + row / cells_per_mm_.y - margin.y;
+      const double top = low_.y + (row + 1) / cells_per_mm_.y + margin.y;
+      x0 = lower.x + slope * (std::clamp(bottom, lower.y, upper.y) - lower.y);
+      x1 = lower.x + slope * (std::clamp(top, lower.y, upper.y) - lower.y);
+    }
+    const std::uint32_t last_column = column_of(std::max(x0, x1) + margin.x);
+    for (std::uint32_t column = column_of(std::min(x0, x1) - margin.x);
+         column <= last_column; ++column) {
+      visit(std::size_t{row} * columns_ + column);
+    }
+  }
+}
+
+// Whether the boundary of `at` passes, at the end of that edge, from one side
+// of the boundary of `other` to the other side.
+bool EdgeGrid::passes_through(const Edge& at, const Edge& other) const {
+  const Vec2 p = at.to;
+  const Vec2 before = at.from;
+  const Vec2 after = edges_[at.next].to;
+  if (p == other.from) return false;  // the edge before `other` sees to it
+  if (p == other.to) {
+    const Vec2 other_after = edges_[other.next].to;
+    return is_in_sector(p, other.from, other_after, before) !=
+           is_in_sector(p, other.from, other_after, after);
+  }
+  if (turn(other.from, other.to, p) != 0 || !is_within(other, p)) return false;
+  return turn(other.from, other.to, before) *
+             turn(other.from, other.to, after) <
+         0;
+}
+
+bool EdgeGrid::cross(const Edge& a, const Edge& b) const {
+  if (std::max(a.from.x, a.to.x) < std::min(b.from.x, b.to.x) ||
+      std::max(b.from.x, b.to.x) < std::min(a.from.x, a.to.x) ||
+      std::max(a.from.y, a.to.y) < std::min(b.from.y, b.to.y) ||
+      std::max(b.from.y, b.to.y) < std::min(a.from.y, a.to.y)) {
+    return false;
+  }
+  const int b_from = turn(a.from, a.to, b.from);
+  const int b_to = turn(a.from, a.to, b.to);
+  if (b_from * b_to > 0) return false;
+  if (b_from == 0 && b_to == 0) {
+    // On one line: they may share a point but no length.
+    const Vec2 along = a.to - a.from;
+    const auto place = [&](Vec2 p) {
+      return along.x * (p.x - a.from.x) + along.y * (p.y - a.from.y);
+    };
+    const double low = std::min(place(b.from), place(b.to));
+    const double high = std::max(place(b.from), place(b.to));
+    return std::min(high, place(a.to)) > std::max(low, 0.0);
+  }
+  const int a_from = turn(b.from, b.to, a.from);
+  const int a_to = turn(b.from, b.to, a.to);
+  if (a_from * a_to > 0) return false;
+  if (b_from * b_to < 0 && a_from * a_to < 0) return true;
+  if (&edges_[a.next] == &b || &edges_[b.next] == &a) return false;
+  return passes_through(a, b) || passes_through(b, a);
+}
+
+// Leaves each pair once, sorted.
+void remove_repeated(std::vector<EdgePair>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+std::vector<EdgePair> EdgeGrid::crossing_edges() const {
+  // Two edges may meet in several cells.
+  constexpr std::size_t kMostRepeated = 4 * kMostCrossings;
+  std::vector<EdgePair> crossing;
+  for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) {
+    const auto edges = members(cell);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t j = i + 1; j < edges.size(); ++j) {
+        if (!cross(edges_[edges[i]], edges_[edges[j]])) continue;
+        crossing.emplace_back(edges[i], edges[j]);
+        if (crossing.size() < kMostRepeated) continue;
+        remove_repeated(crossing);
+        if (crossing.size() >= kMostCrossings) return crossing;
+      }
+    }
+  }
+  remove_repeated(crossing);
+  return crossing;
+}
+
+void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
+  std::vector<EdgePair> crossing = crossing_edges();
+  if (crossing.size() > kMostCrossings) crossing.resize(kMostCrossings);
+  for (const auto& [first, second] : crossing) {
+    const Edge& edge = edges_[first];
+    defects.push_back(
+        {DefectKind::kCrossing, edge.boundary, (edge.from + edge.to) / 2.0});
+  }
+}
+
+std::optional<int> EdgeGrid::winding_around(Vec2 point,
+                                            std::uint32_t boundary) const {
+  int winding = 0;
+  const std::uint32_t column = column_of(point.x);
+  const std::uint32_t last_row = row_of(point.y);
+  for (std::uint32_t row = 0; row <= last_row; ++row) {
+    for (const std::uint32_t i :
+         members(std::size_t{row} * columns_ + column)) {
+      const Edge& edge = edges_[i];
+      if (edge.boundary == boundary) continue;
+      const bool begins_left = edge.from.x <= point.x;
+      if (begins_left == (edge.to.x <= point.x)) continue;
+      const Vec2 left = begins_left ? edge.from : edge.to;
+      const Vec2 right = begins_left ? edge.to : edge.from;
+      const int side = turn(left, right, point);
+      if (side == 0) return std::nullopt;
+      // An edge stands in several cells: that of the crossing counts it.
+      const double y =
+          left.y + (point.x - left.x) * (right.y - left.y) / (right.x - left.x);
+      if (side > 0 && std::min(row_of(y), last_row) == row) {
+        winding += begins_left ? 1 : -1;
+      }
+    }
+  }
+  return winding;
+}
+
+// Whether a boundary turns against what its nesting asks for. Judged at the
+// middle of an edge that nothing else touches; the first few are tried.
+bool is_turned_wrongly(const EdgeGrid& grid, std::span<const Vec2> points,
+                       std::uint32_t boundary) {
+  constexpr std::size_t kTries = 16;
+  const int wanted = ldni::signed_area(points) < 0 ? 1 : 0;
+  for (std::size_t i = 0; i + 1 < std::min(points.size(), kTries); ++i) {
+    const Vec2 middle = (points[i] + points[i + 1]) / 2.0;
+    const std::optional<int> winding = grid.winding_around(middle, boundary);
+    if (winding) return *winding != wanted;
+  }
+  return false;
+}
+
+// Defects of a boundary by itself; true if it encloses something.
+bool find_own_defects(const SlcBoundary& boundary, std::uint32_t index,
+                      std::vector<Defect>& defects) {
+  const std::vector<Vec2>& points = boundary.points;
+  const Vec2 place = points.empty() ? Vec2(0) : points.front();
+  if (boundary.gaps != 0) defects.push_back({DefectKind::kGap, index, place});
+  if (points.size() < 2 || points.front() != points.back()) {
+    defects.push_back({DefectKind::kOpen, index, place});
+    return false;
+  }
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i] == points[i + 1]) {
+      defects.push_back({DefectKind::kRepeat, index, points[i]});
+    }
+  }
+  if (points.size() < 4 || ldni::signed_area(points) == 0) {
+    defects.push_back({DefectKind::kZeroArea, index, place});
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string_view describe(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::kOpen:
+      return "is not closed";
+    case DefectKind::kGap:
+      return "counts gaps";
+    case DefectKind::kRepeat:
+      return "repeats a vertex";
+    case DefectKind::kZeroArea:
+      return "has no area";
+    case DefectKind::kCrossing:
+      return "crosses itself or another";
+    case DefectKind::kOrientation:
+      return "is turned against its nesting";
+  }
+  return "";
+}
+
+std::vector<Defect> find_defects(const SlcLayer& layer) {
+  std::vector<Defect> defects;
+  std::vector<std::uint32_t> enclosing;
+  for (std::uint32_t b = 0; b < layer.boundaries.size(); ++b) {
+    if (find_own_defects(layer.boundaries[b], b, defects)) {
+      enclosing.push_back(b);
+    }
+  }
+  const EdgeGrid grid(layer);
+  const std::size_t known = defects.size();
+  grid.find_crossings(defects);
+  // What crosses has no nesting.
+  if (defects.size() > known) return defects;
+  for (const std::uint32_t b : enclosing) {
+    const std::vector<Vec2>& points = layer.boundaries[b].points;
+    if (is_turned_wrongly(grid, points, b)) {
+      defects.push_back({DefectKind::kOrientation, b, points.front()});
+    }
+  }
+  return defects;
+}
+
+}  // namespace lamina::slicer

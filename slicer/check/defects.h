@@ -1,0 +1,46 @@
+#pragma once
+// What a layer file's reader could stumble over.
+//
+// Contours of a layer must be closed, simple, disjoint and turned by their
+// nesting: outer ones counter-clockwise, holes clockwise. Edges are sorted into
+// a grid of about one cell an edge; only edges of one cell are compared, so a
+// layer costs time in proportion to its edges. Coordinates are float32, which
+// doubles subtract exactly; signs of turns are exact too, so a defect is a
+// defect of the numbers in the file and not of this check.
+//
+// Contours may touch in a point (two squares corner to corner are two regions);
+// to pass through each other there is a crossing.
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "base/vec.h"
+#include "slicer/formats/slc_reader.h"
+
+namespace lamina::slicer {
+
+enum class DefectKind {
+  kOpen,         // the last vertex is not the first
+  kGap,          // the boundary counts gaps
+  kRepeat,       // two equal neighbours
+  kZeroArea,     //
+  kCrossing,     // two edges cross or run along each other
+  kOrientation,  // turned against its nesting
+};
+
+struct Defect {
+  DefectKind kind;
+  std::uint32_t boundary;  // from 0
+  Vec2 place;              // [mm]
+};
+
+// "is not closed"
+std::string_view describe(DefectKind kind);
+
+// All defects of a layer; empty for a sound one. Edges that cross each other
+// many times are told at most kMostCrossings times.
+std::vector<Defect> find_defects(const SlcLayer& layer);
+constexpr std::size_t kMostCrossings = 100;
+
+}  // namespace lamina::slicer

@@ -1,0 +1,72 @@
+#pragma once
+// Which edges of a layer may face each other across less than a given width.
+//
+// Thin places are rare, and most of a layer should cost no more than a look. A
+// disk thinner than the width touches edges that lie within half the width of
+// its centre, so every edge is listed in all cells of a grid that come as near
+// to it: the cell of a disk's centre has all that the disk can touch. A cell
+// also knows the directions of its edges, and of the turns between them, as 64
+// bits. Edges that face each other run in nearly opposite directions; where no
+// two directions of a cell do, the cell is passed over, and its edges are never
+// listed. On a smooth part that is nearly every cell.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "slicer/contour/layer_edges.h"
+
+namespace lamina::slicer {
+
+// The most by which two sides may miss running in opposite directions to count
+// as facing each other [rad]: 30 degrees. Then the disk between them touches
+// them at places at least 150 degrees apart. Large enough for every prong and
+// every taper that holds its width for about twice that width; small enough to
+// keep the corners of a part, and the crevices where its leaves meet, out.
+inline constexpr double kFacingAngle = 0.5235987755982988;
+
+class FacingCells {
+ public:
+  // Replaces what was known by these edges, which must stay as they are.
+  void build(std::span<const LayerEdge> edges, double width);
+
+  // Whether any two edges may face each other.
+  bool has_facing() const { return has_facing_; }
+
+  // Replaces `neighbours` by all edges near disks that may touch the edge and
+  // one that faces it: in no order, each once, and the edge among them. None
+  // where nothing can face it.
+  void gather(std::uint32_t edge, std::vector<std::uint32_t>& neighbours);
+
+  // All edges, and perhaps more, that a disk thinner than the width touches
+  // which has its centre there and touches two that face each other.
+  std::span<const std::uint32_t> near(Vec2 centre) const;
+
+ private:
+  void choose_cells();
+  void mark_directions();
+  void list_members();
+  std::uint32_t cell_of(double distance, std::uint32_t count) const;
+  // Calls visit(cell) for every cell within half the width of the edge, and
+  // perhaps a few beside them.
+  template <typename Visit>
+  void visit_cells(const LayerEdge& edge, const Visit& visit) const;
+
+  std::span<const LayerEdge> edges_;
+  double margin_ = 0;
+  Vec2 low_ = Vec2(0);
+  double cells_per_mm_ = 1;
+  std::uint32_t columns_ = 1;
+  std::uint32_t rows_ = 1;
+  bool has_facing_ = false;
+  std::vector<std::uint64_t> edge_directions_;
+  std::vector<std::uint64_t> directions_;  // of a cell; 0: passed over
+  std::vector<std::uint32_t> starts_;      // of each cell, in members_
+  std::vector<std::uint32_t> members_;
+  std::vector<std::uint32_t> last_gather_;  // an edge: gathering that has it
+  std::uint32_t gather_ = 0;
+};
+
+}  // namespace lamina::slicer

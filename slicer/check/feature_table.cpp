@@ -1,0 +1,128 @@
+#include "slicer/check/feature_table.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace lamina::slicer {
+namespace {
+
+constexpr std::size_t kMostLines = 20;
+
+// A width below this [mm] is none: two sides meet in an edge.
+constexpr double kEdgeWidth = 1e-6;
+
+std::string plural(std::size_t count, std::string_view word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
+
+std::string layers_text(const ThinFeature& feature) {
+  return feature.first_layer == feature.last_layer
+             ? fmt::format("{}", feature.first_layer)
+             : fmt::format("{}-{}", feature.first_layer, feature.last_layer);
+}
+
+std::string counts_text(std::span<const ThinFeature* const> features) {
+  const auto walls = static_cast<std::size_t>(std::count_if(
+      features.begin(), features.end(), [](const ThinFeature* feature) {
+        return feature->kind == ThinKind::kWall;
+      }));
+  return fmt::format("{}, {}", plural(walls, "wall"),
+                     plural(features.size() - walls, "gap"));
+}
+
+// A line of the table: the thinnest of all features of one origin.
+struct Line {
+  const ThinFeature* thinnest;
+  std::size_t count = 0;
+};
+
+// One line for each kind and origin, and for each feature where origins are
+// not known; the thinnest first.
+std::vector<Line> lines_of(std::span<const ThinFeature* const> told,
+                           const ThinFeature* first,
+                           std::span<const std::string> origins) {
+  std::vector<Line> lines;
+  std::map<std::tuple<ThinKind, bool, std::string_view>, std::size_t> known;
+  for (const ThinFeature* const feature : told) {
+    if (origins.empty()) {
+      lines.push_back({feature, 1});
+      continue;
+    }
+    const auto [at, is_new] =
+        known.try_emplace({feature->kind, is_edge(*feature),
+                           origins[static_cast<std::size_t>(feature - first)]},
+                          lines.size());
+    if (is_new) lines.push_back({feature});
+    Line& line = lines[at->second];
+    ++line.count;
+    if (feature->width < line.thinnest->width) line.thinnest = feature;
+  }
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const Line& a, const Line& b) {
+                     return std::pair(is_edge(*a.thinnest), a.thinnest->width) <
+                            std::pair(is_edge(*b.thinnest), b.thinnest->width);
+                   });
+  return lines;
+}
+
+}  // namespace
+
+bool is_low(const ThinFeature& feature, double width) {
+  return feature.height < width - kEdgeWidth;
+}
+
+bool is_edge(const ThinFeature& feature) { return feature.width < kEdgeWidth; }
+
+std::string_view name_of(ThinKind kind) {
+  return kind == ThinKind::kWall ? "wall" : "gap";
+}
+
+std::string feature_table(std::span<const ThinFeature> features, double width,
+                          std::span<const std::string> origins) {
+  std::vector<const ThinFeature*> told;
+  std::vector<const ThinFeature*> low;
+  for (const ThinFeature& feature : features) {
+    (is_low(feature, width) ? low : told).push_back(&feature);
+  }
+  std::string text =
+      fmt::format("thinner than {} mm: {}\n", width, counts_text(told));
+  const auto out = std::back_inserter(text);
+  const std::vector<Line> lines = lines_of(told, features.data(), origins);
+  if (!lines.empty()) {
+    fmt::format_to(out, "{:>9} {:>8} {:>11} {:>10} {:>10} {:>10}{}\n",
+                   "width mm", "", "layers", "at z", "x", "y",
+                   origins.empty() ? "" : "  surface of");
+  }
+  const std::size_t listed = std::min(lines.size(), kMostLines);
+  for (std::size_t i = 0; i < listed; ++i) {
+    const ThinFeature& feature = *lines[i].thinnest;
+    fmt::format_to(
+        out, "{:>9} {:>8} {:>11} {:>10.4f} {:>10.4f} {:>10.4f}",
+        is_edge(feature) ? "edge" : fmt::format("{:.4f}", feature.width),
+        plural(lines[i].count, name_of(feature.kind)), layers_text(feature),
+        feature.section_z, feature.place.x, feature.place.y);
+    if (!origins.empty()) {
+      fmt::format_to(
+          out, "  {}",
+          origins[static_cast<std::size_t>(&feature - features.data())]);
+    }
+    text += '\n';
+  }
+  if (lines.size() > listed) {
+    fmt::format_to(out, "  … and {} more lines\n", lines.size() - listed);
+  }
+  if (!low.empty()) {
+    fmt::format_to(out, "and, in fewer layers than make {} mm: {}\n", width,
+                   counts_text(low));
+  }
+  return text;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,248 @@
+#include "slicer/check/inspection_text.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "slicer/check/feature_table.h"
+#include "slicer/check/materials.h"
+#include "slicer/check/printed_text.h"
+#include "slicer/contour/deviation.h"
+
+namespace lamina::slicer {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Layers listed of a long file.
+constexpr std::size_t kListedLayers = 24;
+
+struct Totals {
+  std::size_t loops = 0;
+  std::size_t holes = 0;
+  std::size_t vertices = 0;
+  std::size_t empty = 0;
+};
+
+Totals totals_of(const Inspection& found) {
+  Totals totals;
+  for (const auto& row : found.layers) {
+    totals.loops += row.measures.loops;
+    totals.holes += row.measures.holes;
+    totals.vertices += row.measures.vertices;
+    totals.empty += row.measures.loops == 0 ? 1 : 0;
+  }
+  return totals;
+}
+
+// What would be shown as "-0.0000" is 0.
+Vec3 without_minus_zero(Vec3 place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(place[axis]) < 0.00005) place[axis] = 0;
+  }
+  return place;
+}
+
+class Text : PrintedText {
+ public:
+  explicit Text(const Inspection& found) : found_(found) {}
+
+  std::string write(LayerList list) {
+    print_header();
+    print_layers(list);
+    print_totals();
+    print_weights();
+    print_exactness();
+    print_defects();
+    if (found_.min_feature > 0) {
+      text_ += '\n';
+      text_ += feature_table(found_.features, found_.min_feature, {});
+    }
+    return std::move(text_);
+  }
+
+ private:
+  void print_header() {
+    print("{}: {}", found_.name,
+          found_.format.empty() ? "layers of a design" : found_.format);
+    if (!found_.header.empty()) print(", {}", found_.header);
+    if (!found_.format.empty()) {
+      print(", written by {}",
+            found_.writer.empty() ? "an unnamed program" : found_.writer);
+    }
+    text_ += '\n';
+    if (found_.extents) {
+      const auto& [x, y, z] = *found_.extents;
+      print(
+          "extents   x {:.4f} … {:.4f}   y {:.4f} … {:.4f}   z {:.4f} … "
+          "{:.4f}\n",
+          x.x, x.y, y.x, y.y, z.x, z.y);
+    }
+    for (const SlcSampling& row : found_.sampling) {
+      print("sampling  from z {}: layers of {}", row.min_z, row.thickness);
+      if (row.line_width_compensation != 0) {
+        print(", lines compensated by {}", row.line_width_compensation);
+      }
+      text_ += '\n';
+    }
+    if (!found_.has_sides) {
+      print(
+          "sides     not told: taken halfway between the sections of layers\n");
+    }
+    if (found_.lines_left_out > 0) {
+      print("left out  {} open lines\n", found_.lines_left_out);
+    }
+  }
+
+  void print_layers(LayerList list) {
+    if (found_.layers.empty()) return;
+    const std::size_t count = found_.layers.size();
+    const bool lists_all = list == LayerList::kAll || count <= kListedLayers;
+    print("\n{:>7} {:>12} {:>10} {:>7} {:>7} {:>9} {:>14} {:>14}\n", "layer",
+          "z", "thickness", "loops", "holes", "vertices", "area mm²",
+          "perimeter mm");
+    const std::size_t listed = lists_all ? count : kListedLayers;
+    for (std::size_t i = 0; i < listed; ++i) {
+      const std::size_t index = lists_all ? i : i * (count - 1) / (listed - 1);
+      const auto& [bottom, thickness, of] = found_.layers[index];
+      print("{:>7} {:>12.6g} {:>10.4g} {:>7} {:>7} {:>9} {:>13.6f} {:>13.6f}\n",
+            index + 1, bottom, thickness, of.loops, of.holes, of.vertices,
+            of.area, of.perimeter);
+    }
+    if (!lists_all) {
+      print("({} of {} layers; --all lists them all)\n", listed, count);
+    }
+  }
+
+  void print_totals() {
+    const Totals totals = totals_of(found_);
+    print("\nlayers    {}, {} of them empty; top of the part z {:.6g}\n",
+          found_.layers.size(), totals.empty, found_.top);
+    print("loops     {}, {} of them holes; {} vertices\n", totals.loops,
+          totals.holes, totals.vertices);
+    if (!found_.box.is_empty()) {
+      const Vec3 low = without_minus_zero(found_.box.low);
+      const Vec3 high = without_minus_zero(found_.box.high);
+      const Vec3 size = high - low;
+      print(
+          "box       x {:.4f} … {:.4f}   y {:.4f} … {:.4f}   z {:.4f} … "
+          "{:.4f}   ({:.4f} x {:.4f} x {:.4f} mm)\n",
+          low.x, high.x, low.y, high.y, low.z, high.z, size.x, size.y, size.z);
+    }
+    print("volume    {:.6f} mm³\n", found_.volume);
+  }
+
+  void print_weights() {
+    if (!(found_.volume > 0)) return;
+    std::string_view title = "weight";
+    for (const Material& material : kMaterials) {
+      print("{:<9} {:>10.3f} g  {} ({} g/cm³)\n", title,
+            weight(material, found_.volume), material.name, material.density);
+      title = "";
+    }
+  }
+
+  void print_exactness() {
+    if (found_.deviation) {
+      print("deviation at most {:.6g} mm from the design's sections\n",
+            *found_.deviation);
+    }
+    if (found_.is_float32) {
+      print("rounding  at most {:.2g} mm{}, by 32-bit numbers\n",
+            float32_rounding(found_.greatest_coordinate),
+            found_.deviation ? " of that" : "");
+    }
+  }
+
+  void print_defects() {
+    if (found_.defects == 0) {
+      print("defects   none\n");
+      return;
+    }
+    print("defects   {}\n", found_.defects);
+    for (const std::string& words : found_.told_defects) print("  {}\n", words);
+    if (found_.defects > found_.told_defects.size()) {
+      print("  … and {} more\n", found_.defects - found_.told_defects.size());
+    }
+  }
+
+  const Inspection& found_;
+};
+
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+ordered_json box_json(const Box3& box) {
+  if (box.is_empty()) return {};
+  return {{"low", {box.low.x, box.low.y, box.low.z}},
+          {"high", {box.high.x, box.high.y, box.high.z}}};
+}
+
+ordered_json layers_json(const Inspection& found) {
+  ordered_json layers = ordered_json::array();
+  for (const auto& [bottom, thickness, of] : found.layers) {
+    layers.push_back({{"z", bottom},
+                      {"thickness", thickness},
+                      {"loops", of.loops},
+                      {"holes", of.holes},
+                      {"vertices", of.vertices},
+                      {"area_mm2", of.area},
+                      {"perimeter_mm", of.perimeter}});
+  }
+  return layers;
+}
+
+ordered_json features_json(const Inspection& found) {
+  ordered_json features = ordered_json::array();
+  for (const ThinFeature& feature : found.features) {
+    features.push_back({{"kind", name_of(feature.kind)},
+                        {"width_mm", feature.width},
+                        {"first_layer", feature.first_layer},
+                        {"last_layer", feature.last_layer},
+                        {"z", feature.section_z},
+                        {"place", {feature.place.x, feature.place.y}}});
+  }
+  return features;
+}
+
+}  // namespace
+
+std::string inspection_text(const Inspection& found, LayerList list) {
+  return Text(found).write(list);
+}
+
+std::string inspection_json(const Inspection& found) {
+  const Totals totals = totals_of(found);
+  ordered_json json;
+  json["name"] = found.name;
+  json["format"] = found.format;
+  json["writer"] = found.writer;
+  json["sampling"] = ordered_json::array();
+  for (const SlcSampling& row : found.sampling) {
+    json["sampling"].push_back({{"z", row.min_z},
+                                {"thickness", row.thickness},
+                                {"compensation", row.line_width_compensation}});
+  }
+  json["box_mm"] = box_json(found.box);
+  json["top_mm"] = found.top;
+  json["volume_mm3"] = found.volume;
+  for (const Material& material : kMaterials) {
+    json["weight_g"][std::string(material.name)] =
+        weight(material, found.volume);
+  }
+  json["loops"] = totals.loops;
+  json["holes"] = totals.holes;
+  json["vertices"] = totals.vertices;
+  json["empty_layers"] = totals.empty;
+  json["deviation_mm"] = number_or_null(found.deviation);
+  json["defects"] = found.defects;
+  json["told_defects"] = found.told_defects;
+  if (found.min_feature > 0) json["features"] = features_json(found);
+  json["layers"] = layers_json(found);
+  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) +
+         "\n";
+}
+
+}  // namespace lamina::slicer

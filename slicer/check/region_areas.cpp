@@ -1,0 +1,269 @@
+#include "slicer/check/region_areas.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostic.h"
+
+namespace lamina::slicer {
+namespace {
+
+// Steps of the slow way, through crossings, for a layer.
+constexpr std::uint64_t kMostSteps = 3'000'000'000;
+
+struct Edge {
+  Vec2 left;
+  Vec2 right;
+  double slope = 0;
+  int winding = 0;  // added above the edge
+  bool is_of_b = false;
+
+  double y_at(double x) const {
+    if (x <= left.x) return left.y;
+    if (x >= right.x) return right.y;
+    return left.y + (x - left.x) * slope;
+  }
+};
+
+// An edge in the strip in hand.
+struct Piece {
+  std::uint32_t edge = 0;
+  double left_y = 0;
+  double right_y = 0;
+  std::uint32_t rank = 0;  // from below, at the right side
+
+  double middle_y() const { return (left_y + right_y) / 2; }
+};
+
+bool is_below_at_left(const Piece& p, const Piece& q) {
+  return p.left_y != q.left_y ? p.left_y < q.left_y : p.right_y < q.right_y;
+}
+
+bool is_below_at_right(const Piece& p, const Piece& q) {
+  return p.right_y != q.right_y ? p.right_y < q.right_y : p.left_y < q.left_y;
+}
+
+// Sorts what is nearly sorted; calls passed(p, q) where p, above q so far,
+// comes below it.
+template <typename Value, typename IsBelow, typename Passed>
+void sort_by_insertion(std::span<Value> values, const IsBelow& is_below,
+                       const Passed& passed) {
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const Value value = values[i];
+    std::size_t j = i;
+    for (; j > 0 && is_below(value, values[j - 1]); --j) {
+      passed(value, values[j - 1]);
+      values[j] = values[j - 1];
+    }
+    values[j] = value;
+  }
+}
+
+// The winding numbers of both sets, going upwards, and the areas so far.
+class Areas {
+ public:
+  // Passes an edge that is at `y` in the middle of a strip of this width.
+  void pass(const Edge& edge, double y, double width) {
+    const int before = kind();
+    winding_[edge.is_of_b ? 1 : 0] += edge.winding;
+    const int after = kind();
+    if (before == after) return;
+    areas_[static_cast<std::size_t>(before)] += y * width;
+    areas_[static_cast<std::size_t>(after)] -= y * width;
+  }
+
+  std::array<int, 2> winding() const { return winding_; }
+  void set_winding(std::array<int, 2> winding) { winding_ = winding; }
+
+  RegionAreas areas() const { return {areas_[3], areas_[1], areas_[2]}; }
+
+ private:
+  // Bit 0: inside of a; bit 1: inside of b.
+  int kind() const {
+    return (winding_[0] != 0 ? 1 : 0) + (winding_[1] != 0 ? 2 : 0);
+  }
+
+  std::array<int, 2> winding_ = {0, 0};
+  std::array<double, 4> areas_ = {0, 0, 0, 0};  // by kind()
+};
+
+class Sweep {
+ public:
+  Sweep(const ldni::Contours& a, const ldni::Contours& b) {
+    edges_.reserve(a.points.size() + b.points.size());
+    add(a, false);
+    add(b, true);
+    // Sums of small numbers: y counts from the middle.
+    shift_to_middle();
+    std::sort(edges_.begin(), edges_.end(),
+              [](const Edge& p, const Edge& q) { return p.left.x < q.left.x; });
+    for (const Edge& edge : edges_) {
+      stops_.push_back(edge.left.x);
+      stops_.push_back(edge.right.x);
+    }
+    std::sort(stops_.begin(), stops_.end());
+    stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
+  }
+
+  RegionAreas run() {
+    std::size_t next = 0;  // of edges_
+    for (std::size_t i = 0; i + 1 < stops_.size(); ++i) {
+      const double left = stops_[i];
+      const double right = stops_[i + 1];
+      std::erase_if(pieces_, [&](const Piece& piece) {
+        return edges_[piece.edge].right.x <= left;
+      });
+      for (; next < edges_.size() && edges_[next].left.x <= left; ++next) {
+        pieces_.push_back({static_cast<std::uint32_t>(next)});
+      }
+      sweep_strip(left, right);
+    }
+    return areas_.areas();
+  }
+
+ private:
+  void add(const ldni::Contours& contours, bool is_of_b) {
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const auto loop = contours.loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec2 from = loop[k];
+        const Vec2 to = loop[k + 1 < loop.size() ? k + 1 : 0];
+        if (from.x == to.x) continue;
+        const bool runs_right = from.x < to.x;
+        edges_.push_back({runs_right ? from : to, runs_right ? to : from,
+                          (to.y - from.y) / (to.x - from.x),
+                          runs_right ? 1 : -1, is_of_b});
+      }
+    }
+  }
+
+  void shift_to_middle() {
+    if (edges_.empty()) return;
+    double low = edges_.front().left.y;
+    double high = low;
+    for (const Edge& edge : edges_) {
+      low = std::min({low, edge.left.y, edge.right.y});
+      high = std::max({high, edge.left.y, edge.right.y});
+    }
+    for (Edge& edge : edges_) {
+      edge.left.y -= (low + high) / 2;
+      edge.right.y -= (low + high) / 2;
+    }
+  }
+
+  void sweep_strip(double left, double right) {
+    for (Piece& piece : pieces_) {
+      piece.left_y = edges_[piece.edge].y_at(left);
+      piece.right_y = edges_[piece.edge].y_at(right);
+    }
+    sort_by_insertion(std::span(pieces_), is_below_at_left,
+                      [](const Piece&, const Piece&) {});
+    areas_.set_winding({0, 0});
+    const double width = right - left;
+    if (std::is_sorted(pieces_.begin(), pieces_.end(), is_below_at_right)) {
+      for (const Piece& piece : pieces_) {
+        areas_.pass(edges_[piece.edge], piece.middle_y(), width);
+      }
+      return;
+    }
+    rank_at_right();
+    // Edges that only change places with each other are a cluster.
+    std::size_t begin = 0;
+    std::uint32_t greatest = 0;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      greatest = std::max(greatest, pieces_[i].rank);
+      if (greatest != i) continue;
+      sweep_cluster(std::span(pieces_).subspan(begin, i + 1 - begin), width);
+      begin = i + 1;
+    }
+  }
+
+  void rank_at_right() {
+    order_.clear();
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) order_.push_back(i);
+    std::sort(order_.begin(), order_.end(),
+              [this](std::uint32_t p, std::uint32_t q) {
+                if (is_below_at_right(pieces_[p], pieces_[q])) return true;
+                if (is_below_at_right(pieces_[q], pieces_[p])) return false;
+                return p < q;
+              });
+    for (std::uint32_t i = 0; i < order_.size(); ++i) {
+      pieces_[order_[i]].rank = i;
+    }
+  }
+
+  void sweep_cluster(std::span<const Piece> cluster, double width) {
+    if (cluster.size() == 1) {
+      areas_.pass(edges_[cluster[0].edge], cluster[0].middle_y(), width);
+      return;
+    }
+    find_crossings(cluster);
+    const std::array<int, 2> winding = areas_.winding();
+    double from = 0;
+    for (const double to : crossings_) {
+      areas_.set_winding(winding);
+      sweep_between_crossings(cluster, from, to, width);
+      from = to;
+    }
+  }
+
+  // As shares of the strip, ascending, with its end.
+  void find_crossings(std::span<const Piece> cluster) {
+    crossings_.assign(1, 1.0);
+    sorted_.assign(cluster.begin(), cluster.end());
+    sort_by_insertion(std::span(sorted_), is_below_at_right,
+                      [this](const Piece& p, const Piece& q) {
+                        const double at_left = p.left_y - q.left_y;
+                        const double at_right = q.right_y - p.right_y;
+                        if (at_left <= 0 || at_right <= 0)
+                          return;  // they meet at a side
+                        crossings_.push_back(at_left / (at_left + at_right));
+                      });
+    steps_ += cluster.size() * crossings_.size();
+    if (steps_ > kMostSteps) {
+      throw GeometryError({Severity::kError,
+                           {},
+                           "contours cross each other too often to be "
+                           "compared"});
+    }
+    std::sort(crossings_.begin(), crossings_.end());
+  }
+
+  void sweep_between_crossings(std::span<const Piece> cluster, double from,
+                               double to, double width) {
+    const double middle = (from + to) / 2;
+    heights_.clear();
+    for (const Piece& piece : cluster) {
+      heights_.emplace_back(
+          piece.left_y + middle * (piece.right_y - piece.left_y), piece.edge);
+    }
+    std::sort(heights_.begin(), heights_.end());
+    for (const auto& [y, edge] : heights_) {
+      areas_.pass(edges_[edge], y, (to - from) * width);
+    }
+  }
+
+  std::vector<Edge> edges_;    // by their left ends
+  std::vector<double> stops_;  // x of all ends, ascending
+  std::vector<Piece> pieces_;  // in the strip, from below at its left side
+  Areas areas_;
+  std::uint64_t steps_ = 0;
+  // Scratch.
+  std::vector<std::uint32_t> order_;
+  std::vector<Piece> sorted_;
+  std::vector<double> crossings_;
+  std::vector<std::pair<double, std::uint32_t>> heights_;
+};
+
+}  // namespace
+
+RegionAreas measure_regions(const ldni::Contours& a, const ldni::Contours& b) {
+  return Sweep(a, b).run();
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,344 @@
+#include "slicer/check/thin_features.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "slicer/contour/layer_edges.h"
+
+namespace lamina::slicer {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// A feature is told where it is thinnest. Of places as thin but for this [mm],
+// which rounding decides, the lowest is taken.
+constexpr double kSameWidth = 1e-7;
+
+// Cells are no smaller than this share of the width, so that a search for the
+// largest disk visits no more than some hundred.
+constexpr double kLeastCell = 0.125;
+
+// Cells are no smaller than that lines, on the average, reach over so many: a
+// line may be as long as a file says.
+constexpr double kMostCellsPerLine = 1024;
+
+// Disks that touch overlap, whatever rounding says [mm].
+constexpr double kOverlapSlack = 1e-7;
+
+bool lie_on_two_sides(Vec2 from, Vec2 to, Vec2 a, Vec2 b) {
+  const Vec2 along = to - from;
+  return (cross(along, a - from) > 0) != (cross(along, b - from) > 0);
+}
+
+// Whether the boxes of two lines are farther apart than this.
+bool are_farther(Vec2 a, Vec2 b, Vec2 c, Vec2 d, double distance) {
+  return std::min(c.x, d.x) - std::max(a.x, b.x) > distance ||
+         std::min(a.x, b.x) - std::max(c.x, d.x) > distance ||
+         std::min(c.y, d.y) - std::max(a.y, b.y) > distance ||
+         std::min(a.y, b.y) - std::max(c.y, d.y) > distance;
+}
+
+// Lines shorter than rounding have no sides; they do not cross what is not
+// there.
+bool cross_each_other(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  return !are_farther(a, b, c, d, 0) && lie_on_two_sides(a, b, c, d) &&
+         lie_on_two_sides(c, d, a, b);
+}
+
+double distance_of_lines(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  if (cross_each_other(a, b, c, d)) return 0;
+  return std::min({distance_to_line(a, c, d), distance_to_line(b, c, d),
+                   distance_to_line(c, a, b), distance_to_line(d, a, b)});
+}
+
+}  // namespace
+
+// --- Places ----------------------------------------------------------------
+// Lines are listed in the cells of points on them, a cell apart at most.
+
+void FeatureCollector::Places::clear(double cell, std::size_t count) {
+  cell_ = cell;
+  greatest_reach_ = 0;
+  placed_.clear();
+  items_.clear();
+  heads_.assign(std::bit_ceil(2 * count + 1), kNone);
+}
+
+std::size_t FeatureCollector::Places::bucket_of(std::int64_t column,
+                                                std::int64_t row) const {
+  const auto mixed = static_cast<std::uint64_t>(column) * 0x9e3779b97f4a7c15U ^
+                     static_cast<std::uint64_t>(row) * 0xc2b2ae3d27d4eb4fU;
+  return (mixed ^ mixed >> 29) & (heads_.size() - 1);
+}
+
+template <typename Visit>
+void FeatureCollector::Places::visit_samples(Vec2 from, Vec2 to,
+                                             const Visit& visit) const {
+  const Vec2 along = to - from;
+  const int steps =
+      static_cast<int>(std::ceil(std::sqrt(dot(along, along)) / cell_));
+  for (int i = 0; i <= steps; ++i) {
+    const Vec2 at = from + (steps > 0 ? double(i) / steps : 0.0) * along;
+    visit(static_cast<std::int64_t>(std::floor(at.x / cell_)),
+          static_cast<std::int64_t>(std::floor(at.y / cell_)));
+  }
+}
+
+void FeatureCollector::Places::add(const Placed& placed) {
+  const auto number = static_cast<std::uint32_t>(placed_.size());
+  placed_.push_back(placed);
+  greatest_reach_ = std::max(greatest_reach_, placed.reach);
+  std::size_t last = heads_.size();
+  visit_samples(
+      placed.from, placed.to, [&](std::int64_t column, std::int64_t row) {
+        const std::size_t bucket = bucket_of(column, row);
+        if (bucket == last) return;
+        last = bucket;
+        items_.push_back({number, heads_[bucket]});
+        heads_[bucket] = static_cast<std::uint32_t>(items_.size()) - 1;
+      });
+}
+
+template <typename Visit>
+void FeatureCollector::Places::visit_near(Vec2 from, Vec2 to, double distance,
+                                          const Visit& visit) const {
+  if (placed_.empty()) return;
+  // Of two lines within the distance, listed points are within a cell more.
+  const auto cells = 1 + static_cast<std::int64_t>(
+                             std::ceil((distance + greatest_reach_) / cell_));
+  const double samples = 1 + glm::distance(from, to) / cell_;
+  const auto side = static_cast<double>(2 * cells + 1);
+  if (samples * side * side >= static_cast<double>(placed_.size())) {
+    for (const Placed& placed : placed_) visit(placed);
+    return;
+  }
+  visit_samples(from, to, [&](std::int64_t column, std::int64_t row) {
+    for (std::int64_t i = column - cells; i <= column + cells; ++i) {
+      for (std::int64_t k = row - cells; k <= row + cells; ++k) {
+        for (std::uint32_t item = heads_[bucket_of(i, k)]; item != kNone;
+             item = items_[item].next) {
+          visit(placed_[items_[item].placed]);
+        }
+      }
+    }
+  });
+}
+
+// --- Features --------------------------------------------------------------
+
+namespace {
+
+// Whether a feature is told by `by` rather than by what it is told by.
+bool is_better(const ThinFeature& by, const ThinFeature& feature) {
+  if (std::abs(by.width - feature.width) > kSameWidth) {
+    return by.width < feature.width;
+  }
+  if (by.layer != feature.layer) return by.layer < feature.layer;
+  return by.length > feature.length;
+}
+
+void extend(ThinFeature& feature, const ThinFeature& by) {
+  const ThinFeature before = feature;
+  if (is_better(by, feature)) feature = by;
+  feature.low = glm::min(before.low, by.low);
+  feature.high = glm::max(before.high, by.high);
+  feature.first_layer = std::min(before.first_layer, by.first_layer);
+  feature.last_layer = std::max(before.last_layer, by.last_layer);
+  feature.bottom = std::min(before.bottom, by.bottom);
+  feature.top = std::max(before.top, by.top);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> number_makers(const csg::Scene& scene) {
+  std::map<std::tuple<const Source*, std::uint32_t, std::uint32_t>,
+           std::uint32_t>
+      known;
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(scene.instances.size());
+  for (const csg::Instance& instance : scene.instances) {
+    const SourceRange& range = instance.range;
+    const auto next = static_cast<std::uint32_t>(known.size());
+    numbers.push_back(
+        known.try_emplace({range.source, range.begin, range.end}, next)
+            .first->second);
+  }
+  return numbers;
+}
+
+std::uint32_t FeatureCollector::Union::add() {
+  parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
+  return parents_.back();
+}
+
+std::uint32_t FeatureCollector::Union::root_of(std::uint32_t i) {
+  while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+  return i;
+}
+
+std::uint32_t FeatureCollector::Union::join(std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t kept = std::min(a, b);
+  parents_[std::max(a, b)] = kept;
+  return kept;
+}
+
+FeatureCollector::FeatureCollector(double width,
+                                   std::vector<std::uint32_t> makers)
+    : width_(width), makers_(std::move(makers)) {}
+
+std::uint32_t FeatureCollector::join_features(std::uint32_t a,
+                                              std::uint32_t b) {
+  if (a == kNone || a == b) return b;
+  const std::uint32_t kept = features_union_.join(a, b);
+  extend(features_[kept], features_[std::max(a, b)]);
+  return kept;
+}
+
+std::uint32_t FeatureCollector::join_wholes(std::uint32_t a, std::uint32_t b) {
+  if (a == kNone || a == b) return b;
+  const std::uint32_t kept = wholes_union_.join(a, b);
+  const Span gone = wholes_[std::max(a, b)];
+  wholes_[kept] = {std::min(wholes_[kept].bottom, gone.bottom),
+                   std::max(wholes_[kept].top, gone.top)};
+  return kept;
+}
+
+FeatureCollector::Placed FeatureCollector::place(
+    const ThinStretch& stretch) const {
+  const auto maker = [this](std::uint32_t instance) {
+    return instance < makers_.size() ? makers_[instance] : kNone;
+  };
+  const auto [low, high] =
+      std::minmax({maker(stretch.instances[0]), maker(stretch.instances[1])});
+  return {stretch.from,
+          stretch.to,
+          stretch.reach,
+          stretch.kind,
+          std::uint64_t{high} << 32 | low,
+          kNone,
+          kNone};
+}
+
+// Joins what the stretch overlaps, and the stretch to it.
+//
+// gap  by which its disks may miss those of the layer below
+void FeatureCollector::find_neighbours(Placed& stretch, double gap) {
+  const auto look = [&](const Places& places, double slack) {
+    const double distance = stretch.reach + slack;
+    places.visit_near(
+        stretch.from, stretch.to, distance, [&](const Placed& other) {
+          if (other.kind != stretch.kind) return;
+          const std::uint32_t whole = wholes_union_.root_of(other.whole);
+          const bool is_alike = other.makers == stretch.makers;
+          const std::uint32_t feature =
+              is_alike ? features_union_.root_of(other.feature)
+                       : stretch.feature;
+          if (whole == stretch.whole && feature == stretch.feature) return;
+          const double most = distance + other.reach;
+          if (are_farther(stretch.from, stretch.to, other.from, other.to,
+                          most) ||
+              distance_of_lines(stretch.from, stretch.to, other.from,
+                                other.to) > most) {
+            return;
+          }
+          stretch.whole = join_wholes(stretch.whole, whole);
+          if (is_alike)
+            stretch.feature = join_features(stretch.feature, feature);
+        });
+  };
+  look(here_, kOverlapSlack);
+  look(below_, gap);
+}
+
+// Counts the stretch to its feature and its thin place, new ones if it has
+// none.
+void FeatureCollector::count(const ThinFeature& one, Placed& placed) {
+  if (placed.whole == kNone) {
+    placed.whole = wholes_union_.add();
+    wholes_.push_back({one.bottom, one.top});
+  } else {
+    wholes_[placed.whole].top = std::max(wholes_[placed.whole].top, one.top);
+  }
+  if (placed.feature == kNone) {
+    placed.feature = features_union_.add();
+    features_.push_back(one);
+    whole_of_.push_back(placed.whole);
+  } else {
+    extend(features_[placed.feature], one);
+  }
+}
+
+void FeatureCollector::take(const Layer& layer,
+                            std::span<const ThinStretch> stretches) {
+  ++layers_;
+  const double gap =
+      std::clamp(layer.section_z - last_z_, kOverlapSlack, width_);
+  last_z_ = layer.section_z;
+  std::swap(here_, below_);
+  double reach = 0;
+  double length = 0;
+  for (const ThinStretch& stretch : stretches) {
+    reach = std::max(reach, stretch.reach);
+    length += glm::distance(stretch.from, stretch.to);
+  }
+  const double most_cells =
+      kMostCellsPerLine * static_cast<double>(stretches.size() + 1);
+  here_.clear(std::max({2 * reach, kLeastCell * width_, length / most_cells}),
+              stretches.size());
+  for (const ThinStretch& stretch : stretches) {
+    const ThinFeature one{stretch.kind,
+                          layers_,
+                          layers_,
+                          layer.bottom,
+                          layer.top,
+                          glm::min(stretch.from, stretch.to),
+                          glm::max(stretch.from, stretch.to),
+                          stretch.width,
+                          glm::distance(stretch.from, stretch.to),
+                          layers_,
+                          layer.section_z,
+                          stretch.place,
+                          stretch.instances,
+                          0};
+    Placed placed = place(stretch);
+    find_neighbours(placed, gap);
+    count(one, placed);
+    here_.add(placed);
+  }
+}
+
+std::vector<ThinFeature> FeatureCollector::finish() {
+  std::vector<ThinFeature> features;
+  for (std::uint32_t i = 0; i < features_.size(); ++i) {
+    if (features_union_.root_of(i) != i) continue;
+    const Span& whole = wholes_[wholes_union_.root_of(whole_of_[i])];
+    features.push_back(features_[i]);
+    features.back().height = whole.top - whole.bottom;
+  }
+  const auto rank = [](const ThinFeature& feature) {
+    return std::tuple(feature.first_layer, feature.kind, feature.place.x,
+                      feature.place.y);
+  };
+  std::stable_sort(features.begin(), features.end(),
+                   [&](const ThinFeature& a, const ThinFeature& b) {
+                     return rank(a) < rank(b);
+                   });
+  return features;
+}
+
+std::vector<ThinFeature> find_thin_features(const Layer& layer, double width) {
+  std::vector<ThinStretch> stretches;
+  ThinFinder(width).find(layer.contours, stretches);
+  FeatureCollector collector(width, {});
+  collector.take(layer, stretches);
+  return collector.finish();
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,172 @@
+#include "slicer/contour/compensate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "csg/plane/clip.h"
+#include "csg/tie_distance.h"
+
+namespace lamina::slicer {
+namespace {
+
+using planar::Contour;
+using planar::Region;
+
+// The clipper rounds the number of sides of an arc: one where 1.5 were asked
+// for is 1.5² times as far from it.
+constexpr double kArcExcess = 2.25;
+
+Region to_region(const ldni::Contours& contours) {
+  Region region;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const std::span<const Vec2> loop = contours.loop(i);
+    region.contours.emplace_back(loop.begin(), loop.end());
+  }
+  return region;
+}
+
+void copy_to(const Region& region, ldni::Contours& contours) {
+  contours.clear();
+  for (const Contour& contour : region.contours) {
+    contours.points.insert(contours.points.end(), contour.begin(),
+                           contour.end());
+    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
+  }
+}
+
+bool encloses(const Contour& contour, Vec2 point) {
+  bool is_inside = false;
+  Vec2 a = contour.back();
+  for (const Vec2& b : contour) {
+    if ((a.y <= point.y) != (b.y <= point.y)) {
+      const double side =
+          (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x);
+      if ((side > 0) == (b.y > a.y)) is_inside = !is_inside;
+    }
+    a = b;
+  }
+  return is_inside;
+}
+
+// Finds the innermost loop of a region around a point.
+class Nesting {
+ public:
+  explicit Nesting(const Region& region) : region_(region) {
+    for (const Contour& contour : region.contours) {
+      Box box{contour.front(), contour.front(),
+              std::abs(planar::signed_area(contour))};
+      for (const Vec2& p : contour) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+      }
+      boxes_.push_back(box);
+    }
+  }
+
+  // Of loops other than `skipped`; kNone outside of all.
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::size_t innermost(Vec2 point, std::size_t skipped = kNone) const {
+    std::size_t result = kNone;
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      const Box& box = boxes_[i];
+      if (i == skipped) continue;
+      if ((result == kNone || box.area < boxes_[result].area) &&
+          point.x > box.low.x && point.x < box.high.x && point.y > box.low.y &&
+          point.y < box.high.y && encloses(region_.contours[i], point)) {
+        result = i;
+      }
+    }
+    return result;
+  }
+
+ private:
+  struct Box {
+    Vec2 low;
+    Vec2 high;
+    double area;
+  };
+  const Region& region_;
+  std::vector<Box> boxes_;
+};
+
+// Of regions, or of holes and the outside: what shrank.
+struct Losses {
+  std::uint64_t vanished = 0;
+  std::uint64_t parted = 0;  // pieces more than before, for each that is left,
+                             // and pieces of the others that met
+};
+
+// Loops of a sign (+1 regions, -1 holes) bound the components that shrink;
+// those of the other sign bound components that grow and can meet.
+Losses find_losses(const Region& before, const Region& after, int sign) {
+  const auto shrinks = [sign](const Contour& contour) {
+    return (planar::signed_area(contour) > 0) == (sign > 0);
+  };
+  const Nesting nesting(before);
+  std::vector<char> is_left(before.contours.size(), 0);
+  std::int64_t parted = 0;
+  for (const Contour& contour : after.contours) {
+    if (!shrinks(contour)) {
+      --parted;
+      continue;
+    }
+    ++parted;
+    const std::size_t home = nesting.innermost(contour.front());
+    if (home != Nesting::kNone) is_left[home] = 1;
+  }
+  Losses losses;
+  for (std::size_t i = 0; i < before.contours.size(); ++i) {
+    const Contour& contour = before.contours[i];
+    if (shrinks(contour)) {
+      if (is_left[i] != 0) {
+        --parted;
+      } else {
+        ++losses.vanished;
+      }
+      continue;
+    }
+    // What lay in a component that vanished is no piece of its own any more.
+    const std::size_t home =
+        nesting.innermost((contour[0] + contour[1]) / 2.0, i);
+    if (home == Nesting::kNone || is_left[home] != 0) ++parted;
+  }
+  losses.parted = static_cast<std::uint64_t>(std::max<std::int64_t>(parted, 0));
+  return losses;
+}
+
+}  // namespace
+
+CompensationCounts& CompensationCounts::operator+=(
+    const CompensationCounts& other) {
+  vanished_regions += other.vanished_regions;
+  vanished_holes += other.vanished_holes;
+  broken_walls += other.broken_walls;
+  closed_gaps += other.closed_gaps;
+  return *this;
+}
+
+CompensationCounts compensate(ldni::Contours& contours, double amount) {
+  if (amount == 0 || contours.is_empty()) return {};
+  const Region before = to_region(contours);
+  Region after = planar::offset(before, -amount, planar::Join::kRound,
+                                kArcTolerance / kArcExcess);
+  // What rounding left of walls exactly as thick as the beam.
+  planar::drop_hairlines(after, kTieDistance);
+  copy_to(after, contours);
+  CompensationCounts counts;
+  if (amount > 0) {
+    const Losses losses = find_losses(before, after, +1);
+    counts.vanished_regions = losses.vanished;
+    counts.broken_walls = losses.parted;
+  } else {
+    const Losses losses = find_losses(before, after, -1);
+    counts.vanished_holes = losses.vanished;
+    counts.closed_gaps = losses.parted;
+  }
+  return counts;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,41 @@
+#pragma once
+// Moves contours by the width of what draws them.
+//
+// A beam or a resin's bleeding cures beyond the path by some distance r, so
+// the path must keep r inside the solid. The contour of the points of the
+// solid that are at least r from its outside is just that, and it is what
+// planar::offset gives: sides move by r, corners of a hole turn round (every
+// point of the arc is r from the corner), corners of the solid stay sharp.
+// Moved outwards it is the other way round.
+//
+// Walls thinner than 2 r have no such path. They vanish; that is counted, as
+// the printer will not make them.
+
+#include <cstdint>
+
+#include "ldni/section/contours.h"
+
+namespace lamina::slicer {
+
+// Of a layer, or of many.
+struct CompensationCounts {
+  std::uint64_t vanished_regions = 0;  // inwards: outer loops, nothing is left
+  std::uint64_t vanished_holes = 0;    // outwards: the same of holes
+  std::uint64_t broken_walls = 0;      // inwards: regions came apart, or holes
+                                       // met each other or the outside
+  std::uint64_t closed_gaps = 0;       // outwards: the same of gaps
+
+  CompensationCounts& operator+=(const CompensationCounts& other);
+};
+
+// Of arcs: a tenth of the default tolerance, which simplification then uses up
+// [mm].
+inline constexpr double kArcTolerance = 1e-4;
+
+// Moves contours into the solid by `amount` [mm], out of it where that is
+// negative. Returns what is lost. Simple, disjoint loops stay so. Arcs are
+// exact within kArcTolerance. Throws std::range_error for coordinates beyond
+// 1e9 mm.
+CompensationCounts compensate(ldni::Contours& contours, double amount);
+
+}  // namespace lamina::slicer

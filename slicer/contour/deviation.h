@@ -1,0 +1,38 @@
+#pragma once
+// How far written contours can be from the exact section of the design.
+
+#include <optional>
+
+#include "csg/tie_distance.h"
+#include "ldni/section/leaf_section.h"
+
+namespace lamina::slicer {
+
+// Bounds [mm] on how far any point of a written contour is from the boundary
+// of the Boolean of the leaves in the plane of the section, by cause. Of walls
+// and gaps thinner than a tie nothing is promised. The section is the one moved
+// by --compensate where that is asked for.
+struct Deviation {
+  double ties = kTieDistance;           // faces this near are one
+  double columns = ldni::kColumnWidth;  // what the ray takes for one x
+  double compensation = 0;              // arcs of moved contours
+  double simplification = 0;            // vertices left out
+  double rounding = 0;                  // of the format's coordinates
+  std::optional<double> facets = {};  // of leaves, from their curves, if known
+
+  // From the exact section of the facetted leaves.
+  double from_section() const {
+    return ties + columns + compensation + simplification + rounding;
+  }
+  // From the section of the curved solids.
+  std::optional<double> from_curves() const {
+    if (!facets) return std::nullopt;
+    return from_section() + *facets;
+  }
+};
+
+// What rounding to 32-bit numbers moves a point by at most, of coordinates up
+// to `greatest` in magnitude [mm].
+double float32_rounding(double greatest);
+
+}  // namespace lamina::slicer

@@ -1,0 +1,36 @@
+#pragma once
+// The edges of a layer, one by one, with what lies beside them.
+
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.h"
+#include "base/vec.h"
+#include "ldni/section/contours.h"
+
+namespace lamina::slicer {
+
+// The solid lies to the left of every edge.
+struct LayerEdge {
+  Vec2 from;
+  Vec2 along;         // unit vector
+  double length = 0;  // [mm], > 0
+  std::uint32_t previous = 0;
+  std::uint32_t next = 0;
+  std::uint32_t loop = 0;
+
+  Vec2 to() const { return from + length * along; }
+};
+
+inline Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
+
+// Distance of the point from the straight line between two points, which may
+// be the same.
+double distance_to_line(Vec2 point, Vec2 from, Vec2 to);
+
+// Replaces `edges` by those of all loops, loop by loop. Points that repeat
+// their predecessor give none.
+void collect_edges(const ldni::Contours& contours,
+                   std::vector<LayerEdge>& edges);
+
+}  // namespace lamina::slicer

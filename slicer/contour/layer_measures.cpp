@@ -1,0 +1,18 @@
+#include "slicer/contour/layer_measures.h"
+
+namespace lamina::slicer {
+
+LayerMeasures measure(const ldni::Contours& contours) {
+  LayerMeasures measures;
+  measures.loops = contours.loop_count();
+  measures.vertices = contours.points.size();
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const double area = ldni::signed_area(contours.loop(i));
+    measures.holes += area < 0 ? 1 : 0;
+    measures.area += area;
+    measures.perimeter += ldni::perimeter(contours.loop(i));
+  }
+  return measures;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,89 @@
+#include "slicer/contour/regions.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include <glm/common.hpp>
+
+namespace lamina::slicer {
+namespace {
+
+struct Outer {
+  std::span<const Vec2> loop;
+  Vec2 low = Vec2(std::numeric_limits<double>::infinity());
+  Vec2 high = -low;
+  double whole = 0;  // area with its holes
+  double area = 0;   // and without
+};
+
+Outer measure(std::span<const Vec2> loop, double area) {
+  Outer outer;
+  outer.loop = loop;
+  outer.whole = outer.area = area;
+  for (const Vec2& point : loop) {
+    outer.low = glm::min(outer.low, point);
+    outer.high = glm::max(outer.high, point);
+  }
+  return outer;
+}
+
+bool may_hold(const Outer& outer, Vec2 place) {
+  return place.x >= outer.low.x && place.x <= outer.high.x &&
+         place.y >= outer.low.y && place.y <= outer.high.y;
+}
+
+// By the edges to the right of the place.
+bool holds(const Outer& outer, Vec2 place) {
+  bool is_inside = false;
+  Vec2 a = outer.loop.back();
+  for (const Vec2& b : outer.loop) {
+    if ((a.y > place.y) != (b.y > place.y) &&
+        place.x < a.x + (place.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+      is_inside = !is_inside;
+    }
+    a = b;
+  }
+  return is_inside;
+}
+
+// The innermost one around a hole that begins at `place`; null if none is.
+Outer* find_around(std::vector<Outer>& outers, Vec2 place) {
+  std::vector<Outer*> candidates;
+  for (Outer& outer : outers) {
+    if (may_hold(outer, place)) candidates.push_back(&outer);
+  }
+  // Most holes lie in one box only.
+  if (candidates.size() == 1) return candidates.front();
+  Outer* innermost = nullptr;
+  for (Outer* outer : candidates) {
+    if ((innermost == nullptr || outer->whole < innermost->whole) &&
+        holds(*outer, place)) {
+      innermost = outer;
+    }
+  }
+  return innermost;
+}
+
+}  // namespace
+
+std::vector<double> areas_of_regions(const ldni::Contours& contours) {
+  std::vector<Outer> outers;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const double area = ldni::signed_area(contours.loop(i));
+    if (area > 0) outers.push_back(measure(contours.loop(i), area));
+  }
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const double area = ldni::signed_area(contours.loop(i));
+    if (area >= 0) continue;
+    Outer* const outer = find_around(outers, contours.loop(i).front());
+    if (outer != nullptr) outer->area += area;
+  }
+  std::vector<double> areas(outers.size());
+  std::transform(outers.begin(), outers.end(), areas.begin(),
+                 [](const Outer& outer) { return outer.area; });
+  return areas;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,16 @@
+#pragma once
+// The separate pieces of a layer.
+
+#include <vector>
+
+#include "ldni/section/contours.h"
+
+namespace lamina::slicer {
+
+// The area of each outer loop less that of the holes in it [mm²], in the order
+// of the outer loops.
+//
+// contours  disjoint loops, outer ones counter-clockwise, holes clockwise
+std::vector<double> areas_of_regions(const ldni::Contours& contours);
+
+}  // namespace lamina::slicer

@@ -1,0 +1,218 @@
+#include "slicer/contour/round_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/check.h"
+#include "base/plane.h"
+
+namespace lamina::slicer {
+namespace {
+
+constexpr int kFloatDigits = 24;  // of a float32's binary fraction
+
+// Snapped coordinates are integers up to 2^24 times this: small numbers, among
+// which the ray's columns of 1e-9 are narrow.
+constexpr double kUnit = 0x1p-14;
+
+// Points nearer than this [mm] are one vertex to the moving ray.
+constexpr double kMergeDistance = 2e-9;
+
+// Boxes and steps are measured with this times the spacing, so that rounding
+// hides nothing.
+constexpr double kTreeReach = 1.001;
+
+// Rounds of snapping before it counts as endless; two do as a rule.
+constexpr int kMostRounds = 64;
+
+double to_float(double value) {
+  // Adding 0 turns -0 to 0: equal points shall have equal bytes. In float32:
+  // GCC 12 leaves out both conversions of a vector where nothing is between.
+  return static_cast<double>(static_cast<float>(value) + 0.0F);
+}
+Vec2 to_float(Vec2 point) { return {to_float(point.x), to_float(point.y)}; }
+
+}  // namespace
+
+LoopRounder::LoopRounder() : resolver_(0, 0) {}
+
+void LoopRounder::round(ldni::Contours& contours, double clearance) {
+  if (contours.is_empty()) return;
+  measure(contours);
+  if (clearance >= kTreeReach * spacing_ || is_safe(contours)) {
+    for (Vec2& point : contours.points) point = to_float(point);
+    return;
+  }
+  ++snapped_layers_;
+  snap(contours);
+}
+
+void LoopRounder::measure(const ldni::Contours& contours) {
+  int exponent = 0;
+  std::frexp(ldni::greatest_coordinate(contours.points), &exponent);
+  spacing_ = std::ldexp(1.0, exponent - kFloatDigits);
+}
+
+// --- Proof ------------------------------------------------------------------
+
+bool LoopRounder::is_safe(const ldni::Contours& contours) {
+  points_.clear();
+  ends_.clear();
+  for (std::size_t l = 0; l < contours.loop_count(); ++l) {
+    const auto loop = contours.loop(l);
+    points_.insert(points_.end(), loop.begin(), loop.end());
+    points_.push_back(loop.front());
+    ends_.push_back(static_cast<std::uint32_t>(points_.size()));
+  }
+  for (std::size_t i = vertices_.size(); i < points_.size(); ++i) {
+    vertices_.push_back(static_cast<std::uint32_t>(i));
+  }
+  tree_.fill(points_, {vertices_.data(), points_.size()}, ends_);
+  // Both ends of a distance move, by half the spacing each way.
+  const double reach = kTreeReach * spacing_;
+  near_pairs_.clear();
+  const bool is_crowded = tree_.visit_near(
+      reach, [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+        near_pairs_.push_back({&a, &b});
+        return false;
+      });
+  if (is_crowded) return is_safe_by_grid();
+  const auto meet = [&](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+    return tree_.visit_meetings(
+        a, b, reach, [&](std::uint32_t vertex, std::uint32_t edge) {
+          return a.loop == b.loop || !touch(vertex, edge);
+        });
+  };
+  return std::none_of(near_pairs_.begin(), near_pairs_.end(),
+                      [&](const auto& pair) {
+                        const auto& [a, b] = pair;
+                        return meet(*a, *b) || (a != b && meet(*b, *a));
+                      });
+}
+
+// The same for loops that are too many beside each other for the tree.
+bool LoopRounder::is_safe_by_grid() {
+  members_.clear();
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : ends_) {
+    for (std::uint32_t i = begin; i + 1 < end; ++i) members_.push_back(i);
+    begin = end;
+  }
+  grid_.fill(points_, members_);
+  begin = 0;
+  for (const std::uint32_t end : ends_) {
+    for (std::uint32_t edge = begin; edge + 1 < end; ++edge) {
+      const std::uint32_t to = edge + 2 == end ? begin : edge + 1;
+      const auto meets = [&](std::uint32_t i) {
+        if (i == edge || i == to) return false;
+        const bool is_same_loop = i >= begin && i < end;
+        return meets_square(points_[edge], points_[edge + 1], points_[i],
+                            kTreeReach * spacing_) &&
+               (is_same_loop || !touch(i, edge));
+      };
+      if (grid_.has_near(points_[edge], points_[edge + 1],
+                         kTreeReach * spacing_, meets)) {
+        return false;
+      }
+    }
+    begin = end;
+  }
+  return true;
+}
+
+// Whether two loops touch in a vertex of both: they go on doing so, if it is
+// rounded to one.
+bool LoopRounder::touch(std::uint32_t vertex, std::uint32_t edge) const {
+  const Vec2& point = points_[vertex];
+  for (const std::uint32_t end : {edge, edge + 1}) {
+    const Vec2 step = point - points_[end];
+    if (std::abs(step.x) < kMergeDistance &&
+        std::abs(step.y) < kMergeDistance &&
+        to_float(point) == to_float(points_[end])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// --- Snapping ---------------------------------------------------------------
+
+// In units of the spacing, times kUnit.
+void LoopRounder::snap(ldni::Contours& contours) {
+  const double scale = kUnit / spacing_;
+  for (Vec2& point : contours.points) point *= scale;
+  int rounds = 0;
+  while (lead_through_cells(contours)) {
+    // Snapped for the first time, or edges met foreign cells.
+    LAMINA_CHECK_EQ(++rounds < kMostRounds, true);
+    most_moves_ = std::max(most_moves_, rounds);
+    resolver_.resolve(contours);
+  }
+  for (Vec2& point : contours.points) point = to_float(point / scale);
+}
+
+// Leads every edge through the cells of vertices that it meets. False where
+// all points are middles of cells and no edge had to bend: then edges meet in
+// vertices only, or in a vertex that lies on an edge exactly.
+bool LoopRounder::lead_through_cells(ldni::Contours& contours) {
+  // Find the cells.
+  cells_.clear();
+  bool is_changed = false;
+  for (const Vec2& point : contours.points) {
+    const Vec2 cell(std::nearbyint(point.x / kUnit) * kUnit + 0.0,
+                    std::nearbyint(point.y / kUnit) * kUnit + 0.0);
+    is_changed |= cell != point;
+    cells_.push_back(cell);
+  }
+  const std::vector<Vec2> cell_of = cells_;
+  std::sort(cells_.begin(), cells_.end(), [](const Vec2& a, const Vec2& b) {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  });
+  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+  members_.resize(cells_.size());
+  std::iota(members_.begin(), members_.end(), 0U);
+  grid_.fill(cells_, members_);
+
+  led_.clear();
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : contours.ends) {
+    for (std::uint32_t from = begin; from < end; ++from) {
+      const std::uint32_t to = from + 1 == end ? begin : from + 1;
+      led_.points.push_back(cell_of[from]);
+      is_changed |= bends_edge(contours.points[from], contours.points[to]);
+    }
+    led_.ends.push_back(static_cast<std::uint32_t>(led_.points.size()));
+    begin = end;
+  }
+  std::swap(contours, led_);
+  return is_changed;
+}
+
+// Adds the cells between the ends of an edge, in its order. Whether one is off
+// the edge.
+bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
+  passages_.clear();
+  const Vec2 along = to - from;
+  grid_.has_near(from, to, kUnit, [&](std::uint32_t i) {
+    const Vec2& cell = cells_[i];
+    const bool is_end = meets_square(from, from, cell, kUnit / 2) ||
+                        meets_square(to, to, cell, kUnit / 2);
+    if (!is_end && meets_square(from, to, cell, kUnit / 2)) {
+      passages_.push_back({dot(along, cell), cell});
+    }
+    return false;
+  });
+  std::sort(
+      passages_.begin(), passages_.end(),
+      [](const Passage& a, const Passage& b) { return a.place < b.place; });
+  bool bends = false;
+  for (const Passage& passage : passages_) {
+    led_.points.push_back(passage.cell);
+    bends |= cross(along, passage.cell - from) != 0;
+  }
+  return bends;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,113 @@
+#pragma once
+// Leaves out the vertices of a layer that do not matter.
+//
+// A section of a fine tessellation has a vertex every few micrometres; a wax
+// printer's beam is ten times wider. Dropping vertices is easy; keeping walls
+// and gaps thinner than the tolerance open is what needs thought, and sections
+// of real jewelry have them. The vertices that stay are the loops' own, so
+// corners keep their digits.
+//
+// 1. Choose. From an anchor a the next vertex to keep is the farthest that a
+//    straight line reaches within the tolerance of all between: a cone of
+//    directions that narrows with every vertex (Imai and Iri 1988), O(1) each.
+//    On sections of rings 1 to 3 % more vertices stay than the fewest possible.
+// 2. Prove. In the frame of the shortcut a-b the run that it replaces must lie
+//    in [0, length] × [-tolerance, tolerance]. The run crosses every abscissa
+//    of the shortcut, so each of the two is within the tolerance of the other.
+//    Moving every point of the run straight down to the shortcut sweeps the
+//    strip between them; no vertex that stays may lie in a strip. The first is
+//    so by the choice. A tree of boxes tells nearly all strips apart at once
+//    (loop_tree.h); only the others are looked at.
+// 3. Mend. A run that fails is split at its farthest vertex, until none fails.
+// 4. Thin out. A vertex whose run and the next pass the proof as one is left
+//    out: what the splits, or a choice within less, no longer need.
+//
+// Why the topology stays. Prick the plane at all vertices that stay. Runs can
+// be moved to their shortcuts without crossing a prick, and runs are disjoint.
+// Two straight segments that cross, cross once, and no motion that respects the
+// pricks could part them; so shortcuts do not cross. Hence loops stay simple,
+// disjoint and nested as they were, with vertices on the sides on which they
+// were. (Loops may touch in a vertex, and go on to do so; a shortcut from one
+// such vertex to another is not taken.) Vertices that do not stay need not be
+// heeded: two walls closer than the tolerance are thinned out together.
+//
+// A loop as small as the tolerance would dwindle to a sliver; so loops keep at
+// least half of their area and at most double it.
+//
+// The cost is linear in practice.
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "ldni/section/contours.h"
+#include "slicer/contour/loop_tree.h"
+#include "slicer/contour/point_grid.h"
+
+namespace lamina::slicer {
+
+// One object per thread: it owns the scratch that layers share.
+class Simplifier {
+ public:
+  // tolerance  greatest distance between the old and the new contour [mm];
+  //            0 leaves everything as it is
+  explicit Simplifier(double tolerance) : tolerance_(tolerance) {}
+
+  // Simple, disjoint loops stay so, in the same order and orientation; each
+  // begins at its lowest of the leftmost points.
+  void simplify(ldni::Contours& contours);
+
+  // No vertex that simplify() left is nearer to a foreign edge than this, in x
+  // and in y [mm]: more than rounding to 32-bit numbers can move them towards
+  // each other. 0: not known.
+  double clearance() const { return is_apart_ ? clearance_ : 0; }
+
+ private:
+  // Vertices [begin, end] of points_; the last is a copy of the first.
+  struct Loop {
+    std::uint32_t begin;
+    std::uint32_t end;
+    double doubled_area;     // signed [mm²]
+    bool has_spare = false;  // vertices that the choice did not want
+  };
+  struct Shortcut;
+
+  void copy_loops(const ldni::Contours& contours);
+  void choose(Loop& loop);
+  void list_kept();
+  void find_neighbours();
+  bool has_meetings() const;
+  bool mend();
+  bool mend_run(std::uint32_t k);
+  void thin_out(const Loop& loop, std::uint32_t k, std::uint32_t end);
+  void write_kept(ldni::Contours& contours) const;
+
+  double doubled_area_kept(std::size_t begin, std::size_t end) const;
+  Shortcut measure(std::uint32_t first, std::uint32_t last) const;
+  bool is_close(const Shortcut& shortcut) const;
+  bool is_clear(const Shortcut& shortcut, std::uint32_t k,
+                std::uint32_t last_k) const;
+  bool is_in_strip(const Shortcut& shortcut, Vec2 place) const;
+
+  double tolerance_;
+  double clearance_ = 0;   // kept between shortcuts and other vertices [mm]
+  bool is_apart_ = false;  // by the clearance
+  std::vector<Vec2> points_;
+  std::vector<Loop> loops_;
+  std::vector<std::uint8_t> kept_;      // of points_
+  std::vector<std::uint32_t> pending_;  // of a run, the ends that split it
+  // What was kept, of points_, as the tree takes it.
+  std::vector<std::uint32_t> vertices_;
+  std::vector<std::uint32_t> ends_;
+  LoopTree tree_;
+  bool is_crowded_ = false;  // too much so for the tree: ask the grid
+  PointGrid grid_;
+  // Leaves of the tree that come near to leaf i: near_leaves_ from
+  // near_begins_[i] to near_begins_[i + 1].
+  std::vector<std::uint32_t> near_begins_;
+  std::vector<std::uint32_t> near_leaves_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs_;
+};
+
+}  // namespace lamina::slicer

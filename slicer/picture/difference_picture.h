@@ -1,0 +1,21 @@
+#pragma once
+// A layer of two stacks in one picture: what both cover, and what only one of
+// them does, in colour. Differences are often too small to be seen, so a second
+// field shows the place of the greatest distance magnified.
+
+#include <array>
+#include <string>
+
+#include "ldni/section/contours.h"
+#include "slicer/check/compare.h"
+#include "slicer/picture/image.h"
+
+namespace lamina::slicer {
+
+// difference  of the two, for its words and its place
+// names       of a and b
+Image draw_difference(const ldni::Contours& a, const ldni::Contours& b,
+                      const LayerDifference& difference,
+                      const std::array<std::string, 2>& names);
+
+}  // namespace lamina::slicer

@@ -1,0 +1,329 @@
+#include "slicer/picture/stack_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/parallel.h"
+#include "slicer/picture/layer_distance.h"
+#include "slicer/picture/stack_points.h"
+
+namespace lamina::slicer {
+namespace {
+
+constexpr unsigned kOversampling = 2;  // in x and in y
+
+// Slopes are taken over at least this share of the part's size: of finer ones,
+// the rounding of contours is a part.
+constexpr double kSlopeLength = 0.0018;
+// Tops that are level for this many such lengths are level.
+constexpr double kSlopeReach = 20;
+
+// How far walls take light from each other: shares of the part's size and of
+// the picture's.
+constexpr double kShadeReach = 0.045;
+constexpr double kMostShadePixels = 0.08;
+
+// Directions of surfaces, from the depths of places in their layers.
+class Normals {
+ public:
+  Normals(const std::vector<Layer>& layers, const std::vector<Plate>& plates,
+          double size)
+      : plates_(plates) {
+    const double thickness =
+        std::max((plates.back().top - plates.front().bottom) /
+                     static_cast<double>(plates.size()),
+                 1e-9);
+    const double length = std::max(thickness, kSlopeLength * size);
+    half_step_ = static_cast<int>(std::min(length / thickness / 2, 50.0));
+    reach_ = kSlopeReach * length;
+    depths_.resize(layers.size(), LayerDistance({}, reach_));
+    for_each_index(layers.size(), [&](std::size_t i) {
+      depths_[i] = LayerDistance(layers[i].contours, reach_);
+    });
+  }
+
+  // At a place on a plate; out of the solid, a unit vector.
+  Vec3 at(int layer, Vec3 place) const {
+    const Plate& plate = plates_[static_cast<std::size_t>(layer)];
+    const double t = std::clamp(
+        (place.z - plate.bottom) / std::max(plate.top - plate.bottom, 1e-12),
+        0.0, 1.0);
+    const Vec2 xy(place);
+    // How depth changes upwards, around the place's height.
+    const Level above = mix(level(layer + half_step_, xy),
+                            level(layer + half_step_ + 1, xy), t);
+    const Level below = mix(level(layer - half_step_ - 1, xy),
+                            level(layer - half_step_, xy), t);
+    const double up =
+        (above.depth - below.depth) / std::max(above.z - below.z, 1e-12);
+    // How it changes along the layer: between the sections above and below.
+    const int lower = t < 0.5 ? layer - 1 : layer;
+    const Vec2 inward =
+        mix(level(lower, xy), level(lower + 1, xy), t < 0.5 ? t + 0.5 : t - 0.5)
+            .inward;
+    const Vec3 outward(-inward.x, -inward.y, -up);
+    const double slope = glm::length(outward);
+    return slope > 0 ? outward / slope : Vec3(0, 0, 1);
+  }
+
+ private:
+  struct Level {
+    double z;
+    double depth;
+    Vec2 inward;
+  };
+
+  // In a section; those beyond the stack are empty.
+  Level level(int index, Vec2 place) const {
+    const int last = static_cast<int>(plates_.size()) - 1;
+    const int inside = std::clamp(index, 0, last);
+    const Plate& plate = plates_[static_cast<std::size_t>(inside)];
+    if (index != inside) {
+      return {plate.section_z + (index - inside) * (plate.top - plate.bottom),
+              -reach_, Vec2(0)};
+    }
+    const auto [depth, inward] =
+        depths_[static_cast<std::size_t>(index)].at(place);
+    return {plate.section_z, depth, inward};
+  }
+
+  static Level mix(const Level& a, const Level& b, double share) {
+    return {glm::mix(a.z, b.z, share), glm::mix(a.depth, b.depth, share),
+            glm::mix(a.inward, b.inward, share)};
+  }
+
+  const std::vector<Plate>& plates_;
+  int half_step_ = 0;
+  double reach_ = 0;
+  std::vector<LayerDistance> depths_;
+};
+
+double smooth_step(double from, double to, double value) {
+  const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+double to_linear(double srgb) {
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+double to_srgb(double linear) {
+  linear = std::clamp(linear, 0.0, 1.0);
+  return linear <= 0.0031308 ? 12.92 * linear
+                             : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+// A studio that goes with the viewer, who looks down into it a little: a key
+// light from the upper left, a weak one from the right, and a room mirrored in
+// what shines, dark below and bright above.
+class Studio {
+ public:
+  explicit Studio(const ColorScheme& colors)
+      : solid_(to_linear(colors.solid[0]), to_linear(colors.solid[1]),
+               to_linear(colors.solid[2])),
+        shine_(colors.shine) {}
+
+  // In linear light.
+  //
+  // normal  right, up, towards the viewer
+  // open    share of the sky that is seen, 0 … 1
+  Vec3 light(Vec3 normal, double open) const {
+    const Vec3 in_room =
+        normal.x * right_ + normal.y * up_ + normal.z * to_viewer_;
+    const double sky = open * open;
+    const double facing = std::max(0.0, glm::dot(in_room, to_viewer_));
+    const Vec3 mirrored = 2 * facing * in_room - to_viewer_;
+    const double diffuse = 0.75 * std::max(0.0, glm::dot(in_room, key_)) +
+                           0.15 * std::max(0.0, glm::dot(in_room, fill_)) +
+                           0.14 + 0.14 * in_room.z;
+    // Metals mirror in their colour, and everything in white at a flat angle.
+    const Vec3 tint =
+        glm::mix(solid_, Vec3(1), 0.7 * std::pow(1 - facing, 5.0));
+    const double shade = 0.3 + 0.7 * sky;
+    const Vec3 light = solid_ * (diffuse * shade * sky * (1 - 0.6 * shine_)) +
+                       tint * (room(mirrored) * sky * shine_);
+    // What is too bright for its colour becomes white.
+    const double excess = std::max({light.x, light.y, light.z}) - 0.9;
+    return light + Vec3(0.7 * std::max(0.0, excess));
+  }
+
+ private:
+  static constexpr double kElevation = 0.62;  // of the viewer [rad]
+
+  // What is seen in a direction: a bright ceiling over a dark floor, a large
+  // lamp and a small one.
+  double room(Vec3 to) const {
+    return 0.08 + 0.44 * smooth_step(-0.35, 1.0, to.z) +
+           0.10 * smooth_step(0.2, 1.0, -to.z) +
+           0.10 * smooth_step(0.1, 0.9, -to.x) +
+           0.85 * smooth_step(0.72, 0.97, glm::dot(to, key_)) +
+           0.35 * smooth_step(0.80, 0.98, glm::dot(to, fill_));
+  }
+
+  Vec3 solid_;
+  double shine_;
+  Vec3 right_ = Vec3(1, 0, 0);
+  Vec3 up_ = Vec3(0, std::sin(kElevation), std::cos(kElevation));
+  Vec3 to_viewer_ = Vec3(0, -std::cos(kElevation), std::sin(kElevation));
+  Vec3 key_ = glm::normalize(Vec3(-0.62, -0.35, 0.75));
+  Vec3 fill_ = glm::normalize(Vec3(0.85, -0.45, 0.25));
+};
+
+// The points seen, with the light on them.
+class LitStack {
+ public:
+  LitStack(const std::vector<Layer>& layers, const std::vector<Plate>& plates,
+           const Box3& box, const Camera& camera, const StackOptions& options)
+      : width_(options.width * kOversampling),
+        height_(options.height * kOversampling),
+        origin_((box.low + box.high) / 2.0),
+        size_(glm::length(box.high - box.low)),
+        thickness_((box.high.z - box.low.z) /
+                   static_cast<double>(layers.size())),
+        view_from_world_(camera.view_from_world()),
+        studio_(*options.colors),
+        points_(find_stack_points(layers, plates, camera, origin_, width_,
+                                  height_)),
+        normals_(layers, plates, size_) {
+    const double pixels_per_mm =
+        height_ / (2 * camera.distance *
+                   std::tan(camera.field_deg * std::numbers::pi / 360));
+    reach_ = std::min(kShadeReach * size_ * pixels_per_mm,
+                      kMostShadePixels * std::max(width_, height_));
+    fading_ = 3 * reach_ / pixels_per_mm;
+    choose_places();
+  }
+
+  // The mean of the points in a pixel. The sky changes slowly: it is looked at
+  // once.
+  Rgb pixel(unsigned x, unsigned y, Rgb background) const {
+    Rgb sum{};
+    double open = -1;
+    for (unsigned i = 0; i < kOversampling * kOversampling; ++i) {
+      const int px = static_cast<int>(x * kOversampling + i % kOversampling);
+      const int py = static_cast<int>(y * kOversampling + i / kOversampling);
+      const ldni::TaggedPoint& point = at(px, py);
+      Rgb color = background;
+      if (point.tag >= 0) {
+        const Vec3 normal =
+            normals_.at(static_cast<int>(point.tag), place_of(point) + origin_);
+        if (open < 0) open = openness(px, py, normal);
+        const Vec3 light =
+            studio_.light(Vec3(view_from_world_ * Vec4(normal, 0)), open);
+        for (int c = 0; c < 3; ++c) {
+          color[static_cast<std::size_t>(c)] =
+              static_cast<float>(to_srgb(light[c]));
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c];
+    }
+    for (float& channel : sum) channel /= kOversampling * kOversampling;
+    return sum;
+  }
+
+ private:
+  static constexpr int kDirections = 16;
+  static constexpr int kSteps = 5;
+
+  static Vec3 place_of(const ldni::TaggedPoint& point) {
+    return {point.x, point.y, point.z};
+  }
+  const ldni::TaggedPoint& at(int x, int y) const {
+    return points_[static_cast<std::size_t>(y) * width_ +
+                   static_cast<std::size_t>(x)];
+  }
+
+  // Where to look for what takes the sky: near places more often.
+  void choose_places() {
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
+      for (int step = 1; step <= kSteps; ++step) {
+        const double distance = reach_ * step * step / (kSteps * kSteps);
+        places_.push_back(
+            {static_cast<int>(std::lround(distance * std::cos(angle))),
+             static_cast<int>(std::lround(distance * std::sin(angle)))});
+      }
+    }
+  }
+
+  // The share of the sky that is seen: in each direction up to the horizon.
+  double openness(int x, int y, Vec3 normal) const {
+    const Vec3 place = place_of(at(x, y));
+    double open = 0;
+    for (int i = 0; i < kDirections; ++i) {
+      double highest = 0;  // sine of the horizon's height
+      for (int step = 0; step < kSteps; ++step) {
+        const auto& [dx, dy] = places_[static_cast<std::size_t>(i) * kSteps +
+                                       static_cast<std::size_t>(step)];
+        const int qx = x + dx;
+        const int qy = y + dy;
+        if (qx < 0 || qy < 0 || qx >= static_cast<int>(width_) ||
+            qy >= static_cast<int>(height_) || at(qx, qy).tag < 0) {
+          continue;
+        }
+        const Vec3 way = place_of(at(qx, qy)) - place;
+        // Steps of layers take no light.
+        const double rise = glm::dot(way, normal) - thickness_;
+        if (rise <= 0) continue;
+        const double distance = glm::length(way);
+        const double fading = std::max(0.0, 1 - distance / fading_);
+        highest = std::max(highest, fading * rise / distance);
+      }
+      open += std::sqrt(1 - highest * highest);
+    }
+    return open / kDirections;
+  }
+
+  unsigned width_;  // oversampled
+  unsigned height_;
+  Vec3 origin_;
+  double size_;
+  double thickness_;
+  Mat4 view_from_world_;
+  Studio studio_;
+  std::vector<ldni::TaggedPoint> points_;
+  Normals normals_;
+  double reach_ = 0;   // of shade [pixels]
+  double fading_ = 1;  // the same [mm]
+  std::vector<std::array<int, 2>> places_;
+};
+
+Rgb mix(Rgb a, Rgb b, float share) {
+  Rgb color{};
+  for (std::size_t c = 0; c < 3; ++c) color[c] = a[c] + share * (b[c] - a[c]);
+  return color;
+}
+
+}  // namespace
+
+Image draw_stack(const std::vector<Layer>& layers,
+                 const StackOptions& options) {
+  const std::vector<Plate> plates = plates_of(layers);
+  const Box3 box = bounds_of(layers, plates);
+  Camera camera = options.camera;
+  if (options.shows_all) {
+    if (options.centers) camera.center_on(box);
+    camera.show_all(box);
+  }
+  const LitStack stack(layers, plates, box, camera, options);
+
+  const ColorScheme& colors = *options.colors;
+  Image image(options.width, options.height, colors.background_top);
+  for_each_index(image.height, [&](std::size_t row) {
+    const auto y = static_cast<unsigned>(row);
+    const Rgb background =
+        mix(colors.background_top, colors.background_bottom,
+            static_cast<float>(y) / static_cast<float>(image.height));
+    for (unsigned x = 0; x < image.width; ++x) {
+      image.at(x, y) = stack.pixel(x, y, background);
+    }
+  });
+  return image;
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,276 @@
+#include "slicer/plan/adaptive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "base/diagnostic.h"
+#include "csg/boundary/boundary_faces.h"
+#include "csg/tie_distance.h"
+#include "csg/vertex_table.h"
+#include "slicer/plan/stacking.h"
+#include "slicer/plan/surface_heights.h"
+
+namespace lamina::slicer {
+namespace {
+
+// What comes into a cell by no more than this does not count [mm].
+constexpr double kReach = kTieDistance;
+
+// Rows of SLC's sampling table.
+constexpr std::size_t kMostRuns = 255;
+
+// Cells times cells of the thickest layer: 300 MB and a minute.
+constexpr double kMostStates = 3e7;
+
+// Whether a face goes on from a corner upwards, and downwards.
+struct Ways {
+  bool up = false;
+  bool down = false;
+};
+
+// previous, next  corners of the contour, which has the face on its left, seen
+//                 against the normal
+Ways ways_from(const Vec3& corner, const Vec3& previous, const Vec3& next,
+               const Vec3& normal) {
+  const double before = previous.z - corner.z;
+  const double after = next.z - corner.z;
+  if (std::abs(before) <= kReach && std::abs(after) <= kReach) {
+    const bool is_above = glm::cross(normal, next - corner).z > 0;
+    return {is_above, !is_above};
+  }
+  // Between the edges, on the side where they make less than 180°, nothing is
+  // higher or lower than both.
+  const bool is_convex =
+      glm::dot(glm::cross(corner - previous, next - corner), normal) > 0;
+  return {std::max(before, after) > kReach || !is_convex,
+          std::min(before, after) < -kReach || !is_convex};
+}
+
+// The corners of faces, to find those where no face goes on upwards (peaks) or
+// downwards (pits).
+//
+// Faces are not joined, so corners that are one may differ by a clipper's
+// grid. Space is cut into cubes; a corner counts in its own and in those that
+// it nearly touches, so that corners that are one count in the same ones.
+class Corners {
+ public:
+  void add(const Vec3& corner, Ways ways) {
+    const auto bits = static_cast<std::uint8_t>((ways.up ? kUp : 0) |
+                                                (ways.down ? kDown : 0));
+    const Vec3 first = glm::floor((corner - kReach) / kCube);
+    const glm::ivec3 steps(glm::floor((corner + kReach) / kCube) - first);
+    for (int x = 0; x <= steps.x; ++x) {
+      for (int y = 0; y <= steps.y; ++y) {
+        for (int z = 0; z <= steps.z; ++z) note(first + Vec3(x, y, z), bits);
+      }
+    }
+    note(glm::floor(corner / kCube), kHome);
+  }
+
+  // Heights of peaks and pits.
+  std::vector<double> take_ends() {
+    std::vector<double> ends;
+    const std::vector<Vec3> cubes = cubes_.take_points();
+    for (std::size_t i = 0; i < cubes.size(); ++i) {
+      const std::uint8_t bits = bits_[i];
+      if ((bits & kHome) != 0 && bits != (kUp | kDown | kHome)) {
+        ends.push_back((cubes[i].z + 0.5) * kCube);
+      }
+    }
+    return ends;
+  }
+
+  static constexpr double kCube = 4 * kReach;  // edge length [mm]
+
+ private:
+  static constexpr std::uint8_t kUp = 1;
+  static constexpr std::uint8_t kDown = 2;
+  static constexpr std::uint8_t kHome = 4;  // the cube of a corner itself
+
+  void note(const Vec3& cube, std::uint8_t bits) {
+    const std::uint32_t name = cubes_.name(cube);
+    if (name == bits_.size()) bits_.push_back(0);
+    bits_[name] |= bits;
+  }
+
+  csg::VertexTable cubes_;
+  std::vector<std::uint8_t> bits_;  // by name
+};
+
+// Learns from the faces of the surface what cells allow.
+class CellLimits {
+ public:
+  CellLimits(const SurfaceHeights& heights, double unit, double cusp,
+             std::uint16_t greatest, std::uint32_t count)
+      : bottom_(heights.low),
+        unit_(unit),
+        cusp_(cusp),
+        greatest_(greatest),
+        free_cells_(greatest > 1 ? count : 0) {
+    cells_.limits.assign(count, greatest);
+    cells_.must_part.assign(count + 1, false);
+  }
+
+  // Whether a face in the box can have a say.
+  bool is_wanted(const Box3& box) const {
+    if (free_cells_ == 0) return false;
+    const Cellspan cells = cells_near(box.low.z, box.high.z);
+    if (box.high.z - box.low.z <= kReach && cells.end - cells.begin == 2 &&
+        cells_.must_part[cells.begin + 1]) {
+      return false;
+    }
+    return is_free(cells);
+  }
+
+  void take(const csg::BoundaryFace& face) {
+    const Box3 box = csg::box_of(face);
+    const double low = box.low.z;
+    const double high = box.high.z;
+    if (high - low <= kReach) {
+      take_end((low + high) / 2, kReach);
+      return;
+    }
+    for (const auto& contour : face.contours) {
+      add_corners(contour, face.normal);
+    }
+    limit(cells_near(low + 2 * kReach, high - 2 * kReach),
+          cells_for(std::abs(face.normal.z)));
+  }
+
+  Cells finish() {
+    for (const double z : corners_.take_ends()) take_end(z, Corners::kCube);
+    return std::move(cells_);
+  }
+
+ private:
+  struct Cellspan {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+  };
+
+  void add_corners(const std::vector<Vec3>& contour, const Vec3& normal) {
+    const std::size_t count = contour.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3& corner = contour[i];
+      if (!is_free(cells_near(corner.z, corner.z))) continue;
+      // The clipper leaves edges that are too short to have a direction.
+      const auto is_apart = [&](std::size_t other) {
+        return glm::distance(contour[other % count], corner) > 4 * kReach;
+      };
+      std::size_t next = i + 1;
+      while (next < i + count && !is_apart(next)) ++next;
+      std::size_t previous = i + count - 1;
+      while (previous > i && !is_apart(previous)) --previous;
+      corners_.add(corner, ways_from(corner, contour[previous % count],
+                                     contour[next % count], normal));
+    }
+  }
+
+  // Cells that the stretch, made longer by kReach at both ends, comes into.
+  Cellspan cells_near(double low, double high) const {
+    const auto count = static_cast<double>(cells_.limits.size());
+    const double begin = std::floor((low - kReach - bottom_) / unit_);
+    const double end = std::ceil((high + kReach - bottom_) / unit_);
+    return {static_cast<std::uint32_t>(std::clamp(begin, 0.0, count)),
+            static_cast<std::uint32_t>(std::clamp(end, 0.0, count))};
+  }
+
+  bool is_free(Cellspan cells) const {
+    return std::any_of(cells_.limits.begin() + cells.begin,
+                       cells_.limits.begin() + cells.end,
+                       [](std::uint16_t limit) { return limit > 1; });
+  }
+
+  // Of a layer that a facet with this |n_z| comes into.
+  std::uint16_t cells_for(double steepness) const {
+    // A cusp that is met but for rounding is met.
+    constexpr double kRounding = 1e-9;
+    const double cells = cusp_ / (steepness * unit_) + kRounding;
+    if (!(cells < greatest_)) return greatest_;
+    return static_cast<std::uint16_t>(std::max(cells, 1.0));
+  }
+
+  void limit(Cellspan cells, std::uint16_t most) {
+    for (std::uint32_t i = cells.begin; i < cells.end; ++i) {
+      std::uint16_t& limit = cells_.limits[i];
+      if (limit <= most) continue;
+      limit = most;
+      free_cells_ -= most == 1 ? 1 : 0;
+    }
+  }
+
+  // A flat face, a peak or a pit.
+  void take_end(double z, double tolerance) {
+    const double place = (z - bottom_) / unit_;
+    const double border = std::round(place);
+    if (border < 0 || border >= static_cast<double>(cells_.must_part.size())) {
+      return;
+    }
+    if (std::abs(place - border) * unit_ <= tolerance) {
+      cells_.must_part[static_cast<std::uint32_t>(border)] = true;
+      return;
+    }
+    const auto cell = static_cast<std::uint32_t>(std::max(place, 0.0));
+    if (cell < cells_.limits.size()) limit({cell, cell + 1}, 1);
+  }
+
+  const double bottom_;
+  const double unit_;
+  const double cusp_;
+  const std::uint16_t greatest_;
+  std::uint32_t free_cells_;  // that allow more than themselves
+  Cells cells_;
+  Corners corners_;
+};
+
+// Cells of the thickest layer.
+std::uint16_t greatest_multiple(const AdaptiveThickness& thickness) {
+  constexpr double kUsual = 4;
+  constexpr double kRounding = 1e-9;
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  const double multiple =
+      thickness.thickest > 0
+          ? thickness.thickest / thickness.thinnest + kRounding
+          : kUsual;
+  return static_cast<std::uint16_t>(std::clamp(multiple, 1.0, kMost));
+}
+
+[[noreturn]] void refuse(const SurfaceHeights& heights, double unit) {
+  throw GeometryError(
+      {Severity::kError,
+       {},
+       fmt::format("{} mm are too high for adaptive layers of {} mm or more",
+                   heights.high - heights.low, unit)});
+}
+
+}  // namespace
+
+ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
+                              const AdaptiveThickness& thickness) {
+  const double unit = thickness.thinnest;
+  const SurfaceHeights heights = surface_heights(scene);
+  if (heights.is_empty()) return ldni::LayerGrid::at_heights({});
+  const std::uint16_t greatest = greatest_multiple(thickness);
+  // As many as uniform layers.
+  const double count =
+      std::max(0.0, std::ceil((heights.high - heights.low) / unit - 0.5));
+  if (count * greatest > kMostStates) refuse(heights, unit);
+  CellLimits limits(heights, unit, thickness.cusp, greatest,
+                    static_cast<std::uint32_t>(count));
+  csg::visit_boundary_faces(
+      scene, [&](const Box3& box) { return limits.is_wanted(box); },
+      [&](const csg::BoundaryFace& face) { limits.take(face); });
+  return ldni::LayerGrid::stacked(
+      heights.low, unit, stack_layers(limits.finish(), greatest, kMostRuns));
+}
+
+}  // namespace lamina::slicer

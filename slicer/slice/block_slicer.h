@@ -1,0 +1,64 @@
+#pragma once
+// From a block of layers to contours, in either of the contour modes.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "csg/scene.h"
+#include "ldni/section/contours.h"
+#include "ldni/section/grid.h"
+#include "slicer/check/thin_finder.h"
+#include "slicer/slice/settings.h"
+#include "slicer/slice/slice.h"
+
+namespace lamina::slicer {
+
+// One thread's way from a block of layers to contours: the back end of a
+// contour mode.
+class BlockSlicer {
+ public:
+  virtual ~BlockSlicer() = default;
+  // Cuts all leaves in those layers; forgets the block before.
+  virtual void section(std::uint32_t first_layer,
+                       std::uint32_t layer_count) = 0;
+  // Whether layer `index` of the block has the loops of the one before it.
+  virtual bool repeats(std::uint32_t /*index*/) const { return false; }
+  // Replaces `contours` by the loops of layer `index` of the block.
+  virtual void make_contours(std::uint32_t index, ldni::Contours& contours) = 0;
+  // Finds the leaves of thin places of that layer, if it can.
+  virtual void find_leaves(std::uint32_t /*index*/,
+                           std::span<ThinStretch> /*stretches*/) {}
+  // Adds what was counted.
+  virtual void report_to(SliceReport& report) const = 0;
+};
+
+// Layers of a block share the walk over the leaves, so few large blocks are
+// cheap; many small ones keep all threads busy and memory low.
+struct BlockSizes {
+  std::uint32_t smallest;  // layers
+  std::uint32_t largest;
+  std::uint32_t wanted_blocks;
+
+  // Of blocks; depends on the job alone, not on the number of threads.
+  std::uint32_t count(std::uint32_t layer_count) const {
+    const std::uint32_t size =
+        std::min(largest, std::max(layer_count / wanted_blocks, smallest));
+    return (layer_count + size - 1) / size;
+  }
+};
+
+// What a job's threads share, and how they get what is their own.
+struct Plan {
+  BlockSizes blocks;
+  std::function<std::unique_ptr<BlockSlicer>()> make_slicer;
+  std::string renderer;  // SliceReport
+};
+
+// scene and grid must outlive the plan.
+Plan plan_blocks(const csg::Scene& scene, const Settings& settings,
+                 const ldni::LayerGrid& grid);
+
+}  // namespace lamina::slicer

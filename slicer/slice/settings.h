@@ -1,0 +1,49 @@
+#pragma once
+// What a slicing job is asked for, from the command line or a library's user.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ldni/image/paper_slicer.h"
+#include "slicer/contour/deviation.h"
+
+namespace lamina::slicer {
+
+enum class ContourMode { kFaithful, kPaper };
+
+// Layers by number, from 1 as `lamina inspect` counts them; both ends belong to
+// it.
+struct LayerRange {
+  std::uint32_t first = 1;
+  std::uint32_t last = 0xffffffff;
+
+  bool contains(std::uint32_t layer) const {
+    return first <= layer && layer <= last;
+  }
+};
+
+struct Settings {
+  double layer_thickness = 0.05;  // [mm]
+  // Not 0: layers of several thicknesses, multiples of layer_thickness, so that
+  // steps on the surface are no larger than this [mm] (adaptive.h).
+  double cusp = 0;
+  double greatest_thickness = 0;  // of these [mm]; 0: 4 · layer_thickness
+  std::vector<double> heights;    // not empty: sections at exactly these
+  LayerRange written;             // of the layers that there are
+  double ray_pitch = 0;           // [mm]; 0 = auto
+  double tolerance = 0.001;       // [mm]; 0 writes all vertices
+  double compensation = 0;        // [mm] inwards; negative: outwards
+  // Walls and gaps thinner than this are looked for, in faithful contours only
+  // [mm]; 0: they are not.
+  double min_feature = 0;
+  ContourMode contour = ContourMode::kFaithful;
+  ldni::PaperOptions paper;  // for ContourMode::kPaper
+  unsigned threads = 0;      // 0: as many as the machine has
+};
+
+// What the settings promise of the contours, before they are written; nothing
+// of the paper's.
+std::optional<Deviation> promised_deviation(const Settings& settings);
+
+}  // namespace lamina::slicer

@@ -1,0 +1,182 @@
+#include "slicer/slice/slice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "base/thread_clock.h"
+#include "ldni/section/grid.h"
+#include "slicer/check/thin_finder.h"
+#include "slicer/contour/compensate.h"
+#include "slicer/plan/adaptive.h"
+#include "slicer/slice/block_slicer.h"
+#include "slicer/slice/slice_job.h"
+
+namespace lamina::slicer {
+namespace {
+
+// No machine builds so many: 500 m of the usual ones. Formats have tables of
+// them, and adaptive layers a cell for each.
+constexpr double kMostLayers = 1e7;
+
+void require_layers(const csg::Scene& scene, double thickness) {
+  const double count = (scene.box.high.z - scene.box.low.z) / thickness;
+  if (count <= kMostLayers) return;
+  throw GeometryError(
+      {Severity::kError,
+       {},
+       fmt::format("Too many layers: {:.3g} of {:g} mm, at most {:g} can be; "
+                   "--layer makes them thicker",
+                   count, thickness, kMostLayers)});
+}
+
+ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
+  if (!settings.heights.empty()) {
+    return ldni::LayerGrid::at_heights(settings.heights);
+  }
+  require_layers(scene, settings.layer_thickness);
+  if (settings.cusp > 0) {
+    return adaptive_grid(scene, {settings.layer_thickness,
+                                 settings.greatest_thickness, settings.cusp});
+  }
+  return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
+                                  settings.layer_thickness);
+}
+
+// What must not happen, and would be a fault of ours, is never silent.
+void warn_of_broken_promises(const SliceReport& report,
+                             Diagnostics& diagnostics) {
+  const auto warn = [&](std::uint64_t count, const char* what) {
+    if (count == 0) return;
+    diagnostics.warning({}, fmt::format("{} {}; the layers may be wrong there, "
+                                        "please report",
+                                        count, what));
+  };
+  warn(report.open_paths, "open paths in the sections of leaves were closed");
+  warn(report.sweep.unbalanced_columns, "stops of the ray left a leaf open");
+  warn(report.sweep.repaired_columns, "ends of boundary found no partner");
+  warn(report.sweep.capped_columns, "stops of the ray did not settle");
+}
+
+// No fault of the layers either, but of what drew them.
+void warn_of_repairs(const SliceReport& report, Diagnostics& diagnostics) {
+  if (report.paper.repaired_pixels == 0) return;
+  diagnostics.warning(
+      {},
+      fmt::format("{} pixels that OpenGL ({}) drew more often from one side "
+                  "than from the other were sampled exactly instead",
+                  report.paper.repaired_pixels, report.renderer));
+}
+
+// Too thin for the beam is no fault of the layers, but no part of the print.
+void warn_of_losses(const CompensationCounts& losses, double compensation,
+                    Diagnostics& diagnostics) {
+  const auto warn = [&](std::uint64_t loops, const char* loop,
+                        std::uint64_t gaps, const char* gap) {
+    if (loops + gaps == 0) return;
+    diagnostics.warning(
+        {}, fmt::format("{} {} and {} {} of {} mm or less vanished in the "
+                        "compensation, counted over all layers",
+                        loops, loop, gaps, gap, 2 * std::abs(compensation)));
+  };
+  warn(losses.vanished_regions, "regions", losses.broken_walls, "walls");
+  warn(losses.vanished_holes, "holes", losses.closed_gaps, "gaps");
+}
+
+[[noreturn]] void throw_empty(const SliceReport& report) {
+  throw GeometryError({Severity::kError,
+                       {},
+                       report.losses.vanished_regions > 0
+                           ? "Nothing is left of the design after compensation."
+                           : "Current top level object is empty.",
+                       {}});
+}
+
+[[noreturn]] void throw_out_of_range(const SliceReport& report,
+                                     const LayerRange& wanted) {
+  throw GeometryError({Severity::kError,
+                       {},
+                       fmt::format("There is no layer {}: the layers are 1 to "
+                                   "{}",
+                                   wanted.first, report.layers_there)});
+}
+
+}  // namespace
+
+SliceReport slice(const csg::Scene& scene, const Settings& settings,
+                  LayerSink& sink, Diagnostics& diagnostics) {
+  SliceReport report;
+  if (scene.box.is_empty() && settings.heights.empty()) throw_empty(report);
+  ldni::LayerGrid grid;
+  Plan plan;
+  report.section_seconds = measure_seconds([&] {
+    grid = make_grid(scene, settings);
+    plan = plan_blocks(scene, settings, grid);
+  });
+  report.renderer = plan.renderer;
+  std::optional<FeatureCollector> features;
+  if (settings.min_feature > 0) {
+    features.emplace(settings.min_feature, number_makers(scene));
+  }
+  sink.begin(scene.box);
+  sink.expect(grid.layer_count());
+  run_slice_job(plan, grid, settings, sink, features ? &*features : nullptr,
+                report);
+  if (features) report.features = features->finish();
+  warn_of_broken_promises(report, diagnostics);
+  warn_of_repairs(report, diagnostics);
+  warn_of_losses(report.losses, settings.compensation, diagnostics);
+  if (report.layers == 0) {
+    if (report.layers_there > 0) throw_out_of_range(report, settings.written);
+    throw_empty(report);
+  }
+  return report;
+}
+
+namespace {
+
+// In the plane z = 0.
+Box3 box_of(const ldni::Contours& contours) {
+  Box3 box;
+  box.low.z = box.high.z = 0;
+  for (const Vec2& point : contours.points) {
+    box.low = glm::min(box.low, Vec3(point, 0));
+    box.high = glm::max(box.high, Vec3(point, 0));
+  }
+  return box;
+}
+
+}  // namespace
+
+SliceReport slice_outline(const planar::Region& outline,
+                          const Settings& settings, LayerSink& sink,
+                          Diagnostics& diagnostics) {
+  Layer layer;
+  layer.compensation = settings.compensation;
+  for (const planar::Contour& contour : outline.contours) {
+    auto& [points, ends] = layer.contours;
+    points.insert(points.end(), contour.begin(), contour.end());
+    ends.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  SliceReport report;
+  if (settings.min_feature > 0) {
+    report.features = find_thin_features(layer, settings.min_feature);
+  }
+  report.losses = compensate(layer.contours, settings.compensation);
+  report.layers = report.layers_there = 1;
+  if (!settings.written.contains(1)) {
+    throw_out_of_range(report, settings.written);
+  }
+  report.loops = layer.contours.loop_count();
+  report.points = layer.contours.points.size();
+  warn_of_losses(report.losses, settings.compensation, diagnostics);
+  if (layer.contours.is_empty()) throw_empty(report);
+  sink.begin(box_of(layer.contours));
+  sink.take(layer);
+  return report;
+}
+
+}  // namespace lamina::slicer

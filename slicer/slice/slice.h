@@ -1,0 +1,55 @@
+#pragma once
+// From a scene to layers: blocks of layers stream through a pipeline (cut the
+// leaves, move the ray, build loops), in parallel, and leave it in order.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "csg/plane/region.h"
+#include "csg/scene.h"
+#include "ldni/image/paper_counts.h"
+#include "ldni/sweep/kinetic_ray.h"
+#include "slicer/check/thin_features.h"
+#include "slicer/contour/compensate.h"
+#include "slicer/contour/layer.h"
+#include "slicer/slice/settings.h"
+
+namespace lamina::slicer {
+
+// What a job did (`--report`). Times are processor seconds summed over
+// threads.
+struct SliceReport {
+  ldni::SweepCounts sweep;
+  ldni::PaperCounts paper;     // all 0 but for the paper's contours
+  std::string renderer;  // what drew, if OpenGL did
+  std::uint64_t open_paths =
+      0;                       // of leaves' sections, closed: 0 if all is well
+  double section_seconds = 0;  // leaves to chains, or to samples
+  double sweep_seconds = 0;    // Boolean and contours
+  double feature_seconds = 0;  // search for thin places
+  double output_seconds = 0;   // compensation, simplification and writing
+  std::uint32_t layers = 0;    // written
+  std::uint32_t layers_there = 0;  // with those that were not wanted
+  std::uint64_t loops = 0;
+  std::uint64_t holes = 0;   // of the loops
+  std::uint64_t points = 0;  // written
+  double volume = 0;         // of the layers [mm³]; 0 for --heights
+  double greatest_area = 0;  // of a layer [mm²]
+  CompensationCounts losses;
+  std::vector<ThinFeature> features;  // thinner than Settings::min_feature
+};
+
+// Same layers for any number of threads. Throws GeometryError if no layer that
+// is wanted has a contour (unless heights were given). Warns of what
+// compensation lost.
+SliceReport slice(const csg::Scene& scene, const Settings& settings,
+                  LayerSink& sink, Diagnostics& diagnostics);
+
+// The one layer of a 2D design, at height 0, with all its vertices.
+SliceReport slice_outline(const planar::Region& outline,
+                          const Settings& settings, LayerSink& sink,
+                          Diagnostics& diagnostics);
+
+}  // namespace lamina::slicer

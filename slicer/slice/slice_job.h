@@ -1,0 +1,23 @@
+#pragma once
+// The pipeline of a job: blocks of layers are made into contours, by one thread
+// or by several, and handed on in order.
+
+#include "ldni/section/grid.h"
+#include "slicer/check/thin_features.h"
+#include "slicer/slice/block_slicer.h"
+#include "slicer/slice/settings.h"
+#include "slicer/slice/slice.h"
+
+namespace lamina::slicer {
+
+// Hands the layers of `grid` to `sink`. Holds back empty ones until it is known
+// that another layer with a contour follows, unless the settings give heights,
+// of which each is wanted.
+//
+// features  gets the thin places of the layers; may be null
+// report    gets times and counts
+void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
+                   const Settings& settings, LayerSink& sink,
+                   FeatureCollector* features, SliceReport& report);
+
+}  // namespace lamina::slicer

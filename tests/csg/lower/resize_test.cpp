@@ -1,0 +1,115 @@
+// resize(): the new box, as OpenSCAD 2021.01 has it (tried there, one by one).
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include "csg/boundary/boundary_faces.h"
+#include "tests/csg/lower/lower_fixture.h"
+
+namespace lamina::csg {
+namespace {
+
+constexpr double kRounding = 1e-6;
+
+class Resizes : public LowerFixture {
+ protected:
+  Box3 resize(Vec3 size, std::array<bool, 3> automatic,
+              const TreeBuilder::Children& children) {
+    const Scene scene = run_solid({b.node(Resize{size, automatic}, children)});
+    Box3 box;
+    for (const BoundaryFace& face : boundary_faces(scene)) {
+      for (const auto& contour : face.contours) {
+        for (const Vec3 point : contour) {
+          box.low = glm::min(box.low, point);
+          box.high = glm::max(box.high, point);
+        }
+      }
+    }
+    return box;
+  }
+  void expect_box(const Box3& box, Vec3 low, Vec3 high) {
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(box.low[i], low[i], kRounding);
+      EXPECT_NEAR(box.high[i], high[i], kRounding);
+    }
+  }
+
+  static constexpr std::array<bool, 3> kNone{false, false, false};
+  static constexpr std::array<bool, 3> kAll{true, true, true};
+};
+
+TEST_F(Resizes, KeepDirectionsWithoutSize) {
+  expect_box(resize({10, 0, 0}, kNone, {b.cube({1, 2, 3})}), Vec3(0),
+             {10, 2, 3});
+  expect_box(resize({0, 0, 0}, kAll, {b.cube({1, 2, 3})}), Vec3(0), {1, 2, 3});
+}
+
+TEST_F(Resizes, ScaleAutomaticDirectionsAsTheGreatestSize) {
+  expect_box(resize({10, 0, 0}, kAll, {b.cube({1, 2, 3})}), Vec3(0),
+             {10, 20, 30});
+  expect_box(resize({10, 20, 0}, {false, true, true}, {b.cube({1, 2, 3})}),
+             Vec3(0), {10, 20, 30});
+}
+
+TEST_F(Resizes, ScaleAboutTheOrigin) {
+  expect_box(
+      resize({2, 4, 6}, kNone, {b.translate({1, 1, 1}, {b.cube({1, 1, 1})})}),
+      {2, 4, 6}, {4, 8, 12});
+}
+
+TEST_F(Resizes, OfABooleanFitWhatIsLeft) {
+  const Node* half = b.node(
+      Difference{},
+      {b.cube({1, 2, 3}), b.translate({0.5, -1, -1}, {b.cube({9, 9, 9})})});
+  expect_box(resize({10, 5, 3}, kNone, {half}), Vec3(0), {10, 5, 3});
+  // The leaves' boxes overlap more than the leaves do.
+  const Node* lens =
+      b.node(Intersection{},
+             {b.sphere(5, 64), b.translate({6, 0, 0}, {b.sphere(5, 64)})});
+  const Box3 box = resize({4, 8, 8}, kNone, {lens});
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(box.high[i] - box.low[i], i == 0 ? 4 : 8, kRounding);
+  }
+}
+
+TEST_F(Resizes, WithNegativeSizesMirrorABooleanOnly) {
+  expect_box(resize({-10, 0, 0}, kNone, {b.cube({1, 2, 3})}), Vec3(0),
+             {1, 2, 3});
+  const Node* half = b.node(
+      Difference{},
+      {b.cube({1, 2, 3}), b.translate({0.5, -1, -1}, {b.cube({9, 9, 9})})});
+  expect_box(resize({-10, 5, 3}, kNone, {half}), {-10, 0, 0}, {0, 5, 3});
+}
+
+TEST_F(Resizes, OfAUnionKeepItsParts) {
+  const TreeBuilder::Children parts{
+      b.cube({1, 1, 1}), b.translate({5, 0, 0}, {b.cube({1, 1, 1})})};
+  expect_box(resize({5, 5, 5}, kAll, parts), Vec3(0), {5, 5, 5});
+  EXPECT_EQ(
+      run_solid({b.node(Resize{{5, 5, 5}, kAll}, parts)}).instances.size(), 2u);
+}
+
+TEST_F(Resizes, InThePlaneScaleTheOutline) {
+  const auto size = [&](Vec3 new_size) {
+    const planar::Region region =
+        run_flat({b.node(Resize{new_size, kAll}, {b.node(Square{{1, 2}})})});
+    return region.contours.at(0).at(2);
+  };
+  EXPECT_EQ(size({10, 0, 0}), Vec2(10, 20));
+  EXPECT_EQ(size({0, 6, 9}), Vec2(3, 6));
+  EXPECT_EQ(size({10, -6, 9}), Vec2(10, 20));
+}
+
+TEST_F(Resizes, OfNothingAreNothing) {
+  EXPECT_TRUE(run({b.node(Resize{{5, 5, 5}, kAll})}).is_empty());
+  EXPECT_TRUE(
+      run({b.node(Resize{{5, 5, 5}, kAll}, {b.cube({0, 0, 0})})}).is_empty());
+  EXPECT_TRUE(messages().empty());
+}
+
+}  // namespace
+}  // namespace lamina::csg

@@ -1,0 +1,79 @@
+// Lack of memory at any one allocation: what comes back is right, or
+// std::bad_alloc.
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "csg/plane/clip.h"
+
+namespace {
+// Allocations until one fails; none fails at 0.
+std::size_t until_failure = 0;
+}  // namespace
+
+// As the standard has it: the handler is called first.
+void* operator new(std::size_t size) {
+  const bool fails = until_failure > 0 && --until_failure == 0;
+  for (;;) {
+    if (!fails) {
+      if (void* const memory = std::malloc(size)) return memory;
+    }
+    const std::new_handler handler = std::get_new_handler();
+    if (handler == nullptr) throw std::bad_alloc();
+    handler();
+  }
+}
+// Not inlined: GCC would see what `new` gave go to free().
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace lamina::planar {
+namespace {
+
+// Lets each allocation within `make` fail, one in each call.
+template <typename Make>
+void expect_all_or_nothing(const Make& make) {
+  const double whole = area(make());
+  ASSERT_GT(whole, 0);
+  std::size_t failures = 0;
+  for (bool has_failed = true; has_failed;) {
+    until_failure = failures + 1;
+    has_failed = false;
+    try {
+      const Region region = make();
+      has_failed = until_failure == 0;
+      until_failure = 0;
+      EXPECT_EQ(area(region), whole) << "allocation " << failures + 1;
+    } catch (const std::bad_alloc&) {
+      has_failed = true;
+    }
+    failures += has_failed;
+  }
+  EXPECT_GT(failures, 20U);
+}
+
+TEST(LackOfMemory, LeavesNoBooleanHalf) {
+  const Region squares[] = {square({4, 4}, true), square({6, 2}, true),
+                            circle(1, 9)};
+  expect_all_or_nothing([&] { return unite(squares); });
+  expect_all_or_nothing([&] { return subtract(squares); });
+  expect_all_or_nothing([&] { return intersect(squares); });
+}
+
+// Of outlines that do not cross on the way: where memory ends while Clipper
+// works on a second crossing, it frees the first one twice.
+TEST(LackOfMemory, LeavesNoOffsetEmpty) {
+  const Region part = square({4, 3}, true);
+  expect_all_or_nothing([&] { return offset(part, -1, Join::kMiter, 0.1); });
+  expect_all_or_nothing([&] { return offset(part, 1, Join::kRound, 0.1); });
+}
+
+}  // namespace
+}  // namespace lamina::planar

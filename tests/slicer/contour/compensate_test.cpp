@@ -1,0 +1,230 @@
+// Laws of moving contours: every point of the result is the amount from where
+// the contour was, the result is all of the solid that far inside, and what is
+// lost is counted.
+
+#include "slicer/contour/compensate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/slicer/contour/simplify_laws.h"
+#include "tests/support/contour_checks.h"
+#include "tests/support/design.h"
+#include "tests/support/random_scenes.h"
+
+namespace lamina::slicer {
+namespace {
+
+using ldni::Contours;
+using support::add_loop;
+
+constexpr double kPi = std::numbers::pi;
+
+// What rounding to the clipper's grid may add to a distance [mm].
+constexpr double kRounding = 1e-7;
+
+// counter-clockwise; clockwise for a hole
+std::vector<Vec2> box(Vec2 low, Vec2 high, bool is_hole = false) {
+  std::vector<Vec2> points = {low, {high.x, low.y}, high, {low.x, high.y}};
+  if (is_hole) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+Contours of(const std::vector<std::vector<Vec2>>& loops) {
+  Contours contours;
+  for (const std::vector<Vec2>& loop : loops) add_loop(contours, loop);
+  return contours;
+}
+
+struct Moved {
+  Contours contours;
+  CompensationCounts counts;
+};
+
+Moved moved(Contours contours, double amount) {
+  const CompensationCounts counts = compensate(contours, amount);
+  return {std::move(contours), counts};
+}
+
+// The definition, probed at random points and along the new contour.
+void expect_offset(const Contours& before, double amount,
+                   const std::string& what) {
+  const Contours after = moved(before, amount).contours;
+  EXPECT_TRUE(support::are_sound(after)) << what;
+  const double distance = std::abs(amount);
+  const double slack = kArcTolerance + kRounding;
+  for (std::size_t i = 0; i < after.loop_count(); ++i) {
+    const auto loop = after.loop(i);
+    for (std::size_t j = 0; j < loop.size(); ++j) {
+      const Vec2 middle = (loop[j] + loop[(j + 1) % loop.size()]) / 2.0;
+      for (const Vec2 point : {loop[j], middle}) {
+        EXPECT_NEAR(support::distance_to_edges(before, point), distance, slack)
+            << what;
+      }
+    }
+  }
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-6, 6);
+  for (int probe = 0; probe < 2'000; ++probe) {
+    const Vec2 point(place(random), place(random));
+    const double away = support::distance_to_edges(before, point);
+    if (std::abs(away - distance) <= slack) continue;
+    const bool was_inside = support::contains(before, point);
+    const bool is_inside = amount > 0 ? was_inside && away > distance
+                                      : was_inside || away < distance;
+    EXPECT_EQ(support::contains(after, point), is_inside)
+        << what << " at " << point.x << " " << point.y;
+  }
+}
+
+TEST(Compensate, NothingChangesWithoutAnAmount) {
+  const Contours square = of({box({0, 0}, {2, 3})});
+  EXPECT_EQ(moved(square, 0).contours.points, square.points);
+}
+
+TEST(Compensate, InwardsABoxLosesTheAmountOnEachSideAndKeepsItsCorners) {
+  const Contours after = moved(of({box({0, 0}, {2, 3})}), 0.25).contours;
+  EXPECT_EQ(after.points.size(), 4U);
+  EXPECT_NEAR(support::total_area(after), 1.5 * 2.5, kRounding);
+}
+
+TEST(Compensate, OutwardsABoxGainsRoundCorners) {
+  const double r = 0.25;
+  const Contours after = moved(of({box({0, 0}, {2, 3})}), -r).contours;
+  const double area = 6 + 10 * r + kPi * r * r;
+  EXPECT_LE(support::total_area(after), area + kRounding);
+  EXPECT_GE(support::total_area(after), area - 2 * kPi * r * kArcTolerance);
+}
+
+TEST(Compensate, HolesGoTheOtherWay) {
+  const double r = 0.25;
+  const Contours plate = of({box({0, 0}, {9, 9}), box({2, 2}, {5, 6}, true)});
+  const double widened = 12 + 14 * r + kPi * r * r;
+  EXPECT_NEAR(support::total_area(moved(plate, r).contours),
+              8.5 * 8.5 - widened, 2 * kPi * r * kArcTolerance);
+  const double outside = 81 + 36 * r + kPi * r * r;
+  EXPECT_NEAR(support::total_area(moved(plate, -r).contours),
+              outside - 2.5 * 3.5, 2 * kPi * r * kArcTolerance);
+}
+
+TEST(Compensate, TheResultIsTheOffsetByItsDefinition) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int run = 0; run < 12; ++run) {
+    // A star with a star-shaped hole.
+    std::vector<Vec2> outer;
+    std::vector<Vec2> inner;
+    const int count = 9 + static_cast<int>(random() % 40);
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * kPi * i / count;
+      const Vec2 ray(std::cos(angle), std::sin(angle));
+      outer.push_back((3.2 + 1.6 * unit(random)) * ray);
+      inner.insert(inner.begin(), (1.2 + 1.6 * unit(random)) * ray);
+    }
+    const Contours star = of({outer, inner});
+    for (const double amount : {0.02, 0.3, -0.02, -0.3}) {
+      expect_offset(star, amount, fmt::format("run {}, {}", run, amount));
+    }
+  }
+}
+
+TEST(Compensate, WhatIsThinnerThanTheBeamVanishesAndIsCounted) {
+  const auto counts = [](const std::vector<std::vector<Vec2>>& loops) {
+    return moved(of(loops), 0.1).counts;
+  };
+  // A wall by itself, beside a block that stays.
+  const auto wall = counts({box({0, 0}, {5, 0.19}), box({0, 1}, {5, 5})});
+  EXPECT_EQ(wall.vanished_regions, 1U);
+  EXPECT_EQ(wall.broken_walls, 0U);
+  // A ring of thin wall is one loss.
+  const auto ring =
+      counts({box({0, 0}, {5, 5}), box({0.1, 0.1}, {4.9, 4.9}, true)});
+  EXPECT_EQ(ring.vanished_regions, 1U);
+  EXPECT_EQ(ring.broken_walls, 0U);
+  // Two blocks and a bridge.
+  const auto bridge = counts({{{0, 0},
+                               {2, 0},
+                               {2, 1},
+                               {4, 1},
+                               {4, 0},
+                               {6, 0},
+                               {6, 2},
+                               {4, 2},
+                               {4, 1.1},
+                               {2, 1.1},
+                               {2, 2},
+                               {0, 2}}});
+  EXPECT_EQ(bridge.vanished_regions, 0U);
+  EXPECT_EQ(bridge.broken_walls, 1U);
+  // A hole near the rim, and two near each other.
+  const auto holes =
+      counts({box({0, 0}, {9, 9}), box({0.1, 2}, {3, 4}, true),
+              box({4, 2}, {5, 3}, true), box({5.1, 2}, {6, 3}, true)});
+  EXPECT_EQ(holes.vanished_regions, 0U);
+  EXPECT_EQ(holes.broken_walls, 2U);
+  const auto sound = counts({box({0, 0}, {9, 9}), box({2, 2}, {4, 4}, true)});
+  EXPECT_EQ(sound.vanished_regions + sound.broken_walls, 0U);
+}
+
+TEST(Compensate, GapsThatCloseAreCounted) {
+  const auto counts = [](const std::vector<std::vector<Vec2>>& loops) {
+    return moved(of(loops), -0.1).counts;
+  };
+  const auto pin = counts({box({0, 0}, {9, 9}), box({2, 2}, {2.19, 5}, true)});
+  EXPECT_EQ(pin.vanished_holes, 1U);
+  EXPECT_EQ(pin.closed_gaps, 0U);
+  const auto gap = counts({box({0, 0}, {2, 2}), box({2.1, 0}, {4, 2})});
+  EXPECT_EQ(gap.vanished_holes, 0U);
+  EXPECT_EQ(gap.closed_gaps, 1U);
+  // A C whose ends meet: the outside comes apart.
+  const auto ends = counts({{{0, 0},
+                             {5, 0},
+                             {5, 2},
+                             {4, 2},
+                             {4, 1},
+                             {1, 1},
+                             {1, 4},
+                             {4, 4},
+                             {4, 2.1},
+                             {5, 2.1},
+                             {5, 5},
+                             {0, 5}}});
+  EXPECT_EQ(ends.closed_gaps, 1U);
+  // A hole with an island fills up.
+  const auto island = counts({box({0, 0}, {5, 5}), box({1, 1}, {2, 2}, true),
+                              box({1.1, 1.1}, {1.9, 1.9})});
+  EXPECT_EQ(island.vanished_holes, 1U);
+  EXPECT_EQ(island.closed_gaps, 0U);
+}
+
+TEST(Compensate, LayersOfDesignsStaySoundAndCanBeSimplified) {
+  for (int style = 0; style < support::kSceneStyleCount; ++style) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const csg::Scene scene = support::random_scene(
+          seed, static_cast<support::SceneStyle>(style), 20);
+      if (scene.box.is_empty()) continue;
+      const double height = scene.box.high.z - scene.box.low.z;
+      for (const Layer& layer :
+           support::slice_heights(scene, {scene.box.low.z + 0.3 * height,
+                                          scene.box.low.z + 0.6 * height})) {
+        for (const double amount : {0.01, 0.2, -0.01, -0.2}) {
+          const std::string what =
+              fmt::format("style {}, seed {}, {}", style, seed, amount);
+          const Contours after = moved(layer.contours, amount).contours;
+          EXPECT_TRUE(support::are_sound(after)) << what;
+          expect_lawful(after, 0.005, what);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lamina::slicer

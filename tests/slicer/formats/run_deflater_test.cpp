@@ -1,0 +1,92 @@
+#include "slicer/formats/run_deflater.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+namespace lamina::slicer {
+namespace {
+
+struct Bytes {
+  std::uint8_t value;
+  std::size_t count;
+};
+
+std::string pack(const std::vector<Bytes>& runs) {
+  RunDeflater packed;
+  for (const Bytes& run : runs) packed.add(run.value, run.count);
+  return packed.finish();
+}
+
+std::string bytes_of(const std::vector<Bytes>& runs) {
+  std::string bytes;
+  for (const Bytes& run : runs) {
+    bytes.append(run.count, static_cast<char>(run.value));
+  }
+  return bytes;
+}
+
+// By zlib, which checks the sum too.
+std::string unpack(const std::string& packed, std::size_t size) {
+  std::string bytes(size + 1, '\0');
+  uLongf unpacked = bytes.size();
+  const int status =
+      uncompress(reinterpret_cast<Bytef*>(bytes.data()), &unpacked,
+                 reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+  EXPECT_EQ(status, Z_OK);
+  bytes.resize(unpacked);
+  return bytes;
+}
+
+void expect_back(const std::vector<Bytes>& runs) {
+  const std::string bytes = bytes_of(runs);
+  EXPECT_TRUE(unpack(pack(runs), bytes.size()) == bytes);
+}
+
+TEST(RunDeflater, NothingUnpacksToNothing) { expect_back({}); }
+
+TEST(RunDeflater, EveryByteComesBack) {
+  std::vector<Bytes> runs;
+  for (int value = 0; value < 256; ++value) {
+    runs.push_back({static_cast<std::uint8_t>(value), 1});
+  }
+  expect_back(runs);
+}
+
+TEST(RunDeflater, EveryLengthComesBack) {
+  for (std::size_t count = 0; count < 5000; ++count) {
+    expect_back({{7, 1}, {255, count}, {0, 2}});
+  }
+}
+
+TEST(RunDeflater, RunsOfOneValueAreOne) {
+  EXPECT_EQ(pack({{0, 1000}, {0, 0}, {0, 2000}}), pack({{0, 3000}}));
+  EXPECT_EQ(pack({{0, 1000}, {9, 0}, {0, 2000}}), pack({{0, 3000}}));
+}
+
+TEST(RunDeflater, RandomRunsComeBack) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Bytes> runs;
+    for (int j = 0; j < 100; ++j) {
+      runs.push_back({static_cast<std::uint8_t>(random() % 256),
+                      random() % (random() % 2 == 0 ? 5 : 2000)});
+    }
+    expect_back(runs);
+  }
+}
+
+// More than the checksum takes at once.
+TEST(RunDeflater, LongRunsTakeLittle) {
+  const std::vector<Bytes> runs = {{255, 40'000'000}, {0, 40'000'000}};
+  expect_back(runs);
+  EXPECT_LT(pack(runs).size(), 80'000'000U / 1000);
+}
+
+}  // namespace
+}  // namespace lamina::slicer
