@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 #include <new>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -235,9 +234,6 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
     if (!is_reported(diagnostics, error.diagnostic())) {
       terminal.show(error.diagnostic());
     }
-  } catch (const std::range_error& error) {
-    // Of csg/plane/clip.h, past lowering: no place in the design is at hand.
-    terminal.show({Severity::kError, {}, error.what()});
   } catch (const std::bad_alloc&) {
     terminal.show({Severity::kError, {}, out_of_memory_text()});
   } catch (const std::exception& error) {

@@ -96,10 +96,7 @@ class Evaluation {
 
  private:
   std::int32_t weight(const BooleanNode& node) const {
-    const bool is_subtrahend =
-        scene_.program[node.parent].op == BooleanOp::kDifference &&
-        !node.is_minuend;
-    return is_subtrahend ? -1 : 1;
+    return is_subtrahend(scene_, node) ? -1 : 1;
   }
 
   void add(std::uint32_t parent, bool is_minuend, Value value) {

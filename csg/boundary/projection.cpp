@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plane.h"
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
@@ -21,12 +22,6 @@ namespace {
 using planar::Contour;
 using planar::Region;
 using Side = WindowSection::Side;
-
-struct IsLess {
-  bool operator()(Vec2 a, Vec2 b) const {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
-  }
-};
 
 // Polygons summed up: an edge that comes in both directions is none. Of a mesh
 // seen from above little more than its outline is left, with the winding
@@ -74,7 +69,10 @@ class PolygonSum {
     ends_[from].push_back(to);
   }
 
-  std::map<Vec2, std::vector<Vec2>, IsLess> ends_;  // of edges, by their begins
+  // Of edges, by their begins.
+  std::map<Vec2, std::vector<Vec2>,
+           decltype([](Vec2 a, Vec2 b) { return precedes(a, b); })>
+      ends_;
 };
 
 Region flatten(const std::vector<std::vector<Vec3>>& contours) {

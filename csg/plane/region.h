@@ -7,7 +7,6 @@
 // polygon for itself, and its direction has to say what it is. Where contours
 // touch the clipper keeps neither promise; see link_edges.h.
 
-#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -29,9 +28,6 @@ struct Region {
   bool is_empty() const { return contours.empty(); }
   bool operator==(const Region&) const = default;
 };
-
-// Positive where the contour runs counter-clockwise [mm²].
-double signed_area(std::span<const Vec2> contour);
 
 // Of all contours: holes count negative [mm²].
 double area(const Region& region);

@@ -2,7 +2,7 @@
 // The 2D modules of the tree, as regions.
 //
 // What is wrong with their parameters is reported with OpenSCAD's words. All of
-// them throw std::range_error for coordinates beyond 1e9 mm.
+// them throw LimitExceeded for coordinates beyond 1e9 mm.
 
 #include <span>
 
