@@ -90,14 +90,6 @@ struct BooleanNode {
   std::uint32_t child_count = 0;
 };
 
-// An operator holds where at least so many of its children do, subtrahends
-// counted as -1. An intersection of nothing is empty, as in OpenSCAD.
-inline std::int32_t threshold_of(const BooleanNode& node) {
-  return node.op == BooleanOp::kIntersection && node.child_count > 1
-             ? static_cast<std::int32_t>(node.child_count)
-             : 1;
-}
-
 struct Scene {
   std::vector<Leaf> leaves;
   std::vector<Instance> instances;
@@ -107,12 +99,5 @@ struct Scene {
   // boxes, as long as no intersection is involved. Empty for an empty scene.
   Box3 box;
 };
-
-// Whether the child, an instance or an operator, is subtracted by its parent.
-template <typename Child>
-bool is_subtrahend(const Scene& scene, const Child& child) {
-  return scene.program[child.parent].op == BooleanOp::kDifference &&
-         !child.is_minuend;
-}
 
 }  // namespace lamina::csg

@@ -1,5 +1,7 @@
 #include "csg/ternary_program.h"
 
+#include "csg/program_state.h"
+
 namespace lamina::csg {
 
 TernaryProgram::TernaryProgram(const Scene& scene, Ternary initial) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "base/plane.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/convex_faces.h"
