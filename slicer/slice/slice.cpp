@@ -106,6 +106,15 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 
 }  // namespace
 
+void SliceReport::add(const LayerMeasures& layer, double thickness) {
+  ++layers;
+  loops += layer.loops;
+  holes += layer.holes;
+  points += layer.vertices;
+  greatest_area = std::max(greatest_area, layer.area);
+  volume += layer.area * thickness;
+}
+
 SliceReport slice(const csg::Scene& scene, const Settings& settings,
                   LayerSink& sink, Diagnostics& diagnostics) {
   SliceReport report;
@@ -166,12 +175,11 @@ SliceReport slice_outline(const planar::Region& outline,
     report.features = find_thin_features(layer, settings.min_feature);
   }
   report.losses = compensate(layer.contours, settings.compensation);
-  report.layers = report.layers_there = 1;
+  report.layers_there = 1;
   if (!settings.written.contains(1)) {
     throw_out_of_range(report, settings.written);
   }
-  report.loops = layer.contours.loop_count();
-  report.points = layer.contours.points.size();
+  report.add(measure(layer.contours), 0);
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (layer.contours.is_empty()) throw_empty(report);
   sink.begin(box_of(layer.contours));

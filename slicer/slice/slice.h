@@ -14,6 +14,7 @@
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/layer.h"
+#include "slicer/contour/layer_measures.h"
 #include "slicer/slice/settings.h"
 
 namespace lamina::slicer {
@@ -22,8 +23,8 @@ namespace lamina::slicer {
 // threads.
 struct SliceReport {
   ldni::SweepCounts sweep;
-  ldni::PaperCounts paper;     // all 0 but for the paper's contours
-  std::string renderer;  // what drew, if OpenGL did
+  ldni::PaperCounts paper;  // all 0 but for the paper's contours
+  std::string renderer;     // what drew, if OpenGL did
   std::uint64_t open_paths =
       0;                       // of leaves' sections, closed: 0 if all is well
   double section_seconds = 0;  // leaves to chains, or to samples
@@ -39,6 +40,9 @@ struct SliceReport {
   double greatest_area = 0;  // of a layer [mm²]
   CompensationCounts losses;
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
+
+  // Counts a layer that is written.
+  void add(const LayerMeasures& layer, double thickness);
 };
 
 // Same layers for any number of threads. Throws GeometryError if no layer that
