@@ -1,7 +1,9 @@
 #pragma once
 // What a slicing job is asked for, from the command line or a library's user.
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -29,11 +31,13 @@ struct Settings {
   // steps on the surface are no larger than this [mm] (adaptive.h).
   double cusp = 0;
   double greatest_thickness = 0;  // of these [mm]; 0: 4 · layer_thickness
-  std::vector<double> heights;    // not empty: sections at exactly these
-  LayerRange written;             // of the layers that there are
-  double ray_pitch = 0;           // [mm]; 0 = auto
-  double tolerance = 0.001;       // [mm]; 0 writes all vertices
-  double compensation = 0;        // [mm] inwards; negative: outwards
+  // Runs of layers of equal thickness that the output can tell of, at most.
+  std::size_t most_thickness_runs = std::numeric_limits<std::size_t>::max();
+  std::vector<double> heights;  // not empty: sections at exactly these
+  LayerRange written;           // of the layers that there are
+  double ray_pitch = 0;         // [mm]; 0 = auto
+  double tolerance = 0.001;     // [mm]; 0 writes all vertices
+  double compensation = 0;      // [mm] inwards; negative: outwards
   // Walls and gaps thinner than this are looked for, in faithful contours only
   // [mm]; 0: they are not.
   double min_feature = 0;

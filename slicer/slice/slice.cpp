@@ -39,8 +39,9 @@ ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
   }
   require_layers(scene, settings.layer_thickness);
   if (settings.cusp > 0) {
-    return adaptive_grid(scene, {settings.layer_thickness,
-                                 settings.greatest_thickness, settings.cusp});
+    return adaptive_grid(scene,
+                         {settings.layer_thickness, settings.greatest_thickness,
+                          settings.cusp, settings.most_thickness_runs});
   }
   return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
                                   settings.layer_thickness);
