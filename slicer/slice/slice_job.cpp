@@ -27,11 +27,11 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-// Blocks in flight, for each thread: one in work, one waiting for its turn to
-// be written.
+// Blocks in flight for each thread: one in work, one that waits to be written.
 constexpr std::size_t kBlocksPerThread = 2;
 
-// A layer on its way, and what was found out about it. Its heights come last.
+// A layer on its way through the pipeline, with what was found in it. It gets
+// its heights last: layers with equal contours share the rest.
 struct Draft {
   Layer layer;
   LayerMeasures measures;
@@ -39,8 +39,8 @@ struct Draft {
   CompensationCounts losses;
 };
 
-// Consecutive layers on their way through the pipeline. Blocks are used again
-// and again, so that the steady state allocates nothing.
+// Consecutive layers on their way through the pipeline. Blocks are reused, so
+// that the steady state allocates nothing.
 struct Block {
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
@@ -54,7 +54,7 @@ struct Block {
 // What one thread keeps from block to block.
 class Worker {
  public:
-  // sink  only asked to encode
+  // sink  encodes layers, and takes none
   Worker(const Plan& plan, const Settings& settings, const LayerSink& sink)
       : plan_(plan),
         sink_(sink),
@@ -82,7 +82,7 @@ class Worker {
         }
       }
     });
-    // In the exact contours, before anything is moved or left out.
+    // Search the exact contours, before anything is moved or left out.
     if (thin_finder_) {
       block.feature_seconds = measure_seconds([&] {
         for (std::uint32_t i = 0; i < block.layer_count; ++i) {
@@ -92,7 +92,7 @@ class Worker {
         }
       });
     }
-    // Simplification comes last, so that it thins out the arcs too.
+    // Simplify last, so that arcs lose their vertices too.
     block.finish_seconds = measure_seconds([&] {
       for (std::uint32_t i = 0; i < block.layer_count; ++i) {
         if (repeats_[i] != 0) {
@@ -124,7 +124,7 @@ class Worker {
   const LayerSink& sink_;
   const double compensation_;
   std::unique_ptr<BlockSlicer> slicer_;
-  std::optional<ThinFinder> thin_finder_;  // if thin places are looked for
+  std::optional<ThinFinder> thin_finder_;  // if thin places are searched for
   Simplifier simplifier_;
   std::vector<std::uint8_t> repeats_;  // of the block's layers
 };
@@ -172,7 +172,7 @@ class OrderedOutput {
 
   const ldni::LayerGrid& grid_;
   bool keeps_empty_;
-  LayerRange wanted_;
+  LayerNumbers wanted_;
   LayerSink& sink_;
   FeatureCollector* features_;
   SliceReport& report_;
@@ -180,7 +180,7 @@ class OrderedOutput {
   Draft empty_;
 };
 
-// The blocks of a job, first to last.
+// Deals out the blocks of a job, first to last, and takes them back.
 class Job {
  public:
   Job(const Plan& plan, std::uint32_t layer_count, OrderedOutput& output,
@@ -192,8 +192,8 @@ class Job {
 
   std::uint32_t block_count() const { return block_count_; }
 
-  // False after the last one. Blocks are as equal as can be; their borders
-  // depend on the job alone.
+  // Begins the next block; false after the last one. Blocks are as equal as can
+  // be, and their borders depend on the job alone.
   bool start(Block& block) {
     if (started_ == block_count_) return false;
     block.first_layer = border(started_);
@@ -232,7 +232,8 @@ class Job {
 
 using MakeWorker = std::function<Worker()>;
 
-// Without the library of tasks, whose start takes as long as a small design.
+// Does without the library of tasks, whose start takes as long as a small
+// design.
 void run_alone(Job& job, const MakeWorker& make_worker, SliceReport& report) {
   Worker worker = make_worker();
   Block block;
@@ -274,7 +275,7 @@ void run_together(Job& job, unsigned threads, const MakeWorker& make_worker,
   for (const Worker& worker : workers) worker.report_to(report);
 }
 
-// None that would have no block.
+// No thread is without a block.
 unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
   const unsigned wanted = settings.threads != 0
                               ? settings.threads
