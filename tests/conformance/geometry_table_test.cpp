@@ -1,6 +1,6 @@
-// The table of the rows that geometry_test left, a line for each folder, is
-// that of docs/conformance.md. Below it stands every design that is neither
-// equal nor empty in both programs.
+// Makes a table of the rows that geometry_test left, a line for each folder,
+// and expects docs/conformance.md to hold it. Below the table stands every
+// design that is neither equal nor empty in both programs.
 
 #include <cstdio>
 #include <fstream>

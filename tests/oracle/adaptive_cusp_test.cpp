@@ -1,5 +1,5 @@
-// Adaptive layers judged by openscad: of each facet of the mesh that it
-// renders, whatever lamina takes for visible.
+// openscad judges adaptive layers: each facet of the mesh that it renders must
+// keep the cusp, whatever lamina takes for visible.
 
 #include <algorithm>
 #include <array>

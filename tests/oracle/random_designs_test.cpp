@@ -1,4 +1,4 @@
-// Random designs against exact sections. A failure prints the design.
+// Exact sections judge random designs. A failure prints the design.
 // bench/random_suite tries many more.
 
 #include <cstdint>
