@@ -37,11 +37,28 @@ std::vector<fs::path> all_files() {
   return files;
 }
 
-// What `pattern` finds in the pages; its first group is the name.
-std::vector<Name> names_on_pages(const std::regex& pattern) {
-  std::vector<Name> names;
+std::vector<fs::path> all_pages() {
+  std::vector<fs::path> pages;
   for (const fs::path& file : all_files()) {
-    if (file.extension() != ".md") continue;
+    if (file.extension() == ".md") pages.push_back(file);
+  }
+  return pages;
+}
+
+// Without decisions, which speak of their day and may name what has gone.
+std::vector<fs::path> pages_of_today() {
+  std::vector<fs::path> pages = all_pages();
+  std::erase_if(pages, [](const fs::path& page) {
+    return page.parent_path().filename() == "decisions";
+  });
+  return pages;
+}
+
+// What `pattern` finds in the pages; its first group is the name.
+std::vector<Name> names_on(const std::vector<fs::path>& pages,
+                           const std::regex& pattern) {
+  std::vector<Name> names;
+  for (const fs::path& file : pages) {
     std::ifstream text(file);
     std::string line;
     for (int number = 1; std::getline(text, line); ++number) {
@@ -56,7 +73,8 @@ std::vector<Name> names_on_pages(const std::regex& pattern) {
 }
 
 TEST(Pages, LinkToFilesOfTheTree) {
-  for (const Name& link : names_on_pages(std::regex(R"(\]\(([^)#:]+)[)#])"))) {
+  for (const Name& link :
+       names_on(all_pages(), std::regex(R"(\]\(([^)#:]+)[)#])"))) {
     EXPECT_TRUE(fs::exists((kRoot / link.page).parent_path() / link.words))
         << link.page << ":" << link.line << " links to " << link.words;
   }
@@ -68,7 +86,7 @@ TEST(Pages, NameOnlyPathsOfTheTree) {
   const std::regex path(
       R"(`((?:api|base|bench|cli|cmake|compiler|csg|docs|examples|grammar|ldni|)"
       R"(parser|scripts|slicer|tests)/[\w./-]*\w))");
-  for (const Name& name : names_on_pages(path)) {
+  for (const Name& name : names_on(pages_of_today(), path)) {
     EXPECT_TRUE(fs::exists(kRoot / name.words) ||
                 fs::exists(kRoot / (name.words + ".cpp")))
         << name.page << ":" << name.line << " names " << name.words;
@@ -79,7 +97,8 @@ TEST(Pages, NameOnlyPathsOfTheTree) {
 TEST(Pages, NameOnlySourcesOfTheTree) {
   std::set<std::string> sources;
   for (const fs::path& file : all_files()) sources.insert(file.filename());
-  for (const Name& name : names_on_pages(std::regex(R"(`(\w+\.(?:h|cpp))`)"))) {
+  for (const Name& name :
+       names_on(pages_of_today(), std::regex(R"(`(\w+\.(?:h|cpp))`)"))) {
     EXPECT_TRUE(sources.contains(name.words))
         << name.page << ":" << name.line << " names " << name.words;
   }
