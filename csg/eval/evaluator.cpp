@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "csg/eval/conversions.h"
-#include "csg/eval/interpreter.h"
-#include "csg/eval/resolver.h"
-#include "csg/eval/text.h"
+#include "csg/eval/builtin/conversions.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/resolve/resolver.h"
+#include "csg/eval/value/text.h"
 
 namespace lamina::csg {
 
