@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "csg/eval/value/text.h"
+#include "base/text.h"
 
 namespace lamina::csg {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "csg/eval/value/integers.h"
-#include "csg/eval/resolve/resolver.h"
 
 namespace lamina::csg {
 

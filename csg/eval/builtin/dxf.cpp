@@ -80,7 +80,7 @@ Query read_query(Kind kind, const CallCode& code, Frame& frame) {
 }
 
 bool can_open(const Query& query, const CallCode& code, Frame& frame) {
-  if (file_access(frame.in).is_there(query.path)) {
+  if (frame.in.file_access().is_there(query.path)) {
     frame.in.add_file(query.path);
     return true;
   }
@@ -97,7 +97,7 @@ DxfDrawing read_drawing(const Query& query, const CallCode& code,
   options.fragments = [](double) { return 36; };
   DxfDrawing drawing;
   try {
-    const auto bytes = FileBytes::open(query.path, file_access(frame.in));
+    const auto bytes = FileBytes::open(query.path, frame.in.file_access());
     if (bytes) drawing = parse_dxf(bytes->view(), options);
   } catch (const FormatError& fault) {
     warn(code, frame,

@@ -7,21 +7,15 @@
 #include <fmt/format.h>
 
 #include "csg/eval/builtin/conversions.h"
-#include "csg/eval/resolve/resolver.h"
 #include "csg/eval/value/text.h"
-#include "parser/loader.h"
 
 namespace lamina::csg {
 
 namespace fs = std::filesystem;
 
-const FileAccess& file_access(Interpreter& in) {
-  return in.resolver().loader().file_access();
-}
-
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame) {
-  const fs::path own = fs::absolute(code.unit->program->source->path());
+  const fs::path own = fs::absolute(code.unit->source->path());
   std::string path =
       find_file(name, own.parent_path().string(), code.range, frame.in);
   frame.in.add_file(path);
@@ -31,7 +25,7 @@ std::string find_file(std::string_view name, const BuiltinModuleCode& code,
 std::string find_file(std::string_view name, const std::string& from,
                       SourceRange place, Interpreter& in) {
   if (name.empty()) return "";
-  const FileAccess& access = file_access(in);
+  const FileAccess& access = in.file_access();
   const fs::path here = fs::path(from) / name;  // name, where it is absolute
   access.require(here, name, place, FileUse::kData);
   if (fs::path(name).is_absolute()) return std::string(name);
@@ -47,7 +41,7 @@ std::string find_file(std::string_view name, const std::string& from,
 }
 
 std::string relative_path(const std::string& path, Frame& frame) {
-  const FileAccess& access = file_access(frame.in);
+  const FileAccess& access = frame.in.file_access();
   const fs::path folder = access.weakly_canonical(frame.in.design_folder());
   const fs::path file =
       path.empty() ? folder : fs::path(access.weakly_canonical(path));
@@ -87,7 +81,7 @@ std::string drawing_text(const ImportParams& drawing, Frame& frame) {
 }
 
 std::string timestamp_text(const std::string& path, Frame& frame) {
-  const auto status = file_access(frame.in).look_at(path);
+  const auto status = frame.in.file_access().look_at(path);
   return fmt::format("timestamp = {}", status ? status->st_mtime : 0);
 }
 

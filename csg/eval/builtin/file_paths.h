@@ -4,16 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include "base/file/file_access.h"
 #include "base/vec.h"
 #include "csg/eval/code/code.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/tree.h"
 
 namespace lamina::csg {
-
-// What the design may read.
-const FileAccess& file_access(Interpreter& in);
 
 // Absolute path of the file `name` as a module call means it: from the folder
 // of the file that holds the call or, deprecated, from the design's folder.

@@ -10,8 +10,8 @@
 #include "csg/eval/builtin/metrics.h"
 #include "csg/eval/builtin/objects.h"
 #include "csg/eval/builtin/search.h"
-#include "csg/eval/value/integers.h"
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/integers.h"
 
 namespace lamina::csg {
 
@@ -81,29 +81,29 @@ Value builtin_is_num(const CallCode& code, Frame& frame) {
 
 std::span<const BuiltinFunctionRow> program_rows() {
   static constexpr BuiltinFunctionRow kRows[] = {
-      {"search", builtin_search, nullptr},
-      {"version", builtin_version, nullptr},
-      {"version_num", builtin_version_num, nullptr},
-      {"parent_module", builtin_parent_module, nullptr},
-      {"dxf_dim", builtin_dxf_dim, nullptr},
-      {"dxf_cross", builtin_dxf_cross, nullptr},
-      {"is_undef", builtin_is_undef, nullptr},
-      {"is_bool", is_type<Type::kBool>, nullptr},
-      {"is_string", is_type<Type::kString>, nullptr},
-      {"is_list", is_type<Type::kVector>, nullptr},
-      {"is_function", is_type<Type::kFunction>, nullptr},
-      {"is_num", builtin_is_num, nullptr},
-      {"is_object", builtin_is_object, nullptr},
-      {"object", builtin_object, nullptr},
-      {"has_key", builtin_has_key, nullptr},
-      {"import", builtin_import, nullptr},
-      {"textmetrics", builtin_textmetrics, nullptr},
-      {"fontmetrics", builtin_fontmetrics, nullptr},
+      {"search", builtin_search},
+      {"version", builtin_version},
+      {"version_num", builtin_version_num},
+      {"parent_module", builtin_parent_module},
+      {"dxf_dim", builtin_dxf_dim},
+      {"dxf_cross", builtin_dxf_cross},
+      {"is_undef", builtin_is_undef},
+      {"is_bool", is_type<Type::kBool>},
+      {"is_string", is_type<Type::kString>},
+      {"is_list", is_type<Type::kVector>},
+      {"is_function", is_type<Type::kFunction>},
+      {"is_num", builtin_is_num},
+      {"is_object", builtin_is_object},
+      {"object", builtin_object},
+      {"has_key", builtin_has_key},
+      {"import", builtin_import},
+      {"textmetrics", builtin_textmetrics},
+      {"fontmetrics", builtin_fontmetrics},
   };
   return kRows;
 }
 
-using Table = std::unordered_map<std::string_view, BuiltinFunctionEntry>;
+using Table = std::unordered_map<std::string_view, const BuiltinFunctionRow*>;
 
 const Table& builtin_table() {
   static const Table table = [] {
@@ -111,7 +111,7 @@ const Table& builtin_table() {
     for (const auto rows :
          {number_rows(), string_rows(), vector_rows(), program_rows()}) {
       for (const BuiltinFunctionRow& row : rows) {
-        all[row.name] = {row.function, row.math};
+        all[row.name] = &row;
       }
     }
     return all;
@@ -135,9 +135,9 @@ Value call_math(const CallCode& code, Frame& frame) {
   return Value(code.math(value.as_number()));
 }
 
-const BuiltinFunctionEntry* find_builtin_function(std::string_view name) {
-  const auto entry = builtin_table().find(name);
-  return entry == builtin_table().end() ? nullptr : &entry->second;
+const BuiltinFunctionRow* find_builtin_function(std::string_view name) {
+  const auto row = builtin_table().find(name);
+  return row == builtin_table().end() ? nullptr : row->second;
 }
 
 }  // namespace lamina::csg

@@ -8,28 +8,23 @@
 
 namespace lamina::csg {
 
-// One of the two is set.
-struct BuiltinFunctionEntry {
-  BuiltinFunction function = nullptr;
-  MathFunction math = nullptr;  // a function of one number
+struct BuiltinFunctionRow {
+  std::string_view name;
+  BuiltinFunction function;
+  MathFunction math = nullptr;  // what call_math() calls
 };
 
 // Null where there is no such function.
-const BuiltinFunctionEntry* find_builtin_function(std::string_view name);
-
-// Calls a function of one number, with OpenSCAD's warnings for anything else.
-Value call_math(const CallCode& code, Frame& frame);
+const BuiltinFunctionRow* find_builtin_function(std::string_view name);
 
 // Known by address: its argument is resolved without a warning.
 Value builtin_is_undef(const CallCode& code, Frame& frame);
 
 // --- For the files that define them ---
 
-struct BuiltinFunctionRow {
-  std::string_view name;
-  BuiltinFunction function;
-  MathFunction math;
-};
+// Calls a function of one number, with OpenSCAD's warnings for anything else.
+Value call_math(const CallCode& code, Frame& frame);
+
 std::span<const BuiltinFunctionRow> number_rows();
 std::span<const BuiltinFunctionRow> string_rows();
 std::span<const BuiltinFunctionRow> vector_rows();

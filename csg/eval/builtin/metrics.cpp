@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/builtin/named_arguments.h"
-#include "csg/eval/value/object.h"
 #include "csg/eval/builtin/script.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/object.h"
 #include "csg/eval/value/text.h"
 #include "csg/text_measurer.h"
 

@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "csg/eval/value/integers.h"
 #include "csg/eval/run/interpreter.h"
-#include "csg/eval/run/statement.h"
+#include "csg/eval/value/integers.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -27,17 +26,6 @@ ModuleArguments::ModuleArguments(const BuiltinModuleCode& code, Frame& frame) {
 
 void warn(const BuiltinModuleCode& code, Frame& frame, std::string message) {
   frame.in.warn(code.range, std::move(message));
-}
-
-void run_builtin_module(const InstantiationCode& instantiation, Frame& frame) {
-  const auto& code = static_cast<const BuiltinModuleCode&>(instantiation);
-  if (!code.deprecated_for.empty()) {
-    frame.in.deprecate(code.range,
-                       fmt::format("The {}() module will be removed in future "
-                                   "releases. Use {} instead.",
-                                   code.name, code.deprecated_for));
-  }
-  code.handler(code, frame);
 }
 
 namespace {

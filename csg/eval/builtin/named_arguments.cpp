@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "csg/eval/code/argument_plan.h"
 #include "csg/eval/run/interpreter.h"
-#include "csg/eval/resolve/resolver.h"
 
 namespace lamina::csg {
 
@@ -19,8 +19,8 @@ std::vector<Value> run_named_arguments(
     targets.back().name = name;
     targets.back().target = {Target::Kind::kSlot, slot, nullptr};
   }
-  const ArgumentPlan plan =
-      frame.in.resolver().plan(targets, positional, code.arguments);
+  const ArgumentPlan plan = plan_arguments(targets, positional, code.arguments,
+                                           frame.in.dynamic_names());
   for (const std::string& warning : plan.warnings) {
     frame.in.warn(code.range, warning, frame.document);
   }

@@ -11,8 +11,8 @@
 #include "csg/degrees.h"
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
-#include "csg/eval/value/comparison.h"
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/comparison.h"
 
 namespace lamina::csg {
 
@@ -212,26 +212,26 @@ Value builtin_rands(const CallCode& code, Frame& frame) {
 
 std::span<const BuiltinFunctionRow> number_rows() {
   static constexpr BuiltinFunctionRow kRows[] = {
-      {"abs", nullptr, math_abs},
-      {"sign", nullptr, sign},
-      {"sin", nullptr, sin_deg},
-      {"cos", nullptr, cos_deg},
-      {"tan", nullptr, tan_deg},
-      {"asin", nullptr, asin_deg},
-      {"acos", nullptr, acos_deg},
-      {"atan", nullptr, atan_deg},
-      {"round", nullptr, math_round},
-      {"ceil", nullptr, math_ceil},
-      {"floor", nullptr, math_floor},
-      {"sqrt", nullptr, math_sqrt},
-      {"exp", nullptr, math_exp},
-      {"ln", nullptr, math_ln},
-      {"atan2", of_two_numbers<atan2_deg>, nullptr},
-      {"pow", of_two_numbers<math_pow>, nullptr},
-      {"log", builtin_log, nullptr},
-      {"min", extreme<false>, nullptr},
-      {"max", extreme<true>, nullptr},
-      {"rands", builtin_rands, nullptr},
+      {"abs", call_math, math_abs},
+      {"sign", call_math, sign},
+      {"sin", call_math, sin_deg},
+      {"cos", call_math, cos_deg},
+      {"tan", call_math, tan_deg},
+      {"asin", call_math, asin_deg},
+      {"acos", call_math, acos_deg},
+      {"atan", call_math, atan_deg},
+      {"round", call_math, math_round},
+      {"ceil", call_math, math_ceil},
+      {"floor", call_math, math_floor},
+      {"sqrt", call_math, math_sqrt},
+      {"exp", call_math, math_exp},
+      {"ln", call_math, math_ln},
+      {"atan2", of_two_numbers<atan2_deg>},
+      {"pow", of_two_numbers<math_pow>},
+      {"log", builtin_log},
+      {"min", extreme<false>},
+      {"max", extreme<true>},
+      {"rands", builtin_rands},
   };
   return kRows;
 }

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "csg/eval/builtin/file_paths.h"
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/builtin/json.h"
 #include "csg/eval/builtin/named_arguments.h"
+#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/object.h"
 #include "csg/eval/value/text.h"
 
@@ -148,7 +148,7 @@ Value builtin_import(const CallCode& code, Frame& frame) {
   const std::string path =
       find_file(name, caller.parent_path().string(), code.range, frame.in);
   frame.in.add_file(path);
-  JsonResult result = read_json(path, file_access(frame.in));
+  JsonResult result = read_json(path, frame.in.file_access());
   if (!result.can_read) {
     return warn(code, frame, fmt::format("Could not read file '{}'", path));
   }

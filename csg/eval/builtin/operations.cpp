@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "base/letter_case.h"
-#include "csg/eval/builtin/modules.h"
+#include "csg/csg_printer.h"
 #include "csg/eval/builtin/colors.h"
 #include "csg/eval/builtin/conversions.h"
-#include "csg/csg_printer.h"
 #include "csg/eval/builtin/file_paths.h"
+#include "csg/eval/builtin/modules.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
 

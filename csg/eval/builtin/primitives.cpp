@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "csg/eval/builtin/modules.h"
 #include "csg/eval/builtin/conversions.h"
+#include "csg/eval/builtin/modules.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
 

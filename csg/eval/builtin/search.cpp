@@ -6,9 +6,9 @@
 
 #include "base/utf8.h"
 #include "csg/eval/builtin/call.h"
+#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/comparison.h"
 #include "csg/eval/value/integers.h"
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {

@@ -114,10 +114,10 @@ Value builtin_len(const CallCode& code, Frame& frame) {
 
 std::span<const BuiltinFunctionRow> string_rows() {
   static constexpr BuiltinFunctionRow kRows[] = {
-      {"str", builtin_str, nullptr},
-      {"chr", builtin_chr, nullptr},
-      {"ord", builtin_ord, nullptr},
-      {"len", builtin_len, nullptr},
+      {"str", builtin_str},
+      {"chr", builtin_chr},
+      {"ord", builtin_ord},
+      {"len", builtin_len},
   };
   return kRows;
 }

@@ -127,10 +127,10 @@ Value builtin_lookup(const CallCode& code, Frame& frame) {
 
 std::span<const BuiltinFunctionRow> vector_rows() {
   static constexpr BuiltinFunctionRow kRows[] = {
-      {"concat", builtin_concat, nullptr},
-      {"norm", builtin_norm, nullptr},
-      {"cross", builtin_cross, nullptr},
-      {"lookup", builtin_lookup, nullptr},
+      {"concat", builtin_concat},
+      {"norm", builtin_norm},
+      {"cross", builtin_cross},
+      {"lookup", builtin_lookup},
   };
   return kRows;
 }

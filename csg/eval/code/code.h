@@ -15,8 +15,14 @@
 // links. OpenSCAD assigns in order and a variable not assigned yet does not
 // hide the one outside. What cannot be decided while resolving stays a check
 // for an unset slot, with the next outer variable behind it (`otherwise`).
-// `$` variables have dynamic scope: one cell per name, saved and restored
+// `$` variables have dynamic scope: one value per name, saved and restored
 // around scopes (shallow binding), so that looking one up is one load.
+//
+// Resolved code is frozen: running it changes nothing in it. What the
+// interpreter wants to remember about a node it keeps in tables of its own,
+// under the number that the node has. Bodies of files, functions and modules
+// are resolved when they are first entered, so that a library costs what is
+// used of it; the resolver alone fills them in, each once.
 
 #include <cstdint>
 #include <span>
@@ -31,6 +37,7 @@
 namespace lamina::csg {
 
 class Interpreter;
+struct Activation;
 struct Scope;
 struct Module;
 struct Unit;
@@ -79,7 +86,7 @@ struct Target {
 // --- Expressions ----------------------------------------------------------
 
 struct Expression {
-  using Run = Value (*)(const Expression&, Frame&);
+  using Runner = Value (*)(const Expression&, Frame&);
   // What a caller may look at instead of running the node.
   enum class Kind : std::uint8_t {
     kOther,
@@ -95,7 +102,7 @@ struct Expression {
     kTailCall,
   };
 
-  Run run = nullptr;
+  Runner run = nullptr;
   SourceRange range;
   Kind kind = Kind::kOther;
   std::uint32_t slot = 0;
@@ -256,26 +263,27 @@ struct Callable {
   bool has_tail_calls = false;
 };
 struct Function : Callable {
+  std::uint32_t number = 0;  // among the functions
   const ast::FunctionDefinition* definition = nullptr;
   SourceRange range;
   Scope* scope = nullptr;  // where it is defined
-  Unit* unit = nullptr;
+  const Unit* unit = nullptr;
 };
-struct FunctionLiteral : Callable {
+struct FunctionLiteral : Callable, FunctionCode {
   struct Capture {
     bool from_closure = false;  // else from a slot of the frame
     std::uint32_t index = 0;
   };
   std::vector<Capture> captures;
   std::uint32_t hops = 0;  // from the maker's frame to the closure's link
-  const ast::FunctionLiteral* definition = nullptr;
   const Source* document = nullptr;  // as in Frame
   Scope* scope = nullptr;            // where it is written
-  struct Activation* activation = nullptr;
-
-  // As `echo` shows it.
-  std::string text() const;
+  Activation* activation = nullptr;
 };
+
+inline const FunctionLiteral& literal_of(const Closure& closure) {
+  return static_cast<const FunctionLiteral&>(*closure.code);
+}
 
 // How a call meets a function literal: the version of it that has parameters
 // for all that the call names, and the plan for that version.
@@ -285,7 +293,7 @@ struct LiteralCall {
 };
 
 struct LiteralCode : Expression {
-  FunctionLiteral* literal = nullptr;
+  const FunctionLiteral* literal = nullptr;
 };
 
 using BuiltinFunction = Value (*)(const struct CallCode&, Frame&);
@@ -296,7 +304,7 @@ struct CallCode : Expression {
   const ast::Expr* callee_text = nullptr;
   std::span<const WrittenArgument> arguments;
   // The function that the name means, if any: one of these two.
-  Function* function = nullptr;
+  const Function* function = nullptr;
   BuiltinFunction builtin = nullptr;
   MathFunction math = nullptr;  // of a built-in function of one number
   std::uint32_t hops = 0;       // from the caller's frame to the callee's link
@@ -306,22 +314,21 @@ struct CallCode : Expression {
   // callee, if it is not a plain name.
   const Expression* callee = nullptr;
   bool is_name = true;
-  // How the arguments meet the function literal called last.
-  mutable const FunctionLiteral* planned_for = nullptr;
-  mutable const LiteralCall* literal_call = nullptr;
+  std::uint32_t number = 0;  // among the calls that have a `callee`
   // A function's call of itself in tail position: OpenSCAD looks at its
   // arguments' names once, so that their warnings come once.
   bool is_self_call = false;
-  // Of a call in tail position: the arguments without those that pass a
-  // parameter on to itself; the values of fallbacks, which OpenSCAD
-  // evaluates once per call site, in the scope of the call.
+  // Such a call is a jump: the arguments without those that pass a parameter on
+  // to itself; the fallbacks, which OpenSCAD evaluates once per call site, in
+  // the scope of the call.
   struct TailDefault {
     Target target;
     const Expression* value = nullptr;
-    mutable Value cached = Value::unset();
+    std::uint32_t number = 0;  // among the fallbacks of all jumps
   };
+  bool is_jump = false;
   std::span<const BoundArgument> tail_arguments;
-  std::vector<TailDefault>* tail_defaults = nullptr;
+  std::span<const TailDefault> tail_defaults;
 };
 
 // --- Statements -----------------------------------------------------------
@@ -329,8 +336,8 @@ struct CallCode : Expression {
 struct InstantiationCode {
   // Makes the node of the module's instance, if there is one, on top of the
   // interpreter's list of nodes.
-  using Run = void (*)(const InstantiationCode&, Frame&);
-  Run run = nullptr;
+  using Runner = void (*)(const InstantiationCode&, Frame&);
+  Runner run = nullptr;
   std::string_view name;
   SourceRange range;
   ast::Modifiers modifiers;
@@ -345,12 +352,23 @@ struct Block {
   std::span<const std::uint32_t> resets;
 };
 
+// A file: the design, or one that is used.
+struct Unit {
+  std::uint32_t number = 0;  // among the files; 0: the design
+  const Source* source = nullptr;
+  const Source* document = nullptr;  // of a used file; null for the design
+  Block body;                        // of a used file assignments only
+  std::uint32_t slot_count = 0;
+  bool is_resolved = false;
+};
+
 struct Module {
+  std::uint32_t number = 0;  // among the modules
   std::string_view name;
   const ast::ModuleDefinition* definition = nullptr;
   SourceRange range;
   Scope* scope = nullptr;
-  Unit* unit = nullptr;
+  const Unit* unit = nullptr;
   std::span<Parameter> parameters;
   std::uint32_t children_slot = 0;
   std::uint32_t slot_count = 0;
@@ -361,7 +379,7 @@ struct Module {
 };
 
 struct UserModuleCode : InstantiationCode {
-  Module* module = nullptr;
+  const Module* module = nullptr;
   std::uint32_t hops = 0;
   bool is_foreign = false;
   std::span<const WrittenArgument> arguments;

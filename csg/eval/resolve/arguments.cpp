@@ -4,41 +4,11 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "csg/eval/code/argument_plan.h"
 #include "csg/eval/resolve/expression.h"
 #include "csg/eval/resolve/resolver.h"
 
 namespace lamina::csg {
-
-namespace {
-
-// Parameters by name; of several with one name, the first.
-class ParameterIndex {
- public:
-  explicit ParameterIndex(std::span<const Parameter> parameters)
-      : parameters_(parameters) {
-    if (parameters.size() <= kFew) return;
-    for (const Parameter& p : parameters) table_.try_emplace(p.name, &p);
-  }
-
-  const Parameter* find(std::string_view name) const {
-    if (parameters_.size() > kFew) {
-      const auto found = table_.find(name);
-      return found == table_.end() ? nullptr : found->second;
-    }
-    for (const Parameter& p : parameters_) {
-      if (p.name == name) return &p;
-    }
-    return nullptr;
-  }
-
- private:
-  // Comparing so many names costs less than a table.
-  static constexpr std::size_t kFew = 12;
-  std::span<const Parameter> parameters_;
-  std::unordered_map<std::string_view, const Parameter*> table_;
-};
-
-}  // namespace
 
 std::span<Parameter> Resolver::make_parameters(ast::Arguments written,
                                                std::uint32_t first_slot) {
@@ -58,67 +28,14 @@ std::span<Parameter> Resolver::make_parameters(ast::Arguments written,
     if (first != &parameter) {
       parameter.target = first->target;  // a name is one variable
     } else if (is_dynamic_name(parameter.name)) {
-      parameter.target = {Target::Kind::kDynamic, dynamic_index(parameter.name),
-                          nullptr};
+      parameter.target = {Target::Kind::kDynamic,
+                          names_.number_of(parameter.name), nullptr};
     } else {
       parameter.target = {Target::Kind::kSlot, slot++, nullptr};
     }
   }
   const std::span<const Parameter> kept = keep(parameters);
   return {const_cast<Parameter*>(kept.data()), kept.size()};
-}
-
-ArgumentPlan Resolver::plan(std::span<const Parameter> parameters,
-                            std::size_t positional,
-                            std::span<const WrittenArgument> arguments,
-                            Surplus surplus) {
-  ArgumentPlan plan;
-  const bool warns = surplus == Surplus::kWarn;
-  const ParameterIndex index(parameters);
-  // OpenSCAD evaluates arguments in the order in which its hash table of names
-  // gives them back; the same table gives the same order.
-  std::unordered_map<std::string, std::uint32_t> resolved;
-  std::size_t position = 0;
-  bool has_too_many = false;
-  for (std::uint32_t i = 0; i < arguments.size(); ++i) {
-    const std::string_view name = arguments[i].name;
-    if (!name.empty()) {
-      const Parameter* known = index.find(name);
-      if (warns && name[0] != '$' && (known == nullptr || known->is_extra)) {
-        plan.warnings.push_back("variable " + std::string(name) +
-                                " not specified as parameter");
-      }
-      if (resolved.contains(std::string(name))) {
-        plan.warnings.push_back("argument " + std::string(name) +
-                                " supplied more than once");
-      }
-      resolved[std::string(name)] = i;
-    } else if (position < positional) {
-      resolved[std::string(parameters[position++].name)] = i;
-    } else if (warns && !has_too_many) {
-      plan.warnings.emplace_back("Too many unnamed arguments supplied");
-      has_too_many = true;
-    }
-  }
-  for (const auto& [name, written] : resolved) {
-    BoundArgument bound;
-    bound.written = written;
-    const Parameter* parameter = index.find(name);
-    if (parameter != nullptr) {
-      bound.target = parameter->target;
-    } else if (is_dynamic_name(name)) {
-      bound.target = {Target::Kind::kDynamic, dynamic_index(name), nullptr};
-    }
-    plan.bound.push_back(bound);
-  }
-  for (std::uint32_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].is_extra &&
-        (!resolved.contains(std::string(parameters[i].name)) ||
-         !parameters[i].has_silent_fallback)) {
-      plan.defaults.push_back(i);
-    }
-  }
-  return plan;
 }
 
 namespace {
@@ -170,41 +87,41 @@ std::span<Parameter> Resolver::extended_parameters(
   return {const_cast<Parameter*>(kept.data()), kept.size()};
 }
 
-Function& Resolver::with_extras(Function& function,
-                                std::span<const WrittenArgument> arguments) {
+const Function& Resolver::with_extras(
+    const Function& function, std::span<const WrittenArgument> arguments) {
   const std::vector<std::string_view> names =
       extra_names(function.parameters, arguments);
   if (names.empty()) return function;
-  Function*& extended = extra_functions_[{&function, joined(names)}];
-  if (extended == nullptr) {
-    extended = &functions_.emplace_back();
-    extended->name = function.name;
-    extended->definition = function.definition;
-    extended->range = function.range;
-    extended->scope = function.scope;
-    extended->unit = function.unit;
-    extended->parameters = extended_parameters(function.parameters, names, 0);
-  }
-  return *extended;
+  const Function*& known = extra_functions_[{&function, joined(names)}];
+  if (known != nullptr) return *known;
+  Function& version = new_function();
+  version.name = function.name;
+  version.definition = function.definition;
+  version.range = function.range;
+  version.scope = function.scope;
+  version.unit = function.unit;
+  version.parameters = extended_parameters(function.parameters, names, 0);
+  known = &version;
+  return version;
 }
 
-Module& Resolver::with_extras(Module& module,
-                              std::span<const WrittenArgument> arguments) {
+const Module& Resolver::with_extras(
+    const Module& module, std::span<const WrittenArgument> arguments) {
   const std::vector<std::string_view> names =
       extra_names(module.parameters, arguments);
   if (names.empty()) return module;
-  Module*& extended = extra_modules_[{&module, joined(names)}];
-  if (extended == nullptr) {
-    extended = &modules_.emplace_back();
-    extended->name = module.name;
-    extended->definition = module.definition;
-    extended->range = module.range;
-    extended->scope = module.scope;
-    extended->unit = module.unit;
-    extended->children_slot = module.children_slot;
-    extended->parameters = extended_parameters(module.parameters, names, 1);
-  }
-  return *extended;
+  const Module*& known = extra_modules_[{&module, joined(names)}];
+  if (known != nullptr) return *known;
+  Module& version = new_module();
+  version.name = module.name;
+  version.definition = module.definition;
+  version.range = module.range;
+  version.scope = module.scope;
+  version.unit = module.unit;
+  version.children_slot = module.children_slot;
+  version.parameters = extended_parameters(module.parameters, names, 1);
+  known = &version;
+  return version;
 }
 
 // The literal's closures are made: its versions know what these captured.
@@ -248,8 +165,9 @@ const LiteralCall& Resolver::plan_for(const CallCode& call,
   LiteralCall& planned = entry->second;
   if (is_new) {
     planned.literal = &with_extras(literal, call.arguments);
-    planned.plan = plan(planned.literal->parameters,
-                        literal.definition->parameters.size(), call.arguments);
+    planned.plan = plan_arguments(planned.literal->parameters,
+                                  literal.definition->parameters.size(),
+                                  call.arguments, names_);
   }
   return planned;
 }

@@ -31,10 +31,10 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
     const Resolver::Callee callee =
         resolver_.find_function(*scope_, name->name);
     if (callee.function == nullptr) {
-      const BuiltinFunctionEntry* entry = find_builtin_function(name->name);
-      if (entry != nullptr) {
-        code->builtin = entry->function;
-        code->math = entry->math;
+      const BuiltinFunctionRow* row = find_builtin_function(name->name);
+      if (row != nullptr) {
+        code->builtin = row->function;
+        code->math = row->math;
       }
     }
     const auto* plain =
@@ -58,19 +58,18 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
         code->hops =
             scope_->activation->count_hops(*callee.function->scope->activation);
       }
-      code->plan = &resolver_.keep_plan(
-          resolver_.plan(code->function->parameters,
-                         callee.function->parameters.size(), code->arguments));
+      code->plan = &resolver_.keep_plan(plan_arguments(
+          code->function->parameters, callee.function->parameters.size(),
+          code->arguments, resolver_.names()));
       if (code->callee == nullptr) code->run = run_call_function;
     } else if (code->callee == nullptr) {
-      code->run = code->math != nullptr && code->arguments.size() == 1
+      code->run = code->builtin == nullptr ? run_call_unknown
+                  : code->math != nullptr && code->arguments.size() == 1
                       ? run_call_math
                       : run_call_builtin;
-      if (code->builtin == nullptr && code->math == nullptr) {
-        code->run = run_call_unknown;
-      }
     }
   }
+  if (code->callee != nullptr) code->number = resolver_.next_call_number();
   if (position == Position::kTail) make_tail_call(*code, call);
   return code;
 }
@@ -89,8 +88,9 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
     // What the caller of this version named besides stays what it is.
     if (&resolver_.with_extras(self, code.arguments) != &self) return;
     code.function = &self;
-    *code.plan = resolver_.plan(
-        self.parameters, self.definition->parameters.size(), code.arguments);
+    *code.plan =
+        plan_arguments(self.parameters, self.definition->parameters.size(),
+                       code.arguments, resolver_.names());
     std::vector<BoundArgument> moved;
     for (const BoundArgument& bound : code.plan->bound) {
       const Expression& argument = *code.arguments[bound.written].value;
@@ -100,7 +100,7 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
       if (!is_same) moved.push_back(bound);
     }
     code.tail_arguments = resolver_.keep(moved);
-    code.tail_defaults = &resolver_.new_tail_defaults();
+    std::vector<CallCode::TailDefault> defaults;
     for (const std::uint32_t i : code.plan->defaults) {
       const Parameter& parameter = code.function->parameters[i];
       CallCode::TailDefault fallback;
@@ -108,8 +108,11 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
       fallback.value = parameter.fallback_text != nullptr
                            ? resolve(*parameter.fallback_text)
                            : constant(Value(), call.callee->range);
-      code.tail_defaults->push_back(std::move(fallback));
+      fallback.number = resolver_.next_tail_default_number();
+      defaults.push_back(fallback);
     }
+    code.tail_defaults = resolver_.keep(defaults);
+    code.is_jump = true;
   } else if (code.callee == nullptr) {
     return;
   }

@@ -3,8 +3,9 @@
 #include <unordered_set>
 #include <variant>
 
-#include "csg/eval/value/operators.h"
 #include "csg/eval/run/expression.h"
+#include "csg/eval/value/operators.h"
+#include "parser/tree_facts.h"
 
 namespace lamina::csg {
 
@@ -18,33 +19,10 @@ const Value* constant_value(const Expression* code) {
              : nullptr;
 }
 
-struct LiteralTest {
-  bool operator()(const ast::Undef&) const { return true; }
-  bool operator()(const ast::Bool&) const { return true; }
-  bool operator()(const ast::Number&) const { return true; }
-  bool operator()(const ast::String&) const { return true; }
-  bool operator()(const ast::Numbers&) const { return true; }
-  bool operator()(const ast::Unary& unary) const {
-    return is_literal(*unary.operand);
-  }
-  bool operator()(const ast::Vector& vector) const {
-    for (const ast::Expr* element : vector.elements) {
-      if (!is_literal(*element)) return false;
-    }
-    return true;
-  }
-  bool operator()(const ast::Range& range) const {
-    return is_literal(*range.begin) && is_literal(*range.end) &&
-           (range.step == nullptr || is_literal(*range.step));
-  }
-  template <typename T>
-  bool operator()(const T&) const {
-    return false;
-  }
-};
-
 // Of the literals, those whose evaluation warns of nothing.
 struct SilentTest {
+  const ast::Expr& expr;
+
   bool operator()(const ast::Unary& unary) const {
     return std::holds_alternative<ast::Number>(unary.operand->node);
   }
@@ -56,19 +34,15 @@ struct SilentTest {
   }
   bool operator()(const ast::Range&) const { return false; }
   template <typename T>
-  bool operator()(const T& other) const {
-    return LiteralTest()(other);
+  bool operator()(const T&) const {
+    return ast::is_literal(expr);
   }
 };
 
 }  // namespace
 
-bool is_literal(const ast::Expr& expr) {
-  return std::visit(LiteralTest(), expr.node);
-}
-
 bool is_silent(const ast::Expr& expr) {
-  return std::visit(SilentTest(), expr.node);
+  return std::visit(SilentTest{expr}, expr.node);
 }
 
 const Expression* ExpressionResolver::constant(Value value, SourceRange range) {
@@ -88,7 +62,7 @@ struct ExpressionVisitor {
 
   Resolver& resolver() const { return self.resolver_; }
   template <typename T>
-  T* make(Expression::Run run) const {
+  T* make(Expression::Runner run) const {
     T* code = resolver().make<T>();
     code->run = run;
     code->range = range;
@@ -157,8 +131,9 @@ struct ExpressionVisitor {
     code->begin = self.resolve(*written.begin);
     if (written.step != nullptr) code->step = self.resolve(*written.step);
     code->end = self.resolve(*written.end);
-    code->is_literal = is_literal(*written.begin) && is_literal(*written.end) &&
-                       (!written.step || is_literal(*written.step));
+    code->is_literal = ast::is_literal(*written.begin) &&
+                       ast::is_literal(*written.end) &&
+                       (!written.step || ast::is_literal(*written.step));
     return code;
   }
   const Expression* operator()(const ast::Index& index) const {
@@ -317,7 +292,8 @@ const AssertCode* ExpressionResolver::assertion(ast::Arguments written,
   code->range = range;
   code->kind = Kind::kAssert;
   const std::span<const WrittenArgument> given = arguments(written);
-  code->plan = &resolver_.keep_plan(resolver_.plan(kParameters, 2, given));
+  code->plan = &resolver_.keep_plan(
+      plan_arguments(kParameters, 2, given, resolver_.names()));
   for (const BoundArgument& bound : code->plan->bound) {
     if (bound.target.kind != Target::Kind::kSlot) continue;
     if (bound.target.index == 0) {

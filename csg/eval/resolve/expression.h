@@ -10,9 +10,6 @@
 
 namespace lamina::csg {
 
-// Whether OpenSCAD calls an expression a literal; some warnings depend on it.
-bool is_literal(const ast::Expr& expr);
-
 // Whether evaluating an expression certainly goes unnoticed: for simple
 // literals. `-"a"` and `[2 : 1]` are literals of which OpenSCAD warns.
 bool is_silent(const ast::Expr& expr);

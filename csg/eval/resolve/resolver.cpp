@@ -8,10 +8,6 @@
 
 namespace lamina::csg {
 
-bool is_dynamic_name(std::string_view name) {
-  return !name.empty() && name[0] == '$' && name != "$children";
-}
-
 std::uint32_t Activation::new_slot() {
   slot_count = std::max(slot_count, next_slot + 1);
   return next_slot++;
@@ -23,13 +19,9 @@ std::uint32_t Activation::count_hops(const Activation& outer) const {
   return hops;
 }
 
-Resolver::Resolver(const Loader& loader, const EvaluateOptions& options)
-    : loader_(loader), options_(options) {
-  for (const char* name : {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt",
-                           "$vpr", "$vpd", "$vpf"}) {
-    dynamic_index(name);
-  }
-}
+Resolver::Resolver(const Loader& loader, DynamicNames& names,
+                   const EvaluateOptions& options)
+    : loader_(loader), names_(names), options_(options) {}
 
 std::string_view Resolver::keep_text(std::string_view text) {
   char* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
@@ -38,8 +30,7 @@ std::string_view Resolver::keep_text(std::string_view text) {
 }
 
 Scope& Resolver::open_scope(Scope& parent, Activation& activation) {
-  scopes_.emplace_back();
-  Scope& scope = scopes_.back();
+  Scope& scope = scopes_.emplace_back();
   scope.parent = &parent;
   scope.home = parent.home;
   scope.activation = &activation;
@@ -49,8 +40,7 @@ Scope& Resolver::open_scope(Scope& parent, Activation& activation) {
 
 Activation& Resolver::open_activation(Activation::Kind kind,
                                       Activation& around) {
-  activations_.emplace_back();
-  Activation& activation = activations_.back();
+  Activation& activation = activations_.emplace_back();
   activation.kind = kind;
   activation.lexical = &around;
   activation.link = around.is_statement_level() ? &around : around.link;
@@ -115,31 +105,18 @@ Variable* OpenVariables::next(const Variable& variable, std::string_view name) {
   return find_from(scope.is_home() ? scope.next_home() : scope.home, name);
 }
 
-// --- `$` variables ----------------------------------------------------------
-
-std::uint32_t Resolver::dynamic_index(std::string_view name) {
-  const auto [entry, is_new] = dynamic_index_.try_emplace(
-      std::string(name), static_cast<std::uint32_t>(dynamic_index_.size()));
-  return entry->second;
-}
-
-std::int64_t Resolver::find_dynamic(std::string_view name) const {
-  const auto entry = dynamic_index_.find(std::string(name));
-  return entry == dynamic_index_.end() ? -1 : std::int64_t{entry->second};
-}
-
 // --- Files ------------------------------------------------------------------
 
-Unit& Resolver::unit_of(const ast::Program& program) {
-  Unit*& unit = unit_of_[&program];
+DeclaredUnit& Resolver::declared_unit(const ast::Program& program) {
+  DeclaredUnit*& unit = unit_of_[&program];
   if (unit != nullptr) return *unit;
-  units_.emplace_back();
-  unit = &units_.back();
+  unit = &units_.emplace_back();
+  unit->number = counts_.units++;
   unit->program = &program;
-  if (units_.size() > 1) unit->document = program.source;
+  unit->source = program.source;
+  if (unit->number > 0) unit->document = program.source;
   unit->activation.kind = Activation::Kind::kFile;
-  scopes_.emplace_back();
-  unit->scope = &scopes_.back();
+  unit->scope = &scopes_.emplace_back();
   unit->scope->activation = &unit->activation;
   unit->scope->unit = unit;
   unit->scope->home = unit->scope;
@@ -148,28 +125,42 @@ Unit& Resolver::unit_of(const ast::Program& program) {
   return *unit;
 }
 
-Unit* Resolver::used_unit(const ast::Use& use) {
+DeclaredUnit* Resolver::used_unit(const ast::Use& use) {
   const ast::Program* program = loader_.used_program(use);
-  return program == nullptr ? nullptr : &unit_of(*program);
+  return program == nullptr ? nullptr : &declared_unit(*program);
 }
 
-void Resolver::resolve(Unit& unit) {
+void Resolver::resolve(const Unit& asked) {
+  DeclaredUnit& unit = units_[asked.number];
   if (unit.is_resolved) return;
   unit.is_resolved = true;
   StatementResolver resolver(*this, *unit.scope);
   unit.body = unit.document == nullptr
                   ? resolver.body(unit.program->statements)
                   : resolver.assignments_only(unit.program->statements);
+  unit.slot_count = unit.activation.slot_count;
+}
+
+Function& Resolver::new_function() {
+  Function& function = functions_.emplace_back();
+  function.number = static_cast<std::uint32_t>(functions_.size() - 1);
+  return function;
+}
+
+Module& Resolver::new_module() {
+  Module& module = modules_.emplace_back();
+  module.number = static_cast<std::uint32_t>(modules_.size() - 1);
+  return module;
 }
 
 // Functions and modules are known in their whole scope; the last of a name
 // wins.
-void Resolver::declare(Scope& scope, ast::Statements statements, Unit& unit) {
+void Resolver::declare(Scope& scope, ast::Statements statements,
+                       const Unit& unit) {
   for (const ast::Statement* statement : statements) {
     if (const auto* written =
             std::get_if<ast::FunctionDefinition>(&statement->node)) {
-      functions_.emplace_back();
-      Function& function = functions_.back();
+      Function& function = new_function();
       function.name = written->name;
       function.definition = written;
       function.range = statement->range;
@@ -179,8 +170,7 @@ void Resolver::declare(Scope& scope, ast::Statements statements, Unit& unit) {
       scope.functions[written->name] = &function;
     } else if (const auto* module =
                    std::get_if<ast::ModuleDefinition>(&statement->node)) {
-      modules_.emplace_back();
-      Module& declared = modules_.back();
+      Module& declared = new_module();
       declared.name = module->name;
       declared.definition = module;
       declared.range = statement->range;
@@ -200,7 +190,7 @@ Resolver::Callee Resolver::find_function(const Scope& scope,
     if (found != s->functions.end()) return {found->second, nullptr, false};
   }
   for (const ast::Use* use : scope.unit->uses) {
-    const Unit* unit = used_unit(*use);
+    const DeclaredUnit* unit = used_unit(*use);
     if (unit == nullptr) continue;
     const auto found = unit->scope->functions.find(name);
     if (found != unit->scope->functions.end()) {
@@ -217,7 +207,7 @@ Resolver::Callee Resolver::find_module(const Scope& scope,
     if (found != s->modules.end()) return {nullptr, found->second, false};
   }
   for (const ast::Use* use : scope.unit->uses) {
-    const Unit* unit = used_unit(*use);
+    const DeclaredUnit* unit = used_unit(*use);
     if (unit == nullptr) continue;
     const auto found = unit->scope->modules.find(name);
     if (found != unit->scope->modules.end()) {
@@ -274,7 +264,8 @@ void Resolver::resolve_callable(Callable& callable, ast::Arguments parameters,
   callable.slot_count = inside.activation->slot_count;
 }
 
-void Resolver::resolve(Function& function) {
+void Resolver::resolve(const Function& asked) {
+  Function& function = functions_[asked.number];
   resolve(*function.unit);
   Activation& activation =
       open_activation(Activation::Kind::kFunction, *function.scope->activation);
@@ -284,7 +275,8 @@ void Resolver::resolve(Function& function) {
                    open_scope(*function.scope, activation), *function.scope);
 }
 
-void Resolver::resolve(Module& module) {
+void Resolver::resolve(const Module& asked) {
+  Module& module = modules_[asked.number];
   resolve(*module.unit);
   module.is_resolved = true;
   Activation& activation =

@@ -22,8 +22,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "csg/eval/code/argument_plan.h"
 #include "csg/eval/code/code.h"
-#include "csg/eval/evaluator.h"
+#include "csg/eval/code/dynamic_names.h"
+#include "csg/eval/code/lazy_resolver.h"
+#include "csg/eval/run/evaluate_options.h"
 #include "parser/ast.h"
 
 namespace lamina {
@@ -56,13 +59,15 @@ struct Activation {
   std::uint32_t count_hops(const Activation& outer) const;
 };
 
+struct DeclaredUnit;
+
 struct Scope {
   Scope* parent = nullptr;
   // The file or module that the scope is, or stands in: these alone define
   // functions and modules.
   Scope* home = nullptr;
   Activation* activation = nullptr;
-  Unit* unit = nullptr;
+  const DeclaredUnit* unit = nullptr;
   std::unordered_map<std::string_view, Variable*> variables;
   std::unordered_map<std::string_view, Function*> functions;
   std::unordered_map<std::string_view, Module*> modules;
@@ -98,67 +103,32 @@ class OpenVariables {
   std::unordered_map<std::string_view, Variable*> innermost_;
 };
 
-// A file: the main program or one that is used.
-struct Unit {
+// A file and what it declares.
+struct DeclaredUnit : Unit {
   const ast::Program* program = nullptr;
-  const Source* document = nullptr;  // of a used file; null for the design
   Scope* scope = nullptr;
   Activation activation;
   std::vector<const ast::Use*> uses;
-  Block body;  // resolved when the file is first entered
-  bool is_resolved = false;
-  // The variables, where they depend on nothing outside; else made anew for
-  // each call from outside.
-  Frame* frame = nullptr;
-  std::vector<std::pair<std::uint32_t, Value>> dynamic_values;
 };
 
-// Numbers of the `$` variables that the evaluator itself knows.
-enum WellKnown : std::uint32_t {
-  kFn,
-  kFa,
-  kFs,
-  kTime,
-  kPreview,
-  kViewTranslation,
-  kViewRotation,
-  kViewDistance,
-  kViewField,
-};
-
-// Whether `name` has dynamic scope.
-bool is_dynamic_name(std::string_view name);
-
-class Resolver {
+class Resolver : public LazyResolver {
  public:
-  // options  must outlive the Resolver
-  Resolver(const Loader& loader, const EvaluateOptions& options);
+  // names    of the `$` variables: gets those that the code names
+  // options  must outlive the Resolver, as must the others
+  Resolver(const Loader& loader, DynamicNames& names,
+           const EvaluateOptions& options);
 
-  const Loader& loader() const { return loader_; }
+  const Unit& unit_of(const ast::Program& program) {
+    return declared_unit(program);
+  }
 
-  Unit& unit_of(const ast::Program& program);
-  // The whole of a file: its assignments and, for the main file, its
-  // instantiations.
-  void resolve(Unit& unit);
-  void resolve(Function& function);
-  void resolve(Module& module);
-
-  // Numbers of `$` variables, given out as their names come up.
-  std::uint32_t dynamic_index(std::string_view name);
-  // -1 where no code has named it.
-  std::int64_t find_dynamic(std::string_view name) const;
-  std::size_t dynamic_count() const { return dynamic_index_.size(); }
-
-  // How the arguments of a call meet the first `positional` parameters by
-  // position and all by name.
-  enum class Surplus : std::uint8_t { kWarn, kSilent };
-  ArgumentPlan plan(std::span<const Parameter> parameters,
-                    std::size_t positional,
-                    std::span<const WrittenArgument> arguments,
-                    Surplus surplus = Surplus::kWarn);
-  // The same for a call of a function literal, made once for each pair.
+  // Of the main file the instantiations too.
+  void resolve(const Unit& unit) override;
+  void resolve(const Function& function) override;
+  void resolve(const Module& module) override;
   const LiteralCall& plan_for(const CallCode& call,
-                              const FunctionLiteral& literal);
+                              const FunctionLiteral& literal) override;
+  CodeCounts counts() const override { return counts_; }
 
   // --- For ExpressionResolver and StatementResolver
 
@@ -176,6 +146,9 @@ class Resolver {
   }
 
   OpenVariables open_variables;
+  DynamicNames& names() { return names_; }
+  std::uint32_t next_call_number() { return counts_.calls++; }
+  std::uint32_t next_tail_default_number() { return counts_.tail_defaults++; }
 
   Scope& open_scope(Scope& parent, Activation& activation);
   Activation& open_activation(Activation::Kind kind, Activation& around);
@@ -184,7 +157,7 @@ class Resolver {
   void resolve_fallbacks(std::span<Parameter> parameters, Scope& inside,
                          Scope& outside);
   std::string_view keep_text(std::string_view text);
-  void declare(Scope& scope, ast::Statements statements, Unit& unit);
+  void declare(Scope& scope, ast::Statements statements, const Unit& unit);
   // Names and targets from `first_slot` on; fallbacks are resolved with the
   // body.
   std::span<Parameter> make_parameters(ast::Arguments written,
@@ -193,22 +166,22 @@ class Resolver {
   void declare_parameters(std::span<const Parameter> parameters, Scope& scope);
 
   struct Callee {
-    Function* function = nullptr;
-    Module* module = nullptr;
+    const Function* function = nullptr;
+    const Module* module = nullptr;
     bool is_foreign = false;
   };
   std::span<Parameter> extended_parameters(
       std::span<const Parameter> parameters,
       const std::vector<std::string_view>& names, std::uint32_t first_slot);
-  Unit* used_unit(const ast::Use& use);
+  DeclaredUnit* used_unit(const ast::Use& use);
   Callee find_function(const Scope& scope, std::string_view name);
   Callee find_module(const Scope& scope, std::string_view name);
   // A callee with further parameters for what a caller names although it is no
   // parameter: OpenSCAD warns, but the callee sees those variables.
-  Function& with_extras(Function& function,
-                        std::span<const WrittenArgument> arguments);
-  Module& with_extras(Module& module,
-                      std::span<const WrittenArgument> arguments);
+  const Function& with_extras(const Function& function,
+                              std::span<const WrittenArgument> arguments);
+  const Module& with_extras(const Module& module,
+                            std::span<const WrittenArgument> arguments);
   const FunctionLiteral& with_extras(
       const FunctionLiteral& literal,
       std::span<const WrittenArgument> arguments);
@@ -225,12 +198,14 @@ class Resolver {
     return plans_.emplace_back(std::move(plan));
   }
   FunctionLiteral& new_literal() { return literals_.emplace_back(); }
-  std::vector<CallCode::TailDefault>& new_tail_defaults() {
-    return tail_defaults_.emplace_back();
-  }
 
  private:
+  DeclaredUnit& declared_unit(const ast::Program& program);
+  Function& new_function();
+  Module& new_module();
+
   const Loader& loader_;
+  DynamicNames& names_;
   const EvaluateOptions& options_;
   std::pmr::monotonic_buffer_resource arena_;
   std::deque<Value> constants_;
@@ -240,16 +215,16 @@ class Resolver {
   std::deque<Module> modules_;
   std::deque<FunctionLiteral> literals_;
   std::deque<ArgumentPlan> plans_;
-  std::deque<std::vector<CallCode::TailDefault>> tail_defaults_;
   std::map<std::pair<const CallCode*, const FunctionLiteral*>, LiteralCall>
       literal_calls_;
-  std::map<std::pair<const void*, std::string>, Function*> extra_functions_;
-  std::map<std::pair<const void*, std::string>, Module*> extra_modules_;
+  std::map<std::pair<const void*, std::string>, const Function*>
+      extra_functions_;
+  std::map<std::pair<const void*, std::string>, const Module*> extra_modules_;
   std::map<std::pair<const void*, std::string>, const FunctionLiteral*>
       extra_literals_;
-  std::deque<Unit> units_;
-  std::unordered_map<const ast::Program*, Unit*> unit_of_;
-  std::unordered_map<std::string, std::uint32_t> dynamic_index_;
+  std::deque<DeclaredUnit> units_;
+  std::unordered_map<const ast::Program*, DeclaredUnit*> unit_of_;
+  CodeCounts counts_;
 };
 
 // Opens a scope inside the current one, in the same activation; its slots are

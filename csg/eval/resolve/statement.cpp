@@ -6,11 +6,12 @@
 
 #include "csg/eval/builtin/modules.h"
 #include "csg/eval/run/statement.h"
+#include "parser/tree_facts.h"
 
 namespace lamina::csg {
 
 template <typename T>
-T* StatementResolver::make(InstantiationCode::Run run, SourceRange range) {
+T* StatementResolver::make(InstantiationCode::Runner run, SourceRange range) {
   T* code = resolver_.make<T>();
   code->run = run;
   code->range = range;
@@ -51,49 +52,36 @@ void StatementResolver::module(Module& module) {
 // The last value of a name counts, at the place of the first.
 Bindings StatementResolver::assignments(ast::Statements statements,
                                         Module* module) {
-  struct Assigned {
-    std::string_view name;
-    const ast::Expr* value;
-    SourceRange range;
-  };
-  std::vector<Assigned> assigned;
-  std::unordered_map<std::string_view, std::size_t> places;
-  for (const ast::Statement* statement : statements) {
-    const auto* written = std::get_if<ast::Assignment>(&statement->node);
-    if (written == nullptr) continue;
-    const auto [place, is_new] =
-        places.try_emplace(written->name, assigned.size());
-    if (is_new) assigned.push_back({written->name, nullptr, {}});
-    assigned[place->second].value = written->value;
-    assigned[place->second].range = statement->range;
-  }
-
   ExpressionResolver resolver = expressions();
   std::vector<Variable*> variables;
   std::vector<Binding> bindings;
-  for (const Assigned& one : assigned) {
+  std::vector<const ast::Expr*> values;
+  for (const std::size_t i : ast::assignments_that_count(statements)) {
+    const auto& written = std::get<ast::Assignment>(statements[i]->node);
+    values.push_back(written.value);
     Binding binding;
-    binding.name = one.name;
-    binding.range = one.range;
+    binding.name = written.name;
+    binding.range = statements[i]->range;
     Variable* variable = nullptr;
-    if (!is_dynamic_name(one.name)) {
-      const auto known = scope_->variables.find(one.name);
+    if (!is_dynamic_name(written.name)) {
+      const auto known = scope_->variables.find(written.name);
       const bool is_parameter = known != scope_->variables.end();
       variable =
-          is_parameter ? known->second : resolver.declare(one.name, true);
-      if (is_parameter && module != nullptr && is_literal(*one.value)) {
+          is_parameter ? known->second : resolver.declare(written.name, true);
+      if (is_parameter && module != nullptr &&
+          ast::is_literal(*written.value)) {
         module->overwrites.emplace_back(
             static_cast<std::uint32_t>(bindings.size()),
             "Module " + std::string(module->name) + ": Parameter " +
-                std::string(one.name) + " is overwritten with a literal");
+                std::string(written.name) + " is overwritten with a literal");
       }
     }
-    binding.target = resolver.target(one.name, variable);
+    binding.target = resolver.target(written.name, variable);
     variables.push_back(variable);
     bindings.push_back(binding);
   }
-  for (std::size_t i = 0; i < assigned.size(); ++i) {
-    bindings[i].value = resolver.resolve(*assigned[i].value);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    bindings[i].value = resolver.resolve(*values[i]);
     if (variables[i] != nullptr) variables[i]->is_set = true;
   }
   return resolver_.keep(bindings);
@@ -161,9 +149,9 @@ InstantiationCode* StatementResolver::user_module(
   code->block->assignments = assignments(written.children, nullptr);
   code->arguments = expressions().arguments(written.arguments);
   code->module = &resolver_.with_extras(*callee.module, code->arguments);
-  code->plan = &resolver_.keep_plan(
-      resolver_.plan(code->module->parameters, callee.module->parameters.size(),
-                     code->arguments, resolver_.module_surplus()));
+  code->plan = &resolver_.keep_plan(plan_arguments(
+      code->module->parameters, callee.module->parameters.size(),
+      code->arguments, resolver_.names(), resolver_.module_surplus()));
   code->block->statements = instantiations(written.children);
   code->block->resets = resolver_.keep(scope_->resets);
   return code;
@@ -265,8 +253,9 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
   code->unit = scope_->unit;
   code->deprecated_for = entry->replacement;
   code->arguments = expressions().arguments(written.arguments);
-  code->plan = &resolver_.keep_plan(resolver_.plan(
-      entry->parameters, entry->positional_count, code->arguments));
+  code->plan = &resolver_.keep_plan(
+      plan_arguments(entry->parameters, entry->positional_count,
+                     code->arguments, resolver_.names()));
   code->parameter_count = static_cast<std::uint32_t>(entry->parameters.size());
 
   const NestedScope open(resolver_, scope_);

@@ -44,7 +44,7 @@ class StatementResolver {
   ExpressionResolver expressions() { return {resolver_, *scope_}; }
 
   template <typename T>
-  T* make(InstantiationCode::Run run, SourceRange range);
+  T* make(InstantiationCode::Runner run, SourceRange range);
 
   Resolver& resolver_;
   Scope* scope_;

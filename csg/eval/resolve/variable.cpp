@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "csg/eval/resolve/prefixed_literal.h"
 #include "csg/eval/resolve/expression.h"
+#include "csg/eval/resolve/prefixed_literal.h"
 #include "csg/eval/run/expression.h"
 
 namespace lamina::csg {
@@ -22,7 +22,7 @@ Variable* ExpressionResolver::declare(std::string_view name,
 
 Target ExpressionResolver::target(std::string_view name, Variable* variable) {
   if (is_dynamic_name(name)) {
-    return {Target::Kind::kDynamic, resolver_.dynamic_index(name), nullptr};
+    return {Target::Kind::kDynamic, resolver_.names().number_of(name), nullptr};
   }
   return {Target::Kind::kSlot, variable->slot, variable};
 }
@@ -108,7 +108,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
     auto* code = resolver_.make<DynamicVariable>();
     code->run = run_dynamic;
     code->range = range;
-    code->index = resolver_.dynamic_index(name);
+    code->index = resolver_.names().number_of(name);
     code->name = name;
     code->is_silent = unknown == Unknown::kSilent;
     return code;

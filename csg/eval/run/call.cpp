@@ -4,10 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "csg/eval/builtin/functions.h"
-#include "csg/eval/run/interpreter.h"
-#include "csg/eval/resolve/resolver.h"
 #include "csg/eval/run/expression.h"
+#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -26,18 +24,6 @@ Value run_function_literal(const Expression& expression, Frame& frame) {
                                     : frame.slots[capture.index]);
   }
   return Value::adopt(Type::kFunction, closure, 0);
-}
-
-std::string FunctionLiteral::text() const {
-  std::string text = "function(";
-  for (const ast::Argument& parameter : definition->parameters) {
-    if (&parameter != definition->parameters.data()) text += ", ";
-    text += parameter.name;
-    if (parameter.value != nullptr) {
-      text += " = " + expression_text(*parameter.value);
-    }
-  }
-  return text + ") " + expression_text(*definition->body);
 }
 
 namespace {
@@ -95,13 +81,11 @@ void jump(const CallCode& call, const ArgumentPlan& plan,
       frame.in.assign(target, std::move(value), frame);
     }
   };
-  if (call.tail_defaults != nullptr) {
-    for (const CallCode::TailDefault& fallback : *call.tail_defaults) {
-      if (fallback.cached.is_unset()) {
-        fallback.cached = run(fallback.value, frame);
-      }
-      store(fallback.target, fallback.cached);
+  for (const CallCode::TailDefault& fallback : call.tail_defaults) {
+    if (frame.in.tail_value(fallback.number).is_unset()) {
+      frame.in.set_tail_value(fallback.number, run(fallback.value, frame));
     }
+    store(fallback.target, frame.in.tail_value(fallback.number));
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     store(bound[i].target, std::move(memory[i]));
@@ -153,7 +137,7 @@ bool run_round(const Callable& callable, std::string_view name,
         break;
       case Expression::Kind::kTailCall: {
         const auto& call = as<CallCode>(*code);
-        if (call.tail_defaults != nullptr) {
+        if (call.is_jump) {
           jump(call, *call.plan, call.tail_arguments, trail_mark, frame);
           return true;
         }
@@ -204,11 +188,8 @@ std::string shown_name(const CallCode& code) {
 namespace {
 
 Value call_function(const CallCode& code, Frame& frame) {
-  Function& function = *code.function;
-  if (function.body == nullptr) {
-    frame.in.resolver().resolve(function);
-    frame.in.grow_dynamic();
-  }
+  const Function& function = *code.function;
+  frame.in.ensure_resolved(function);
   const DynamicScope scope(frame.in);
   Frame callee{frame.in};
   callee.document = function.unit->document;
@@ -230,7 +211,7 @@ Value call_function(const CallCode& code, Frame& frame) {
 
 // The parameter `this` of a method is its object, whatever else was given.
 [[gnu::noinline]] void pass_this(const Closure& closure, Frame& callee) {
-  for (const Parameter& parameter : closure.code->parameters) {
+  for (const Parameter& parameter : literal_of(closure).parameters) {
     if (parameter.name != "this") continue;
     callee.in.assign(parameter.target, Value(closure.method->object), callee);
   }
@@ -239,7 +220,7 @@ Value call_function(const CallCode& code, Frame& frame) {
 // The callee holds a function; `function` keeps it alive.
 Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
   const Closure& closure = function.as_function();
-  const auto& [literal, plan] = frame.in.plan_for(code, *closure.code);
+  const auto& [literal, plan] = frame.in.plan_for(code, literal_of(closure));
   const Callable& callable = *literal;
   const DynamicScope scope(frame.in);
   Frame callee{frame.in};
@@ -255,11 +236,6 @@ Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
   if (closure.method != nullptr) [[unlikely]]
     pass_this(closure, callee);
   return run_body(callable, code.name, code.range, callee);
-}
-
-Value call_builtin(const CallCode& code, Frame& frame) {
-  if (code.math != nullptr) return call_math(code, frame);
-  return code.builtin(code, frame);
 }
 
 Value report_unknown(const CallCode& code, Frame& frame) {
@@ -280,14 +256,14 @@ Value run_call_function(const Expression& expression, Frame& frame) {
 Value run_call_math(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
   const ActiveCall active(code, frame);
-  return call_math(code, frame);
+  return code.builtin(code, frame);
 }
 
 Value run_call_builtin(const Expression& expression, Frame& frame) {
   const auto& code = as<CallCode>(expression);
   frame.in.check_depth(code.range, "function", code.name, frame.document);
   const ActiveCall active(code, frame);
-  return call_builtin(code, frame);
+  return code.builtin(code, frame);
 }
 
 Value run_call_unknown(const Expression& expression, Frame& frame) {
@@ -318,9 +294,7 @@ Value run_call_value(const Expression& expression, Frame& frame) {
     return Value();
   }
   if (code.function != nullptr) return call_function(code, frame);
-  if (code.builtin != nullptr || code.math != nullptr) {
-    return call_builtin(code, frame);
-  }
+  if (code.builtin != nullptr) return code.builtin(code, frame);
   return report_unknown(code, frame);
 }
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/run/expression.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/object.h"
-#include "csg/eval/run/expression.h"
 
 namespace lamina::csg {
 

@@ -27,9 +27,9 @@ Value run_assert_expression(const Expression& expression, Frame& frame);
 Value run_function_literal(const Expression& expression, Frame& frame);
 
 // The functions that run an operator.
-Expression::Run unary_runner(ast::UnaryOp op);
-Expression::Run binary_runner(ast::BinaryOp op, const Expression& left,
-                              const Expression& right);
+Expression::Runner unary_runner(ast::UnaryOp op);
+Expression::Runner binary_runner(ast::BinaryOp op, const Expression& left,
+                                 const Expression& right);
 
 // A call by a name that only a function can have: a user's function, a
 // built-in one of one number, any other built-in one, none.

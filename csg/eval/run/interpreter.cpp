@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <sanitizer/asan_interface.h>
 
-#include "csg/eval/resolve/resolver.h"
-
 namespace lamina::csg {
 
 namespace {
@@ -20,12 +18,16 @@ std::uintptr_t lowest_stack(std::uintptr_t highest, std::size_t bytes) {
 }
 }  // namespace
 
-Interpreter::Interpreter(Resolver& resolver, const EvaluateOptions& options,
+Interpreter::Interpreter(LazyResolver& resolver, DynamicNames& names,
+                         const FileAccess& access,
+                         const EvaluateOptions& options,
                          Diagnostics& diagnostics,
                          std::pmr::monotonic_buffer_resource& arena,
                          std::pmr::monotonic_buffer_resource& calls)
     : random(options.seed),
       resolver_(resolver),
+      names_(names),
+      access_(access),
       options_(options),
       diagnostics_(diagnostics),
       arena_(arena),
@@ -33,7 +35,9 @@ Interpreter::Interpreter(Resolver& resolver, const EvaluateOptions& options,
       stack_begin_(
           reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0))),
       stack_limit_(lowest_stack(stack_begin_, options.stack_bytes)),
-      steps_left_(options.max_steps) {}
+      steps_left_(options.max_steps) {
+  make_room();
+}
 
 // Boxes in cycles die here: empty each, and the closures inside let go.
 Interpreter::~Interpreter() {
@@ -148,10 +152,12 @@ void Interpreter::fail_steps() {
 
 // --- Variables --------------------------------------------------------------
 
-void Interpreter::grow_dynamic() {
-  if (dynamic_.size() < resolver_.dynamic_count()) {
-    dynamic_.resize(resolver_.dynamic_count(), Value::unset());
-  }
+void Interpreter::make_room() {
+  const CodeCounts counts = resolver_.counts();
+  dynamic_.resize(names_.size(), Value::unset());
+  unit_values_.resize(counts.units);
+  last_plans_.resize(counts.calls);
+  tail_values_.resize(counts.tail_defaults, Value::unset());
 }
 
 void Interpreter::bind_dynamic(std::uint32_t index, Value value) {
@@ -187,10 +193,9 @@ void Interpreter::assign_unusual(const Target& target, Value value,
 }
 
 void Interpreter::bind_module_depth() {
-  const std::int64_t index = resolver_.find_dynamic("$parent_modules");
-  if (index < 0) return;
-  bind_dynamic(static_cast<std::uint32_t>(index),
-               Value(static_cast<double>(module_names.size())));
+  const std::optional<std::uint32_t> index = names_.find("$parent_modules");
+  if (!index || *index >= dynamic_.size()) return;
+  bind_dynamic(*index, Value(static_cast<double>(module_names.size())));
 }
 
 Value Interpreter::make_box() {
@@ -206,38 +211,40 @@ void Interpreter::add_file(const std::string& path) {
   if (known_files_.insert(path).second) files_.push_back(path);
 }
 
-void Interpreter::find_plan(const CallCode& call,
-                            const FunctionLiteral& literal) {
-  call.literal_call = &resolver_.plan_for(call, literal);
-  call.planned_for = &literal;
-  grow_dynamic();
+const LiteralCall& Interpreter::find_plan(const CallCode& call,
+                                          const FunctionLiteral& literal) {
+  const LiteralCall& plan = resolver_.plan_for(call, literal);
+  make_room();
+  last_plans_[call.number] = {&literal, &plan};
+  return plan;
 }
 
 // --- Used files -------------------------------------------------------------
 
-Frame& Interpreter::enter_unit(Unit& unit) {
-  if (unit.frame != nullptr) {
-    for (const auto& [index, value] : unit.dynamic_values) {
+Frame& Interpreter::enter_unit(const Unit& unit) {
+  if (!unit.is_resolved) resolve(unit);
+  if (const UnitValues& known = unit_values_[unit.number];
+      known.frame != nullptr) {
+    for (const auto& [index, value] : known.dynamic_values) {
       bind_dynamic(index, value);
     }
-    return *unit.frame;
+    return *known.frame;
   }
-  resolver_.resolve(unit);
-  grow_dynamic();
   unit_frames_.push_back({Frame{*this}, {}});
   UnitFrame& made = unit_frames_.back();
-  made.slots.resize(unit.activation.slot_count, Value::unset());
+  made.slots.resize(unit.slot_count, Value::unset());
   made.frame.slots = made.slots.data();
   made.frame.document = unit.document;
   const std::uint64_t effects = effects_;
   const std::size_t mark = trail_.size();
   run_assignments(unit.body, made.frame);
   if (effects_ == effects) {
+    UnitValues& known = unit_values_[unit.number];
     for (std::size_t i = mark; i < trail_.size(); ++i) {
-      unit.dynamic_values.emplace_back(trail_[i].index,
-                                       dynamic_[trail_[i].index]);
+      known.dynamic_values.emplace_back(trail_[i].index,
+                                        dynamic_[trail_[i].index]);
     }
-    unit.frame = &made.frame;
+    known.frame = &made.frame;
   }
   return made.frame;
 }

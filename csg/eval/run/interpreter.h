@@ -13,15 +13,16 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/file/file_access.h"
 #include "csg/eval/code/code.h"
-#include "csg/eval/evaluator.h"
+#include "csg/eval/code/dynamic_names.h"
+#include "csg/eval/code/lazy_resolver.h"
+#include "csg/eval/run/evaluate_options.h"
 #include "csg/eval/run/random.h"
 #include "csg/eval/value/value.h"
 #include "csg/tree.h"
 
 namespace lamina::csg {
-
-class Resolver;
 
 // What messages call a call.
 inline std::string shown_name(const InstantiationCode& code) {
@@ -34,7 +35,13 @@ struct EvaluationFailure {};
 
 class Interpreter {
  public:
-  Interpreter(Resolver& resolver, const EvaluateOptions& options,
+  // The parts outlive it.
+  //
+  // names   of the `$` variables, which resolving may add to
+  // arena   for nodes
+  // calls   for the calls that nodes come from
+  Interpreter(LazyResolver& resolver, DynamicNames& names,
+              const FileAccess& access, const EvaluateOptions& options,
               Diagnostics& diagnostics,
               std::pmr::monotonic_buffer_resource& arena,
               std::pmr::monotonic_buffer_resource& calls);
@@ -126,20 +133,33 @@ class Interpreter {
   // --- Calls
   // The variables of a used file, assigned anew, as OpenSCAD does for every
   // call, unless its assignments depend on nothing outside.
-  Frame& enter_unit(Unit& unit);
+  Frame& enter_unit(const Unit& unit);
+  // Resolves what is called for the first time.
+  void ensure_resolved(const Function& function) {
+    if (function.body == nullptr) [[unlikely]]
+      resolve(function);
+  }
+  void ensure_resolved(const Module& module) {
+    if (!module.is_resolved) [[unlikely]]
+      resolve(module);
+  }
   const LiteralCall& plan_for(const CallCode& call,
                               const FunctionLiteral& literal) {
-    if (call.planned_for != &literal) find_plan(call, literal);
-    return *call.literal_call;
+    const LastPlan& last = last_plans_[call.number];
+    return last.literal == &literal ? *last.plan : find_plan(call, literal);
+  }
+  // The value of a jump's fallback; unset until `set_tail_value`.
+  const Value& tail_value(std::uint32_t number) const {
+    return tail_values_[number];
+  }
+  void set_tail_value(std::uint32_t number, Value value) {
+    tail_values_[number] = std::move(value);
   }
   // Whether this is the first time that the call at `range` asks.
   bool is_first_of_call(SourceRange range) {
     return calls_seen_.emplace(range.source, range.begin, range.end).second;
   }
-  Resolver& resolver() { return resolver_; }
-  // Makes room for `$` variables that resolving brought up.
-  void grow_dynamic();
-  std::size_t dynamic_count() const { return dynamic_.size(); }
+  DynamicNames& dynamic_names() { return names_; }
 
   // --- Nodes
   std::size_t node_mark() const { return nodes_.size(); }
@@ -169,6 +189,8 @@ class Interpreter {
   const Mat4* keep_matrix(const Mat4& matrix);
 
   // --- Files
+  // What the design may read.
+  const FileAccess& file_access() const { return access_; }
   // Remembers a path that a module or function names.
   void add_file(const std::string& path);
   std::vector<std::string> take_files() { return std::move(files_); }
@@ -203,10 +225,19 @@ class Interpreter {
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
   void unwind_trail(std::size_t mark);
-  void find_plan(const CallCode& call, const FunctionLiteral& literal);
-  void assign_unit(Unit& unit, Frame& frame);
+  template <typename Code>
+  [[gnu::noinline]] void resolve(const Code& code) {
+    resolver_.resolve(code);
+    make_room();
+  }
+  const LiteralCall& find_plan(const CallCode& call,
+                               const FunctionLiteral& literal);
+  // For what resolving brought up.
+  void make_room();
 
-  Resolver& resolver_;
+  LazyResolver& resolver_;
+  DynamicNames& names_;
+  const FileAccess& access_;
   const EvaluateOptions& options_;
   Diagnostics& diagnostics_;
   std::pmr::monotonic_buffer_resource& arena_;
@@ -236,6 +267,20 @@ class Interpreter {
     std::vector<Value> slots;
   };
   std::deque<UnitFrame> unit_frames_;
+  // Of a file whose assignments depend on nothing outside: its variables, and
+  // what it binds `$` variables to.
+  struct UnitValues {
+    Frame* frame = nullptr;
+    std::vector<std::pair<std::uint32_t, Value>> dynamic_values;
+  };
+  std::vector<UnitValues> unit_values_;
+  // How the arguments of a call met the function literal that it called last.
+  struct LastPlan {
+    const FunctionLiteral* literal = nullptr;
+    const LiteralCall* plan = nullptr;
+  };
+  std::vector<LastPlan> last_plans_;
+  std::vector<Value> tail_values_;
 };
 
 // A call while it runs. A failure that passes by takes a note of it, as

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "csg/eval/run/expression.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/operators.h"
-#include "csg/eval/run/expression.h"
 
 namespace lamina::csg {
 
@@ -46,7 +46,7 @@ Value run_bit_not(const Expression& expression, Frame& frame) {
 
 }  // namespace
 
-Expression::Run unary_runner(ast::UnaryOp op) {
+Expression::Runner unary_runner(ast::UnaryOp op) {
   switch (op) {
     case ast::UnaryOp::kNot:
       return run_not;
@@ -205,7 +205,7 @@ Value run_or(const Expression& expression, Frame& frame) {
 namespace {
 
 template <BinaryOp op, Reach left>
-Expression::Run runner_for(const Expression& right) {
+Expression::Runner runner_for(const Expression& right) {
   switch (reach_of(right)) {
     case Reach::kLocal:
       return run_binary<op, left, Reach::kLocal>;
@@ -218,7 +218,7 @@ Expression::Run runner_for(const Expression& right) {
   }
 }
 template <BinaryOp op>
-Expression::Run runner_for(const Expression& left, const Expression& right) {
+Expression::Runner runner_for(const Expression& left, const Expression& right) {
   switch (reach_of(left)) {
     case Reach::kLocal:
       return runner_for<op, Reach::kLocal>(right);
@@ -231,8 +231,8 @@ Expression::Run runner_for(const Expression& left, const Expression& right) {
 
 }  // namespace
 
-Expression::Run binary_runner(BinaryOp op, const Expression& left,
-                              const Expression& right) {
+Expression::Runner binary_runner(BinaryOp op, const Expression& left,
+                                 const Expression& right) {
   switch (op) {
     case BinaryOp::kOr:
       return run_or;

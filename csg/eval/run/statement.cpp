@@ -7,7 +7,6 @@
 
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/object.h"
-#include "csg/eval/resolve/resolver.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -97,12 +96,9 @@ void run_module_body(const Module& module, Frame& frame) {
 void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
   const auto& code = as<UserModuleCode>(instantiation);
   Interpreter& in = frame.in;
-  Module& module = *code.module;
+  const Module& module = *code.module;
   in.check_depth(module.range, "module", code.name, module.unit->document);
-  if (!module.is_resolved) {
-    in.resolver().resolve(module);
-    in.grow_dynamic();
-  }
+  in.ensure_resolved(module);
   const std::size_t mark = in.node_mark();
   // The children's assignments come first: arguments may use them.
   run_assignments(*code.block, frame);
@@ -130,6 +126,19 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
     run_module_body(module, callee);
   }
   in.make_node(Group{}, code, mark);
+}
+
+// --- Built-in modules -------------------------------------------------------
+
+void run_builtin_module(const InstantiationCode& instantiation, Frame& frame) {
+  const auto& code = as<BuiltinModuleCode>(instantiation);
+  if (!code.deprecated_for.empty()) {
+    frame.in.deprecate(code.range,
+                       fmt::format("The {}() module will be removed in future "
+                                   "releases. Use {} instead.",
+                                   code.name, code.deprecated_for));
+  }
+  code.handler(code, frame);
 }
 
 void run_unknown_module(const InstantiationCode& code, Frame& frame) {

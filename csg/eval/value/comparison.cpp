@@ -8,6 +8,7 @@
 
 #include "csg/eval/value/object.h"
 #include "csg/eval/value/undefined.h"
+#include "parser/ast_printer.h"
 
 namespace lamina::csg {
 
@@ -105,7 +106,7 @@ Value compare(BinaryOp op, const Value& left, const Value& right,
     default:
       reason.text =
           fmt::format("operation undefined ({} {} {})", type_name(left.type()),
-                      symbol(op), type_name(right.type()));
+                      ast::symbol(op), type_name(right.type()));
       return Value();
   }
 }
@@ -136,7 +137,7 @@ bool are_equal(const Value& left, const Value& right) {
     case Type::kObject:
       return are_equal_objects(left, right);
     default:
-      return left.is_same_object(right);
+      return left.is_identical(right);
   }
 }
 

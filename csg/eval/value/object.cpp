@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "csg/eval/code/code.h"
 #include "csg/eval/value/comparison.h"
+#include "parser/ast.h"
 
 namespace lamina::csg {
 
@@ -74,11 +74,11 @@ const Value* find(const Members& members, std::string_view key) {
 
 bool takes_this(const Value& value) {
   if (!value.is_function()) return false;
-  const std::span<const Parameter> parameters =
-      value.as_function().code->parameters;
+  const ast::Arguments parameters =
+      value.as_function().code->definition->parameters;
   return std::any_of(
       parameters.begin(), parameters.end(),
-      [](const Parameter& parameter) { return parameter.name == "this"; });
+      [](const ast::Argument& parameter) { return parameter.name == "this"; });
 }
 
 Value bind(const Value& function, const Value& object) {
@@ -106,7 +106,7 @@ Value find_member(const Value& object, std::string_view key) {
 // --- Comparing --------------------------------------------------------------
 
 bool are_equal_objects(const Value& left, const Value& right) {
-  if (left.is_same_object(right)) return true;
+  if (left.is_identical(right)) return true;
   const Members& a = left.as_object();
   const Members& b = right.as_object();
   if (!are_equal(a.keys, b.keys)) return false;
@@ -119,12 +119,12 @@ bool are_equal_objects(const Value& left, const Value& right) {
 }
 
 bool are_equal_functions(const Value& left, const Value& right) {
-  if (left.is_same_object(right)) return true;
+  if (left.is_identical(right)) return true;
   const Method* a = left.as_function().method.get();
   const Method* b = right.as_function().method.get();
   return a != nullptr && b != nullptr &&
-         a->function.is_same_object(b->function) &&
-         a->object.is_same_object(b->object);
+         a->function.is_identical(b->function) &&
+         a->object.is_identical(b->object);
 }
 
 }  // namespace lamina::csg

@@ -15,7 +15,7 @@
 
 namespace lamina::csg {
 
-struct Members : Object {
+struct Members : Counted {
   Value keys;    // a vector of strings
   Value values;  // a vector as long; functions are not bound
   std::unordered_map<std::string_view, std::uint32_t> places;  // views of keys

@@ -1,44 +1,9 @@
 #include "csg/eval/value/text.h"
 
-#include <array>
-#include <charconv>
-#include <cmath>
-
-#include "csg/eval/code/code.h"
 #include "csg/eval/value/object.h"
 #include "parser/ast_printer.h"
 
 namespace lamina::csg {
-
-namespace {
-
-// Whole numbers of up to six digits are most of all numbers and need no
-// general conversion.
-bool append_small_integer(double number, std::string& text) {
-  if (!(std::fabs(number) < 1e6)) return false;
-  const int integer = static_cast<int>(number);
-  if (integer != number) return false;
-  std::array<char, 16> digits;
-  const auto end = std::to_chars(digits.begin(), digits.end(), integer).ptr;
-  text.append(digits.begin(), end);
-  return true;
-}
-
-}  // namespace
-
-void append_stream_number(double number, std::string& text) {
-  if (!(number == 0 && std::signbit(number)) &&
-      append_small_integer(number, text)) {
-    return;
-  }
-  // As printf's %g.
-  constexpr int kDigits = 6;
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.begin(), digits.end(), number,
-                                 std::chars_format::general, kDigits)
-                       .ptr;
-  text.append(digits.begin(), end);
-}
 
 void append_text(const Value& value, std::string& text) {
   switch (value.type()) {
@@ -74,7 +39,7 @@ void append_text(const Value& value, std::string& text) {
       return;
     }
     case Type::kFunction:
-      text += value.as_function().code->text();
+      ast::append_expression(*value.as_function().code->definition, text);
       return;
     case Type::kObject: {
       const Members& members = value.as_object();

@@ -1,10 +1,5 @@
 #pragma once
 // Values as text: what `echo`, `str` and the `.csg` file show.
-//
-// OpenSCAD writes the numbers of values with double-conversion (six significant
-// digits, zeros at the end cut off: 1e+6) and those of most module parameters
-// with C++ streams (`%g`: 1e+06). Both are here, because a `.csg` file mixes
-// them.
 
 #include <string>
 
@@ -13,9 +8,6 @@
 #include "parser/ast.h"
 
 namespace lamina::csg {
-
-// Appends a number as C++ streams show it: 0.333333, 1e+06, inf, -nan, -0.
-void append_stream_number(double number, std::string& text);
 
 // Appends a value as `str` shows it: a string bare, but quoted inside a vector.
 void append_text(const Value& value, std::string& text);

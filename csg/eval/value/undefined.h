@@ -2,7 +2,6 @@
 // What operators say where an operation has no meaning.
 
 #include <string>
-#include <string_view>
 
 #include "csg/eval/value/value.h"
 #include "parser/ast.h"
@@ -16,9 +15,6 @@ struct Reason {
   // What OpenSCAD warns of before, naming no place; mostly empty.
   std::string said_before;
 };
-
-// As it is written: "<=". Empty for operators that are never undefined.
-std::string_view symbol(ast::BinaryOp op);
 
 // undef; leaves "undefined operation (number + string)" in `reason`.
 Value undefined(ast::BinaryOp op, const Value& left, const Value& right,

@@ -155,7 +155,7 @@ Value Value::range(double begin, double step, double end) {
 }
 
 const Members& Value::as_object() const {
-  return *static_cast<const Members*>(payload_.object);
+  return *static_cast<const Members*>(payload_.counted);
 }
 
 // --- Characters -----------------------------------------------------------
@@ -266,10 +266,10 @@ Value Value::with_appended(std::span<const Value> elements) const {
 // object, join the queue of what is to be freed.
 void Value::join(VectorBuffer*& dying) {
   if (is_object()) {
-    auto* members = static_cast<Members*>(payload_.object);
+    auto* members = static_cast<Members*>(payload_.counted);
     Value values = std::move(members->values);
     delete members;
-    if (--values.payload_.object->references == 0) values.join(dying);
+    if (--values.payload_.counted->references == 0) values.join(dying);
     values.type_ = Type::kUndef;
     return;
   }
@@ -287,10 +287,10 @@ void Value::destroy() {
       return;
     }
     case Type::kRange:
-      delete static_cast<Range*>(payload_.object);
+      delete static_cast<Range*>(payload_.counted);
       return;
     case Type::kFunction:
-      delete static_cast<Closure*>(payload_.object);
+      delete static_cast<Closure*>(payload_.counted);
       return;
     case Type::kBox:
       delete_box(&as_box());
@@ -307,7 +307,7 @@ void Value::destroy() {
     for (std::uint32_t i = 0; i < buffer->used; ++i) {
       Value& value = buffer->data()[i];
       if (!value.is_counted()) continue;
-      if (--value.payload_.object->references != 0) continue;
+      if (--value.payload_.counted->references != 0) continue;
       if (value.is_vector() || value.is_object()) {
         value.join(dying);
       } else {

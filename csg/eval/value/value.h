@@ -26,10 +26,13 @@
 #include <utility>
 #include <vector>
 
+namespace lamina::ast {
+struct FunctionLiteral;
+}
+
 namespace lamina::csg {
 
-struct FunctionLiteral;
-class Frame;
+class Frame;  // csg/eval/code: the variables of one activation
 
 enum class Type : std::uint8_t {
   kUnset,  // no value of the language: a variable not assigned yet
@@ -50,7 +53,7 @@ std::string_view type_name(Type type);
 class Value;
 
 // The counted part of a value. `references` counts the Values that point here.
-struct Object {
+struct Counted {
   std::uint32_t references = 1;
 };
 
@@ -63,7 +66,7 @@ struct CharacterIndex {
   std::uint32_t characters = 0;
 };
 
-struct StringBuffer : Object {
+struct StringBuffer : Counted {
   std::uint32_t capacity = 0;
   std::uint32_t used = 0;
   std::uint32_t ascii = 0;  // this many leading bytes are known to be ASCII
@@ -73,7 +76,7 @@ struct StringBuffer : Object {
   const char* data() const { return reinterpret_cast<const char*>(this + 1); }
 };
 
-struct VectorBuffer : Object {
+struct VectorBuffer : Counted {
   std::uint32_t capacity = 0;
   std::uint32_t used = 0;
   VectorBuffer* next_dying = nullptr;
@@ -83,7 +86,7 @@ struct VectorBuffer : Object {
 };
 
 // [begin : step : end].
-struct Range : Object {
+struct Range : Counted {
   double begin = 0;
   double step = 1;
   double end = 0;
@@ -114,7 +117,7 @@ class Value {
 
   Value(const Value& other)
       : type_(other.type_), length_(other.length_), payload_(other.payload_) {
-    if (is_counted()) ++payload_.object->references;
+    if (is_counted()) ++payload_.counted->references;
   }
   Value(Value&& other) noexcept
       : type_(other.type_), length_(other.length_), payload_(other.payload_) {
@@ -152,11 +155,11 @@ class Value {
   static Value numbers(std::span<const double> elements);
   static Value range(double begin, double step, double end);
   // Takes over the caller's count.
-  static Value adopt(Type type, Object* object, std::uint32_t length) {
+  static Value adopt(Type type, Counted* counted, std::uint32_t length) {
     Value value;
     value.type_ = type;
     value.length_ = length;
-    value.payload_.object = object;
+    value.payload_.counted = counted;
     return value;
   }
 
@@ -175,13 +178,15 @@ class Value {
   double as_number() const { return payload_.number; }
   bool as_bool() const { return payload_.boolean; }
   std::string_view as_string() const {
-    return {static_cast<const StringBuffer*>(payload_.object)->data(), length_};
+    return {static_cast<const StringBuffer*>(payload_.counted)->data(),
+            length_};
   }
   std::span<const Value> as_vector() const {
-    return {static_cast<const VectorBuffer*>(payload_.object)->data(), length_};
+    return {static_cast<const VectorBuffer*>(payload_.counted)->data(),
+            length_};
   }
   const Range& as_range() const {
-    return *static_cast<const Range*>(payload_.object);
+    return *static_cast<const Range*>(payload_.counted);
   }
   const Closure& as_function() const;
   const Members& as_object() const;
@@ -190,7 +195,7 @@ class Value {
   // Elements of a vector that no other value holds, to be overwritten; none of
   // any other value.
   std::span<Value> own_elements() {
-    if (!is_vector() || payload_.object->references != 1) return {};
+    if (!is_vector() || payload_.counted->references != 1) return {};
     return {vector_buffer().data(), length_};
   }
   // Elements of a vector; none for any other type.
@@ -227,35 +232,35 @@ class Value {
   Value with_appended(std::string_view text) const;
   Value with_appended(std::span<const Value> elements) const;
 
-  // Whether both are the very same object (functions compare so).
-  bool is_same_object(const Value& other) const {
-    return payload_.object == other.payload_.object;
+  // Whether both share one buffer or function (functions compare so).
+  bool is_identical(const Value& other) const {
+    return payload_.counted == other.payload_.counted;
   }
 
  private:
   bool is_counted() const { return type_ >= Type::kString; }
   void release() {
-    if (--payload_.object->references == 0) destroy();
+    if (--payload_.counted->references == 0) destroy();
   }
   void destroy();
   void join(VectorBuffer*& dying);
   StringBuffer& string_buffer() const {
-    return *static_cast<StringBuffer*>(payload_.object);
+    return *static_cast<StringBuffer*>(payload_.counted);
   }
   VectorBuffer& vector_buffer() const {
-    return *static_cast<VectorBuffer*>(payload_.object);
+    return *static_cast<VectorBuffer*>(payload_.counted);
   }
 
   union Payload {
     double number;
     bool boolean;
-    Object* object;
+    Counted* counted;
   };
 
   Type type_ = Type::kUndef;
   // Bytes of a string, elements of a vector, members of an object.
   std::uint32_t length_ = 0;
-  Payload payload_ = {.object = nullptr};
+  Payload payload_ = {.counted = nullptr};
 };
 static_assert(sizeof(Value) == 16);
 
@@ -263,7 +268,7 @@ static_assert(sizeof(Value) == 16);
 // its value after they were made, or several times. A function that calls
 // itself through such a variable is a cycle, which counts cannot free: so all
 // boxes stand in a list, and the evaluator empties them when it ends.
-struct Box : Object {
+struct Box : Counted {
   Value value = Value::unset();
   Box* previous = nullptr;
   Box* next = nullptr;
@@ -276,20 +281,26 @@ struct Method {
   Value object;
 };
 
+// The code of a function value, as far as values look at it. What runs it is
+// the FunctionLiteral of csg/eval/code, made of this.
+struct FunctionCode {
+  const ast::FunctionLiteral* definition = nullptr;
+};
+
 // A function value: its code and the variables that it took along.
-struct Closure : Object {
-  const FunctionLiteral* code = nullptr;
+struct Closure : Counted {
+  const FunctionCode* code = nullptr;
   Frame* link = nullptr;  // variables of the module or file around it
   std::vector<Value> captured;
   std::unique_ptr<const Method> method;  // mostly null
 };
 
 inline const Closure& Value::as_function() const {
-  return *static_cast<const Closure*>(payload_.object);
+  return *static_cast<const Closure*>(payload_.counted);
 }
 
 inline Box& Value::as_box() const {
-  return *static_cast<Box*>(payload_.object);
+  return *static_cast<Box*>(payload_.counted);
 }
 
 // Takes a box out of its list and frees it.
