@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "csg/lower/detail/mend.h"
+#include "csg/lower/detail/repair.h"
 
 namespace lamina::csg {
 namespace {
@@ -20,21 +20,21 @@ std::string describe(const ClosedHole& hole) {
       hole.edge_count, center.x, center.y, center.z, size.x, size.y, size.z);
 }
 
-void report(const Mending& mending, std::size_t triangle_count,
+void report(const Repairs& repairs, std::size_t triangle_count,
             SourceRange range, Diagnostics& diagnostics) {
-  if (mending.turned_triangles > 0) {
+  if (repairs.turned_triangles > 0) {
     diagnostics.warning(
         range, fmt::format("The given mesh has faces of both orientations: "
                            "turned {} of {} triangles",
-                           mending.turned_triangles, triangle_count));
+                           repairs.turned_triangles, triangle_count));
   }
-  if (mending.repeated_triangles > 0) {
+  if (repairs.repeated_triangles > 0) {
     diagnostics.warning(
         range, fmt::format("The given mesh has faces more than once: dropped "
                            "{} of {} triangles",
-                           mending.repeated_triangles, triangle_count));
+                           repairs.repeated_triangles, triangle_count));
   }
-  const std::vector<ClosedHole>& holes = mending.closed_holes;
+  const std::vector<ClosedHole>& holes = repairs.closed_holes;
   if (holes.empty()) return;
   std::vector<Note> notes;
   for (std::size_t i = 0; i < std::min(holes.size(), kMostListedHoles); ++i) {
@@ -49,10 +49,10 @@ void report(const Mending& mending, std::size_t triangle_count,
 
 }  // namespace
 
-void mend_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
+void repair_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
                      Vertices vertices) {
   const std::size_t triangle_count = mesh.triangles.size();
-  report(mend(mesh, vertices), triangle_count, range, diagnostics);
+  report(repair(mesh, vertices), triangle_count, range, diagnostics);
 }
 
 }  // namespace lamina::csg

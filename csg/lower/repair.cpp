@@ -1,4 +1,4 @@
-// Mending on a table of edges.
+// Repairs on a table of edges.
 //
 // Here a mesh is only a list of triangles and a sorted table of their edges,
 // which anything fits, and "closed" is a sum: as many a→b as b→a. Holes are
@@ -9,7 +9,7 @@
 // out without the table, by a sum in which matched edges cancel, and nothing is
 // repaired.
 
-#include "csg/lower/detail/mend.h"
+#include "csg/lower/detail/repair.h"
 
 #include <algorithm>
 #include <numeric>
@@ -274,31 +274,31 @@ void drop_unused_vertices(Mesh& mesh) {
 }
 
 // What is needed where a mesh is not closed.
-void repair(Mesh& mesh, Mending& mending) {
+void repair_open(Mesh& mesh, Repairs& repairs) {
   if (EdgeTable(mesh).is_open()) {
     merge_near_vertices(mesh);
-    mending.dropped_triangles += drop_degenerate(mesh);
+    repairs.dropped_triangles += drop_degenerate(mesh);
   }
-  mending.turned_triangles = orient(mesh);
-  mending.repeated_triangles = drop_repeated(mesh);
-  mending.closed_holes = close_holes(mesh);
+  repairs.turned_triangles = orient(mesh);
+  repairs.repeated_triangles = drop_repeated(mesh);
+  repairs.closed_holes = close_holes(mesh);
 }
 
 }  // namespace
 
-Mending mend(Mesh& mesh, Vertices vertices) {
-  Mending mending;
+Repairs repair(Mesh& mesh, Vertices vertices) {
+  Repairs repairs;
   if (vertices != Vertices::kJoined) merge_equal_vertices(mesh);
-  mending.dropped_triangles = drop_degenerate(mesh);
+  repairs.dropped_triangles = drop_degenerate(mesh);
   const bool was_closed = is_closed(mesh);
-  if (!was_closed) repair(mesh, mending);
+  if (!was_closed) repair_open(mesh, repairs);
   const bool is_joined = vertices == Vertices::kJoined && was_closed &&
-                         mending.dropped_triangles == 0;
+                         repairs.dropped_triangles == 0;
   if (!is_joined) drop_unused_vertices(mesh);
   if (signed_volume(mesh) < 0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }
-  return mending;
+  return repairs;
 }
 
 }  // namespace lamina::csg
