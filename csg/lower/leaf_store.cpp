@@ -31,7 +31,6 @@ Leaf make_leaf(Loft loft) {
   require_triangles(triangle_count(loft));
   Leaf leaf;
   leaf.lofts.push_back(std::move(loft));
-  leaf.loft_is_cavity.push_back(false);
   leaf.box = bound_leaf(leaf, Affine(1.0));
   return leaf;
 }
@@ -77,7 +76,8 @@ std::uint64_t hash(const Leaf& leaf) {
 }
 
 bool are_equal(const Loft& a, const Loft& b) {
-  return a.is_closed_profile == b.is_closed_profile && a.profile == b.profile &&
+  return a.is_closed_profile == b.is_closed_profile &&
+         a.is_cavity == b.is_cavity && a.profile == b.profile &&
          (a.outline == b.outline || *a.outline == *b.outline);
 }
 
@@ -90,7 +90,6 @@ bool are_equal(const Leaf& a, const Leaf& b) {
     return are_equal(x, y);
   };
   return a.may_overlap_itself == b.may_overlap_itself &&
-         a.loft_is_cavity == b.loft_is_cavity &&
          std::equal(a.lofts.begin(), a.lofts.end(), b.lofts.begin(),
                     b.lofts.end(), equal) &&
          std::equal(a.meshes.begin(), a.meshes.end(), b.meshes.begin(),
