@@ -46,6 +46,8 @@ struct Loft {
 struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  bool operator==(const Mesh&) const = default;
 };
 
 // A closed solid in its own coordinates. Its surface is all its lofts and

@@ -81,19 +81,12 @@ bool are_equal(const Loft& a, const Loft& b) {
          (a.outline == b.outline || *a.outline == *b.outline);
 }
 
-bool are_equal(const Mesh& a, const Mesh& b) {
-  return a.vertices == b.vertices && a.triangles == b.triangles;
-}
-
 bool are_equal(const Leaf& a, const Leaf& b) {
-  const auto equal = [](const auto& x, const auto& y) {
-    return are_equal(x, y);
-  };
   return a.may_overlap_itself == b.may_overlap_itself &&
-         std::equal(a.lofts.begin(), a.lofts.end(), b.lofts.begin(),
-                    b.lofts.end(), equal) &&
-         std::equal(a.meshes.begin(), a.meshes.end(), b.meshes.begin(),
-                    b.meshes.end(), equal);
+         std::equal(
+             a.lofts.begin(), a.lofts.end(), b.lofts.begin(), b.lofts.end(),
+             [](const Loft& x, const Loft& y) { return are_equal(x, y); }) &&
+         a.meshes == b.meshes;
 }
 
 }  // namespace

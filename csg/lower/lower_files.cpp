@@ -43,7 +43,7 @@ Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
     }
   }
   repair_and_report(mesh, range, diagnostics,
-                  raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
+                    raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
   return mesh;
 }
 

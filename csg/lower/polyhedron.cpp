@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "csg/lower/detail/face.h"
-#include "csg/lower/detail/repair.h"
 #include "csg/lower/detail/points.h"
+#include "csg/lower/detail/repair.h"
 
 namespace lamina::csg {
 namespace {

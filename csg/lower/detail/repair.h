@@ -38,9 +38,9 @@ enum class Vertices : std::uint8_t { kAnyhow, kJoined };
 // whole.
 Repairs repair(Mesh& mesh, Vertices vertices = Vertices::kAnyhow);
 
-// Repairs the mesh, and warns of what was wrong: one warning for each kind of defect, with
-// what was done as notes.
+// Repairs the mesh, and warns of what was wrong: one warning for each kind of
+// defect, with what was done as notes.
 void repair_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
-                     Vertices vertices = Vertices::kAnyhow);
+                       Vertices vertices = Vertices::kAnyhow);
 
 }  // namespace lamina::csg
