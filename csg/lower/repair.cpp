@@ -1,4 +1,4 @@
-// Mending on a table of edges.
+// Repairs on a table of edges.
 //
 // Here a mesh is only a list of triangles and a sorted table of their edges,
 // which anything fits, and "closed" is a sum: as many a→b as b→a. Holes are
@@ -9,13 +9,15 @@
 // out without the table, by a sum in which matched edges cancel, and nothing is
 // repaired.
 
-#include "csg/lower/detail/mend.h"
+#include "csg/lower/detail/repair.h"
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/leaf_mesh.h"
@@ -274,31 +276,78 @@ void drop_unused_vertices(Mesh& mesh) {
 }
 
 // What is needed where a mesh is not closed.
-void repair(Mesh& mesh, Mending& mending) {
+void repair_open(Mesh& mesh, Repairs& repairs) {
   if (EdgeTable(mesh).is_open()) {
     merge_near_vertices(mesh);
-    mending.dropped_triangles += drop_degenerate(mesh);
+    repairs.dropped_triangles += drop_degenerate(mesh);
   }
-  mending.turned_triangles = orient(mesh);
-  mending.repeated_triangles = drop_repeated(mesh);
-  mending.closed_holes = close_holes(mesh);
+  repairs.turned_triangles = orient(mesh);
+  repairs.repeated_triangles = drop_repeated(mesh);
+  repairs.closed_holes = close_holes(mesh);
+}
+
+// --- Report -----------------------------------------------------------------
+
+// More holes than this are counted, not listed.
+constexpr std::size_t kMostListedHoles = 8;
+
+std::string describe(const ClosedHole& hole) {
+  const Vec3 center = (hole.box.low + hole.box.high) / 2.0;
+  const Vec3 size = hole.box.high - hole.box.low;
+  return fmt::format(
+      "closed a hole of {} edges around [{:.6g}, {:.6g}, {:.6g}], "
+      "{:.6g} x {:.6g} x {:.6g} mm",
+      hole.edge_count, center.x, center.y, center.z, size.x, size.y, size.z);
+}
+
+void report(const Repairs& repairs, std::size_t triangle_count,
+            SourceRange range, Diagnostics& diagnostics) {
+  if (repairs.turned_triangles > 0) {
+    diagnostics.warning(
+        range, fmt::format("The given mesh has faces of both orientations: "
+                           "turned {} of {} triangles",
+                           repairs.turned_triangles, triangle_count));
+  }
+  if (repairs.repeated_triangles > 0) {
+    diagnostics.warning(
+        range, fmt::format("The given mesh has faces more than once: dropped "
+                           "{} of {} triangles",
+                           repairs.repeated_triangles, triangle_count));
+  }
+  const std::vector<ClosedHole>& holes = repairs.closed_holes;
+  if (holes.empty()) return;
+  std::vector<Note> notes;
+  for (std::size_t i = 0; i < std::min(holes.size(), kMostListedHoles); ++i) {
+    notes.push_back({range, describe(holes[i])});
+  }
+  if (holes.size() > kMostListedHoles) {
+    notes.push_back({range, fmt::format("and {} more holes",
+                                        holes.size() - kMostListedHoles)});
+  }
+  diagnostics.warning(range, "The given mesh is not closed!", std::move(notes));
 }
 
 }  // namespace
 
-Mending mend(Mesh& mesh, Vertices vertices) {
-  Mending mending;
+Repairs repair(Mesh& mesh, Vertices vertices) {
+  Repairs repairs;
   if (vertices != Vertices::kJoined) merge_equal_vertices(mesh);
-  mending.dropped_triangles = drop_degenerate(mesh);
+  repairs.dropped_triangles = drop_degenerate(mesh);
   const bool was_closed = is_closed(mesh);
-  if (!was_closed) repair(mesh, mending);
+  if (!was_closed) repair_open(mesh, repairs);
   const bool is_joined = vertices == Vertices::kJoined && was_closed &&
-                         mending.dropped_triangles == 0;
+                         repairs.dropped_triangles == 0;
   if (!is_joined) drop_unused_vertices(mesh);
   if (signed_volume(mesh) < 0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }
-  return mending;
+  return repairs;
+}
+
+void repair_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
+                       Vertices vertices) {
+  const std::size_t triangle_count = mesh.triangles.size();
+  report(repair(mesh, vertices), triangle_count, range, diagnostics);
 }
 
 }  // namespace lamina::csg

@@ -17,7 +17,7 @@ struct ClosedHole {
 };
 
 // What was found wrong. Nothing for a sound mesh.
-struct Mending {
+struct Repairs {
   std::size_t dropped_triangles = 0;   // of no area: a corner stands twice
   std::size_t turned_triangles = 0;    // against their neighbours
   std::size_t repeated_triangles = 0;  // dropped: there twice
@@ -36,11 +36,11 @@ enum class Vertices : std::uint8_t { kAnyhow, kJoined };
 // edges of more than two. Otherwise each component keeps the direction of most
 // of its triangles. A mesh whose volume comes out negative is turned as a
 // whole.
-Mending mend(Mesh& mesh, Vertices vertices = Vertices::kAnyhow);
+Repairs repair(Mesh& mesh, Vertices vertices = Vertices::kAnyhow);
 
-// Mends, and warns of what was wrong: one warning for each kind of defect, with
-// what was done as notes.
-void mend_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
-                     Vertices vertices = Vertices::kAnyhow);
+// Repairs the mesh, and warns of what was wrong: one warning for each kind of
+// defect, with what was done as notes.
+void repair_and_report(Mesh& mesh, SourceRange range, Diagnostics& diagnostics,
+                       Vertices vertices = Vertices::kAnyhow);
 
 }  // namespace lamina::csg
