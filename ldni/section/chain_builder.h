@@ -1,7 +1,7 @@
 #pragma once
 // Cuts closed loops at their turns into x-monotone chains.
 //
-// An edge that is vertical, or as good as (|dx| < kColumnWidth), belongs to no
+// An edge that is vertical, or as good as (|dx| < kClusterWidth), belongs to no
 // chain: rounding would otherwise give it a direction, and a wall that two
 // leaves share would become two steep chains that cross. Its ends get one x,
 // exactly, so that the chain before and the chain after it meet in one column
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/leaf_section.h"
+#include "ldni/section/chains.h"
 
-namespace lamina::ldni::detail {
+namespace lamina::ldni {
 
 class ChainBuilder {
  public:
@@ -55,4 +55,4 @@ class ChainBuilder {
   std::uint32_t last_chain_count_ = 0;      // of the loop closed last
 };
 
-}  // namespace lamina::ldni::detail
+}  // namespace lamina::ldni

@@ -1,4 +1,4 @@
-#include "ldni/section/detail/relevance.h"
+#include "ldni/section/detail/csg_pruning.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,32 +15,32 @@ using csg::BooleanOp;
 
 constexpr std::uint64_t kMostQuestions = 64;
 
-TEST(Relevance, LeavesOutWhatASubtrahendDoesNotReach) {
+TEST(CsgPruning, LeavesOutWhatASubtrahendDoesNotReach) {
   SceneBuilder builder(BooleanOp::kDifference);
   builder.add(cube_leaf({1, 1, 1}));
   builder.add(cube_leaf({1, 1, 1}), translated({0.5, 0, 0}));
   builder.add(cube_leaf({1, 1, 1}), translated({5, 0, 0}));
   const csg::Scene scene = builder.finish();
-  Relevance relevance(scene);
-  EXPECT_TRUE(relevance.matters(0));
-  EXPECT_TRUE(relevance.matters(1));
-  EXPECT_FALSE(relevance.matters(2));
+  CsgPruning pruning(scene);
+  EXPECT_TRUE(pruning.matters(0));
+  EXPECT_TRUE(pruning.matters(1));
+  EXPECT_FALSE(pruning.matters(2));
 }
 
 // However deep the operators are nested, an answer asks few of them.
 void expect_few_questions(const csg::Scene& scene) {
-  Relevance relevance(scene);
+  CsgPruning pruning(scene);
   std::uint64_t most = 0;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const std::uint64_t before = relevance.questions();
-    relevance.matters(i);
-    most = std::max(most, relevance.questions() - before);
+    const std::uint64_t before = pruning.questions();
+    pruning.matters(i);
+    most = std::max(most, pruning.questions() - before);
   }
   EXPECT_LE(most, kMostQuestions);
 }
 
 // Within each difference the next one is listed before its own leaf.
-TEST(Relevance, AsksFewOfNestedDifferences) {
+TEST(CsgPruning, AsksFewOfNestedDifferences) {
   SceneBuilder builder(BooleanOp::kDifference);
   for (int i = 0; i < 2000; ++i) {
     builder.add(cube_leaf({1, 1, 1}));
@@ -52,7 +52,7 @@ TEST(Relevance, AsksFewOfNestedDifferences) {
 }
 
 // Operators with many children are climbed without a look at these.
-TEST(Relevance, ClimbsFewOfNestedUnions) {
+TEST(CsgPruning, ClimbsFewOfNestedUnions) {
   SceneBuilder builder;
   for (int i = 0; i < 200; ++i) {
     for (int k = 0; k < 40; ++k) builder.add(cube_leaf({1, 1, 1}));

@@ -1,4 +1,4 @@
-#include "ldni/section/detail/relevance.h"
+#include "ldni/section/detail/csg_pruning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ bool rises(const std::vector<Vec2>& profile) {
 // In coordinates of the leaf the section of a loft at a height is its outline
 // times a scale, so it lies within outer · scale of the axis and holds all
 // within inner · scale.
-struct Relevance::Body {
+struct CsgPruning::Body {
   Body(const csg::Instance& instance, const csg::Leaf& leaf) {
     const glm::dmat3 linear(instance.world_from_leaf);
     if (leaf.lofts.size() != 1 || !leaf.meshes.empty() ||
@@ -105,13 +105,13 @@ struct Relevance::Body {
   double outer = 0;
 };
 
-Relevance::Relevance(const csg::Scene& scene) : scene_(scene) {
+CsgPruning::CsgPruning(const csg::Scene& scene) : scene_(scene) {
   list_children();
 }
 
-Relevance::~Relevance() = default;
+CsgPruning::~CsgPruning() = default;
 
-void Relevance::list_children() {
+void CsgPruning::list_children() {
   const auto node_count = static_cast<std::uint32_t>(scene_.program.size());
   const auto is_listed = [this](std::uint32_t node) {
     return scene_.program[node].child_count <= kMostChildren;
@@ -138,7 +138,7 @@ void Relevance::list_children() {
   }
 }
 
-bool Relevance::matters(std::uint32_t instance) {
+bool CsgPruning::matters(std::uint32_t instance) {
   const csg::Instance& leaf = scene_.instances[instance];
   Box3 box = leaf.box;
   box.low -= kMargin;
@@ -168,7 +168,7 @@ bool Relevance::matters(std::uint32_t instance) {
   }
 }
 
-std::int32_t Relevance::threshold(std::uint32_t node) const {
+std::int32_t CsgPruning::threshold(std::uint32_t node) const {
   const csg::BooleanNode& op = scene_.program[node];
   return op.op == csg::BooleanOp::kIntersection
              ? static_cast<std::int32_t>(op.child_count)
@@ -176,8 +176,8 @@ std::int32_t Relevance::threshold(std::uint32_t node) const {
 }
 
 // Of the children of an operator that hold, but for one.
-Relevance::Count Relevance::count(std::uint32_t node, const Child& left_out,
-                                  const Box3& box) {
+CsgPruning::Count CsgPruning::count(std::uint32_t node, const Child& left_out,
+                                    const Box3& box) {
   Count sum;
   const std::uint32_t begin = node == 0 ? 0 : ends_[node - 1];
   for (std::uint32_t i = begin; i < ends_[node]; ++i) {
@@ -188,7 +188,7 @@ Relevance::Count Relevance::count(std::uint32_t node, const Child& left_out,
 }
 
 // 0, 1, or from 0 to 1.
-Relevance::Count Relevance::value(const Child& child, const Box3& box) {
+CsgPruning::Count CsgPruning::value(const Child& child, const Box3& box) {
   if (questions_ == last_question_) return {0, 1};
   ++questions_;
   if (child.is_instance) return value_of_leaf(child.number, box);
@@ -198,8 +198,8 @@ Relevance::Count Relevance::value(const Child& child, const Box3& box) {
   return {sum.low >= needed ? 1 : 0, sum.high >= needed ? 1 : 0};
 }
 
-Relevance::Count Relevance::value_of_leaf(std::uint32_t number,
-                                          const Box3& box) {
+CsgPruning::Count CsgPruning::value_of_leaf(std::uint32_t number,
+                                            const Box3& box) {
   const csg::Instance& instance = scene_.instances[number];
   for (int axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > instance.box.high[axis] ||

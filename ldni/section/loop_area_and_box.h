@@ -1,5 +1,5 @@
 #pragma once
-// What is asked of all points of a loop, for one way past them.
+// The area and the box of a loop, summed up in one pass over its points.
 
 #include <algorithm>
 
@@ -29,14 +29,15 @@ class DoubledArea {
   Lanes products_ = both_lanes(0);
 };
 
-// The greatest coordinate of points, in magnitude [mm]; 0 of none.
-class Reach {
+// The box of the points added and of the origin [mm].
+class LoopBox {
  public:
   void add(const Vec2& point) {
     low_ = least(low_, lanes_of(point));
     high_ = greatest(high_, lanes_of(point));
   }
-  double value() const {
+  // In magnitude; 0 of no points.
+  double greatest_coordinate() const {
     const Lanes reach = greatest(high_, -low_);
     return std::max(reach[0], reach[1]);
   }

@@ -1,4 +1,4 @@
-#include "ldni/sweep/detail/turns.h"
+#include "ldni/sweep/detail/chain_endpoints.h"
 
 #include <algorithm>
 #include <array>
@@ -9,20 +9,20 @@ namespace lamina::ldni::detail {
 namespace {
 
 constexpr double kLargestKey = 4294967040.0;  // safely below 2^32
-// Up to so many turns comparing is faster; up to so many, four digits of 8 bits
-// are faster than three of 11, whose counts outnumber the turns.
+// Up to kSmall endpoints comparing is faster; up to kMedium four digits of 8
+// bits are faster than three of 11, whose counts outnumber the endpoints.
 constexpr std::size_t kSmall = 128;
 constexpr std::size_t kMedium = 4096;
 
-bool precedes(const Turn& a, const Turn& b) {
-  return a.x < b.x || (a.x == b.x && a.chain_and_end < b.chain_and_end);
+bool precedes(const ChainEndpoint& a, const ChainEndpoint& b) {
+  return a.x < b.x || (a.x == b.x && a.chain_and_side < b.chain_and_side);
 }
 
 }  // namespace
 
-// Digit by digit, the lowest first.
+// A radix sort, the lowest digit first.
 template <int kDigitBits>
-void TurnSorter::sort_keys() {
+void EndpointSorter::sort_keys() {
   constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
   other_keys_.resize(keys_.size());
   for (int shift = 0; shift < 32; shift += kDigitBits) {
@@ -43,9 +43,9 @@ void TurnSorter::sort_keys() {
   }
 }
 
-std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
-                                       std::span<const Vec2> points,
-                                       const LoneLoops& lone_loops) {
+std::span<const ChainEndpoint> EndpointSorter::sort(
+    std::span<const Chain> chains, std::span<const Vec2> points,
+    const LoneLoops& lone_loops) {
   unsorted_.clear();
   double low = 1e300;
   double high = -1e300;
@@ -73,7 +73,7 @@ std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
   for (std::uint32_t i = 0; i < keys_.size(); ++i) {
     keys_[i].rounded =
         static_cast<std::uint32_t>((unsorted_[i].x - low) * scale);
-    keys_[i].turn = i;
+    keys_[i].endpoint = i;
   }
   if (keys_.size() <= kMedium) {
     sort_keys<8>();
@@ -82,16 +82,16 @@ std::span<const Turn> TurnSorter::sort(std::span<const Chain> chains,
   }
   sorted_.resize(unsorted_.size());
   for (std::size_t i = 0; i < keys_.size(); ++i) {
-    sorted_[i] = unsorted_[keys_[i].turn];
+    sorted_[i] = unsorted_[keys_[i].endpoint];
   }
-  // Put right what rounding left.
+  // Repair the order of what rounding made equal.
   for (std::size_t i = 1; i < sorted_.size(); ++i) {
-    const Turn turn = sorted_[i];
+    const ChainEndpoint endpoint = sorted_[i];
     std::size_t k = i;
-    for (; k > 0 && precedes(turn, sorted_[k - 1]); --k) {
+    for (; k > 0 && precedes(endpoint, sorted_[k - 1]); --k) {
       sorted_[k] = sorted_[k - 1];
     }
-    sorted_[k] = turn;
+    sorted_[k] = endpoint;
   }
   return sorted_;
 }

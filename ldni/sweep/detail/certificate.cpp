@@ -1,9 +1,9 @@
-#include "ldni/sweep/detail/outlook.h"
+#include "ldni/sweep/detail/certificate.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "ldni/section/leaf_section.h"
+#include "ldni/section/chains.h"
 
 namespace lamina::ldni::detail {
 namespace {
@@ -36,7 +36,7 @@ class PairCursor {
     return true;
   }
 
-  // By more than the tie distance, all along the piece.
+  // By more than the tie distance, up to right().
   bool is_apart() const {
     return std::min(left_distance_, right_distance_) > tie_distance_;
   }
@@ -44,7 +44,7 @@ class PairCursor {
     return std::min(left_distance_, right_distance_) < -tie_distance_ &&
            std::max(left_distance_, right_distance_) > tie_distance_;
   }
-  bool touches_at_left() const { return left_distance_ < kColumnWidth; }
+  bool touches_at_left() const { return left_distance_ < kClusterWidth; }
   double crossing() const {
     const double t = left_distance_ / (left_distance_ - right_distance_);
     return std::clamp(left_ + t * (right_ - left_), left_, right_);
@@ -76,35 +76,35 @@ class PairCursor {
 
 }  // namespace
 
-Outlook look_ahead(const ChainCursor& lower, const ChainCursor& upper, double x,
-                   double limit, double tie_distance) {
+Certificate certify(const ChainCursor& lower, const ChainCursor& upper,
+                    double x, double limit, double tie_distance) {
   PairCursor pair(lower, upper, tie_distance);
-  Outlook outlook;
-  outlook.relation = pair.relation_at_left();
+  Certificate certificate;
+  certificate.relation = pair.relation_at_left();
   if (pair.crosses()) {
     const double crossing = pair.crossing();
     if (x < crossing) {
-      outlook.change = crossing;
-      return outlook;
+      certificate.failure = crossing;
+      return certificate;
     }
-    outlook.relation = -outlook.relation;  // the crossing is passed
+    certificate.relation = -certificate.relation;  // the crossing is passed
   }
-  if (outlook.relation < 0) return outlook;
+  if (certificate.relation < 0) return certificate;
   for (;;) {
     if (pair.right() > limit) {
-      outlook.horizon = pair.right();
-      return outlook;
+      certificate.valid_until = pair.right();
+      return certificate;
     }
-    if (!pair.step()) return outlook;
-    if (outlook.relation > 0 && pair.is_apart()) continue;
-    if (pair.relation_at_left() != outlook.relation ||
-        (outlook.relation > 0 && pair.touches_at_left())) {
-      outlook.change = pair.left();
-      return outlook;
+    if (!pair.step()) return certificate;
+    if (certificate.relation > 0 && pair.is_apart()) continue;
+    if (pair.relation_at_left() != certificate.relation ||
+        (certificate.relation > 0 && pair.touches_at_left())) {
+      certificate.failure = pair.left();
+      return certificate;
     }
     if (pair.crosses()) {
-      outlook.change = pair.crossing();
-      return outlook;
+      certificate.failure = pair.crossing();
+      return certificate;
     }
   }
 }

@@ -26,13 +26,13 @@
 
 namespace lamina::ldni::detail {
 
-class Relevance {
+class CsgPruning {
  public:
   // The scene must outlive the object.
-  explicit Relevance(const csg::Scene& scene);
-  ~Relevance();
-  Relevance(const Relevance&) = delete;
-  Relevance& operator=(const Relevance&) = delete;
+  explicit CsgPruning(const csg::Scene& scene);
+  ~CsgPruning();
+  CsgPruning(const CsgPruning&) = delete;
+  CsgPruning& operator=(const CsgPruning&) = delete;
 
   // Whether the result may depend on the instance. Asks few other leaves, so
   // that it costs little however many there are.

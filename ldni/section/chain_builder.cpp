@@ -1,9 +1,9 @@
-#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/chain_builder.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lamina::ldni::detail {
+namespace lamina::ldni {
 namespace {
 
 // A loop narrower than this [mm] is dropped whole, which no parity notices: it
@@ -32,10 +32,10 @@ Vec2* end_of_run(Vec2* point, const Vec2* last, int direction,
 // Gives the ends of an upright edge one x. Not where that could make another
 // edge upright, or where the edge is a repeated point: false.
 bool snap_alone(const Vec2& before, Vec2* edge, const Vec2& after) {
-  constexpr double kStaysWide = 2 * kColumnWidth;
+  constexpr double kStaysWide = 2 * kClusterWidth;
   if (std::abs(edge[0].x - before.x) < kStaysWide ||
       std::abs(edge[1].x - after.x) < kStaysWide ||
-      std::abs(edge[1].y - edge[0].y) < kColumnWidth) {
+      std::abs(edge[1].y - edge[0].y) < kClusterWidth) {
     return false;
   }
   edge[1].x = edge[0].x;
@@ -91,7 +91,7 @@ void ChainBuilder::snap_verticals() {
   // it, so that closing the loop meets no vertical edge.
   std::size_t start = 0;
   double widest = 0;
-  for (std::size_t i = 0; i < count && widest < 2 * kColumnWidth; ++i) {
+  for (std::size_t i = 0; i < count && widest < 2 * kClusterWidth; ++i) {
     const Vec2& before = loop_[i == 0 ? count - 1 : i - 1];
     const double width = std::abs(loop_[i].x - before.x);
     if (width > widest) {
@@ -102,9 +102,9 @@ void ChainBuilder::snap_verticals() {
   const auto take = [this](Vec2 point) {
     if (!snapped_.empty()) {
       const Vec2& last = snapped_.back();
-      if (std::abs(point.x - last.x) < kColumnWidth) {
+      if (std::abs(point.x - last.x) < kClusterWidth) {
         point.x = last.x;
-        if (std::abs(point.y - last.y) < kColumnWidth) return;
+        if (std::abs(point.y - last.y) < kClusterWidth) return;
       }
     }
     snapped_.push_back(point);
@@ -120,7 +120,7 @@ void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t instance,
   const std::size_t chains_before = chains_.size();
   const std::size_t size = loop_.size();
   // Vertical edges mostly stand alone.
-  if (size >= 3 && !cut(loop_, kColumnWidth, layer, chain, orientation)) {
+  if (size >= 3 && !cut(loop_, kClusterWidth, layer, chain, orientation)) {
     loop_.resize(size);
     if (is_wide()) {
       snap_verticals();
@@ -225,4 +225,4 @@ void ChainBuilder::finish(ChainBlock& block) {
   block_ = nullptr;
 }
 
-}  // namespace lamina::ldni::detail
+}  // namespace lamina::ldni
