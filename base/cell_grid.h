@@ -86,14 +86,14 @@ bool CellGrid::visit_rows(Vec2 a, Vec2 b, Vec2 reach,
   const Vec2 upper = a.y <= b.y ? b : a;
   const std::uint32_t first_row = row_of(lower.y - reach.y);
   const std::uint32_t last_row = row_of(upper.y + reach.y);
-  // What spans few rows may as well be taken whole in each.
-  const bool is_short = last_row - first_row < 2;
+  // What is level, or spans few rows, is taken whole in each.
+  const bool is_whole = last_row - first_row < 2 || lower.y == upper.y;
   const double slope =
-      upper.y > lower.y ? (upper.x - lower.x) / (upper.y - lower.y) : 0;
+      is_whole ? 0 : (upper.x - lower.x) / (upper.y - lower.y);
   for (std::uint32_t row = first_row; row <= last_row; ++row) {
     double x0 = lower.x;
     double x1 = upper.x;
-    if (!is_short) {
+    if (!is_whole) {
       // The part of the segment that comes near to this row.
       const double bottom = low_.y + row / cells_per_mm_.y - reach.y;
       const double top = low_.y + (row + 1) / cells_per_mm_.y + reach.y;

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "ldni/image/sample.h"
+#include "csg/tie_distance.h"
 #include "slicer/contour/layer.h"
 #include "tests/ldni/sweep/section_reference.h"
 #include "tests/oracle/exact_region.h"

@@ -32,7 +32,7 @@ std::ostream& operator<<(std::ostream& out, SamplerKind kind) {
   switch (kind) {
     case SamplerKind::kScanline:
       return out << "scanline";
-    case SamplerKind::kGlList:
+    case SamplerKind::kGl:
       return out << "gl";
     case SamplerKind::kGlPeeling:
       return out << "peeling";
@@ -52,7 +52,7 @@ std::unique_ptr<Sampler> make_sampler(SamplerKind kind, const csg::Scene& scene,
   }
   return std::make_unique<GlSampler>(
       scene, rays, layers,
-      shared_raster(kind == SamplerKind::kGlList ? GlMethod::kList
+      shared_raster(kind == SamplerKind::kGl ? GlMethod::kList
                                                  : GlMethod::kPeeling));
 }
 

@@ -6,11 +6,10 @@
 
 #include "csg/scene.h"
 #include "ldni/gl/face_raster.h"
+#include "ldni/image/paper_slicer.h"
 #include "ldni/image/sampler.h"
 
 namespace lamina::ldni {
-
-enum class SamplerKind { kScanline, kGlList, kGlPeeling };
 
 std::ostream& operator<<(std::ostream& out, SamplerKind kind);
 
