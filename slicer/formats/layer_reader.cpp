@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "slicer/formats/cli_reader.h"
-#include "slicer/formats/layers_json_reader.h"
+#include "slicer/formats/detail/cli_reader.h"
+#include "slicer/formats/detail/layers_json_reader.h"
+#include "slicer/formats/detail/reading.h"
+#include "slicer/formats/detail/svg_reader.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/formats/reading.h"
 #include "slicer/formats/slc_reader.h"
-#include "slicer/formats/svg_reader.h"
 
 namespace lamina::slicer {
 namespace {

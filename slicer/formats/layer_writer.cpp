@@ -1,12 +1,12 @@
 #include "slicer/formats/layer_writer.h"
 
 #include "base/check.h"
-#include "slicer/formats/cli_writer.h"
-#include "slicer/formats/image_stack_writer.h"
-#include "slicer/formats/layers_json_writer.h"
-#include "slicer/formats/slc_writer.h"
-#include "slicer/formats/svg_writer.h"
-#include "slicer/formats/threemf_writer.h"
+#include "slicer/formats/detail/cli_writer.h"
+#include "slicer/formats/detail/image_stack_writer.h"
+#include "slicer/formats/detail/layers_json_writer.h"
+#include "slicer/formats/detail/slc_writer.h"
+#include "slicer/formats/detail/svg_writer.h"
+#include "slicer/formats/detail/threemf_writer.h"
 
 namespace lamina::slicer {
 

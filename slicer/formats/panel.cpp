@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/diagnostic.h"
-#include "slicer/formats/known_panels.h"
+#include "slicer/formats/detail/known_panels.h"
 
 namespace lamina::slicer {
 namespace {

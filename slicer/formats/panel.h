@@ -7,9 +7,16 @@
 #include "base/file/file_access.h"
 #include "base/vec.h"
 #include "slicer/formats/coverage.h"
-#include "slicer/formats/grey_png.h"
 
 namespace lamina::slicer {
+
+// How pixels stand in a PNG file.
+enum class PixelLayout {
+  kGrey,  // 8 bits each
+  // Three neighbours are red, green and blue of one pixel: 8 bits each. The
+  // width must be a multiple of three.
+  kThreeInOne,
+};
 
 struct Panel {
   std::string name;

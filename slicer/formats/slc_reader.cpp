@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
-#include "slicer/formats/reading.h"
+#include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
 namespace {

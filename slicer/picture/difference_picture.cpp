@@ -8,8 +8,8 @@
 
 #include "csg/plane/clip.h"
 #include "csg/plane/region.h"
-#include "slicer/picture/drawing.h"
-#include "slicer/picture/lettering.h"
+#include "slicer/picture/detail/drawing.h"
+#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {

@@ -10,8 +10,8 @@
 #include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
-#include "slicer/picture/drawing.h"
-#include "slicer/picture/lettering.h"
+#include "slicer/picture/detail/drawing.h"
+#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "slicer/picture/drawing.h"
-#include "slicer/picture/lettering.h"
+#include "slicer/picture/detail/drawing.h"
+#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {

@@ -9,8 +9,8 @@
 #include <glm/matrix.hpp>
 
 #include "base/parallel.h"
-#include "slicer/picture/layer_distance.h"
-#include "slicer/picture/stack_points.h"
+#include "slicer/picture/detail/layer_distance.h"
+#include "slicer/picture/detail/stack_points.h"
 
 namespace lamina::slicer {
 namespace {

@@ -15,7 +15,7 @@
 #include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
-#include "slicer/picture/viewer_template.h"
+#include "slicer/picture/detail/viewer_template.h"
 
 namespace lamina::slicer {
 namespace {

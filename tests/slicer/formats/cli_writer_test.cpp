@@ -1,7 +1,7 @@
 // CLI, byte for byte, as the description of the format has it
 // (docs/formats.md).
 
-#include "slicer/formats/cli_writer.h"
+#include "slicer/formats/detail/cli_writer.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // Images for resin printers: what goes where on the panel, and when a folder
 // may be replaced. Their areas are checked in tests/formats.
 
-#include "slicer/formats/image_stack_writer.h"
+#include "slicer/formats/detail/image_stack_writer.h"
 
 #include <array>
 #include <cstdint>

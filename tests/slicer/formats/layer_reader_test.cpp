@@ -16,10 +16,10 @@
 #include <pugixml.hpp>
 
 #include "base/diagnostic.h"
-#include "slicer/formats/cli_writer.h"
-#include "slicer/formats/layers_json_writer.h"
-#include "slicer/formats/slc_writer.h"
-#include "slicer/formats/svg_writer.h"
+#include "slicer/formats/detail/cli_writer.h"
+#include "slicer/formats/detail/layers_json_writer.h"
+#include "slicer/formats/detail/slc_writer.h"
+#include "slicer/formats/detail/svg_writer.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/temporary_folder.h"
 

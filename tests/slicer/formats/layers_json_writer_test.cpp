@@ -1,4 +1,4 @@
-#include "slicer/formats/layers_json_writer.h"
+#include "slicer/formats/detail/layers_json_writer.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

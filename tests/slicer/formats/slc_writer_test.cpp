@@ -1,7 +1,7 @@
 // SLC, byte for byte. What stands here is spelled out from the description of
 // the format (docs/formats.md), not from what the writer once wrote.
 
-#include "slicer/formats/slc_writer.h"
+#include "slicer/formats/detail/slc_writer.h"
 
 #include <cmath>
 #include <optional>

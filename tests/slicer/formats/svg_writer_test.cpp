@@ -1,6 +1,6 @@
 // SVG in the layout of Slic3r, as docs/formats.md describes it.
 
-#include "slicer/formats/svg_writer.h"
+#include "slicer/formats/detail/svg_writer.h"
 
 #include <string>
 #include <vector>
