@@ -6,10 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "slicer/formats/detail/cli_reader.h"
-#include "slicer/formats/detail/layers_json_reader.h"
+#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
-#include "slicer/formats/detail/svg_reader.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/formats/slc_reader.h"
 
@@ -35,11 +33,9 @@ LayerFileFacts read_slc(const std::string& path, const TakeLayer& take,
   return facts;
 }
 
-using Read = LayerFileFacts (*)(const std::string& path, const TakeLayer& take,
-                                const FileAccess& access);
 struct Format {
   std::string_view ending;
-  Read read;
+  ReadLayers* read;
 };
 constexpr std::array<Format, 4> kFormats = {{
     {".slc", read_slc},
@@ -48,7 +44,7 @@ constexpr std::array<Format, 4> kFormats = {{
     {".layers.json", read_layers_json},
 }};
 
-Read reader_for(std::string_view path) {
+ReadLayers* reader_for(std::string_view path) {
   for (const Format& format : kFormats) {
     if (is_named(path, format.ending)) return format.read;
   }
@@ -85,7 +81,7 @@ bool is_readable_layer_file(std::string_view path) {
 
 LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
                            const FileAccess& access) {
-  const Read read = reader_for(path);
+  ReadLayers* const read = reader_for(path);
   if (read == nullptr) {
     fail_to_read(path,
                  "layers are read from .slc, .cli, .svg and .layers.json only");

@@ -1,4 +1,10 @@
-#include "slicer/formats/detail/cli_reader.h"
+// Reads CLI 2.0 files, ASCII and binary (docs/formats.md).
+//
+// Closed polylines become loops; hatches and open polylines are counted and
+// left out. A layer reaches from the one before up to its z. The first one
+// begins at the lower corner in the header, or else is as thick as the second.
+// If that corner lies at the first z itself, all layers are sections at their
+// z, without thickness.
 
 #include <algorithm>
 #include <array>
@@ -12,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

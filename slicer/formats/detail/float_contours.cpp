@@ -19,19 +19,6 @@ constexpr double kCoarse = 0x1p-10;
 
 }  // namespace
 
-double signed_area(std::span<const FloatPoint> closed_loop) {
-  // From the first point, so that the products stay exact where it is far off.
-  const FloatPoint origin = closed_loop.front();
-  double twice_area = 0;
-  for (std::size_t i = 1; i < closed_loop.size(); ++i) {
-    const FloatPoint a = closed_loop[i - 1];
-    const FloatPoint b = closed_loop[i];
-    twice_area += (double{a.x} - origin.x) * (double{b.y} - origin.y) -
-                  (double{a.y} - origin.y) * (double{b.x} - origin.x);
-  }
-  return twice_area / 2;
-}
-
 void FloatContours::take(const Layer& layer) {
   reach_ = std::max(reach_, ldni::greatest_coordinate(layer.contours.points));
   rounded_ = layer.contours;

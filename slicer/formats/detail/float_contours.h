@@ -1,9 +1,9 @@
 #pragma once
-// The contours of layers as SLC and CLI hold them: float32 numbers, every loop
-// closed by its first point.
+// The contours of layers in float32 numbers, as SLC, CLI, SVG and 3MF hold
+// them.
 //
-// Rounded so that loops stay simple and disjoint (round_loops.h). Remembers
-// what headers tell of all layers together.
+// They are rounded so that loops stay simple and disjoint (round_loops.h). What
+// headers say of all layers together is gathered on the way.
 
 #include <cstdint>
 #include <span>
@@ -21,23 +21,25 @@ namespace lamina::slicer {
 struct FloatPoint {
   float x;
   float y;
-  friend bool operator==(const FloatPoint&, const FloatPoint&) = default;
 };
-
-// The signed area [mm²] of a loop whose last point repeats its
-// first, positive where it runs counter-clockwise.
-double signed_area(std::span<const FloatPoint> closed_loop);
 
 class FloatContours {
  public:
   // Replaces the layer in hand.
   void take(const Layer& layer);
 
-  // Of the layer in hand. A loop's last point repeats its first.
+  // The loops of the layer in hand. The last point of loop() repeats its first;
+  // open_loop() is without it.
   std::size_t loop_count() const { return ends_.size(); }
   std::span<const FloatPoint> loop(std::size_t i) const {
     const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
     return {points_.data() + begin, ends_[i] - begin};
+  }
+  std::span<const FloatPoint> open_loop(std::size_t i) const {
+    return loop(i).first(loop(i).size() - 1);
+  }
+  bool is_hole(std::size_t i) const {
+    return ldni::signed_area(rounded_.loop(i)) < 0;
   }
 
   // Box of all layers taken; (0, 0) to (0, 0) where none had a loop.

@@ -12,14 +12,13 @@ static_assert(std::endian::native == std::endian::little,
               "SLC and CLI are little-endian and written as numbers lie in "
               "memory");
 
-void FloatWriter::check_rise(float before, double height,
-                             std::string_view format) const {
+void FloatWriter::check_rise(float before, double height) const {
   if (static_cast<float>(height) > before) return;
   throw FileError({Severity::kError,
                    {},
                    fmt::format("Can't write '{}': the layers at {} and {} mm "
                                "are one in {}'s 32-bit numbers",
-                               output_.path(), before, height, format),
+                               output_.path(), before, height, format_),
                    {}});
 }
 

@@ -1,4 +1,5 @@
-#include "slicer/formats/detail/layers_json_reader.h"
+// Reads .layers.json files (docs/formats.md). Unknown members are passed over;
+// the document is never in memory as a whole.
 
 #include <array>
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

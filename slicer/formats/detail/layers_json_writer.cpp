@@ -1,45 +1,65 @@
-#include "slicer/formats/detail/layers_json_writer.h"
+// Writes `.layers.json`: the layers for programs and tests, with every digit.
+//
+//   {"units":"mm","layers":[
+//   {"z":…,"bottom":…,"top":…,"contours":[{"hole":false,"points":[[x,y],…]}]}
+//   ]}
+//
+// z is the height of the section. Each layer has a line of its own; numbers are
+// the shortest that read back as the same double.
 
 #include <span>
 
 #include "base/file/text_output.h"
+#include "slicer/formats/detail/file_writer.h"
+#include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
 namespace {
 
-void write_loop(OutputFile& output, std::span<const Vec2> loop) {
-  const bool is_hole = ldni::signed_area(loop) < 0;
-  print(output, FMT_COMPILE("{{\"hole\":{},\"points\":["), is_hole);
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    if (i != 0) output.write(",");
-    print(output, FMT_COMPILE("[{},{}]"), loop[i].x, loop[i].y);
+class LayersJsonWriter : public FileWriter {
+ public:
+  LayersJsonWriter(const std::string& path, TemporaryFiles& temporary_files)
+      : FileWriter(path, temporary_files) {
+    output_.write("{\"units\":\"mm\",\"layers\":[");
   }
-  output.write("]}");
-}
+
+  void take(const Layer& layer) override {
+    output_.write(has_layers_ ? ",\n" : "\n");
+    has_layers_ = true;
+    print(output_,
+          FMT_COMPILE("{{\"z\":{},\"bottom\":{},\"top\":{},\"contours\":["),
+          layer.section_z, layer.bottom, layer.top);
+    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+      if (i != 0) output_.write(",");
+      write_loop(layer.contours.loop(i));
+    }
+    output_.write("]}");
+  }
+
+  void finish(Diagnostics& /*diagnostics*/) override {
+    output_.write("\n]}\n");
+  }
+
+ private:
+  void write_loop(std::span<const Vec2> loop) {
+    const bool is_hole = ldni::signed_area(loop) < 0;
+    print(output_, FMT_COMPILE("{{\"hole\":{},\"points\":["), is_hole);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      if (i != 0) output_.write(",");
+      print(output_, FMT_COMPILE("[{},{}]"), loop[i].x, loop[i].y);
+    }
+    output_.write("]}");
+  }
+
+  bool has_layers_ = false;
+};
 
 }  // namespace
 
-LayersJsonWriter::LayersJsonWriter(const std::string& path,
-                                   TemporaryFiles& temporary_files)
-    : FileWriter(path, temporary_files) {
-  output_.write("{\"units\":\"mm\",\"layers\":[");
-}
-
-void LayersJsonWriter::take(const Layer& layer) {
-  output_.write(has_layers_ ? ",\n" : "\n");
-  has_layers_ = true;
-  print(output_,
-        FMT_COMPILE("{{\"z\":{},\"bottom\":{},\"top\":{},\"contours\":["),
-        layer.section_z, layer.bottom, layer.top);
-  for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
-    if (i != 0) output_.write(",");
-    write_loop(output_, layer.contours.loop(i));
-  }
-  output_.write("]}");
-}
-
-void LayersJsonWriter::finish(Diagnostics& /*diagnostics*/) {
-  output_.write("\n]}\n");
+std::unique_ptr<LayerWriter> make_layers_json_writer(
+    const WriterOptions& /*options*/, const std::string& path,
+    TemporaryFiles& temporary_files) {
+  return std::make_unique<LayersJsonWriter>(path, temporary_files);
 }
 
 }  // namespace lamina::slicer

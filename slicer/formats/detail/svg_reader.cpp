@@ -1,4 +1,9 @@
-#include "slicer/formats/detail/svg_reader.h"
+// Reads layers from SVG files in the layout of Slic3r (docs/formats.md): a
+// group with slic3r:z for each layer, polygons of type contour and hole in it.
+//
+// Slic3r's own files differ from lamina's: y runs upwards there, coordinates
+// begin at the lower left corner of the part, and version 1.3 writes heights in
+// a millionth of millimetres.
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +16,7 @@
 #include <pugixml.hpp>
 
 #include "base/file/xml.h"
+#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

@@ -1,13 +1,24 @@
-#include "slicer/formats/detail/threemf_writer.h"
+// Writes 3MF with a stack of slices (Slice Extension 1.0.2; docs/formats.md).
+//
+// The package's XML goes straight into the archive, layer by layer, so memory
+// does not grow with the design; a library that builds the whole model first
+// would hold all layers (docs/decisions/0018-3mf-without-lib3mf.md). Every
+// reader needs a mesh: the box of all layers, marked as too coarse to slice.
+//
+// Coordinates are float32 (float_contours.h), as common readers hold them.
 
 #include <cstddef>
 #include <iterator>
+#include <span>
 #include <string_view>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "base/file/zip_output.h"
 #include "base/version.h"
+#include "slicer/formats/detail/float_writer.h"
+#include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
 namespace {
@@ -54,105 +65,125 @@ constexpr int kBoxTriangles[12][3] = {
 // 0 is added because -0 has a sign in print.
 float printed(float value) { return value + 0.0F; }
 
+class ThreemfWriter : public FloatWriter {
+ public:
+  // deviation  as WriterOptions has it
+  ThreemfWriter(const std::string& path, TemporaryFiles& temporary_files,
+                std::optional<double> deviation)
+      : FloatWriter("3MF", path, temporary_files),
+        deviation_(deviation),
+        archive_(output_) {
+    archive_.add_text("[Content_Types].xml", kContentTypes);
+    archive_.add_text("_rels/.rels", kRelationships);
+  }
+
+  // Throws FileError where two layers fall on the same float32 height.
+  void take(const Layer& layer) override {
+    if (!has_layers_) begin_stack(layer);
+    check_rise(top_z_, layer.top);
+    top_z_ = static_cast<float>(layer.top);
+    contours_.take(layer);
+    write_slice();
+  }
+
+ private:
+  void begin_stack(const Layer& first) {
+    has_layers_ = true;
+    bottom_z_ = top_z_ = static_cast<float>(first.bottom);
+    archive_.begin_text(kModel);
+    archive_.write(fmt::format(fmt::runtime(kModelHead), version()));
+    archive_.write(fmt::format("  <s:slicestack id=\"1\" zbottom=\"{}\">\n",
+                               printed(bottom_z_)));
+  }
+
+  // The layer in hand.
+  void write_slice() {
+    const float top = printed(top_z_);
+    text_.clear();
+    auto out = std::back_inserter(text_);
+    const std::size_t loops = contours_.loop_count();
+    if (loops == 0) {
+      fmt::format_to(out, FMT_COMPILE("   <s:slice ztop=\"{}\"/>\n"), top);
+      archive_.write(text_);
+      return;
+    }
+    fmt::format_to(out, FMT_COMPILE("   <s:slice ztop=\"{}\">\n<s:vertices>\n"),
+                   top);
+    for (std::size_t i = 0; i < loops; ++i) {
+      for (const FloatPoint& point : contours_.open_loop(i)) {
+        fmt::format_to(out, FMT_COMPILE("<s:vertex x=\"{}\" y=\"{}\"/>\n"),
+                       printed(point.x), printed(point.y));
+      }
+    }
+    text_ += "</s:vertices>\n";
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < loops; ++i) {
+      const std::size_t end = begin + contours_.open_loop(i).size();
+      fmt::format_to(out, FMT_COMPILE("<s:polygon startv=\"{}\">\n"), begin);
+      for (std::size_t vertex = begin + 1; vertex < end; ++vertex) {
+        fmt::format_to(out, FMT_COMPILE("<s:segment v2=\"{}\"/>\n"), vertex);
+      }
+      // Back to the first one.
+      fmt::format_to(out, FMT_COMPILE("<s:segment v2=\"{}\"/>\n</s:polygon>\n"),
+                     begin);
+      begin = end;
+    }
+    text_ += "   </s:slice>\n";
+    archive_.write(text_);
+  }
+
+  // The object that refers to the stack, with the box of all layers as its
+  // mesh.
+  std::string object() const {
+    std::string text =
+        "  <object id=\"2\" type=\"model\" s:slicestackid=\"1\" "
+        "s:meshresolution=\"lowres\"";
+    auto out = std::back_inserter(text);
+    if (deviation_) {
+      fmt::format_to(out, " name=\"contours within {:.6g} mm\"",
+                     *deviation_ + greatest_rounding());
+    }
+    text += ">\n   <mesh>\n    <vertices>\n";
+    const FloatPoint low = contours_.low();
+    const FloatPoint high = contours_.high();
+    for (int corner = 0; corner < 8; ++corner) {
+      fmt::format_to(out, "     <vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n",
+                     printed((corner & 1) != 0 ? high.x : low.x),
+                     printed((corner & 2) != 0 ? high.y : low.y),
+                     printed((corner & 4) != 0 ? top_z_ : bottom_z_));
+    }
+    text += "    </vertices>\n    <triangles>\n";
+    for (const auto& triangle : kBoxTriangles) {
+      fmt::format_to(out, "     <triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n",
+                     triangle[0], triangle[1], triangle[2]);
+    }
+    return text + "    </triangles>\n   </mesh>\n  </object>\n";
+  }
+
+  void end_file() override {
+    if (!has_layers_) begin_stack(Layer{});
+    archive_.write("  </s:slicestack>\n");
+    archive_.write(object());
+    archive_.write(kModelEnd);
+    archive_.end_entry();
+    archive_.finish();
+  }
+
+  const std::optional<double> deviation_;
+  ZipOutput archive_;
+  std::string text_;  // of the slice in hand
+  bool has_layers_ = false;
+  float bottom_z_ = 0;  // of the first layer
+  float top_z_ = 0;     // of the last one
+};
+
 }  // namespace
 
-ThreemfWriter::ThreemfWriter(const std::string& path,
-                             TemporaryFiles& temporary_files,
-                             std::optional<double> deviation)
-    : FloatWriter(path, temporary_files),
-      deviation_(deviation),
-      archive_(output_) {
-  archive_.add_text("[Content_Types].xml", kContentTypes);
-  archive_.add_text("_rels/.rels", kRelationships);
-}
-
-void ThreemfWriter::begin_stack(const Layer& first) {
-  has_layers_ = true;
-  bottom_z_ = top_z_ = static_cast<float>(first.bottom);
-  archive_.begin_text(kModel);
-  archive_.write(fmt::format(fmt::runtime(kModelHead), version()));
-  archive_.write(fmt::format("  <s:slicestack id=\"1\" zbottom=\"{}\">\n",
-                             printed(bottom_z_)));
-}
-
-void ThreemfWriter::take(const Layer& layer) {
-  if (!has_layers_) begin_stack(layer);
-  check_rise(top_z_, layer.top, "3MF");
-  top_z_ = static_cast<float>(layer.top);
-  contours_.take(layer);
-  write_slice(printed(top_z_));
-}
-
-void ThreemfWriter::write_slice(float top) {
-  text_.clear();
-  auto out = std::back_inserter(text_);
-  const std::size_t loops = contours_.loop_count();
-  if (loops == 0) {
-    fmt::format_to(out, FMT_COMPILE("   <s:slice ztop=\"{}\"/>\n"), top);
-    archive_.write(text_);
-    return;
-  }
-  fmt::format_to(out, FMT_COMPILE("   <s:slice ztop=\"{}\">\n<s:vertices>\n"),
-                 top);
-  for (std::size_t i = 0; i < loops; ++i) {
-    const std::span<const FloatPoint> loop = contours_.loop(i);
-    for (const FloatPoint& point : loop.first(loop.size() - 1)) {
-      fmt::format_to(out, FMT_COMPILE("<s:vertex x=\"{}\" y=\"{}\"/>\n"),
-                     printed(point.x), printed(point.y));
-    }
-  }
-  text_ += "</s:vertices>\n";
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < loops; ++i) {
-    const std::size_t end = begin + contours_.loop(i).size() - 1;
-    fmt::format_to(out, FMT_COMPILE("<s:polygon startv=\"{}\">\n"), begin);
-    for (std::size_t vertex = begin + 1; vertex < end; ++vertex) {
-      fmt::format_to(out, FMT_COMPILE("<s:segment v2=\"{}\"/>\n"), vertex);
-    }
-    // Back to the first one.
-    fmt::format_to(out, FMT_COMPILE("<s:segment v2=\"{}\"/>\n</s:polygon>\n"),
-                   begin);
-    begin = end;
-  }
-  text_ += "   </s:slice>\n";
-  archive_.write(text_);
-}
-
-// What refers to the stack: the box of its layers.
-std::string ThreemfWriter::object() const {
-  std::string text =
-      "  <object id=\"2\" type=\"model\" s:slicestackid=\"1\" "
-      "s:meshresolution=\"lowres\"";
-  auto out = std::back_inserter(text);
-  if (deviation_) {
-    fmt::format_to(out, " name=\"contours within {:.6g} mm\"",
-                   *deviation_ + greatest_rounding());
-  }
-  text += ">\n   <mesh>\n    <vertices>\n";
-  const FloatPoint low = contours_.low();
-  const FloatPoint high = contours_.high();
-  for (int corner = 0; corner < 8; ++corner) {
-    fmt::format_to(out, "     <vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n",
-                   printed((corner & 1) != 0 ? high.x : low.x),
-                   printed((corner & 2) != 0 ? high.y : low.y),
-                   printed((corner & 4) != 0 ? top_z_ : bottom_z_));
-  }
-  text += "    </vertices>\n    <triangles>\n";
-  for (const auto& triangle : kBoxTriangles) {
-    fmt::format_to(out, "     <triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n",
-                   triangle[0], triangle[1], triangle[2]);
-  }
-  return text + "    </triangles>\n   </mesh>\n  </object>\n";
-}
-
-void ThreemfWriter::finish(Diagnostics& diagnostics) {
-  if (!has_layers_) begin_stack(Layer{});
-  archive_.write("  </s:slicestack>\n");
-  archive_.write(object());
-  archive_.write(kModelEnd);
-  archive_.end_entry();
-  archive_.finish();
-  contours_.warn_of_coarse_numbers("3MF", diagnostics);
+std::unique_ptr<LayerWriter> make_threemf_writer(
+    const WriterOptions& options, const std::string& path,
+    TemporaryFiles& temporary_files) {
+  return std::make_unique<ThreemfWriter>(path, temporary_files,
+                                         options.deviation);
 }
 
 }  // namespace lamina::slicer

@@ -16,10 +16,6 @@
 #include <pugixml.hpp>
 
 #include "base/diagnostic.h"
-#include "slicer/formats/detail/cli_writer.h"
-#include "slicer/formats/detail/layers_json_writer.h"
-#include "slicer/formats/detail/slc_writer.h"
-#include "slicer/formats/detail/svg_writer.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/temporary_folder.h"
 
@@ -82,24 +78,21 @@ struct Written {
 
 // The three layers in every format.
 std::vector<Written> files() {
-  Diagnostics unheard;
   const std::vector<Layer> layers = three_layers();
   std::vector<Written> files;
-  const auto add = [&](const std::string& name, std::string bytes,
+  const auto add = [&](const std::string& name, const WriterOptions& options,
                        const std::string& format, bool is_float32) {
-    files.push_back({name, std::move(bytes), {}});
+    files.push_back({name, written(layers, options), {}});
     files.back().facts.format = format;
     files.back().facts.is_float32 = is_float32;
   };
-  add("a.slc", written<SlcWriter>(layers, unheard, std::nullopt), "SLC 2.0",
+  using enum OutputFormat;
+  add("a.slc", {.format = kSlc}, "SLC 2.0", true);
+  add("binary.cli", {.format = kCli}, "CLI, binary", true);
+  add("ascii.CLI", {.format = kCli, .cli = CliEncoding::kAscii}, "CLI, ASCII",
       true);
-  add("binary.cli", written<CliWriter>(layers, unheard, CliEncoding::kBinary),
-      "CLI, binary", true);
-  add("ascii.CLI", written<CliWriter>(layers, unheard, CliEncoding::kAscii),
-      "CLI, ASCII", true);
-  add("a.svg", written<SvgWriter>(layers, unheard), "SVG", true);
-  add("a.layers.json", written<LayersJsonWriter>(layers, unheard),
-      "layers.json", false);
+  add("a.svg", {.format = kSvg}, "SVG", true);
+  add("a.layers.json", {.format = kLayersJson}, "layers.json", false);
   return files;
 }
 
@@ -222,11 +215,10 @@ TEST(ReadCli, ReadsShortNumbers) {
 }
 
 TEST(ReadCli, SectionsWithoutThicknessAreAtTheirHeights) {
-  Diagnostics unheard;
   Layer low = layer_at(1, 1, {{{0, 0}, {1, 0}, {1, 1}}});
   Layer high = layer_at(4, 4, {{{0, 0}, {1, 0}, {1, 1}}});
-  const Content content = read(
-      "a.cli", written<CliWriter>({low, high}, unheard, CliEncoding::kBinary));
+  const Content content =
+      read("a.cli", written({low, high}, {.format = OutputFormat::kCli}));
   ASSERT_EQ(content.layers.size(), 2U);
   EXPECT_EQ(content.layers[0].section_z, 1);
   EXPECT_EQ(content.layers[1].section_z, 4);
