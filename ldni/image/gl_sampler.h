@@ -16,7 +16,6 @@
 // back. Should it not be so, because a driver rasterises otherwise, the pixel
 // is sampled exactly instead and counted.
 
-#include <cstdint>
 #include <memory>
 
 #include "csg/scene.h"
@@ -26,24 +25,15 @@
 
 namespace lamina::ldni {
 
-class GlSampler final : public Sampler {
- public:
-  // Scene and grids must outlive the sampler; layers of equal thickness.
-  GlSampler(const csg::Scene& scene, const RayGrid& rays,
-            const LayerGrid& layers, std::unique_ptr<FaceRaster> raster);
-  ~GlSampler() override;
-
-  // Cost: the leaf's vertices and triangles, made for it if it is a sweep; a
-  // drawing of those that can cover a pixel; the samples, the pixels of the
-  // box. Memory: for the leaf, and at most 128 MiB for what is drawn at a time.
-  void sample(std::uint32_t instance, const GridBox& box,
-              LeafImages& out) override;
-
-  std::uint64_t repaired_pixels() const override;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
+// Scene and grids must outlive the sampler; layers must be of equal thickness.
+//
+// Cost of an image: the leaf's vertices and triangles, made for it if it is a
+// sweep; a drawing of those that can cover a pixel; the samples, the pixels of
+// the box. Memory: for the leaf, and at most 128 MiB for what is drawn at a
+// time.
+std::unique_ptr<Sampler> make_gl_sampler(const csg::Scene& scene,
+                                         const RayGrid& rays,
+                                         const LayerGrid& layers,
+                                         std::unique_ptr<FaceRaster> raster);
 
 }  // namespace lamina::ldni

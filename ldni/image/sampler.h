@@ -44,6 +44,10 @@ struct LeafImages {
   }
 };
 
+// How the samples are made: exactly, or drawn by OpenGL, by a list of fragments
+// or by the paper's depth peeling.
+enum class SamplerKind { kScanline, kGl, kGlPeeling };
+
 // One object per thread: it owns scratch, or a graphics context.
 class Sampler {
  public:

@@ -50,10 +50,10 @@ std::vector<Ranges> evaluate_layers(const csg::Scene& scene,
   const RayGrid rays(x - share, x + 0.5, 1);
   x = rays.ray_x(0);
   LeafImages images;
-  ScanlineSampler sampler(scene, rays, layers);
+  const auto sampler = make_scanline_sampler(scene, rays, layers);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const GridBox box = local_box(scene.instances[i].box, rays, layers);
-    if (!box.is_empty()) sampler.sample(i, box, images);
+    if (!box.is_empty()) sampler->sample(i, box, images);
   }
   RayBoolean boolean(scene);
   std::vector<Ranges> result(layers.layer_count());

@@ -109,7 +109,7 @@ class Samplers : public ::testing::TestWithParam<SamplerKind> {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Samplers,
                          ::testing::Values(SamplerKind::kScanline,
-                                           SamplerKind::kGlList,
+                                           SamplerKind::kGl,
                                            SamplerKind::kGlPeeling),
                          [](const auto& kind) {
                            return ::testing::PrintToString(kind.param);

@@ -32,7 +32,7 @@ std::ostream& operator<<(std::ostream& out, SamplerKind kind) {
   switch (kind) {
     case SamplerKind::kScanline:
       return out << "scanline";
-    case SamplerKind::kGlList:
+    case SamplerKind::kGl:
       return out << "gl";
     case SamplerKind::kGlPeeling:
       return out << "peeling";
@@ -48,12 +48,12 @@ std::unique_ptr<Sampler> make_sampler(SamplerKind kind, const csg::Scene& scene,
                                       const RayGrid& rays,
                                       const LayerGrid& layers) {
   if (kind == SamplerKind::kScanline) {
-    return std::make_unique<ScanlineSampler>(scene, rays, layers);
+    return make_scanline_sampler(scene, rays, layers);
   }
-  return std::make_unique<GlSampler>(
+  return make_gl_sampler(
       scene, rays, layers,
-      shared_raster(kind == SamplerKind::kGlList ? GlMethod::kList
-                                                 : GlMethod::kPeeling));
+      shared_raster(kind == SamplerKind::kGl ? GlMethod::kList
+                                             : GlMethod::kPeeling));
 }
 
 }  // namespace lamina::ldni

@@ -10,8 +10,6 @@
 
 namespace lamina::ldni {
 
-enum class SamplerKind { kScanline, kGlList, kGlPeeling };
-
 std::ostream& operator<<(std::ostream& out, SamplerKind kind);
 
 // Scene and grids must outlive the sampler. Throws where OpenGL is missing: a
