@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/tie_distance.h"
 #include "ldni/image/sample.h"
 #include "slicer/contour/layer.h"
 #include "tests/ldni/sweep/section_reference.h"

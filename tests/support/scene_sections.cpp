@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "csg/boundary/leaf_mesh.h"
+#include "csg/tie_distance.h"
 #include "ldni/image/sample.h"
 #include "slicer/slice/slice.h"
 #include "tests/support/contour_checks.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "csg/tie_distance.h"
 #include "ldni/section/contours.h"
 #include "slicer/slice/settings.h"
 

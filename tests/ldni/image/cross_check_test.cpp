@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "csg/tie_distance.h"
 #include "ldni/image/sample.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
