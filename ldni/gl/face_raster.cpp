@@ -1,8 +1,8 @@
 #include "ldni/gl/face_raster.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 

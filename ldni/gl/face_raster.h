@@ -18,11 +18,9 @@
 // floats of 32 bits: a buffer of 24 rounds them, so that a fragment lies behind
 // itself and peeling never ends.
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "ldni/gl/gl_context.h"

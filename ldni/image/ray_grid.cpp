@@ -1,5 +1,6 @@
 #include "ldni/image/ray_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

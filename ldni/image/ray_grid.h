@@ -9,7 +9,6 @@
 //   global layer = layer_start + local layer
 // so both boxes give the same samples, and only memory differs.
 
-#include <algorithm>
 #include <cstdint>
 
 #include "base/vec.h"

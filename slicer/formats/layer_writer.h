@@ -42,8 +42,8 @@ struct WriterOptions {
   OutputFormat format = OutputFormat::kSlc;  // one of layers
   CliEncoding cli = CliEncoding::kBinary;
   Panel panel = {};  // of formats of images
-  // Bound on the deviation of the contours that the writer takes [mm], if known;
-  // noted where the format has a place for it.
+  // Bound on the deviation of the contours that the writer takes [mm], if
+  // known; noted where the format has a place for it.
   std::optional<double> deviation = {};
 };
 

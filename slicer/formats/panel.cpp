@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 #include "slicer/formats/slc_reader.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -11,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "base/diagnostic.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
@@ -20,7 +17,6 @@ namespace {
 constexpr std::size_t kLongestHeader = 2048;
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
-constexpr double kMillimetresPerInch = 25.4;
 
 // Vertices are read in pieces, so that a lying count meets the end of the file
 // before it has cost memory.
@@ -51,7 +47,7 @@ std::optional<std::array<Vec2, 3>> parse_extents(std::string_view text) {
   std::array<Vec2, 3> extents{};
   for (Vec2& axis : extents) {
     for (double* value : {&axis.x, &axis.y}) {
-      text.remove_prefix(std::min(text.size(), text.find_first_not_of(" ,")));
+      skip(text, " ,");
       if (!take_number(text, *value)) return std::nullopt;
     }
   }
@@ -93,8 +89,7 @@ SlcReader::SlcReader(std::string path, const FileAccess& access)
 }
 
 void SlcReader::fail(std::string_view message) const {
-  throw FileError(
-      {Severity::kError, {}, fmt::format("{}: {}", path_, message), {}});
+  fail_to_read(path_, message);
 }
 
 void SlcReader::read(char* bytes, std::size_t count, std::string_view what) {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "slicer/picture/detail/drawing.h"
-#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "base/parallel.h"
 #include "slicer/picture/detail/layer_distance.h"

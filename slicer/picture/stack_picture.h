@@ -15,7 +15,6 @@
 // What a place sees of the sky, it sees past the points around it in the
 // picture.
 
-#include <optional>
 #include <vector>
 
 #include "slicer/contour/layer.h"

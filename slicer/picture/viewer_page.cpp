@@ -1,7 +1,6 @@
 #include "slicer/picture/viewer_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -10,9 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "base/diagnostic.h"
+#include "base/check.h"
 #include "slicer/check/feature_table.h"
-#include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/picture/detail/viewer_template.h"

@@ -7,13 +7,11 @@
 // z, without thickness.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,9 +25,11 @@ namespace {
 constexpr std::string_view kStart = "$$HEADERSTART";
 constexpr std::string_view kEnd = "$$HEADEREND";
 
-// A first layer of more layers' thickness than this is none: the corner that
-// the header tells belongs to something else.
+// Where the header's lower corner would make the first layer thicker than this
+// many others, it belongs to something else.
 constexpr double kThickestFirst = 10;
+
+constexpr std::int64_t kOpen = 2;  // direction of lines that bound nothing
 
 struct CliHeader {
   bool is_binary = false;
@@ -58,14 +58,16 @@ class LayerMaker {
     ++count_;
   }
 
-  // direction  0: clockwise, 1: counter-clockwise, 2: an open line
+  // direction  0: clockwise, 1: counter-clockwise, or kOpen
   void add_polyline(std::int64_t direction, std::vector<Vec2>& points) {
-    if (direction == 2) return add_line();
+    if (direction == kOpen) {
+      ++lines_;
+      return;
+    }
     for (Vec2& point : points) point *= header_.unit;
     add_loop(points, direction == 0 ? LoopKind::kHole : LoopKind::kOuter,
              layer_.contours);
   }
-  void add_line() { ++lines_; }
 
   void finish() {
     if (count_ > 0) finish_layer(std::nullopt);
@@ -124,28 +126,38 @@ class Commands {
     while (size < rest_.size() && is_letter(rest_[size])) ++size;
     name = rest_.substr(0, size);
     rest_.remove_prefix(size);
+    mark_ = '/';
     return true;
   }
 
-  // The number that follows; `mark` stands before it: '/' or ','.
-  double number(char mark) {
+  // Reads the next parameter: '/' stands before the first, ',' before others.
+  double number() {
     skip_blanks();
-    if (!rest_.starts_with(mark)) {
-      fail(fmt::format("'{}' and a number were expected", mark));
+    if (!rest_.starts_with(mark_)) {
+      fail(fmt::format("'{}' and a number were expected", mark_));
     }
     rest_.remove_prefix(1);
+    mark_ = ',';
     skip_blanks();
     double value = 0;
     if (!take_number(rest_, value)) fail("a number was expected");
     return value;
   }
 
-  std::int64_t whole_number(char mark) {
-    const double value = number(mark);
+  std::int64_t whole_number() {
+    const double value = number();
     if (value != std::floor(value) || std::abs(value) > 2147483648.0) {
       fail("a whole number was expected");
     }
     return static_cast<std::int64_t>(value);
+  }
+
+  void take_points(std::int64_t count, std::vector<Vec2>& points) {
+    points.clear();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const double x = number();
+      points.emplace_back(x, number());
+    }
   }
 
   void skip_parameters() {
@@ -181,6 +193,7 @@ class Commands {
   const std::string& path_;
   std::string_view text_;
   std::string_view rest_;
+  char mark_ = '/';  // before the next parameter
 };
 
 CliHeader read_header(const std::string& path, std::string_view bytes) {
@@ -204,14 +217,14 @@ CliHeader read_header(const std::string& path, std::string_view bytes) {
     } else if (name == "ALIGN") {
       commands.fail("aligned numbers ($$ALIGN) are not supported");
     } else if (name == "UNITS") {
-      header.unit = commands.number('/');
+      header.unit = commands.number();
       if (!(header.unit > 0)) commands.fail("the unit must be more than 0");
     } else if (name == "LAYERS") {
-      header.layers = commands.number('/');
+      header.layers = commands.number();
     } else if (name == "DIMENSION") {
-      commands.number('/');
-      commands.number(',');
-      header.bottom = commands.number(',');
+      commands.number();
+      commands.number();
+      header.bottom = commands.number();
     }
     commands.skip_parameters();
   }
@@ -219,6 +232,22 @@ CliHeader read_header(const std::string& path, std::string_view bytes) {
     fail_to_read(path, "the header tells neither $$ASCII nor $$BINARY");
   }
   return header;
+}
+
+// Reads what follows the command of a polyline or of hatches.
+//
+// input  has whole_number(), take_points() and fail()
+template <typename Input>
+void read_line(Input& input, bool is_hatches, std::vector<Vec2>& points,
+               LayerMaker& maker) {
+  input.whole_number();  // of the part
+  const std::int64_t direction = is_hatches ? kOpen : input.whole_number();
+  if (direction < 0 || direction > kOpen) {
+    input.fail(fmt::format("direction {} (0, 1 or 2 was expected)", direction));
+  }
+  const std::int64_t count = input.whole_number();
+  input.take_points(is_hatches ? 2 * count : count, points);
+  maker.add_polyline(direction, points);
 }
 
 void read_ascii(const std::string& path, std::string_view text,
@@ -230,28 +259,15 @@ void read_ascii(const std::string& path, std::string_view text,
     if (name == "GEOMETRYSTART") continue;
     if (name == "GEOMETRYEND") return;
     if (name == "LAYER") {
-      maker.begin_layer(commands.number('/'));
+      maker.begin_layer(commands.number());
       continue;
     }
-    const bool is_line = name == "HATCHES";
-    if (!is_line && name != "POLYLINE") {
+    const bool is_hatches = name == "HATCHES";
+    if (!is_hatches && name != "POLYLINE") {
       commands.fail(fmt::format("unknown command '$${}'", name));
     }
     if (maker.count() == 0) commands.fail("a polyline stands before any layer");
-    commands.whole_number('/');  // of the part
-    const std::int64_t direction = is_line ? 2 : commands.whole_number(',');
-    if (direction < 0 || direction > 2) {
-      commands.fail(
-          fmt::format("direction {} (0, 1 or 2 was expected)", direction));
-    }
-    std::int64_t count = commands.whole_number(',');
-    if (is_line) count *= 2;
-    points.clear();
-    for (std::int64_t i = 0; i < count; ++i) {
-      const double x = commands.number(',');
-      points.emplace_back(x, commands.number(','));
-    }
-    maker.add_polyline(direction, points);
+    read_line(commands, is_hatches, points, maker);
   }
   commands.fail("the file ends without $$GEOMETRYEND");
 }
@@ -317,30 +333,22 @@ enum Command : std::uint16_t {
   kLongHatches = 132,
 };
 
-// What follows the command of a polyline. `Count` is the type of whole numbers
-// there, `Number` that of coordinates.
+// The parameters of a binary command. `Count` is the type of its whole numbers,
+// `Number` that of its coordinates.
 template <typename Count, typename Number>
-void read_polyline(Numbers& numbers, std::vector<Vec2>& points,
-                   LayerMaker& maker) {
-  numbers.take<Count>();  // of the part
-  const auto direction = numbers.take<Count>();
-  if (direction < 0 || direction > 2) {
-    numbers.fail(
-        fmt::format("direction {} (0, 1 or 2 was expected)", direction));
-  }
-  numbers.take_points<Number>(numbers.take<Count>(), points);
-  maker.add_polyline(direction, points);
-}
+struct Parameters {
+  Numbers& numbers;
 
-template <typename Count, typename Number>
-void read_hatches(Numbers& numbers, std::vector<Vec2>& points,
-                  LayerMaker& maker) {
-  numbers.take<Count>();  // of the part
-  numbers.take_points<Number>(std::int64_t{2} * numbers.take<Count>(), points);
-  maker.add_line();
-}
+  std::int64_t whole_number() { return numbers.take<Count>(); }
+  void take_points(std::int64_t count, std::vector<Vec2>& points) {
+    numbers.take_points<Number>(count, points);
+  }
+  [[noreturn]] void fail(std::string_view message) { numbers.fail(message); }
+};
 
 void read_binary(Numbers& numbers, LayerMaker& maker) {
+  Parameters<std::uint16_t, std::uint16_t> short_ones = {numbers};
+  Parameters<std::int32_t, float> long_ones = {numbers};
   std::vector<Vec2> points;
   while (!numbers.is_at_end()) {
     const auto command = numbers.take<std::uint16_t>();
@@ -356,16 +364,12 @@ void read_binary(Numbers& numbers, LayerMaker& maker) {
         maker.begin_layer(numbers.take<std::uint16_t>());
         break;
       case kShortPolyline:
-        read_polyline<std::uint16_t, std::uint16_t>(numbers, points, maker);
+      case kShortHatches:
+        read_line(short_ones, command == kShortHatches, points, maker);
         break;
       case kLongPolyline:
-        read_polyline<std::int32_t, float>(numbers, points, maker);
-        break;
-      case kShortHatches:
-        read_hatches<std::uint16_t, std::uint16_t>(numbers, points, maker);
-        break;
       case kLongHatches:
-        read_hatches<std::int32_t, float>(numbers, points, maker);
+        read_line(long_ones, command == kLongHatches, points, maker);
         break;
       default:
         numbers.fail(fmt::format("unknown command {}", command));

@@ -44,16 +44,15 @@ std::size_t line_at(std::string_view text, std::size_t place) {
                  std::count(before.begin(), before.end(), '\n'));
 }
 
+void skip(std::string_view& text, std::string_view characters) {
+  text.remove_prefix(std::min(text.find_first_not_of(characters), text.size()));
+}
+
 bool take_number(std::string_view& text, double& value) {
-  std::size_t skipped = 0;
-  while (skipped < text.size() &&
-         std::strchr(" \t\r\n", text[skipped]) != nullptr &&
-         text[skipped] != '\0') {
-    ++skipped;
-  }
-  if (skipped < text.size() && text[skipped] == '+') ++skipped;
-  const char* const end = text.data() + text.size();
-  const auto [rest, fault] = std::from_chars(text.data() + skipped, end, value);
+  skip(text, " \t\r\n");
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [rest, fault] =
+      std::from_chars(text.data(), text.data() + text.size(), value);
   if (fault != std::errc() || !std::isfinite(value)) return false;
   text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
   return true;

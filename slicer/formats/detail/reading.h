@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "base/file/file_access.h"
 #include "base/file/file_bytes.h"
@@ -12,6 +11,8 @@
 #include "ldni/section/contours.h"
 
 namespace lamina::slicer {
+
+inline constexpr double kMillimetresPerInch = 25.4;
 
 // Throws FileError, whose message begins with the file's name.
 [[noreturn]] void fail_to_read(const std::string& path,
@@ -27,15 +28,18 @@ FileBytes open_to_read(const std::string& path, const FileAccess& access);
 // The number of the line that holds the byte at `place`, from 1.
 std::size_t line_at(std::string_view text, std::size_t place);
 
-// Reads a number at the front of `text` and takes it off; false where there is
-// none that is finite. Blanks may stand before it.
+// Takes the leading characters that are among `characters` off the text.
+void skip(std::string_view& text, std::string_view characters);
+
+// Takes a number, with blanks before it, off the front of `text`; false where
+// there is none that is finite.
 bool take_number(std::string_view& text, double& value);
 
-// Which way a file says that a loop runs.
+// What a file says that a loop is.
 enum class LoopKind { kOuter, kHole };
 
-// Appends a loop as its kind has it, without a closing point. What has fewer
-// than three points is no loop and is left out.
+// Appends a loop without its closing point, turned round where it does not run
+// as its kind must. What has fewer than three points is left out.
 void add_loop(std::span<const Vec2> points, LoopKind kind,
               ldni::Contours& contours);
 

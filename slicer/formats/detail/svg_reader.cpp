@@ -27,8 +27,6 @@ namespace {
 constexpr double kSlic3rHeightsPerMm = 1e-6;
 constexpr double kGreatestSlic3rHeight = 0.001;
 
-constexpr double kMillimetresPerInch = 25.4;
-
 class SvgReader {
  public:
   SvgReader(const std::string& path, const FileAccess& access)
@@ -103,22 +101,17 @@ class SvgReader {
 
   void find_scale() {
     std::string_view box = root_.attribute("viewBox").value();
-    double low = 0;
     double width = 0;
-    const bool has_box = take_box_number(box, low) &&
-                         take_box_number(box, low) &&
-                         take_box_number(box, width);
+    bool has_box = true;
+    // The width is the third number, behind the corner's two.
+    for (int i = 0; has_box && i < 3; ++i) {
+      skip(box, ", ");
+      has_box = take_number(box, width);
+    }
     const std::optional<double> printed = length("width");
     if (has_box && printed && width > 0 && *printed > 0) {
       mm_per_unit_ = *printed / width;
     }
-  }
-
-  static bool take_box_number(std::string_view& text, double& value) {
-    while (text.starts_with(',') || text.starts_with(' ')) {
-      text.remove_prefix(1);
-    }
-    return take_number(text, value);
   }
 
   void find_layers() {
@@ -179,7 +172,8 @@ class SvgReader {
     std::string_view text = node.attribute("points").value();
     Vec2 point;
     std::size_t count = 0;
-    while (skip_to_number(text)) {
+    constexpr std::string_view kBetween = " ,\t\r\n";
+    for (skip(text, kBetween); !text.empty(); skip(text, kBetween)) {
       double& value = count % 2 == 0 ? point.x : point.y;
       if (!take_number(text, value)) {
         fail(node, fmt::format("number {} of the points is none", count + 1));
@@ -189,12 +183,6 @@ class SvgReader {
                         Vec2(point.x, is_slic3r_ ? point.y : -point.y));
     }
     if (count % 2 != 0) fail(node, "the last point has no y");
-  }
-
-  static bool skip_to_number(std::string_view& text) {
-    const std::size_t start = text.find_first_not_of(" ,\t\r\n");
-    text.remove_prefix(std::min(start, text.size()));
-    return !text.empty();
   }
 
   const std::string& path_;

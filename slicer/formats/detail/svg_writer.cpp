@@ -8,7 +8,6 @@
 // are patched at the end.
 
 #include <cstdint>
-#include <span>
 
 #include <fmt/format.h>
 

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <iterator>
-#include <span>
 #include <string_view>
 
 #include <fmt/compile.h>

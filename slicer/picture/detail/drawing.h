@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/vec.h"
-#include "slicer/contour/layer.h"
+#include "ldni/section/contours.h"
 #include "slicer/formats/coverage.h"
 #include "slicer/picture/image.h"
 
