@@ -73,10 +73,9 @@ class LayerPicture {
 
  private:
   Bounds choose_bounds() const {
+    if (layer_.contours.is_empty()) return bounds_of(layers_);
     Bounds bounds;
     bounds.add(layer_.contours);
-    if (!layer_.contours.is_empty()) return bounds;
-    for (const Layer& layer : layers_) bounds.add(layer.contours);
     return bounds;
   }
 
@@ -181,7 +180,7 @@ class LayerPicture {
     const Vec2 place = map_(feature.place);
     const std::string words = fmt::format("{:.3f}", feature.width);
     const Vec2 size(text_width(words, kTextSize) + 6, kTextSize + 8);
-    const Box box = find_room(place, size);
+    const Bounds box = find_room(place, size);
     taken_.push_back(box);
 
     Coverage lines(field_.width, field_.height);
@@ -190,7 +189,7 @@ class LayerPicture {
       lines.add_stroke(place + kRingRadius * direction(i, kCorners),
                        place + kRingRadius * direction(i + 1, kCorners), 2);
     }
-    const Vec2 middle = (box.low + box.high) / 2.0;
+    const Vec2 middle = box.center();
     const Vec2 way = middle - place;
     const double length = std::sqrt(way.x * way.x + way.y * way.y);
     if (length > kRingRadius) {
@@ -206,16 +205,6 @@ class LayerPicture {
     draw_text(image_, words, corner + Vec2(3, kTextSize + 4), kTextSize, color);
   }
 
-  struct Box {
-    Vec2 low = Vec2(0);
-    Vec2 high = Vec2(0);
-
-    bool meets(const Box& other) const {
-      return low.x < other.high.x && other.low.x < high.x &&
-             low.y < other.high.y && other.low.y < high.y;
-    }
-  };
-
   static Vec2 direction(int i, int count) {
     const double angle = 2 * std::numbers::pi * i / count;
     return {std::cos(angle), -std::sin(angle)};
@@ -223,19 +212,20 @@ class LayerPicture {
 
   // The nearest free room for a label around a place; the first one tried where
   // all is taken.
-  Box find_room(Vec2 place, Vec2 size) const {
+  Bounds find_room(Vec2 place, Vec2 size) const {
     const Vec2 most = Vec2(field_.width, field_.height) - size;
     const auto box_at = [&](int way, double distance) {
       const Vec2 at = place + distance * direction(way, 16) - size / 2.0;
       const Vec2 low(std::clamp(at.x, 0.0, most.x),
                      std::clamp(at.y, 0.0, most.y));
-      return Box{low, low + size};
+      return Bounds{low, low + size};
     };
     for (int ring = 0; ring < 12; ++ring) {
       for (int way = 0; way < 16; ++way) {
-        const Box box = box_at(way, 44 + 18 * ring);
-        if (std::none_of(taken_.begin(), taken_.end(),
-                         [&](const Box& other) { return box.meets(other); })) {
+        const Bounds box = box_at(way, 44 + 18 * ring);
+        if (std::none_of(
+                taken_.begin(), taken_.end(),
+                [&](const Bounds& other) { return box.meets(other); })) {
           return box;
         }
       }
@@ -263,7 +253,7 @@ class LayerPicture {
   const Rectangle field_;
   const PixelMap map_;
   Image image_;
-  std::vector<Box> taken_;  // by rings and labels; in the field [pixels]
+  std::vector<Bounds> taken_;  // by rings and labels; in the field [pixels]
 };
 
 }  // namespace

@@ -22,13 +22,14 @@ constexpr double kTallest = 0.78;
 constexpr unsigned kNarrowestTile = 120;  // where there is a choice [pixels]
 
 // How a sheet is divided: all tiles alike, all layers to one scale.
-struct Grid {
+struct SheetGrid {
   unsigned columns = 1;
   unsigned rows = 1;
   unsigned tile_width = 1;
   unsigned tile_height = 1;  // without its label
 
-  Grid(unsigned width, unsigned count, double aspect, unsigned column_count)
+  SheetGrid(unsigned width, unsigned count, double aspect,
+            unsigned column_count)
       : columns(column_count), rows((count + column_count - 1) / column_count) {
     tile_width = (width - kMargin) / columns - kMargin;
     tile_height = static_cast<unsigned>(
@@ -46,9 +47,9 @@ struct Grid {
 };
 
 // The fewest columns (the largest tiles) that keep the sheet low enough.
-Grid choose_grid(unsigned width, unsigned count, double aspect) {
+SheetGrid choose_grid(unsigned width, unsigned count, double aspect) {
   for (unsigned columns = 1; columns < count; ++columns) {
-    const Grid grid(width, count, aspect, columns);
+    const SheetGrid grid(width, count, aspect, columns);
     if (grid.height() <= kTallest * width) return grid;
     if (grid.tile_width < kNarrowestTile) return grid;
   }
@@ -119,12 +120,11 @@ void draw_title(Image& image, const std::string& title,
 
 Image draw_sheet(const std::vector<Layer>& layers, const std::string& title,
                  const SheetOptions& options) {
-  Bounds bounds;
-  for (const Layer& layer : layers) bounds.add(layer.contours);
+  const Bounds bounds = bounds_of(layers);
   const auto available = static_cast<unsigned>(layers.size());
   const Vec2 size = bounds.size();
   const double aspect = std::clamp(size.x / std::max(size.y, 1e-9), 0.3, 4.0);
-  const Grid grid = choose_grid(
+  const SheetGrid grid = choose_grid(
       options.width, std::min(available, options.layer_count), aspect);
   // A row begun is a row filled.
   const std::vector<std::size_t> chosen =

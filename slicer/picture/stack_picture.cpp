@@ -54,10 +54,10 @@ class Normals {
         0.0, 1.0);
     const Vec2 xy(place);
     // How depth changes upwards, around the place's height.
-    const Level above = mix(level(layer + half_step_, xy),
-                            level(layer + half_step_ + 1, xy), t);
-    const Level below = mix(level(layer - half_step_ - 1, xy),
-                            level(layer - half_step_, xy), t);
+    const SectionDepth above = mix(level(layer + half_step_, xy),
+                                   level(layer + half_step_ + 1, xy), t);
+    const SectionDepth below = mix(level(layer - half_step_ - 1, xy),
+                                   level(layer - half_step_, xy), t);
     const double up =
         (above.depth - below.depth) / std::max(above.z - below.z, 1e-12);
     // How it changes along the layer: between the sections above and below.
@@ -71,14 +71,14 @@ class Normals {
   }
 
  private:
-  struct Level {
+  struct SectionDepth {
     double z;
     double depth;
     Vec2 inward;
   };
 
   // In a section; those beyond the stack are empty.
-  Level level(int index, Vec2 place) const {
+  SectionDepth level(int index, Vec2 place) const {
     const int last = static_cast<int>(plates_.size()) - 1;
     const int inside = std::clamp(index, 0, last);
     const Plate& plate = plates_[static_cast<std::size_t>(inside)];
@@ -91,7 +91,8 @@ class Normals {
     return {plate.section_z, depth, inward};
   }
 
-  static Level mix(const Level& a, const Level& b, double share) {
+  static SectionDepth mix(const SectionDepth& a, const SectionDepth& b,
+                          double share) {
     return {glm::mix(a.z, b.z, share), glm::mix(a.depth, b.depth, share),
             glm::mix(a.inward, b.inward, share)};
   }

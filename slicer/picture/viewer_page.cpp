@@ -13,6 +13,7 @@
 #include "slicer/check/feature_table.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
+#include "slicer/picture/detail/drawing.h"
 #include "slicer/picture/detail/viewer_template.h"
 
 namespace lamina::slicer {
@@ -24,7 +25,7 @@ constexpr double kFinestStep = 1e-4;    // of coordinates [mm]
 constexpr double kMostSteps = 1 << 30;  // across the part
 
 // Integers as bytes.
-class Numbers {
+class IntegerStream {
  public:
   void add_count(std::uint64_t value) {
     for (; value >= 0x80; value >>= 7) {
@@ -42,12 +43,12 @@ class Numbers {
   std::string bytes_;
 };
 
-// Places as steps from the one before.
-class Places {
+// PointEncoder as steps from the one before.
+class PointEncoder {
  public:
-  Places(Vec2 origin, double step) : origin_(origin), step_(step) {}
+  PointEncoder(Vec2 origin, double step) : origin_(origin), step_(step) {}
 
-  void add(Numbers& numbers, Vec2 place) {
+  void add(IntegerStream& numbers, Vec2 place) {
     const std::int64_t x = std::llround((place.x - origin_.x) / step_);
     const std::int64_t y = std::llround((place.y - origin_.y) / step_);
     numbers.add(x - x_);
@@ -98,32 +99,27 @@ double rounded(double value, double step) {
   return std::round(value / step) * step;
 }
 
-// JSON within a <script>: no end tag may show.
-std::string script_text(const Json& json) {
-  std::string text;
-  for (const char c :
-       json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      text += "\\u003c";
+std::string replaced(std::string_view text, char letter,
+                     std::string_view replacement) {
+  std::string result;
+  for (const char c : text) {
+    if (c == letter) {
+      result += replacement;
     } else {
-      text += c;
+      result += c;
     }
   }
-  return text;
+  return result;
+}
+
+// JSON within a <script>: no end tag may show.
+std::string script_text(const Json& json) {
+  return replaced(json.dump(-1, ' ', false, Json::error_handler_t::replace),
+                  '<', "\\u003c");
 }
 
 std::string escape_html(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '&') {
-      escaped += "&amp;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
+  return replaced(replaced(text, '&', "&amp;"), '<', "&lt;");
 }
 
 class PageMaker {
@@ -131,9 +127,10 @@ class PageMaker {
   PageMaker(const std::vector<Layer>& layers, const ViewerOptions& options)
       : layers_(layers),
         options_(options),
-        step_(choose_step()),
-        corners_(low_, step_),
-        marks_(low_, step_) {}
+        bounds_(bounds_of(layers)),
+        step_(step_for(bounds_.size())),
+        corners_(bounds_.low, step_),
+        marks_(bounds_.low, step_) {}
 
   std::string make() {
     Json facts = describe();
@@ -158,16 +155,9 @@ class PageMaker {
   }
 
  private:
-  double choose_step() {
-    for (const Layer& layer : layers_) {
-      for (const Vec2& p : layer.contours.points) {
-        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-      }
-    }
-    const double size = std::max(high_.x - low_.x, high_.y - low_.y);
+  static double step_for(Vec2 size) {
     double step = kFinestStep;
-    while (size / step > kMostSteps) step *= 10;
+    while (std::max(size.x, size.y) / step > kMostSteps) step *= 10;
     return step;
   }
 
@@ -185,8 +175,8 @@ class PageMaker {
     return {{"layers", std::move(rows)},
             {"volume", volume},
             {"step", step_},
-            {"low", {low_.x, low_.y}},
-            {"high", {high_.x, high_.y}},
+            {"low", {bounds_.low.x, bounds_.low.y}},
+            {"high", {bounds_.high.x, bounds_.high.y}},
             {"minFeature", options_.min_feature}};
   }
 
@@ -248,12 +238,11 @@ class PageMaker {
 
   const std::vector<Layer>& layers_;
   const ViewerOptions& options_;
-  Vec2 low_ = Vec2(1e300);
-  Vec2 high_ = Vec2(-1e300);
+  const Bounds bounds_;
   const double step_;
-  Places corners_;
-  Places marks_;
-  Numbers numbers_;
+  PointEncoder corners_;
+  PointEncoder marks_;
+  IntegerStream numbers_;
 };
 
 }  // namespace

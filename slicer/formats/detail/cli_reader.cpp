@@ -272,11 +272,12 @@ void read_ascii(const std::string& path, std::string_view text,
   commands.fail("the file ends without $$GEOMETRYEND");
 }
 
-// Numbers one after another, little-endian as every machine that this is built
-// for.
-class Numbers {
+// BinaryNumbers one after another, little-endian as every machine that this is
+// built for.
+class BinaryNumbers {
  public:
-  Numbers(const std::string& path, std::string_view bytes, std::size_t place)
+  BinaryNumbers(const std::string& path, std::string_view bytes,
+                std::size_t place)
       : path_(path), bytes_(bytes), place_(place) {}
 
   bool is_at_end() const { return place_ == bytes_.size(); }
@@ -337,7 +338,7 @@ enum Command : std::uint16_t {
 // `Number` that of its coordinates.
 template <typename Count, typename Number>
 struct Parameters {
-  Numbers& numbers;
+  BinaryNumbers& numbers;
 
   std::int64_t whole_number() { return numbers.take<Count>(); }
   void take_points(std::int64_t count, std::vector<Vec2>& points) {
@@ -346,7 +347,7 @@ struct Parameters {
   [[noreturn]] void fail(std::string_view message) { numbers.fail(message); }
 };
 
-void read_binary(Numbers& numbers, LayerMaker& maker) {
+void read_binary(BinaryNumbers& numbers, LayerMaker& maker) {
   Parameters<std::uint16_t, std::uint16_t> short_ones = {numbers};
   Parameters<std::int32_t, float> long_ones = {numbers};
   std::vector<Vec2> points;
@@ -385,7 +386,7 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
   const CliHeader header = read_header(path, file.view());
   LayerMaker maker(header, take);
   if (header.is_binary) {
-    Numbers numbers(path, file.view(), header.size);
+    BinaryNumbers numbers(path, file.view(), header.size);
     read_binary(numbers, maker);
   } else {
     read_ascii(path, file.view(), header.size, maker);

@@ -14,7 +14,7 @@ namespace lamina::slicer {
 namespace {
 
 // Pixels [begin, end) along a side of the panel.
-struct Stretch {
+struct PixelSpan {
   double low;  // of contours that reach it
   double high;
   unsigned size;  // of the side
@@ -34,8 +34,8 @@ struct Stretch {
 
 // The part of the panel that contours can cover.
 struct PixelBox {
-  Stretch columns;
-  Stretch rows;
+  PixelSpan columns;
+  PixelSpan rows;
 };
 
 PixelBox box_of(const ldni::Contours& contours, unsigned width, unsigned height,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +21,12 @@ void Bounds::add(const ldni::Contours& contours) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+}
+
+Bounds bounds_of(const std::vector<Layer>& layers) {
+  Bounds bounds;
+  for (const Layer& layer : layers) bounds.add(layer.contours);
+  return bounds;
 }
 
 void fill(Image& image, const Rectangle& area, Rgb color) {

@@ -2,9 +2,10 @@
 // What flat pictures of layers are made of: boxes, lettering, the layer itself.
 
 #include <string_view>
+#include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "slicer/contour/layer.h"
 #include "slicer/formats/coverage.h"
 #include "slicer/picture/image.h"
 
@@ -15,15 +16,22 @@ inline constexpr Rgb kTile = {1.0F, 1.0F, 0.995F};
 inline constexpr Rgb kFrame = {0.86F, 0.85F, 0.82F};
 inline constexpr Rgb kInk = {0.25F, 0.24F, 0.22F};
 
-// Of layers; empty: low > high.
+// A box of layers [mm], or in an image [pixels]; empty where low > high.
 struct Bounds {
   Vec2 low = Vec2(1e300);
   Vec2 high = Vec2(-1e300);
 
   void add(const ldni::Contours& contours);
+  bool meets(const Bounds& other) const {
+    return low.x < other.high.x && other.low.x < high.x &&
+           low.y < other.high.y && other.low.y < high.y;
+  }
   Vec2 size() const { return high - low; }
   Vec2 center() const { return (low + high) / 2.0; }
 };
+
+// The bounds of all layers.
+Bounds bounds_of(const std::vector<Layer>& layers);
 
 // Of pixels, y down.
 struct Rectangle {

@@ -28,9 +28,10 @@ struct Strip {
   }
 };
 
-class Sweep {
+class TrapezoidSweep {
  public:
-  Sweep(const ldni::Contours& contours, std::vector<Trapezoid>& trapezoids)
+  TrapezoidSweep(const ldni::Contours& contours,
+                 std::vector<Trapezoid>& trapezoids)
       : trapezoids_(trapezoids) {
     for (std::size_t i = 0; i < contours.loop_count(); ++i) {
       const auto loop = contours.loop(i);
@@ -127,7 +128,7 @@ class Sweep {
 void cut_into_trapezoids(const ldni::Contours& contours,
                          std::vector<Trapezoid>& trapezoids) {
   trapezoids.clear();
-  Sweep(contours, trapezoids).run();
+  TrapezoidSweep(contours, trapezoids).run();
 }
 
 }  // namespace lamina::slicer
