@@ -109,7 +109,7 @@ Value SlcReader::read_value(std::string_view what) {
 
 void SlcReader::require_finite(float value) const {
   if (std::isfinite(value)) return;
-  fail(fmt::format("a number before byte {} is infinite or none", offset_));
+  fail(fmt::format("a number before byte {} is not finite", offset_));
 }
 
 void SlcReader::read_header() {

@@ -39,7 +39,7 @@ struct CliHeader {
   std::size_t size = 0;          // in bytes, with its end
 };
 
-// Makes layers of what the body tells.
+// Makes layers from the commands of the body.
 class LayerMaker {
  public:
   LayerMaker(const CliHeader& header, const TakeLayer& take)
@@ -92,10 +92,10 @@ class LayerMaker {
     const double like_next =
         next ? std::min(first_top_, 2 * first_top_ - *next) : first_top_;
     if (!header_.bottom) return like_next;
-    const double told = std::min(*header_.bottom, first_top_);
+    const double corner = std::min(*header_.bottom, first_top_);
     const bool is_thick =
-        next && first_top_ - told > kThickestFirst * (*next - first_top_);
-    return is_thick ? like_next : told;
+        next && first_top_ - corner > kThickestFirst * (*next - first_top_);
+    return is_thick ? like_next : corner;
   }
 
   const CliHeader& header_;
@@ -108,8 +108,8 @@ class LayerMaker {
   bool has_thickness_ = true;
 };
 
-// Walks over the commands of an ASCII text: "$$NAME/a,b,c", apart by blanks,
-// line ends and comments between pairs of slashes.
+// Walks over the commands of an ASCII text: "$$NAME/a,b,c", with blanks, line
+// ends and comments between pairs of slashes among them.
 class Commands {
  public:
   // place  where the commands begin; lines count from the top of the text
@@ -229,7 +229,7 @@ CliHeader read_header(const std::string& path, std::string_view bytes) {
     commands.skip_parameters();
   }
   if (!has_encoding) {
-    fail_to_read(path, "the header tells neither $$ASCII nor $$BINARY");
+    fail_to_read(path, "the header has neither $$ASCII nor $$BINARY");
   }
   return header;
 }
@@ -272,8 +272,8 @@ void read_ascii(const std::string& path, std::string_view text,
   commands.fail("the file ends without $$GEOMETRYEND");
 }
 
-// BinaryNumbers one after another, little-endian as every machine that this is
-// built for.
+// Reads numbers one after another; they are little-endian, as is every machine
+// that this is built for.
 class BinaryNumbers {
  public:
   BinaryNumbers(const std::string& path, std::string_view bytes,
@@ -289,12 +289,12 @@ class BinaryNumbers {
     std::memcpy(&number, bytes_.data() + place_, sizeof(number));
     place_ += sizeof(number);
     if constexpr (std::is_floating_point_v<Number>) {
-      if (!std::isfinite(number)) fail("a number is infinite or none");
+      if (!std::isfinite(number)) fail("a number is not finite");
     }
     return number;
   }
 
-  // Checked before memory is asked for.
+  // Checks the count before it asks for memory.
   template <typename Number>
   void take_points(std::int64_t count, std::vector<Vec2>& points) {
     points.clear();
@@ -395,7 +395,7 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
   // A binary body has no end of its own, so that a file cut between two
   // commands shows in nothing else.
   if (header.layers && static_cast<double>(maker.count()) != *header.layers) {
-    fail_to_read(path, fmt::format("the header tells of {} layers, the file "
+    fail_to_read(path, fmt::format("the header counts {} layers, the file "
                                    "holds {}",
                                    *header.layers, maker.count()));
   }

@@ -12,9 +12,8 @@
 namespace lamina::slicer {
 namespace {
 
-// Neighbouring numbers of a file may be nearer than this without a word [mm].
-// A power of two, as their distances are: from 8192 mm on they are this far
-// apart.
+// Neighbouring numbers this far apart [mm] draw a warning. A power of two, as
+// such distances are: they reach it at 8192 mm.
 constexpr double kCoarse = 0x1p-10;
 
 }  // namespace
@@ -38,7 +37,7 @@ void FloatContours::take(const Layer& layer) {
   extend();
 }
 
-// The boxes of the layers so far by that of the one in hand.
+// Extends the box of the layers so far by that of the one in hand.
 void FloatContours::extend() {
   if (rounded_.is_empty()) return;
   Lanes low = lanes_of(rounded_.points.front());

@@ -42,13 +42,13 @@ class FloatContours {
     return ldni::signed_area(rounded_.loop(i)) < 0;
   }
 
-  // Box of all layers taken; (0, 0) to (0, 0) where none had a loop.
+  // Box of all layers taken; (0, 0) to (0, 0) where no layer had a loop.
   FloatPoint low() const { return low_; }
   FloatPoint high() const { return high_; }
 
-  // What rounding moved a point by, at most, so far [mm].
+  // Greatest distance that rounding moved a point by, so far [mm].
   double greatest_rounding() const;
-  // Layers that needed more than rounding each point.
+  // Layers that needed more than rounding each point (round_loops.h).
   std::uint64_t snapped_layers() const { return rounder_.snapped_layers(); }
 
   // Warns where float32 numbers are too coarse for what was taken.

@@ -15,7 +15,7 @@ namespace {
 
 // Pixels [begin, end) along a side of the panel.
 struct PixelSpan {
-  double low;  // of contours that reach it
+  double low;  // of contours, in pixels
   double high;
   unsigned size;  // of the side
 
@@ -53,7 +53,8 @@ PixelBox box_of(const ldni::Contours& contours, unsigned width, unsigned height,
 // small however large the panel.
 constexpr unsigned kBandPixels = 1 << 18;
 
-// The rows of the panel, each behind the 0 that says that it is not filtered.
+// Packs the rows of the panel, each behind the 0 that says that it is not
+// filtered.
 std::string pack_rows(const ldni::Contours& contours, unsigned width,
                       unsigned height, const PixelMap& map) {
   const PixelBox box = box_of(contours, width, height, map);

@@ -9,11 +9,11 @@
 
 namespace lamina::slicer {
 
-// The layer as a PNG file of width × height pixels: each the share of it that
-// is covered, 255 for all.
+// Returns the layer as a PNG file of width × height pixels: the grey of each is
+// the share of it that the layer covers, 255 for all.
 //
-// Costs what the box around the contours does; the rest of the panel next to
-// nothing (run_deflater.h).
+// Cost: that of the box around the contours; the rest of the panel takes next
+// to no time (run_deflater.h).
 std::string draw_grey_png(const ldni::Contours& contours, unsigned width,
                           unsigned height, const PixelMap& map,
                           PixelLayout layout = PixelLayout::kGrey);

@@ -59,8 +59,8 @@ std::string sl1_config(const ImageStack& stack) {
       version(), stack.volume / 1000);
 }
 
-// Six decimals at most, and none where a whole number will do: some readers
-// take nothing else for a count.
+// A number of six decimals at most, and of none where it is whole: some readers
+// accept nothing else as a count.
 Json number(double value) {
   constexpr double kPerUnit = 1e6;
   const double rounded = std::round(value * kPerUnit) / kPerUnit;
@@ -70,10 +70,10 @@ Json number(double value) {
   return rounded;
 }
 
-// NanoDLP tells thicknesses in µm and the rest in mm.
+// NanoDLP has thicknesses in µm and the rest in mm.
 Json micrometres(double mm) { return number(1000 * mm); }
 
-// Of all layers, from the middle of the panel [mm].
+// The box of all layers, from the middle of the panel [mm].
 Json boundary_of(const ImageStack& stack) {
   const Panel& panel = stack.panel;
   const Vec2 middle = Vec2(panel.width, panel.height) / 2.0;

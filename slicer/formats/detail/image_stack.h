@@ -1,6 +1,6 @@
 #pragma once
-// What is known of a stack of images when its last layer is drawn, and the
-// texts that its formats tell of it.
+// What is known of a stack of images once its last layer is drawn, and the
+// texts that its formats hold about it.
 
 #include <cstddef>
 #include <string>
@@ -15,7 +15,8 @@ namespace lamina::slicer {
 struct ImageLayer {
   double z = 0;          // height of the section [mm]
   double thickness = 0;  // [mm]
-  // The pixels that can be covered, y down; equal where none is.
+  // Corners of the box of pixels that can be covered, y down; equal where no
+  // pixel can be.
   Vec2 low = Vec2(0);
   Vec2 high = Vec2(0);
   std::vector<double> regions;  // their areas [mm²]
@@ -25,15 +26,15 @@ struct ImageStack {
   OutputFormat format = OutputFormat::kPng;
   std::string job;  // name of the design's output, without folder and ending
   Panel panel;
-  double layer_thickness = 0;  // [mm]; 0 if they have not one
+  double layer_thickness = 0;  // [mm]; 0 if layers differ
   double volume = 0;           // of the layers [mm³]
   std::vector<ImageLayer> layers;
 };
 
-// Of a folder: the text that tells what it holds.
+// Name of the text that lists what a folder holds.
 inline constexpr const char* kFolderContents = "index.json";
 
-// Of the layer with that index, from 0.
+// Name of the image of a layer, counted from 0.
 std::string image_name(const ImageStack& stack, std::size_t layer);
 
 struct StackText {

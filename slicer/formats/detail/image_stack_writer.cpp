@@ -79,7 +79,7 @@ class ArchiveStack : public StackOutput {
   ZipOutput archive_;
 };
 
-// "out/ring.sl1": "ring". Printers show it.
+// The name of the print job, which printers show: "ring" of "out/ring.sl1".
 std::string job_name(const std::string& path) {
   std::string name = path.substr(path.rfind('/') + 1);
   name.resize(std::min(name.size(), name.rfind('.')));
@@ -95,7 +95,7 @@ std::unique_ptr<StackOutput> open_stack(OutputFormat format,
   return std::make_unique<ArchiveStack>(path, files);
 }
 
-// Without what subtracting heights left of rounding.
+// The layer's thickness without the rounding of its heights.
 double thickness_of(const Layer& layer) {
   constexpr double kPerMm = 1e9;
   return std::round((layer.top - layer.bottom) * kPerMm) / kPerMm;
@@ -150,7 +150,7 @@ class ImageStackWriter : public LayerWriter {
   std::uint64_t size() const override { return output_->size(); }
 
  private:
-  // Throws where the layer reaches beyond the panel.
+  // Throws GeometryError where the layer reaches beyond the panel.
   ImageLayer measure(const Layer& layer) const {
     const Panel& panel = stack_.panel;
     const Vec2 size(panel.width, panel.height);

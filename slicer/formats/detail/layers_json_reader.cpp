@@ -30,7 +30,7 @@ enum class Place {
   kOther,  // in something that is passed over
 };
 
-// Takes what the parser finds, piece by piece.
+// Makes layers from what the parser finds, piece by piece.
 class Handler : public nlohmann::json_sax<nlohmann::json> {
  public:
   // at  where the parser reads
@@ -153,8 +153,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  // In lists of layers, contours and points nothing else may stand, and not
-  // instead of them.
+  // Throws FileError where something else stands in a list of layers, contours
+  // or points, or in the place of such a list.
   void require_no_layer_part() const {
     switch (place()) {
       case Place::kTop:
@@ -218,7 +218,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   }
 
   void finish_contour() {
-    // Without a word the way that it runs tells.
+    // Where the file does not say, the sense in which the loop runs decides.
     const bool is_hole = is_hole_.value_or(ldni::signed_area(points_) < 0);
     add_loop(points_, is_hole ? LoopKind::kHole : LoopKind::kOuter,
              layer_.contours);
@@ -258,7 +258,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   bool has_layers_ = false;
 };
 
-// Walks over bytes and lets others see how far it is.
+// Walks over bytes, and notes for others how far it is.
 class Walker {
  public:
   using iterator_category = std::input_iterator_tag;

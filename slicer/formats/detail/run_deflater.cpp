@@ -43,8 +43,8 @@ constexpr std::array<Code, Size> codes_of(
   return codes;
 }
 
-// Shares of the code by how often images of layers need a symbol: long matches
-// in black and white most, then black and white themselves, then lengths of
+// Symbols that images of layers need more often get shorter codes: first long
+// matches in black and white, then black and white themselves, then lengths of
 // runs; greys are rare and equally so. The lengths fill the code exactly.
 constexpr int kGreyBits = 11;
 constexpr std::size_t kLastShorterGrey = 65;  // 1 bit less, to fill the code
@@ -61,8 +61,8 @@ constexpr std::array<std::uint8_t, kSymbols> kLengths = [] {
 }();
 constexpr std::array<Code, kSymbols> kCodes = codes_of(kLengths);
 
-// How the header tells those lengths: by codes of their own, whose lengths
-// stand in the header in this order.
+// The header holds those lengths in codes of their own; the lengths of these
+// codes stand in the header in this order.
 constexpr std::array<std::uint8_t, 18> kLengthOrder = {
     16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1};
 constexpr std::array<std::uint8_t, 19> kLengthLengths = [] {
@@ -75,8 +75,8 @@ constexpr std::array<std::uint8_t, 19> kLengthLengths = [] {
 }();
 constexpr std::array<Code, 19> kLengthCodes = codes_of(kLengthLengths);
 
-// Whole codes of matches by their lengths: the symbol, the bits that tell
-// lengths of one symbol apart, and the distance, whose only code is 0.
+// Whole codes of matches by their lengths: the symbol, the bits that
+// distinguish lengths of one symbol, and the distance, whose only code is 0.
 constexpr std::array<Code, kLongest + 1> kMatches = [] {
   std::array<Code, kLongest + 1> matches = {};
   std::size_t length = kShortest;
@@ -93,7 +93,7 @@ constexpr std::array<Code, kLongest + 1> kMatches = [] {
   return matches;
 }();
 
-// Longest matches written at once.
+// How many of the longest matches are written at once.
 constexpr int kAtOnce = 16;
 constexpr Code kManyMatches = [] {
   Code many;
@@ -105,8 +105,8 @@ constexpr Code kManyMatches = [] {
 }();
 
 constexpr std::uint64_t kAdlerModulus = 65521;
-// Runs of this many bytes leave the sums below 2^64.
-constexpr std::uint64_t kAdlerRun = 1 << 24;
+// Parts of a run of this many bytes leave the sums below 2^64.
+constexpr std::uint64_t kAdlerPart = 1 << 24;
 
 }  // namespace
 
@@ -140,11 +140,12 @@ void RunDeflater::add(std::uint8_t value, std::uint64_t count) {
 
 void RunDeflater::write_run() {
   for (std::uint64_t left = count_; left > 0;) {
-    const std::uint64_t run = std::min(left, kAdlerRun);
-    sum_of_sums_ = (sum_of_sums_ + run * sum_ + run * (run + 1) / 2 * value_) %
-                   kAdlerModulus;
-    sum_ = (sum_ + run * value_) % kAdlerModulus;
-    left -= run;
+    const std::uint64_t part = std::min(left, kAdlerPart);
+    sum_of_sums_ =
+        (sum_of_sums_ + part * sum_ + part * (part + 1) / 2 * value_) %
+        kAdlerModulus;
+    sum_ = (sum_ + part * value_) % kAdlerModulus;
+    left -= part;
   }
   if (count_ > 0) {
     put(kCodes[value_].bits, kCodes[value_].count);

@@ -91,7 +91,7 @@ class SlcWriter : public FloatWriter {
           {Severity::kError,
            {},
            fmt::format("Can't write '{}': the thickness of layers changes more "
-                       "often than SLC's table, which holds {} rows, can tell",
+                       "often than SLC's table, which holds {} rows, can say",
                        output_.path(), kMostRows)});
     }
     thickness_ = layer.top - layer.bottom;

@@ -22,8 +22,8 @@
 namespace lamina::slicer {
 namespace {
 
-// What Slic3r 1.3 writes for a height in millimetres, and below which heights
-// are taken for such ones.
+// What Slic3r 1.3 writes for a height of 1 mm. Heights below the greatest are
+// taken for its heights.
 constexpr double kSlic3rHeightsPerMm = 1e-6;
 constexpr double kGreatestSlic3rHeight = 0.001;
 
@@ -87,8 +87,8 @@ class SvgReader {
     }
   }
 
-  // Millimetres of a length, as SVG writes it; one without unit is taken for
-  // millimetres, as Slic3r has it.
+  // Returns the millimetres of a length as SVG writes it; without a unit it is
+  // in millimetres, as Slic3r has it.
   std::optional<double> length(const char* attribute) const {
     std::string_view text = root_.attribute(attribute).value();
     double value = 0;
@@ -176,7 +176,8 @@ class SvgReader {
     for (skip(text, kBetween); !text.empty(); skip(text, kBetween)) {
       double& value = count % 2 == 0 ? point.x : point.y;
       if (!take_number(text, value)) {
-        fail(node, fmt::format("number {} of the points is none", count + 1));
+        fail(node,
+             fmt::format("number {} of the points is malformed", count + 1));
       }
       if (++count % 2 != 0) continue;
       points_.push_back(mm_per_unit_ *

@@ -13,7 +13,7 @@
 
 #include "csg/boundary/leaf_mesh.h"
 #include "ldni/image/scanline_sampler.h"
-#include "tests/ldni/image/samplers.h"
+#include "tests/ldni/gl/shared_raster.h"
 #include "tests/support/design.h"
 #include "tests/support/leaf_scenes.h"
 #include "tests/support/random_scenes.h"

@@ -228,7 +228,7 @@ TEST(ReadCli, NamesThePlaceOfAFault) {
   EXPECT_EQ(error_of("a.cli", "solid"),
             "not a CLI file: it does not begin with \"$$HEADERSTART\"");
   EXPECT_EQ(error_of("a.cli", "$$HEADERSTART\n$$HEADEREND"),
-            "the header tells neither $$ASCII nor $$BINARY");
+            "the header has neither $$ASCII nor $$BINARY");
   EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,7,0\n")),
             "line 9: direction 7 (0, 1 or 2 was expected)");
   EXPECT_EQ(error_of("a.cli", ascii("$$POLYLINE/1,1,0\n")),
@@ -329,7 +329,7 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
   EXPECT_EQ(error_of("a.svg",
                      "<svg><g slic3r:z=\"0\"><polygon slic3r:type="
                      "\"hole\" points=\"0,0 1,x\"/></g></svg>"),
-            "line 1: number 4 of the points is none");
+            "line 1: number 4 of the points is malformed");
 }
 
 // --- .layers.json -----------------------------------------------------------
