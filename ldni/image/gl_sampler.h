@@ -28,7 +28,7 @@ namespace lamina::ldni {
 // Scene and grids must outlive the sampler; layers must be of equal thickness.
 //
 // Cost of an image: the leaf's vertices and triangles, made for it if it is a
-// sweep; a drawing of those that can cover a pixel; the samples, the pixels of
+// loft; a drawing of those that can cover a pixel; the samples, the pixels of
 // the box. Memory: for the leaf, and at most 128 MiB for what is drawn at a
 // time.
 std::unique_ptr<Sampler> make_gl_sampler(const csg::Scene& scene,

@@ -68,13 +68,13 @@ class ScanlineSampler final : public Sampler {
               LeafImages& out) override;
 
  private:
-  void sample_sweep(const csg::Sweep& sweep, bool is_inside_out);
-  void place_sweep(const csg::Sweep& sweep);
+  void sample_loft(const csg::Loft& loft, bool is_inside_out);
+  void place_loft(const csg::Loft& loft);
   void fill_ring(std::size_t ring, std::vector<std::uint32_t>& levels) const;
-  void cross_band(std::size_t low, std::size_t high, bool is_inside_out);
+  void cross_strip(std::size_t low, std::size_t high, bool is_inside_out);
   void cross_cap(std::size_t ring, bool is_inside_out);
-  Vec3 sweep_vertex(std::size_t ring, std::size_t spoke) const {
-    return scales_[ring] * spokes_[spoke] + centres_[ring];
+  Vec3 loft_vertex(std::size_t ring, std::size_t corner) const {
+    return scales_[ring] * outline_[corner] + centres_[ring];
   }
 
   void sample_mesh(const csg::Mesh& mesh, bool is_inside_out);
@@ -100,12 +100,12 @@ class ScanlineSampler final : public Sampler {
   std::vector<Sample> samples_;        // in the order of the faces
   std::vector<std::uint32_t> pixels_;  // of the samples
 
-  // The sweep at hand: vertex (i, j) = scale_i · spoke_j + centre_i.
+  // The loft at hand: vertex (i, j) = scale_i · outline_j + centre_i.
   std::vector<double> scales_;
   std::vector<Vec3> centres_;
-  std::vector<Vec3> spokes_;
+  std::vector<Vec3> outline_;
   std::vector<LevelRange> ring_levels_;
-  std::vector<std::uint32_t> low_levels_;  // of the rings of a band, by spoke
+  std::vector<std::uint32_t> low_levels_;  // of the rings of a strip, by corner
   std::vector<std::uint32_t> high_levels_;
   std::size_t filled_ring_ = 0;  // the ring of high_levels
 
@@ -133,8 +133,8 @@ void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
   // A mirror turns faces inside out.
   const bool is_mirrored =
       glm::determinant(glm::dmat3(placed.world_from_leaf)) < 0;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    sample_sweep(leaf.sweeps[i], is_mirrored != leaf.sweep_is_cavity[i]);
+  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
+    sample_loft(leaf.lofts[i], is_mirrored != leaf.loft_is_cavity[i]);
   }
   for (const csg::Mesh& mesh : leaf.meshes) sample_mesh(mesh, is_mirrored);
 
@@ -142,37 +142,36 @@ void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
   sort_by_pixel(out);
 }
 
-// --- Sweeps -----------------------------------------------------------------
+// --- Lofts ------------------------------------------------------------------
 
-void ScanlineSampler::sample_sweep(const csg::Sweep& sweep,
-                                   bool is_inside_out) {
-  place_sweep(sweep);
-  const std::size_t rings = sweep.profile.size();
+void ScanlineSampler::sample_loft(const csg::Loft& loft, bool is_inside_out) {
+  place_loft(loft);
+  const std::size_t rings = loft.profile.size();
   for (std::size_t low = 0; low + 1 < rings; ++low) {
-    cross_band(low, low + 1, is_inside_out);
+    cross_strip(low, low + 1, is_inside_out);
   }
-  if (sweep.is_closed_profile) {
-    cross_band(rings - 1, 0, is_inside_out);
+  if (loft.is_closed_profile) {
+    cross_strip(rings - 1, 0, is_inside_out);
   } else {
     cross_cap(0, !is_inside_out);
     cross_cap(rings - 1, is_inside_out);
   }
 }
 
-void ScanlineSampler::place_sweep(const csg::Sweep& sweep) {
-  filled_ring_ = sweep.profile.size();
-  spokes_.clear();
+void ScanlineSampler::place_loft(const csg::Loft& loft) {
+  filled_ring_ = loft.profile.size();
+  outline_.clear();
   double lowest = std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::lowest();
-  for (const Vec2& point : *sweep.outline) {
-    spokes_.push_back(world_from_leaf_ * Vec4(point, 0, 0));
-    lowest = std::min(lowest, spokes_.back().z);
-    highest = std::max(highest, spokes_.back().z);
+  for (const Vec2& point : *loft.outline) {
+    outline_.push_back(world_from_leaf_ * Vec4(point, 0, 0));
+    lowest = std::min(lowest, outline_.back().z);
+    highest = std::max(highest, outline_.back().z);
   }
   scales_.clear();
   centres_.clear();
   ring_levels_.clear();
-  for (const Vec2& ring : sweep.profile) {
+  for (const Vec2& ring : loft.profile) {
     scales_.push_back(ring.x);
     centres_.push_back(world_from_leaf_ * Vec4(0, 0, ring.y, 1));
     // Rounding keeps order, so these bound the levels of all vertices.
@@ -186,17 +185,17 @@ void ScanlineSampler::place_sweep(const csg::Sweep& sweep) {
 void ScanlineSampler::fill_ring(std::size_t ring,
                                 std::vector<std::uint32_t>& levels) const {
   const auto [low, high] = ring_levels_[ring];
-  levels.assign(spokes_.size(), low);
+  levels.assign(outline_.size(), low);
   if (low == high) return;
-  for (std::size_t j = 0; j < spokes_.size(); ++j) {
+  for (std::size_t j = 0; j < outline_.size(); ++j) {
     levels[j] =
-        layers_.layers_below(scales_[ring] * spokes_[j].z + centres_[ring].z);
+        layers_.layers_below(scales_[ring] * outline_[j].z + centres_[ring].z);
   }
 }
 
 // Side quads between two rings.
-void ScanlineSampler::cross_band(std::size_t low, std::size_t high,
-                                 bool is_inside_out) {
+void ScanlineSampler::cross_strip(std::size_t low, std::size_t high,
+                                  bool is_inside_out) {
   const LevelRange a = ring_levels_[low];
   const LevelRange b = ring_levels_[high];
   const LevelRange all{std::min(a.low, b.low), std::max(a.high, b.high)};
@@ -208,17 +207,17 @@ void ScanlineSampler::cross_band(std::size_t low, std::size_t high,
   }
   fill_ring(high, high_levels_);
   filled_ring_ = high;
-  std::size_t j = spokes_.size() - 1;
-  for (std::size_t next = 0; next < spokes_.size(); j = next++) {
+  std::size_t j = outline_.size() - 1;
+  for (std::size_t next = 0; next < outline_.size(); j = next++) {
     const std::array<std::uint32_t, 4> levels = {
         low_levels_[j], low_levels_[next], high_levels_[next], high_levels_[j]};
     const auto [least, most] =
         std::minmax_element(levels.begin(), levels.end());
     if (*least == *most || !meets_box({*least, *most})) continue;
-    std::array<Corner, 4> corners = {{{sweep_vertex(low, j), levels[0]},
-                                      {sweep_vertex(low, next), levels[1]},
-                                      {sweep_vertex(high, next), levels[2]},
-                                      {sweep_vertex(high, j), levels[3]}}};
+    std::array<Corner, 4> corners = {{{loft_vertex(low, j), levels[0]},
+                                      {loft_vertex(low, next), levels[1]},
+                                      {loft_vertex(high, next), levels[2]},
+                                      {loft_vertex(high, j), levels[3]}}};
     if (is_inside_out) std::swap(corners[1], corners[3]);
     cross_face(corners);
   }
@@ -229,8 +228,8 @@ void ScanlineSampler::cross_cap(std::size_t ring, bool is_inside_out) {
   if (all.low == all.high || !meets_box(all)) return;
   fill_ring(ring, low_levels_);
   cap_.clear();
-  for (std::size_t j = 0; j < spokes_.size(); ++j) {
-    cap_.push_back({sweep_vertex(ring, j), low_levels_[j]});
+  for (std::size_t j = 0; j < outline_.size(); ++j) {
+    cap_.push_back({loft_vertex(ring, j), low_levels_[j]});
   }
   if (is_inside_out) std::reverse(cap_.begin(), cap_.end());
   cross_face(cap_);

@@ -2,7 +2,7 @@
 // The exact sampler: faces are intersected with layers, the segments that arise
 // with rays, in double precision. The reference for all others.
 //
-// A face is a triangle of a mesh, or of a sweep a whole side quad or cap: they
+// A face is a triangle of a mesh, or of a loft a whole side quad or cap: they
 // are planar, so that is half the segments, and no triangle of a primitive is
 // ever stored.
 //
@@ -23,7 +23,7 @@ namespace lamina::ldni {
 
 // All arguments must outlive the sampler.
 //
-// Cost of an image: the rings of sweeps, the vertices of rings that meet the
+// Cost of an image: the rings of lofts, the vertices of rings that meet the
 // box, the vertices and triangles of meshes, the samples, the pixels of the
 // box.
 std::unique_ptr<Sampler> make_scanline_sampler(const csg::Scene& scene,

@@ -24,15 +24,15 @@ namespace {
 
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
-// Of the sampling table: they are counted in one byte.
-constexpr std::size_t kMostRows = 255;
+// Of the sampling table.
+const std::size_t kMostRows = most_thickness_runs(OutputFormat::kSlc);
 
 // Thicknesses nearer than this [mm] are one. Far above what subtracting heights
 // leaves of rounding, far below what a machine can set.
 constexpr double kSameThickness = 1e-6;
 
 // A row of the sampling table, as it lies in the file.
-struct SamplingRow {
+struct TableRow {
   float bottom;
   float thickness;
   float compensation;
@@ -131,15 +131,15 @@ class SlcWriter : public FloatWriter {
 
   void finish_table() {
     if (rows_.size() == 1) return;
-    const std::uint64_t second_row = table_offset_ + 1 + sizeof(SamplingRow);
+    const std::uint64_t second_row = table_offset_ + 1 + sizeof(TableRow);
     output_.insert(second_row,
-                   bytes_of(std::span<const SamplingRow>(rows_).subspan(1)));
+                   bytes_of(std::span<const TableRow>(rows_).subspan(1)));
     const char count = static_cast<char>(rows_.size());
     output_.patch(table_offset_, {&count, 1});
   }
 
   const std::optional<double> deviation_;
-  std::vector<SamplingRow> rows_;   // empty: the file has not begun
+  std::vector<TableRow> rows_;      // empty: the file has not begun
   double thickness_ = 0;            // of the last row [mm]
   std::uint64_t table_offset_ = 0;  // of the number of rows, in the file
   float bottom_z_ = 0;              // of the first layer
