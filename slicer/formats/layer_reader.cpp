@@ -14,8 +14,8 @@
 namespace lamina::slicer {
 namespace {
 
-// What lies farther from the origin is no part of a print but a broken file,
-// and would break what counts in integers [mm].
+// A file with a coordinate farther from the origin than this [mm] is broken,
+// and would overflow what counts in integers.
 constexpr double kGreatestCoordinate = 1e9;
 
 LayerFileFacts read_slc(const std::string& path, const TakeLayer& take,

@@ -34,7 +34,7 @@ class LayerWriter : public LayerSink {
   // numbers, so that no two loops fell together.
   virtual std::uint64_t snapped_layers() const { return 0; }
 
-  // What the format's numbers moved a point by, at most, so far [mm].
+  // Greatest distance that the format's numbers moved a point by, so far [mm].
   virtual double greatest_rounding() const { return 0; }
 };
 

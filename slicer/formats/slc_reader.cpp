@@ -18,11 +18,11 @@ constexpr std::size_t kLongestHeader = 2048;
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
 
-// Vertices are read in pieces, so that a lying count meets the end of the file
-// before it has cost memory.
+// Vertices are read this many at a time, so that a wrong count meets the end of
+// the file before it has cost memory.
 constexpr std::uint32_t kPointsAtOnce = 4096;
 
-// The words after `key` up to the next " -" that begins a keyword.
+// Returns the words after `key` up to the next " -" that begins a keyword.
 std::string value_of(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(key);
   if (at == std::string_view::npos) return {};
@@ -61,7 +61,7 @@ std::optional<double> split_deviation(std::string& package) {
   constexpr std::string_view kAfter = " mm";
   const std::size_t at = package.find(kBefore);
   if (at == std::string::npos || !package.ends_with(kAfter)) return {};
-  // "within mm": one blank is not both.
+  // In "within mm" one blank would be both.
   if (at + kBefore.size() + kAfter.size() > package.size()) return {};
   const char* const begin = package.data() + at + kBefore.size();
   const char* const end = package.data() + package.size() - kAfter.size();
@@ -201,7 +201,7 @@ bool SlcReader::read_layer(SlcLayer& layer) {
   for (std::uint32_t i = 0; i < boundaries; ++i) {
     const auto vertices = read_value<std::uint32_t>("the head of a boundary");
     const auto gaps = read_value<std::uint32_t>("the head of a boundary");
-    // Boundaries of the layer before lend their memory.
+    // Reuse the memory of the boundaries of the layer before.
     if (layer.boundaries.size() == count) layer.boundaries.emplace_back();
     WrittenLoop& boundary = layer.boundaries[count++];
     boundary.gaps = gaps;

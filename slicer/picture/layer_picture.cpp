@@ -33,8 +33,9 @@ constexpr Rgb kGap = {0.10F, 0.32F, 0.75F};
 // Labels of thin places, the thinnest first: more would hide the layer.
 constexpr std::size_t kMostLabels = 12;
 
-// Multiples of `step` within `reach` of `middle`. They are counted first: where
-// numbers lie farther apart than steps, step by step one would never get on.
+// Returns the multiples of `step` within `reach` of `middle`. They are counted
+// first: where numbers lie farther apart than steps, adding steps would never
+// get anywhere.
 std::vector<double> multiples(double step, double middle, double reach) {
   const double first = std::ceil((middle - reach) / step) * step;
   const int most = static_cast<int>(2 * reach / step) + 1;
@@ -117,7 +118,7 @@ class LayerPicture {
               fitting_size(words, kTextSize, room));
   }
 
-  // Lines at round distances, so that sizes can be judged at a glance.
+  // Draws lines at round distances, so that sizes can be judged at a glance.
   void draw_grid() {
     const double step = round_length(0.2 * field_.width / pixels_per_mm());
     Coverage lines(field_.width, field_.height);
@@ -135,7 +136,7 @@ class LayerPicture {
     blend(image_, lines, field_.x, field_.y, kGridLine);
   }
 
-  // from  where the words about them may begin [pixels]
+  // from  where the summary may begin [pixels]
   void mark_thin_places(double from) {
     const double width = options_.min_feature;
     std::vector<ThinStretch> stretches;
@@ -163,7 +164,7 @@ class LayerPicture {
               size, features.empty() ? kInk : kWall);
   }
 
-  // The middle lines.
+  // Draws the middle lines.
   void stroke(const std::vector<ThinStretch>& stretches, ThinKind kind,
               Rgb color) {
     Coverage lines(field_.width, field_.height);
@@ -174,7 +175,7 @@ class LayerPicture {
     blend(image_, lines, field_.x, field_.y, color);
   }
 
-  // A ring around where it is thinnest, and the width beside it.
+  // Draws a ring around the thinnest place, and the width beside it.
   void label(const ThinFeature& feature) {
     const Rgb color = feature.kind == ThinKind::kWall ? kWall : kGap;
     const Vec2 place = map_(feature.place);
@@ -210,8 +211,8 @@ class LayerPicture {
     return {std::cos(angle), -std::sin(angle)};
   }
 
-  // The nearest free room for a label around a place; the first one tried where
-  // all is taken.
+  // Returns the nearest free room for a label around a place, or the first one
+  // tried where all is taken.
   Bounds find_room(Vec2 place, Vec2 size) const {
     const Vec2 most = Vec2(field_.width, field_.height) - size;
     const auto box_at = [&](int way, double distance) {

@@ -21,7 +21,7 @@ constexpr double kOutlineWidth = 1.3;  // [pixels]
 constexpr double kTallest = 0.78;
 constexpr unsigned kNarrowestTile = 120;  // where there is a choice [pixels]
 
-// How a sheet is divided: all tiles alike, all layers to one scale.
+// How a sheet is divided into equal tiles.
 struct SheetGrid {
   unsigned columns = 1;
   unsigned rows = 1;
@@ -46,7 +46,8 @@ struct SheetGrid {
   }
 };
 
-// The fewest columns (the largest tiles) that keep the sheet low enough.
+// Chooses the fewest columns (the largest tiles) that keep the sheet low
+// enough.
 SheetGrid choose_grid(unsigned width, unsigned count, double aspect) {
   for (unsigned columns = 1; columns < count; ++columns) {
     const SheetGrid grid(width, count, aspect, columns);
@@ -56,7 +57,8 @@ SheetGrid choose_grid(unsigned width, unsigned count, double aspect) {
   return {width, count, aspect, count};
 }
 
-// `count` layers evenly spread over the part, the first and the last included.
+// Returns `count` layers evenly spread over the part, with the first and the
+// last.
 std::vector<std::size_t> choose_layers(std::size_t available,
                                        std::size_t count) {
   std::vector<std::size_t> chosen;
@@ -74,7 +76,7 @@ std::string short_label(const Layer& layer, std::size_t number) {
   return fmt::format("{}  z {:.3f}", number, layer.section_z);
 }
 
-// What stands under the tiles: all in one form and size, none wider than its
+// The texts under the tiles, all in one form and size, and no wider than a
 // tile.
 class Labels {
  public:
@@ -126,7 +128,7 @@ Image draw_sheet(const std::vector<Layer>& layers, const std::string& title,
   const double aspect = std::clamp(size.x / std::max(size.y, 1e-9), 0.3, 4.0);
   const SheetGrid grid = choose_grid(
       options.width, std::min(available, options.layer_count), aspect);
-  // A row begun is a row filled.
+  // Fill the last row, too.
   const std::vector<std::size_t> chosen =
       choose_layers(available, std::min(available, grid.columns * grid.rows));
   const Labels labels(layers, chosen, grid.tile_width);

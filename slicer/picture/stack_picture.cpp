@@ -16,14 +16,14 @@ namespace {
 
 constexpr unsigned kOversampling = 2;  // in x and in y
 
-// Slopes are taken over at least this share of the part's size: of finer ones,
-// the rounding of contours is a part.
+// Slopes are taken over at least this share of the part's size: finer ones
+// would show the rounding of contours.
 constexpr double kSlopeLength = 0.0018;
 // Tops that are level for this many such lengths are level.
 constexpr double kSlopeReach = 20;
 
-// How far walls take light from each other: shares of the part's size and of
-// the picture's.
+// How far walls shade each other: shares of the part's size and of the
+// picture's.
 constexpr double kShadeReach = 0.045;
 constexpr double kMostShadePixels = 0.08;
 
@@ -46,7 +46,7 @@ class Normals {
     });
   }
 
-  // At a place on a plate; out of the solid, a unit vector.
+  // Returns the unit normal, out of the solid, at a place on a plate.
   Vec3 at(int layer, Vec3 place) const {
     const Plate& plate = plates_[static_cast<std::size_t>(layer)];
     const double t = std::clamp(
@@ -77,7 +77,7 @@ class Normals {
     Vec2 inward;
   };
 
-  // In a section; those beyond the stack are empty.
+  // Returns the depth in a section; those beyond the stack are empty.
   SectionDepth level(int index, Vec2 place) const {
     const int last = static_cast<int>(plates_.size()) - 1;
     const int inside = std::clamp(index, 0, last);
@@ -128,7 +128,7 @@ class Studio {
                to_linear(colors.solid[2])),
         shine_(colors.shine) {}
 
-  // In linear light.
+  // Returns the colour that the viewer sees, in linear light.
   //
   // normal  right, up, towards the viewer
   // open    share of the sky that is seen, 0 … 1
@@ -155,8 +155,8 @@ class Studio {
  private:
   static constexpr double kElevation = 0.62;  // of the viewer [rad]
 
-  // What is seen in a direction: a bright ceiling over a dark floor, a large
-  // lamp and a small one.
+  // Returns the light from a direction: a bright ceiling over a dark floor, a
+  // large lamp and a small one.
   double room(Vec3 to) const {
     return 0.08 + 0.44 * smooth_step(-0.35, 1.0, to.z) +
            0.10 * smooth_step(0.2, 1.0, -to.z) +
@@ -199,8 +199,8 @@ class LitStack {
     choose_places();
   }
 
-  // The mean of the points in a pixel. The sky changes slowly: it is looked at
-  // once.
+  // Returns the mean of the points in a pixel. The sky changes slowly: its
+  // share is computed once.
   Rgb pixel(unsigned x, unsigned y, Rgb background) const {
     Rgb sum{};
     double open = -1;
@@ -238,7 +238,7 @@ class LitStack {
                    static_cast<std::size_t>(x)];
   }
 
-  // Where to look for what takes the sky: near places more often.
+  // Chooses where to look for what hides the sky: near places more often.
   void choose_places() {
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
@@ -251,7 +251,8 @@ class LitStack {
     }
   }
 
-  // The share of the sky that is seen: in each direction up to the horizon.
+  // Returns the share of the sky that is seen: in each direction, what is above
+  // the horizon.
   double openness(int x, int y, Vec3 normal) const {
     const Vec3 place = place_of(at(x, y));
     double open = 0;
@@ -267,7 +268,7 @@ class LitStack {
           continue;
         }
         const Vec3 way = place_of(at(qx, qy)) - place;
-        // Steps of layers take no light.
+        // The steps between layers hide no sky.
         const double rise = glm::dot(way, normal) - thickness_;
         if (rise <= 0) continue;
         const double distance = glm::length(way);

@@ -24,7 +24,7 @@ using Json = nlohmann::json;
 constexpr double kFinestStep = 1e-4;    // of coordinates [mm]
 constexpr double kMostSteps = 1 << 30;  // across the part
 
-// Integers as bytes.
+// Integers as bytes: 7 bits a byte, low ones first.
 class IntegerStream {
  public:
   void add_count(std::uint64_t value) {
@@ -43,7 +43,7 @@ class IntegerStream {
   std::string bytes_;
 };
 
-// PointEncoder as steps from the one before.
+// Writes points as steps from the point before.
 class PointEncoder {
  public:
   PointEncoder(Vec2 origin, double step) : origin_(origin), step_(step) {}
@@ -94,7 +94,7 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-// What the page needs to read of digits.
+// Leaves out digits that the page does not show.
 double rounded(double value, double step) {
   return std::round(value / step) * step;
 }
@@ -112,7 +112,7 @@ std::string replaced(std::string_view text, char letter,
   return result;
 }
 
-// JSON within a <script>: no end tag may show.
+// JSON within a <script>, where no end tag may stand.
 std::string script_text(const Json& json) {
   return replaced(json.dump(-1, ' ', false, Json::error_handler_t::replace),
                   '<', "\\u003c");
@@ -137,7 +137,7 @@ class PageMaker {
     facts["title"] = options_.title;
     for (const Layer& layer : layers_) add_contours(layer);
     if (options_.min_feature > 0) facts["thin"] = find_thin_places();
-    // Every piece of the template ends where the next begins.
+    // Copy the template, with a text in the place of each mark.
     std::string page;
     std::string_view rest = kViewerPage;
     const auto put = [&](std::string_view mark, std::string_view text) {
@@ -209,19 +209,20 @@ class PageMaker {
                                           : options_.features);
   }
 
-  // What feature_table() would list, in its order; low ones are counted.
+  // Returns what feature_table() would list, in its order; low ones are
+  // counted.
   Json list(const std::vector<ThinFeature>& features) const {
-    std::vector<std::size_t> told;
+    std::vector<std::size_t> listed;
     for (std::size_t i = 0; i < features.size(); ++i) {
-      if (!is_low(features[i], options_.min_feature)) told.push_back(i);
+      if (!is_low(features[i], options_.min_feature)) listed.push_back(i);
     }
     std::stable_sort(
-        told.begin(), told.end(), [&](std::size_t a, std::size_t b) {
+        listed.begin(), listed.end(), [&](std::size_t a, std::size_t b) {
           return std::pair(is_edge(features[a]), features[a].width) <
                  std::pair(is_edge(features[b]), features[b].width);
         });
     Json rows = Json::array();
-    for (const std::size_t i : told) {
+    for (const std::size_t i : listed) {
       const ThinFeature& feature = features[i];
       rows.push_back({feature.kind == ThinKind::kGap ? 1 : 0,
                       feature.first_layer, feature.last_layer, feature.layer,
@@ -232,7 +233,7 @@ class PageMaker {
         rows.back().push_back(options_.origins[i]);
       }
     }
-    return {{"low", features.size() - told.size()},
+    return {{"low", features.size() - listed.size()},
             {"features", std::move(rows)}};
   }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The printer profiles of slicer/formats/profiles, as the build reads them.
+// The printer profiles of slicer/formats/profiles, which the build puts into
+// the program.
 
 #include <span>
 #include <string_view>

@@ -1,5 +1,5 @@
 #pragma once
-// What flat pictures of layers are made of: boxes, lettering, the layer itself.
+// What flat pictures of layers consist of: boxes, lettering, the layer itself.
 
 #include <string_view>
 #include <vector>
@@ -33,7 +33,7 @@ struct Bounds {
 // The bounds of all layers.
 Bounds bounds_of(const std::vector<Layer>& layers);
 
-// Of pixels, y down.
+// A field of pixels, y down.
 struct Rectangle {
   unsigned x = 0;
   unsigned y = 0;
@@ -43,31 +43,33 @@ struct Rectangle {
 
 void fill(Image& image, const Rectangle& area, Rgb color);
 
-// A white field with a thin frame around it.
+// Draws a white field with a thin frame around it.
 void draw_tile(Image& image, const Rectangle& area);
 
-// Mixes `color` into the image where `coverage` says, its corner at (x, y).
+// Mixes `color` into the image by the shares of `coverage`, its corner at (x,
+// y).
 void blend(Image& image, const Coverage& coverage, unsigned x, unsigned y,
            Rgb color);
 
-// A line of text, its base line beginning at `at`.
+// Draws a line of text whose base line begins at `at`.
 //
 // size  height of a capital [pixels]
 void draw_text(Image& image, std::string_view text, Vec2 at, double size,
                Rgb color = kInk);
 
-// The largest size, `size` at most, at which the text is no wider than `room`;
-// 0 where there is none.
+// Returns the largest size, `size` at most, at which the text is no wider than
+// `room`; 0 where no size is.
 double fitting_size(std::string_view text, double size, double room);
 
-// Where millimetres go so that the bounds fill the area but for `padding`
-// pixels on every side; from the area's corner.
+// Maps millimetres to pixels, counted from the area's corner, so that the
+// bounds fill the area but for `padding` pixels on every side.
 PixelMap fit(const Bounds& bounds, const Rectangle& area, double padding);
 
-// The largest of 1, 2, 5, 10, … (and 0.5, 0.2, …) that is no longer.
+// Returns the largest of 1, 2, 5, 10, … (and 0.5, 0.2, …) that is no longer.
 double round_length(double longest);
 
-// A bar of a round length, `longest` pixels at most, with its length beside it.
+// Draws a bar of a round length, `longest` pixels at most, with its length
+// beside it.
 //
 // at       its left end [pixels]
 // size     of a capital [pixels]
@@ -75,7 +77,7 @@ double round_length(double longest);
 double draw_scale(Image& image, Vec2 at, double longest, double pixels_per_mm,
                   double size);
 
-// The layer, solid with an outline.
+// Draws the layer, filled and with an outline.
 //
 // map            from the area's corner
 // outline_width  [pixels]

@@ -7,7 +7,7 @@
 namespace lamina::slicer {
 namespace {
 
-// Rows of a layer: about as many as it has edges, within bounds.
+// Rows of a layer, at most; else half as many as it has edges.
 constexpr std::size_t kMostRows = 512;
 
 }  // namespace
@@ -116,7 +116,7 @@ LayerDistance::Depth LayerDistance::at(Vec2 place) const {
   const double sign = is_inside(place) ? 1 : -1;
   if (along == Vec2(0)) return {sign * reach_, Vec2(0)};
   const double distance = std::sqrt(nearest);
-  // On the edge itself, or as good as: its left side is the inside.
+  // On the edge itself, or nearly so: its left side is the inside.
   constexpr double kOnEdge = 1e-6;  // [mm]
   if (distance < kOnEdge) {
     const double length = std::hypot(along.x, along.y);

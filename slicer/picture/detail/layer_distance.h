@@ -2,10 +2,9 @@
 // How deep a place lies in a layer: the distance from its contours, up to a
 // reach.
 //
-// Edges are kept in rows of their heights. The nearest one is looked for in the
+// Edges are kept in rows of their heights. The nearest one is searched in the
 // row of the place first and then in those beside it, as far as they could hold
-// a nearer one; whether the place is inside is told by the edges of its own
-// row.
+// a nearer one; the edges of its own row decide whether the place is inside.
 
 #include <cstdint>
 #include <span>
@@ -19,11 +18,11 @@ class LayerDistance {
  public:
   struct Depth {
     double depth = 0;  // more than 0 inside; -reach … reach [mm]
-    Vec2 inward =
-        Vec2(0);  // where depth grows: a unit vector, or 0 out of reach
+    // Where depth grows: a unit vector, or 0 out of reach.
+    Vec2 inward = Vec2(0);
   };
 
-  // reach  no farther distances are asked for [mm]
+  // reach  the greatest distance that is of interest [mm]
   LayerDistance(const ldni::Contours& contours, double reach);
 
   Depth at(Vec2 place) const;

@@ -1,6 +1,6 @@
 #pragma once
-// Small lettering for pictures: an alphabet of strokes of our own, so that
-// pictures look the same everywhere and need no font.
+// Lettering for pictures: an alphabet of strokes of our own, so that pictures
+// look the same everywhere and need no font.
 
 #include <string_view>
 
@@ -8,7 +8,7 @@
 
 namespace lamina::slicer {
 
-// Adds a line of text, in UTF-8. ASCII letters, digits and
+// Adds a line of text, in UTF-8. It knows ASCII letters, digits and
 // . , : - _ / ( ) + = % × ² ³; other characters become a small box.
 //
 // at    left end of the base line [pixels]

@@ -13,7 +13,7 @@
 namespace lamina::slicer {
 namespace {
 
-// Sent to OpenGL at once.
+// This many corners are sent to OpenGL at once.
 constexpr std::size_t kMostCorners = 3 << 18;
 
 class StackDrawer {
@@ -26,7 +26,7 @@ class StackDrawer {
     to_viewer_z_ = world_from_view[2].z;
   }
 
-  // From the nearest to the farthest, so that little is drawn twice.
+  // Draws from the nearest to the farthest, so that little is drawn twice.
   void draw(const std::vector<Layer>& layers,
             const std::vector<Plate>& plates) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -64,7 +64,7 @@ class StackDrawer {
     }
   }
 
-  // The height of the plate's side that the viewer can see, if any.
+  // The height of the plate's level side that the viewer can see, if any.
   std::optional<double> visible_side(const Plate& plate) const {
     const bool is_above =
         is_perspective_ ? eye_z_ > plate.top : to_viewer_z_ > 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What a camera sees of a stack of layers, drawn by OpenGL as plates.
+// What a camera sees of a stack of layers, which OpenGL draws as plates.
 
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace lamina::slicer {
 
-// A layer between its sides. Of layers that have none they lie halfway to their
-// neighbours.
+// A layer between its sides. Where a layer has no sides, they lie halfway to
+// its neighbours.
 struct Plate {
   double bottom = 0;
   double top = 0;
@@ -19,12 +19,12 @@ struct Plate {
 
 std::vector<Plate> plates_of(const std::vector<Layer>& layers);
 
-// Of all plates that are not empty.
+// The box of all plates that are not empty.
 Box3 bounds_of(const std::vector<Layer>& layers,
                const std::vector<Plate>& plates);
 
-// For each pixel, y down: the place, counted from `origin` so that 32 bits are
-// enough, and the number of its layer.
+// Returns for each pixel, y down, the place that it shows, counted from
+// `origin` so that 32 bits are enough, and the number of its layer.
 //
 // Throws FileError where there is no OSMesa.
 std::vector<ldni::TaggedPoint> find_stack_points(

@@ -60,7 +60,7 @@ class TrapezoidSweep {
     if (from.y > to.y) edges_.push_back({to, from, 1});
   }
 
-  // Goes on to the strip of heights in which nothing begins or ends.
+  // Makes the strips of the next heights, between which nothing begins or ends.
   void cross(double bottom, double top) {
     std::erase_if(active_, [&](const Active& active) {
       return edges_[active.edge].high.y <= bottom;

@@ -1,5 +1,5 @@
 #pragma once
-// The area of a layer as trapezoids with level sides: what OpenGL can fill.
+// The area of a layer as trapezoids with level sides, which OpenGL can fill.
 //
 // A line sweeps up the layer. Between two corners of different heights it meets
 // the same edges in the same order; pairs of them enclose the solid. A

@@ -1,11 +1,12 @@
 #pragma once
-// The files of slicer/picture/viewer, as the build reads them.
+// The texts of slicer/picture/viewer, which the build puts into the program.
 
 #include <string_view>
 
 namespace lamina::slicer {
 
-// Has one each of {{title}}, {{style}}, {{script}}, {{facts}} and {{contours}}.
+// It has one each of {{title}}, {{style}}, {{script}}, {{facts}} and
+// {{contours}}.
 extern const std::string_view kViewerPage;
 extern const std::string_view kViewerStyle;
 extern const std::string_view kViewerScript;
