@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kNoLeaf = std::numeric_limits<std::uint32_t>::max();
 
-// `box` in two halves, across its longer side.
+// Returns the two halves of `box`, cut across its longer side.
 std::array<GridBox, 2> halves(const GridBox& box) {
   std::array<GridBox, 2> result = {box, box};
   if (box.ray_count >= box.layer_count) {
@@ -35,8 +35,8 @@ std::array<GridBox, 2> halves(const GridBox& box) {
   return result;
 }
 
-// Where the ray at (x, z) meets the plane of a face, as far as the face
-// reaches. `normal` is any normal of it.
+// Returns the depth at which the ray at (x, z) meets the plane of a face,
+// within the depths of the face. `normal` is any normal of it.
 double depth_on(const std::array<Vec3, 3>& face, const Vec3& normal, double x,
                 double z) {
   if (normal.y == 0) return face[0].y;

@@ -13,9 +13,9 @@ namespace lamina::ldni {
 namespace {
 
 // Pixels that the images of a block may have together, some 50 bytes each with
-// their samples. A jewel in local boxes needs far less; fine rays and global
-// boxes of many leaves are what this is for. Drawn blocks may be larger, up to
-// 100 MB: each makes triangles of whole leaves.
+// their samples. A jewel in local boxes needs far less than this bound, which
+// is for fine rays and for global boxes of many leaves. Drawn blocks may be
+// larger, up to 100 MB, as each makes triangles of whole leaves.
 constexpr std::uint64_t kPixelsPerBlock = 1 << 18;
 constexpr std::uint64_t kDrawnPixelsPerBlock = 1 << 21;
 
@@ -24,7 +24,7 @@ RayGrid make_rays(const csg::Scene& scene, double pitch) {
   return {scene.box.low.x, scene.box.high.x, pitch};
 }
 
-// Of the rays and layers where `instance` is sampled.
+// Returns the rays and layers where `instance` is sampled.
 GridBox sample_box(const PaperPlan& plan, const csg::Instance& instance) {
   const GridBox local = local_box(instance.box, plan.rays, plan.layers);
   // Leaves that meet no ray stay out of either kind of image.

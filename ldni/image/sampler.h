@@ -1,6 +1,6 @@
 #pragma once
-// The contract of all samplers of the paper's way: a leaf in, its layered
-// depth-normal image (LDNI) out.
+// The contract of all samplers: each makes the layered depth-normal image
+// (LDNI) of a leaf.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +27,8 @@ struct LeafImages {
   std::vector<std::uint32_t> ends;  // pixel p: samples [ends[p-1], ends[p])
   std::vector<Sample> samples;
 
-  // Samples of rays [ray, ray + count) of one row, by the image's own
-  // (local) indices.
+  // Returns the samples of rays [ray, ray + count) of one row, by the image's
+  // own (local) indices.
   std::span<const Sample> rays(const LeafImage& image, std::uint32_t layer,
                                std::uint32_t ray,
                                std::uint32_t count = 1) const {
@@ -61,7 +61,7 @@ class Sampler {
   virtual void sample(std::uint32_t instance, const GridBox& box,
                       LeafImages& out) = 0;
 
-  // Pixels so far that it had to sample another way to keep this contract.
+  // Pixels so far that had to be sampled another way to keep this contract.
   virtual std::uint64_t repaired_pixels() const { return 0; }
 
  protected:

@@ -14,15 +14,15 @@
 namespace lamina::ldni {
 namespace {
 
-// A corner of a face, in the world. Its level, the number of sections below it,
-// alone decides between which layers it lies.
+// A corner of a face, in the world. Its level is the number of sections below
+// it, which alone decides between which layers it lies.
 struct Corner {
   Vec3 position;
   std::uint32_t level;
 };
 
-// Where the edge from `lower` to `upper` meets height z. Never left or right of
-// both ends, not even by rounding.
+// Returns where the edge from `lower` to `upper` meets height z: never left or
+// right of both ends, not even by rounding.
 Vec2 point_on_edge(const Vec3& lower, const Vec3& upper, double z) {
   // A vertex on the section counts as below, so z may lie off the edge by the
   // distance that counts as on.

@@ -1,9 +1,9 @@
 #pragma once
-// The exact sampler: faces are intersected with layers, the segments that arise
-// with rays, in double precision. The reference for all others.
+// The exact sampler, the reference for all others: it intersects faces with
+// layers, and the segments that arise with rays, in double precision.
 //
 // A face is a triangle of a mesh, or of a loft a whole side quad or cap: they
-// are planar, so that is half the segments, and no triangle of a primitive is
+// are planar, which saves half the segments, and no triangle of a primitive is
 // ever stored.
 //
 // Watertight by three rules. A vertex is above a section or not by
