@@ -206,8 +206,8 @@ Sample GlSampler::make_sample(const Fragment& fragment) const {
 
 void GlSampler::repair_pixel(std::uint32_t pixel, LeafImages& out) {
   if (exact_.images.empty()) exact_sampler_->sample(instance_, box_, exact_);
-  const auto samples = exact_.rays(exact_.images[0], pixel / box_.ray_count,
-                                   pixel % box_.ray_count);
+  const auto samples = exact_.ray(exact_.images[0], pixel / box_.ray_count,
+                                  pixel % box_.ray_count);
   out.samples.insert(out.samples.end(), samples.begin(), samples.end());
   ++repaired_pixels_;
 }

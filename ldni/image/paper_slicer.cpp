@@ -113,7 +113,7 @@ void PaperSlicer::gather_layer(std::uint32_t layer) {
       if (layer < box.layer_start || layer >= box.layer_end()) continue;
       for (std::uint32_t ray = 0; ray < box.ray_count; ++ray) {
         use(box.ray_start + ray,
-            images_.rays(image, layer - box.layer_start, ray));
+            images_.ray(image, layer - box.layer_start, ray));
       }
     }
   };

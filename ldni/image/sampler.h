@@ -27,15 +27,13 @@ struct LeafImages {
   std::vector<std::uint32_t> ends;  // pixel p: samples [ends[p-1], ends[p])
   std::vector<Sample> samples;
 
-  // Returns the samples of rays [ray, ray + count) of one row, by the image's
-  // own (local) indices.
-  std::span<const Sample> rays(const LeafImage& image, std::uint32_t layer,
-                               std::uint32_t ray,
-                               std::uint32_t count = 1) const {
-    const std::size_t first =
-        image.first_pixel + std::size_t{layer} * image.box.ray_count + ray;
-    const std::size_t begin = first == 0 ? 0 : ends[first - 1];
-    return {samples.data() + begin, ends[first + count - 1] - begin};
+  // Returns the samples of one ray, by the image's own (local) indices.
+  std::span<const Sample> ray(const LeafImage& image, std::uint32_t layer,
+                              std::uint32_t index) const {
+    const std::size_t pixel =
+        image.first_pixel + std::size_t{layer} * image.box.ray_count + index;
+    const std::size_t begin = pixel == 0 ? 0 : ends[pixel - 1];
+    return {samples.data() + begin, ends[pixel] - begin};
   }
   void clear() {
     images.clear();

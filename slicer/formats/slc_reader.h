@@ -49,7 +49,6 @@ class SlcReader {
 
   const SlcHeader& header() const { return header_; }
   const std::vector<SamplingRow>& sampling() const { return sampling_; }
-  double mm_per_unit() const { return mm_per_unit_; }
   // All that the file says; known when read_layer() has returned false.
   LayerFileFacts facts() const;
 

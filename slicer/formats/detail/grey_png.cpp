@@ -1,11 +1,11 @@
 #include "slicer/formats/detail/grey_png.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <zlib.h>
 
 #include "slicer/formats/detail/run_deflater.h"
@@ -13,40 +13,27 @@
 namespace lamina::slicer {
 namespace {
 
-// Pixels [begin, end) along a side of the panel.
-struct PixelSpan {
-  double low;  // of contours, in pixels
-  double high;
-  unsigned size;  // of the side
-
-  void add(double place) {
-    low = std::min(low, place);
-    high = std::max(high, place);
-  }
-  unsigned begin() const { return clamped(std::floor(low)); }
-  unsigned end() const { return std::max(begin(), clamped(std::ceil(high))); }
-
- private:
-  unsigned clamped(double place) const {
-    return static_cast<unsigned>(std::clamp<double>(place, 0, size));
-  }
-};
-
-// The part of the panel that contours can cover.
+// The part of the panel that contours can cover [pixels].
 struct PixelBox {
-  PixelSpan columns;
-  PixelSpan rows;
+  unsigned left;
+  unsigned right;
+  unsigned first_row;
+  unsigned end_row;
 };
 
 PixelBox box_of(const ldni::Contours& contours, unsigned width, unsigned height,
                 const PixelMap& map) {
-  PixelBox box = {{1.0 * width, 0, width}, {1.0 * height, 0, height}};
+  const Vec2 size(width, height);
+  Vec2 low = size;
+  Vec2 high(0);
   for (const Vec2& point : contours.points) {
-    const Vec2 place = map(point);
-    box.columns.add(place.x);
-    box.rows.add(place.y);
+    low = glm::min(low, map(point));
+    high = glm::max(high, map(point));
   }
-  return box;
+  low = glm::clamp(glm::floor(low), Vec2(0), size);
+  high = glm::max(low, glm::clamp(glm::ceil(high), Vec2(0), size));
+  return {static_cast<unsigned>(low.x), static_cast<unsigned>(high.x),
+          static_cast<unsigned>(low.y), static_cast<unsigned>(high.y)};
 }
 
 // Rows are drawn in bands of about this many pixels, so that memory stays
@@ -57,17 +44,15 @@ constexpr unsigned kBandPixels = 1 << 18;
 // filtered.
 std::string pack_rows(const ldni::Contours& contours, unsigned width,
                       unsigned height, const PixelMap& map) {
-  const PixelBox box = box_of(contours, width, height, map);
-  const unsigned left = box.columns.begin();
-  const unsigned right = box.columns.end();
-  const unsigned bottom = box.rows.end();
+  const auto [left, right, first_row, end_row] =
+      box_of(contours, width, height, map);
   const unsigned band = std::max(1U, kBandPixels / std::max(1U, right - left));
   RunDeflater packed;
   const std::uint64_t row_size = std::uint64_t{1} + width;
-  packed.add(0, box.rows.begin() * row_size);
+  packed.add(0, first_row * row_size);
   std::vector<GreyRun> runs;
-  for (unsigned top = box.rows.begin(); top < bottom; top += band) {
-    Coverage coverage(right - left, std::min(band, bottom - top));
+  for (unsigned top = first_row; top < end_row; top += band) {
+    Coverage coverage(right - left, std::min(band, end_row - top));
     PixelMap shifted = map;
     shifted.origin -= Vec2(left, top);
     add_contours(coverage, contours, shifted);
@@ -78,7 +63,7 @@ std::string pack_rows(const ldni::Contours& contours, unsigned width,
       packed.add(0, width - right);
     }
   }
-  packed.add(0, (height - bottom) * row_size);
+  packed.add(0, (height - end_row) * row_size);
   return packed.finish();
 }
 

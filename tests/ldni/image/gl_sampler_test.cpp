@@ -145,8 +145,8 @@ Agreement compare_with_exact(const Scene& scene, double pitch, double thickness,
     const csg::Mesh mesh = csg::explicit_mesh(scene.leaves[instance.leaf]);
     for (std::uint32_t layer = 0; layer < image.box.layer_count; ++layer) {
       for (std::uint32_t ray = 0; ray < image.box.ray_count; ++ray) {
-        const auto a = sorted(found.rays(image, layer, ray));
-        const auto b = sorted(expected.rays(expected.images[i], layer, ray));
+        const auto a = sorted(found.ray(image, layer, ray));
+        const auto b = sorted(expected.ray(expected.images[i], layer, ray));
         const bool has_same_count = a.size() == b.size();
         double distance = 0;
         for (std::size_t k = 0; has_same_count && k < a.size(); ++k) {
@@ -265,7 +265,7 @@ TEST_P(GlSamplers, FindEachOfSeveralFacesInOnePlace) {
   ASSERT_GT(box.pixel_count(), 20U);
   for (std::uint32_t layer = 0; layer < box.layer_count; ++layer) {
     for (std::uint32_t ray = 0; ray < box.ray_count; ++ray) {
-      const auto found = sorted(images.rays(images.images[0], layer, ray));
+      const auto found = sorted(images.ray(images.images[0], layer, ray));
       ASSERT_EQ(found.size(), 6U);
       for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(found[i].depth, i < 3 ? 0 : 2);

@@ -62,7 +62,7 @@ std::vector<Ranges> evaluate_layers(const csg::Scene& scene,
     for (const LeafImage& image : images.images) {
       const GridBox& box = image.box;
       if (layer < box.layer_start || layer >= box.layer_end()) continue;
-      const auto found = images.rays(image, layer - box.layer_start, 0);
+      const auto found = images.ray(image, layer - box.layer_start, 0);
       samples.insert(samples.end(), found.begin(), found.end());
     }
     std::vector<Interval> intervals;
