@@ -196,7 +196,11 @@ struct ForCElement : Element {
   Bindings init;
   const Expression* condition = nullptr;
   Bindings update;  // into slots of their own, then copied:
-  std::span<const std::pair<Target, Target>> copies;  // from, to
+  struct Copy {
+    Target from;
+    Target to;
+  };
+  std::span<const Copy> copies;
   const Element* body = nullptr;
 };
 struct IfElement : Element {

@@ -23,12 +23,6 @@ Resolver::Resolver(const Loader& loader, DynamicNames& names,
                    const EvaluateOptions& options)
     : loader_(loader), names_(names), options_(options) {}
 
-std::string_view Resolver::keep_text(std::string_view text) {
-  char* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
-  std::copy(text.begin(), text.end(), copy);
-  return {copy, text.size()};
-}
-
 Scope& Resolver::open_scope(Scope& parent, Activation& activation) {
   Scope& scope = scopes_.emplace_back();
   scope.parent = &parent;
@@ -183,38 +177,31 @@ void Resolver::declare(Scope& scope, ast::Statements statements,
   }
 }
 
-Resolver::Callee Resolver::find_function(const Scope& scope,
-                                         std::string_view name) {
+template <typename Named>
+Resolver::Callee<Named> Resolver::find(
+    const Scope& scope, std::string_view name,
+    std::unordered_map<std::string_view, Named*> Scope::*table) {
   for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
-    const auto found = s->functions.find(name);
-    if (found != s->functions.end()) return {found->second, nullptr, false};
+    const auto found = (s->*table).find(name);
+    if (found != (s->*table).end()) return {found->second, false};
   }
   for (const ast::Use* use : scope.unit->uses) {
     const DeclaredUnit* unit = used_unit(*use);
     if (unit == nullptr) continue;
-    const auto found = unit->scope->functions.find(name);
-    if (found != unit->scope->functions.end()) {
-      return {found->second, nullptr, true};
-    }
+    const auto found = (unit->scope->*table).find(name);
+    if (found != (unit->scope->*table).end()) return {found->second, true};
   }
   return {};
 }
 
-Resolver::Callee Resolver::find_module(const Scope& scope,
-                                       std::string_view name) {
-  for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
-    const auto found = s->modules.find(name);
-    if (found != s->modules.end()) return {nullptr, found->second, false};
-  }
-  for (const ast::Use* use : scope.unit->uses) {
-    const DeclaredUnit* unit = used_unit(*use);
-    if (unit == nullptr) continue;
-    const auto found = unit->scope->modules.find(name);
-    if (found != unit->scope->modules.end()) {
-      return {nullptr, found->second, true};
-    }
-  }
-  return {};
+Resolver::Callee<Function> Resolver::find_function(const Scope& scope,
+                                                   std::string_view name) {
+  return find(scope, name, &Scope::functions);
+}
+
+Resolver::Callee<Module> Resolver::find_module(const Scope& scope,
+                                               std::string_view name) {
+  return find(scope, name, &Scope::modules);
 }
 
 // --- Parameters -------------------------------------------------------------

@@ -125,8 +125,8 @@ const InstantiationCode* StatementResolver::instantiation(
 
 const InstantiationCode* StatementResolver::call(
     const ast::Instantiation& written, SourceRange range) {
-  const Resolver::Callee callee = resolver_.find_module(*scope_, written.name);
-  InstantiationCode* code = callee.module != nullptr
+  const auto callee = resolver_.find_module(*scope_, written.name);
+  InstantiationCode* code = callee.code != nullptr
                                 ? user_module(written, range, callee)
                                 : builtin(written, range);
   code->name = written.name;
@@ -137,21 +137,21 @@ const InstantiationCode* StatementResolver::call(
 // The arguments of a user module see the assignments among its children.
 InstantiationCode* StatementResolver::user_module(
     const ast::Instantiation& written, SourceRange range,
-    const Resolver::Callee& callee) {
+    const Resolver::Callee<Module>& callee) {
   auto* code = make<UserModuleCode>(run_user_module, range);
   code->is_foreign = callee.is_foreign;
   if (!callee.is_foreign) {
     code->hops =
-        scope_->activation->count_hops(*callee.module->scope->activation);
+        scope_->activation->count_hops(*callee.code->scope->activation);
   }
   const NestedScope open(resolver_, scope_);
   code->block = resolver_.make<Block>();
   code->block->assignments = assignments(written.children, nullptr);
   code->arguments = expressions().arguments(written.arguments);
-  code->module = &resolver_.with_extras(*callee.module, code->arguments);
+  code->module = &resolver_.with_extras(*callee.code, code->arguments);
   code->plan = &resolver_.keep_plan(plan_arguments(
-      code->module->parameters, callee.module->parameters.size(),
-      code->arguments, resolver_.names(), resolver_.module_surplus()));
+      code->module->parameters, callee.code->parameters.size(), code->arguments,
+      resolver_.names(), resolver_.module_surplus()));
   code->block->statements = instantiations(written.children);
   code->block->resets = resolver_.keep(scope_->resets);
   return code;
