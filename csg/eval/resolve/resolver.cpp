@@ -114,7 +114,7 @@ DeclaredUnit& Resolver::declared_unit(const ast::Program& program) {
   unit->scope->activation = &unit->activation;
   unit->scope->unit = unit;
   unit->scope->home = unit->scope;
-  declare(*unit->scope, program.statements, *unit);
+  declare(*unit->scope, program.statements);
   for (const ast::Use& use : program.uses) unit->uses.push_back(&use);
   return *unit;
 }
@@ -135,43 +135,44 @@ void Resolver::resolve(const Unit& asked) {
   unit.slot_count = unit.activation.slot_count;
 }
 
-Function& Resolver::new_function() {
+Function& Resolver::new_function(const ast::FunctionDefinition& written,
+                                 SourceRange range, Scope& scope) {
   Function& function = functions_.emplace_back();
   function.number = static_cast<std::uint32_t>(functions_.size() - 1);
+  function.name = written.name;
+  function.definition = &written;
+  function.range = range;
+  function.scope = &scope;
+  function.unit = scope.unit;
   return function;
 }
 
-Module& Resolver::new_module() {
+Module& Resolver::new_module(const ast::ModuleDefinition& written,
+                             SourceRange range, Scope& scope) {
   Module& module = modules_.emplace_back();
   module.number = static_cast<std::uint32_t>(modules_.size() - 1);
+  module.name = written.name;
+  module.definition = &written;
+  module.range = range;
+  module.scope = &scope;
+  module.unit = scope.unit;
   return module;
 }
 
 // Functions and modules are known in their whole scope; the last of a name
 // wins.
-void Resolver::declare(Scope& scope, ast::Statements statements,
-                       const Unit& unit) {
+void Resolver::declare(Scope& scope, ast::Statements statements) {
   for (const ast::Statement* statement : statements) {
-    if (const auto* written =
+    if (const auto* function =
             std::get_if<ast::FunctionDefinition>(&statement->node)) {
-      Function& function = new_function();
-      function.name = written->name;
-      function.definition = written;
-      function.range = statement->range;
-      function.scope = &scope;
-      function.unit = &unit;
-      function.parameters = make_parameters(written->parameters, 0);
-      scope.functions[written->name] = &function;
+      Function& declared = new_function(*function, statement->range, scope);
+      declared.parameters = make_parameters(function->parameters, 0);
+      scope.functions[function->name] = &declared;
     } else if (const auto* module =
                    std::get_if<ast::ModuleDefinition>(&statement->node)) {
-      Module& declared = new_module();
-      declared.name = module->name;
-      declared.definition = module;
-      declared.range = statement->range;
-      declared.scope = &scope;
-      declared.unit = &unit;
-      declared.children_slot = 0;
-      declared.parameters = make_parameters(module->parameters, 1);
+      Module& declared = new_module(*module, statement->range, scope);
+      declared.parameters =
+          make_parameters(module->parameters, Module::kChildrenSlot + 1);
       scope.modules[module->name] = &declared;
     }
   }

@@ -155,7 +155,7 @@ class Resolver : public LazyResolver {
   std::string_view keep_text(std::string_view text) {
     return arena_.copy(text);
   }
-  void declare(Scope& scope, ast::Statements statements, const Unit& unit);
+  void declare(Scope& scope, ast::Statements statements);
   // Names and targets from `first_slot` on; fallbacks are resolved with the
   // body.
   std::span<Parameter> make_parameters(ast::Arguments written,
@@ -203,8 +203,10 @@ class Resolver : public LazyResolver {
   Callee<Named> find(
       const Scope& scope, std::string_view name,
       std::unordered_map<std::string_view, Named*> Scope::*table);
-  Function& new_function();
-  Module& new_module();
+  Function& new_function(const ast::FunctionDefinition& written,
+                         SourceRange range, Scope& scope);
+  Module& new_module(const ast::ModuleDefinition& written, SourceRange range,
+                     Scope& scope);
 
   const Loader& loader_;
   DynamicNames& names_;

@@ -35,16 +35,17 @@ Block StatementResolver::assignments_only(ast::Statements statements) {
 
 void StatementResolver::module(Module& module) {
   auto* children = resolver_.make<Variable>();
-  children->slot = module.children_slot;
+  children->slot = Module::kChildrenSlot;
   children->scope = scope_;
   children->is_set = children->is_parameter = true;
   children->is_statement_level = true;
   scope_->variables["$children"] = children;
-  scope_->activation->next_slot = scope_->activation->slot_count = 1;
+  scope_->activation->next_slot = scope_->activation->slot_count =
+      Module::kChildrenSlot + 1;
 
   resolver_.declare_parameters(module.parameters, *scope_);
   resolver_.resolve_fallbacks(module.parameters, *scope_, *module.scope);
-  resolver_.declare(*scope_, module.definition->body, *module.unit);
+  resolver_.declare(*scope_, module.definition->body);
   module.body.assignments = assignments(module.definition->body, &module);
   module.body.statements = instantiations(module.definition->body);
 }

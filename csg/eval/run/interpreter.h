@@ -335,10 +335,6 @@ class FrameSlots {
   std::uint32_t count_;
 };
 
-// Statements loop over ranges of fewer elements than this, comprehensions over
-// more: so OpenSCAD has it.
-constexpr std::uint32_t kMostStatementElements = 10000;
-
 // --- Running code -----------------------------------------------------------
 
 inline Value run(const Expression* code, Frame& frame) {
