@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
-#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,6 @@
 #include "csg/minkowski/convex.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include "csg/text/detail/glyph_row.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <new>
 #include <string>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <exception>
 #include <filesystem>
-#include <memory>
 #include <new>
 #include <optional>
 #include <utility>

@@ -1,8 +1,6 @@
 #pragma once
 // polyhedron(): faces as the user wrote them become a closed mesh.
 
-#include <vector>
-
 #include "base/diagnostic.h"
 #include "csg/scene.h"
 #include "csg/tree.h"
