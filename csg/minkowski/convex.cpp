@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csg/edge_table.h"

@@ -10,12 +10,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/chain_builder.h"
+#include "ldni/section/detail/csg_pruning.h"
 #include "ldni/section/detail/layer_index.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
 #include "ldni/section/detail/mesh_section.h"
-#include "ldni/section/detail/relevance.h"
 
 namespace lamina::ldni {
 
@@ -53,12 +53,12 @@ std::vector<LayerRange> layer_ranges(const csg::Scene& scene,
                                      const LayerGrid& grid) {
   std::vector<LayerRange> ranges;
   ranges.reserve(scene.instances.size());
-  detail::Relevance relevance(scene);
+  detail::CsgPruning pruning(scene);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const csg::Instance& instance = scene.instances[i];
     LayerRange range;
     if (!instance.box.is_empty() && boxes_meet(instance, scene.box) &&
-        relevance.matters(i)) {
+        pruning.matters(i)) {
       range.first = grid.layers_below(instance.box.low.z - kBoxMargin);
       range.last = grid.layers_below(instance.box.high.z + kBoxMargin);
     }
