@@ -17,13 +17,13 @@
 namespace lamina::csg {
 namespace {
 
-// Blocks of blocks of blocks, and arcs of any number of turns: a few hundred
-// bytes may ask for any number of lines. Drawings need far fewer than these.
+// A few hundred bytes may ask for any number of lines, by blocks within blocks
+// and by arcs of many turns. Drawings need far fewer than these.
 constexpr std::size_t kMostLines = 1'000'000;
 constexpr std::size_t kMostLinesOfAByte = 20;
 
-// One entity: its groups up to the next one. What a group means depends on the
-// entity; OpenSCAD keeps some in one place.
+// One entity: its groups up to the next entity. What a group means depends on
+// the entity; OpenSCAD keeps some of different meaning in one place, as here.
 struct Entity {
   std::string kind;
   std::string layer;

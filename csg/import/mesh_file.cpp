@@ -39,7 +39,7 @@ std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
   return bodies;
 }
 
-// The words of OpenSCAD, which differ from format to format.
+// In the words of OpenSCAD, which differ from format to format.
 void report_unreadable(const std::string& path, ImportFormat format,
                        SourceRange range, Diagnostics& diagnostics) {
   const std::string_view words = format == ImportFormat::k3mf
@@ -73,7 +73,7 @@ bool is_finite(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-// Takes the faces out that have a corner nowhere.
+// Drops the faces with a corner that is not finite; returns their number.
 std::size_t drop_infinite(RawMesh& raw) {
   auto& vertices = raw.mesh.vertices;
   if (std::all_of(vertices.begin(), vertices.end(), is_finite)) return 0;

@@ -1,4 +1,4 @@
-// A scene put on the builder's stack: what was lowered apart comes back.
+// Puts a scene that was lowered apart on the builder's stack.
 
 #include <cstddef>
 #include <cstdint>

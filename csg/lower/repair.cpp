@@ -1,13 +1,12 @@
-// Repairs on a table of edges.
+// Repairs of meshes, on a table of edges.
 //
 // Here a mesh is only a list of triangles and a sorted table of their edges,
 // which anything fits, and "closed" is a sum: as many a→b as b→a. Holes are
 // what is missing from that sum; as the boundary of anything has no boundary,
 // the missing edges always fall into loops, and every loop can be capped.
 //
-// Nearly every file is closed once its equal vertices are one. That is found
-// out without the table, by a sum in which matched edges cancel, and nothing is
-// repaired.
+// Nearly every file is closed once its equal vertices are one. A sum in which
+// matched edges cancel shows this without the table, and nothing is repaired.
 
 #include "csg/lower/detail/repair.h"
 
