@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostLines = 20;
 
-// A width below this [mm] is none: two sides meet in an edge.
+// Sides that are no farther apart than this [mm] meet in an edge.
 constexpr double kEdgeWidth = 1e-6;
 
 std::string plural(std::size_t count, std::string_view word) {
@@ -43,8 +43,8 @@ struct Line {
   std::size_t count = 0;
 };
 
-// One line for each kind and origin, and for each feature where origins are
-// not known; the thinnest first.
+// A line for each kind and origin, or for each feature where origins are not
+// known; the thinnest first.
 std::vector<Line> lines_of(std::span<const ThinFeature* const> told,
                            const ThinFeature* first,
                            std::span<const std::string> origins) {
