@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "csg/tie_distance.h"
-#include "ldni/image/sample.h"
 #include "slicer/contour/layer.h"
 #include "tests/ldni/sweep/section_reference.h"
 #include "tests/oracle/exact_region.h"
