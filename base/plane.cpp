@@ -1,6 +1,5 @@
 #include "base/plane.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,13 +52,6 @@ int winding_number(std::span<const Vec2> loop, Vec2 point) {
     from = to;
   }
   return sum;
-}
-
-double nearest_share(Vec2 point, Vec2 from, Vec2 to) {
-  const Vec2 along = to - from;
-  const double squared_length = dot(along, along);
-  if (!(squared_length > 0)) return 0;
-  return std::clamp(dot(point - from, along) / squared_length, 0.0, 1.0);
 }
 
 double distance_to_segment(Vec2 point, Vec2 from, Vec2 to) {

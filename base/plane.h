@@ -7,6 +7,7 @@
 // floating-point arithmetic and fast robust geometric predicates", 1997, cut
 // down to two products.
 
+#include <algorithm>
 #include <span>
 
 #include "base/vec.h"
@@ -53,7 +54,12 @@ int winding_number(std::span<const Vec2> loop, Vec2 point);
 
 // Which share of the way from `from` to `to` the nearest point of that segment
 // stands at, in [0, 1]; 0 where the ends coincide.
-double nearest_share(Vec2 point, Vec2 from, Vec2 to);
+inline double nearest_share(Vec2 point, Vec2 from, Vec2 to) {
+  const Vec2 along = to - from;
+  const double squared_length = dot(along, along);
+  if (!(squared_length > 0)) return 0;
+  return std::clamp(dot(point - from, along) / squared_length, 0.0, 1.0);
+}
 
 double distance_to_segment(Vec2 point, Vec2 from, Vec2 to);
 

@@ -6,12 +6,13 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "base/loop_area.h"
 #include "slicer/check/defects.h"
 
 namespace lamina::slicer {
 namespace {
 
-constexpr std::size_t kToldDefects = 20;
+constexpr std::size_t kReportedDefects = 20;
 
 }  // namespace
 
@@ -24,8 +25,8 @@ Inspector::Inspector(double min_feature) {
 }
 
 void Inspector::add_defect(std::string words) {
-  if (++found_.defects <= kToldDefects) {
-    found_.told_defects.push_back(std::move(words));
+  if (++found_.defects <= kReportedDefects) {
+    found_.reported_defects.push_back(std::move(words));
   }
 }
 
@@ -49,9 +50,8 @@ void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
     found_.box.low = glm::min(found_.box.low, Vec3(point, layer.bottom));
     found_.box.high = glm::max(found_.box.high, Vec3(point, layer.top));
   }
-  found_.greatest_coordinate =
-      std::max(found_.greatest_coordinate,
-               ldni::greatest_coordinate(layer.contours.points));
+  found_.greatest_coordinate = std::max(
+      found_.greatest_coordinate, greatest_coordinate(layer.contours.points));
   found_.layers.push_back(
       {layer.bottom, layer.top - layer.bottom, measure(layer.contours)});
   found_.volume +=

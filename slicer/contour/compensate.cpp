@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/loop_area.h"
+#include "base/plane.h"
 #include "csg/plane/clip.h"
 #include "csg/tie_distance.h"
 #include "slicer/contour/regions.h"
@@ -19,20 +20,6 @@ using planar::Region;
 // The clipper rounds the number of sides of an arc: one side where 1.5 were
 // asked for is 1.5² times as far from the circle.
 constexpr double kArcExcess = 2.25;
-
-bool encloses(const Contour& contour, Vec2 point) {
-  bool is_inside = false;
-  Vec2 a = contour.back();
-  for (const Vec2& b : contour) {
-    if ((a.y <= point.y) != (b.y <= point.y)) {
-      const double side =
-          (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x);
-      if ((side > 0) == (b.y > a.y)) is_inside = !is_inside;
-    }
-    a = b;
-  }
-  return is_inside;
-}
 
 // Finds the innermost loop of a region around a point.
 class Nesting {
@@ -57,7 +44,8 @@ class Nesting {
       if (i == skipped) continue;
       if ((result == kNone || box.area < boxes_[result].area) &&
           point.x > box.low.x && point.x < box.high.x && point.y > box.low.y &&
-          point.y < box.high.y && encloses(region_.contours[i], point)) {
+          point.y < box.high.y &&
+          winding_number(region_.contours[i], point) != 0) {
         result = i;
       }
     }
