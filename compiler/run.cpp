@@ -14,6 +14,7 @@
 #include "compiler/imported_design.h"
 #include "csg/boundary/move_scene.h"
 #include "parser/parameter_set.h"
+#include "slicer/formats/output_format.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/plan/surface_heights.h"
 #include "slicer/slice/slice.h"
@@ -219,7 +220,10 @@ void make_layers(Run& run, csg::Tree tree, slicer::LayerSink& sink) {
   if (lowered.outline() != nullptr && !holds_outlines(run.options.format)) {
     refuse_geometry("Current top level object is not a 3D object.");
   }
-  slice(run, lowered, run.options.settings, sink);
+  slicer::Settings settings = run.options.settings;
+  settings.most_thickness_runs =
+      slicer::most_thickness_runs(run.options.format);
+  slice(run, lowered, settings, sink);
 }
 
 int run_caught(Terminal& terminal, const Diagnostics& diagnostics,

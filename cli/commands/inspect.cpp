@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/command.h"
 #include "cli/commands/commands.h"
@@ -11,6 +12,7 @@
 #include "cli/options/option_values.h"
 #include "cli/process/streams.h"
 #include "compiler/design_options.h"
+#include "compiler/inspect_file.h"
 #include "compiler/run.h"
 #include "slicer/check/inspection_text.h"
 #include "slicer/formats/layer_reader.h"
@@ -67,17 +69,16 @@ class InspectCommand : public Command {
   // No value where the design failed.
   std::optional<slicer::Inspection> look(Run& run) const {
     if (slicer::is_readable_layer_file(options_.design)) {
-      return slicer::inspect_file(options_.design, min_feature_,
-                                  run.file_access());
+      return compiler::inspect_file(options_.design, min_feature_,
+                                    run.file_access());
     }
     auto tree = load_tree(run);
     if (!tree) return std::nullopt;
     slicer::Inspector inspector(min_feature_);
     make_layers(run, std::move(*tree), inspector);
-    slicer::Inspection found = inspector.finish();
-    found.name = options_.design;
-    found.is_float32 = false;
-    return found;
+    slicer::LayerFileFacts exact;
+    exact.is_float32 = false;
+    return inspector.finish(options_.design, std::move(exact));
   }
 
   int inspect(Run& run) const {

@@ -1,4 +1,4 @@
-// linear_extrude: sweeps where sides are planar, a mesh where they are not.
+// linear_extrude: lofts where sides are planar, a mesh where they are not.
 //
 // A twisted side is a quad that no plane holds, so the choice of its diagonal
 // is part of the shape. OpenSCAD 2021.01 takes the shorter one and, between
@@ -84,16 +84,16 @@ Region split_edges(const Region& region, double longest) {
   return split;
 }
 
-Leaf sweep_contours(const Region& region, double low, double high,
-                    double scale) {
+Leaf loft_contours(const Region& region, double low, double high,
+                   double scale) {
   Leaf leaf;
   for (const Contour& contour : region.contours) {
     const bool is_hole = planar::signed_area(contour) < 0;
     auto outline = std::make_shared<std::vector<Vec2>>(contour);
     if (is_hole) std::reverse(outline->begin(), outline->end());
-    leaf.sweeps.push_back(
+    leaf.lofts.push_back(
         {std::move(outline), {{1, low}, {scale, high}}, false});
-    leaf.sweep_is_cavity.push_back(is_hole);
+    leaf.loft_is_cavity.push_back(is_hole);
   }
   return leaf;
 }
@@ -229,7 +229,7 @@ Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region,
   const double low = params.center ? -height / 2 : 0;
   const double high = params.center ? height / 2 : height;
   if (!params.has_twist && params.scale.x == params.scale.y) {
-    return sweep_contours(region, low, high, params.scale.x);
+    return loft_contours(region, low, high, params.scale.x);
   }
   const ExtrusionSteps steps =
       extrusion_steps(params, max_radius(region),

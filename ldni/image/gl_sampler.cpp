@@ -133,7 +133,7 @@ void GlSampler::sample(std::uint32_t instance, const GridBox& box,
 
 const csg::Mesh& GlSampler::State::mesh_of(std::uint32_t index) {
   const csg::Leaf& wanted = scene.leaves[index];
-  if (wanted.sweeps.empty() && wanted.meshes.size() == 1) {
+  if (wanted.lofts.empty() && wanted.meshes.size() == 1) {
     return wanted.meshes[0];
   }
   if (leaf != index) mesh = csg::explicit_mesh(wanted);

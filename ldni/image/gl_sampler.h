@@ -33,7 +33,7 @@ class GlSampler final : public Sampler {
             const LayerGrid& layers, std::unique_ptr<FaceRaster> raster);
   ~GlSampler() override;
 
-  // Cost: the leaf's vertices and triangles, made for it if it is a sweep; a
+  // Cost: the leaf's vertices and triangles, made for it if it is a loft; a
   // drawing of those that can cover a pixel; the samples, the pixels of the
   // box. Memory: for the leaf, and at most 128 MiB for what is drawn at a time.
   void sample(std::uint32_t instance, const GridBox& box,

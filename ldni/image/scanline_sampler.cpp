@@ -66,13 +66,13 @@ struct ScanlineSampler::State {
         const LayerGrid& layers_in)
       : scene(scene_in), rays(rays_in), layers(layers_in) {}
 
-  void sample_sweep(const csg::Sweep& sweep, bool is_inside_out);
-  void place_sweep(const csg::Sweep& sweep);
+  void sample_loft(const csg::Loft& loft, bool is_inside_out);
+  void place_loft(const csg::Loft& loft);
   void fill_ring(std::size_t ring, std::vector<std::uint32_t>& levels) const;
-  void cross_band(std::size_t low, std::size_t high, bool is_inside_out);
+  void cross_strip(std::size_t low, std::size_t high, bool is_inside_out);
   void cross_cap(std::size_t ring, bool is_inside_out);
-  Vec3 sweep_vertex(std::size_t ring, std::size_t spoke) const {
-    return scales[ring] * spokes[spoke] + centres[ring];
+  Vec3 loft_vertex(std::size_t ring, std::size_t corner) const {
+    return scales[ring] * outline[corner] + centres[ring];
   }
 
   void sample_mesh(const csg::Mesh& mesh, bool is_inside_out);
@@ -98,12 +98,12 @@ struct ScanlineSampler::State {
   std::vector<Sample> samples;        // in the order of the faces
   std::vector<std::uint32_t> pixels;  // of the samples
 
-  // The sweep at hand: vertex (i, j) = scale_i · spoke_j + centre_i.
+  // The loft at hand: vertex (i, j) = scale_i · outline_j + centre_i.
   std::vector<double> scales;
   std::vector<Vec3> centres;
-  std::vector<Vec3> spokes;
+  std::vector<Vec3> outline;
   std::vector<LevelRange> ring_levels;
-  std::vector<std::uint32_t> low_levels;  // of the rings of a band, by spoke
+  std::vector<std::uint32_t> low_levels;  // of the rings of a strip, by corner
   std::vector<std::uint32_t> high_levels;
   std::size_t filled_ring = 0;  // the ring of high_levels
 
@@ -138,8 +138,8 @@ void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
   // A mirror turns faces inside out.
   const bool is_mirrored =
       glm::determinant(glm::dmat3(placed.world_from_leaf)) < 0;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    state.sample_sweep(leaf.sweeps[i], is_mirrored != leaf.sweep_is_cavity[i]);
+  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
+    state.sample_loft(leaf.lofts[i], is_mirrored != leaf.loft_is_cavity[i]);
   }
   for (const csg::Mesh& mesh : leaf.meshes) {
     state.sample_mesh(mesh, is_mirrored);
@@ -149,37 +149,37 @@ void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
   state.sort_by_pixel(out);
 }
 
-// --- Sweeps -----------------------------------------------------------------
+// --- Lofts ------------------------------------------------------------------
 
-void ScanlineSampler::State::sample_sweep(const csg::Sweep& sweep,
-                                          bool is_inside_out) {
-  place_sweep(sweep);
-  const std::size_t rings = sweep.profile.size();
+void ScanlineSampler::State::sample_loft(const csg::Loft& loft,
+                                         bool is_inside_out) {
+  place_loft(loft);
+  const std::size_t rings = loft.profile.size();
   for (std::size_t low = 0; low + 1 < rings; ++low) {
-    cross_band(low, low + 1, is_inside_out);
+    cross_strip(low, low + 1, is_inside_out);
   }
-  if (sweep.is_closed_profile) {
-    cross_band(rings - 1, 0, is_inside_out);
+  if (loft.is_closed_profile) {
+    cross_strip(rings - 1, 0, is_inside_out);
   } else {
     cross_cap(0, !is_inside_out);
     cross_cap(rings - 1, is_inside_out);
   }
 }
 
-void ScanlineSampler::State::place_sweep(const csg::Sweep& sweep) {
-  filled_ring = sweep.profile.size();
-  spokes.clear();
+void ScanlineSampler::State::place_loft(const csg::Loft& loft) {
+  filled_ring = loft.profile.size();
+  outline.clear();
   double lowest = std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::lowest();
-  for (const Vec2& point : *sweep.outline) {
-    spokes.push_back(world_from_leaf * Vec4(point, 0, 0));
-    lowest = std::min(lowest, spokes.back().z);
-    highest = std::max(highest, spokes.back().z);
+  for (const Vec2& point : *loft.outline) {
+    outline.push_back(world_from_leaf * Vec4(point, 0, 0));
+    lowest = std::min(lowest, outline.back().z);
+    highest = std::max(highest, outline.back().z);
   }
   scales.clear();
   centres.clear();
   ring_levels.clear();
-  for (const Vec2& ring : sweep.profile) {
+  for (const Vec2& ring : loft.profile) {
     scales.push_back(ring.x);
     centres.push_back(world_from_leaf * Vec4(0, 0, ring.y, 1));
     // Rounding keeps order, so these bound the levels of all vertices.
@@ -193,17 +193,17 @@ void ScanlineSampler::State::place_sweep(const csg::Sweep& sweep) {
 void ScanlineSampler::State::fill_ring(
     std::size_t ring, std::vector<std::uint32_t>& levels) const {
   const auto [low, high] = ring_levels[ring];
-  levels.assign(spokes.size(), low);
+  levels.assign(outline.size(), low);
   if (low == high) return;
-  for (std::size_t j = 0; j < spokes.size(); ++j) {
+  for (std::size_t j = 0; j < outline.size(); ++j) {
     levels[j] =
-        layers.layers_below(scales[ring] * spokes[j].z + centres[ring].z);
+        layers.layers_below(scales[ring] * outline[j].z + centres[ring].z);
   }
 }
 
 // Side quads between two rings.
-void ScanlineSampler::State::cross_band(std::size_t low, std::size_t high,
-                                        bool is_inside_out) {
+void ScanlineSampler::State::cross_strip(std::size_t low, std::size_t high,
+                                         bool is_inside_out) {
   const LevelRange a = ring_levels[low];
   const LevelRange b = ring_levels[high];
   const LevelRange all{std::min(a.low, b.low), std::max(a.high, b.high)};
@@ -215,17 +215,17 @@ void ScanlineSampler::State::cross_band(std::size_t low, std::size_t high,
   }
   fill_ring(high, high_levels);
   filled_ring = high;
-  std::size_t j = spokes.size() - 1;
-  for (std::size_t next = 0; next < spokes.size(); j = next++) {
+  std::size_t j = outline.size() - 1;
+  for (std::size_t next = 0; next < outline.size(); j = next++) {
     const std::array<std::uint32_t, 4> levels = {
         low_levels[j], low_levels[next], high_levels[next], high_levels[j]};
     const auto [least, most] =
         std::minmax_element(levels.begin(), levels.end());
     if (*least == *most || !meets_box({*least, *most})) continue;
-    std::array<Corner, 4> corners = {{{sweep_vertex(low, j), levels[0]},
-                                      {sweep_vertex(low, next), levels[1]},
-                                      {sweep_vertex(high, next), levels[2]},
-                                      {sweep_vertex(high, j), levels[3]}}};
+    std::array<Corner, 4> corners = {{{loft_vertex(low, j), levels[0]},
+                                      {loft_vertex(low, next), levels[1]},
+                                      {loft_vertex(high, next), levels[2]},
+                                      {loft_vertex(high, j), levels[3]}}};
     if (is_inside_out) std::swap(corners[1], corners[3]);
     cross_face(corners);
   }
@@ -236,8 +236,8 @@ void ScanlineSampler::State::cross_cap(std::size_t ring, bool is_inside_out) {
   if (all.low == all.high || !meets_box(all)) return;
   fill_ring(ring, low_levels);
   cap.clear();
-  for (std::size_t j = 0; j < spokes.size(); ++j) {
-    cap.push_back({sweep_vertex(ring, j), low_levels[j]});
+  for (std::size_t j = 0; j < outline.size(); ++j) {
+    cap.push_back({loft_vertex(ring, j), low_levels[j]});
   }
   if (is_inside_out) std::reverse(cap.begin(), cap.end());
   cross_face(cap);

@@ -2,7 +2,7 @@
 // The exact sampler: faces are intersected with layers, the segments that arise
 // with rays, in double precision. The reference for all others.
 //
-// A face is a triangle of a mesh, or of a sweep a whole side quad or cap: they
+// A face is a triangle of a mesh, or of a loft a whole side quad or cap: they
 // are planar, so that is half the segments, and no triangle of a primitive is
 // ever stored.
 //
@@ -29,7 +29,7 @@ class ScanlineSampler final : public Sampler {
                   const LayerGrid& layers);
   ~ScanlineSampler() override;
 
-  // Cost: the rings of sweeps, the vertices of rings that meet the box, the
+  // Cost: the rings of lofts, the vertices of rings that meet the box, the
   // vertices and triangles of meshes, the samples, the pixels of the box.
   void sample(std::uint32_t instance, const GridBox& box,
               LeafImages& out) override;

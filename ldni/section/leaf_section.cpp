@@ -24,7 +24,7 @@ namespace detail {
 struct SectionScratch {
   BlockLayers layers;
   ChainBuilder builder;
-  SweepSectioner sweeps;
+  LoftSectioner lofts;
   MeshSectioner meshes;
 };
 
@@ -120,10 +120,10 @@ void LeafSectioner::State::cut_instance(std::uint32_t number,
   const Affine& matrix = instance.world_from_leaf;
   const double determinant = glm::determinant(glm::dmat3(matrix));
   const std::int32_t mirror = determinant < 0 ? -1 : 1;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    const std::int32_t orientation = leaf.sweep_is_cavity[i] ? -mirror : mirror;
-    scratch.sweeps.cut(leaf.sweeps[i], matrix, number, orientation,
-                       scratch.layers, scratch.builder);
+  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
+    const std::int32_t orientation = leaf.loft_is_cavity[i] ? -mirror : mirror;
+    scratch.lofts.cut(leaf.lofts[i], matrix, number, orientation,
+                      scratch.layers, scratch.builder);
   }
   if (leaf.meshes.empty()) return;
   const std::vector<detail::MeshIndex>& indices = index_meshes(number);

@@ -107,7 +107,7 @@ class LeafSectioner {
 
   // Replaces `block` by the chains of those layers; its capacity is reused.
   // Cost: the instances that reach these layers, their rings or triangles, and
-  // the points made; not the facets of a sweep.
+  // the points made; not the facets of a loft.
   void cut(std::uint32_t first_layer, std::uint32_t layer_count,
            ChainBlock& block) const;
 

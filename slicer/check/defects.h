@@ -11,18 +11,20 @@
 // Contours may touch in a point (two squares corner to corner are two regions);
 // to pass through each other there is a crossing.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "base/vec.h"
-#include "slicer/formats/slc_reader.h"
+#include "slicer/contour/layer_file.h"
 
 namespace lamina::slicer {
 
 enum class DefectKind {
   kOpen,         // the last vertex is not the first
-  kGap,          // the boundary counts gaps
+  kGap,          // the file counts gaps
   kRepeat,       // two equal neighbours
   kZeroArea,     //
   kCrossing,     // two edges cross or run along each other
@@ -31,8 +33,8 @@ enum class DefectKind {
 
 struct Defect {
   DefectKind kind;
-  std::uint32_t boundary;  // from 0
-  Vec2 place;              // [mm]
+  std::uint32_t loop;  // from 0
+  Vec2 place;          // [mm]
 };
 
 // "is not closed"
@@ -40,7 +42,7 @@ std::string_view describe(DefectKind kind);
 
 // All defects of a layer; empty for a sound one. Edges that cross each other
 // many times are told at most kMostCrossings times.
-std::vector<Defect> find_defects(const SlcLayer& layer);
+std::vector<Defect> find_defects(std::span<const WrittenLoop> loops);
 constexpr std::size_t kMostCrossings = 100;
 
 }  // namespace lamina::slicer

@@ -28,11 +28,7 @@ LayerFileFacts read_slc(const std::string& path, const TakeLayer& take,
     Layer layer = to_layer(slc_layer);
     take(layer);
   }
-  LayerFileFacts facts;
-  facts.format = "SLC " + reader.header().version;
-  facts.writer = reader.header().package;
-  facts.deviation = reader.header().deviation;
-  return facts;
+  return reader.facts();
 }
 
 using Read = LayerFileFacts (*)(const std::string& path, const TakeLayer& take,

@@ -6,14 +6,13 @@
 // format's frame is a FileError with its line or byte offset. What merely
 // breaks a rule (loops that cross, layers that do not rise) is handed over.
 
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/file/file_access.h"
 #include "slicer/contour/layer.h"
+#include "slicer/contour/layer_file.h"
 
 namespace lamina::slicer {
 
@@ -21,19 +20,6 @@ namespace lamina::slicer {
 // no closing point. Where the format says which loops are holes (all but SLC)
 // those run clockwise, the others counter-clockwise.
 using TakeLayer = std::function<void(Layer&)>;
-
-// What a file tells beside its layers.
-struct LayerFileFacts {
-  std::string format;  // "SLC 2.0", "CLI, binary"
-  std::string writer;  // program that made it; empty: not told
-  // What contours deviate by from the design's sections, if told [mm].
-  std::optional<double> deviation;
-  // Coordinates are 32-bit numbers.
-  bool is_float32 = true;
-  // false: only heights of sections; sides of layers are then halfway between.
-  bool has_sides = true;
-  std::uint64_t lines_left_out = 0;  // hatches and open polylines
-};
 
 // By its name: .slc .cli .svg .layers.json, in any letter case.
 bool is_readable_layer_file(std::string_view path);

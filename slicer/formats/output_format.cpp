@@ -2,6 +2,7 @@
 
 #include <array>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -57,6 +58,11 @@ bool is_of_layers(OutputFormat format) {
 bool is_of_images(OutputFormat format) {
   using enum OutputFormat;
   return format == kPng || format == kSl1 || format == kNanoDlp;
+}
+
+std::size_t most_thickness_runs(OutputFormat format) {
+  return format == OutputFormat::kSlc ? 255
+                                      : std::numeric_limits<std::size_t>::max();
 }
 
 FormatChoice choose_output_format(std::string_view name) {

@@ -1,6 +1,7 @@
 #pragma once
 // Which output a file name's extension asks for, the same for every command.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,10 @@ bool is_of_layers(OutputFormat format);
 
 // Whether its layers are images for a panel.
 bool is_of_images(OutputFormat format);
+
+// Runs of layers of equal thickness that a file of the format can hold, at
+// most. Each is a row of SLC's table, which counts its rows in one byte.
+std::size_t most_thickness_runs(OutputFormat format);
 
 // A file name or an `--export-format` as far as it could be understood.
 struct FormatChoice {

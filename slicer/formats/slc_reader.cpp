@@ -173,6 +173,18 @@ void SlcReader::read_sampling() {
   }
 }
 
+LayerFileFacts SlcReader::facts() const {
+  LayerFileFacts facts;
+  facts.format = "SLC " + header_.version;
+  facts.writer = header_.package;
+  facts.deviation = header_.deviation;
+  facts.header = fmt::format("{}, unit {}", header_.type, header_.unit);
+  facts.sampling = sampling_;
+  facts.extents = header_.extents;
+  facts.top = top_;
+  return facts;
+}
+
 bool SlcReader::read_layer(SlcLayer& layer) {
   const auto z = read_value<float>("the height of a layer");
   const auto boundaries = read_value<std::uint32_t>("the head of a layer");
@@ -184,8 +196,8 @@ bool SlcReader::read_layer(SlcLayer& layer) {
     return false;
   }
   // The row in force is the last one that begins at or below z.
-  const SlcSampling* row = &sampling_.front();
-  for (const SlcSampling& candidate : sampling_) {
+  const SamplingRow* row = &sampling_.front();
+  for (const SamplingRow& candidate : sampling_) {
     if (candidate.min_z <= z) row = &candidate;
   }
   layer.thickness = static_cast<double>(row->thickness) * mm_per_unit_;
@@ -196,7 +208,7 @@ bool SlcReader::read_layer(SlcLayer& layer) {
     const auto gaps = read_value<std::uint32_t>("the head of a boundary");
     // Boundaries of the layer before lend their memory.
     if (layer.boundaries.size() == count) layer.boundaries.emplace_back();
-    SlcBoundary& boundary = layer.boundaries[count++];
+    WrittenLoop& boundary = layer.boundaries[count++];
     boundary.gaps = gaps;
     read_points(vertices, boundary.points);
   }
@@ -226,7 +238,7 @@ Layer to_layer(const SlcLayer& layer) {
   result.bottom = layer.z;
   result.top = layer.z + layer.thickness;
   result.section_z = layer.z + layer.thickness / 2;
-  for (const SlcBoundary& boundary : layer.boundaries) {
+  for (const WrittenLoop& boundary : layer.boundaries) {
     std::size_t count = boundary.points.size();
     if (count > 1 && boundary.points.front() == boundary.points.back()) {
       --count;

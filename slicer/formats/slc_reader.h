@@ -20,6 +20,7 @@
 #include "base/file/file_access.h"
 #include "base/vec.h"
 #include "slicer/contour/layer.h"
+#include "slicer/contour/layer_file.h"
 
 namespace lamina::slicer {
 
@@ -35,23 +36,10 @@ struct SlcHeader {
   std::optional<std::array<Vec2, 3>> extents;
 };
 
-// One row of the sampling table: layers from `min_z` upward [file's unit].
-struct SlcSampling {
-  float min_z = 0;
-  float thickness = 0;
-  float line_width_compensation = 0;
-};
-
-// A boundary as written: the closing vertex is kept.
-struct SlcBoundary {
-  std::uint32_t gaps = 0;
-  std::vector<Vec2> points;  // [mm]
-};
-
 struct SlcLayer {
   double z = 0;          // lower side [mm]
   double thickness = 0;  // of the row in force [mm]
-  std::vector<SlcBoundary> boundaries;
+  std::vector<WrittenLoop> boundaries;
 };
 
 class SlcReader {
@@ -61,8 +49,10 @@ class SlcReader {
   explicit SlcReader(std::string path, const FileAccess& access = kAllFiles);
 
   const SlcHeader& header() const { return header_; }
-  const std::vector<SlcSampling>& sampling() const { return sampling_; }
+  const std::vector<SamplingRow>& sampling() const { return sampling_; }
   double mm_per_unit() const { return mm_per_unit_; }
+  // All that the file tells; to be asked when read_layer() has returned false.
+  LayerFileFacts facts() const;
 
   // Replaces `layer` by the next one; false at the end of the layers. Throws
   // FileError.
@@ -89,7 +79,7 @@ class SlcReader {
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::uint64_t offset_ = 0;
   SlcHeader header_;
-  std::vector<SlcSampling> sampling_;
+  std::vector<SamplingRow> sampling_;
   double mm_per_unit_ = 1;
   double top_ = 0;
 };

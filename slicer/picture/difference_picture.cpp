@@ -8,6 +8,7 @@
 
 #include "csg/plane/clip.h"
 #include "csg/plane/region.h"
+#include "slicer/contour/regions.h"
 #include "slicer/picture/drawing.h"
 #include "slicer/picture/lettering.h"
 
@@ -36,21 +37,8 @@ constexpr double kDistancesShown = 6;
 constexpr double kLeastShown = 1e-6;
 
 planar::Region region_of(const ldni::Contours& contours) {
-  std::vector<planar::Contour> loops;
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    loops.emplace_back(loop.begin(), loop.end());
-  }
-  return planar::from_contours(loops, planar::FillRule::kNonZero);
-}
-
-ldni::Contours contours_of(const planar::Region& region) {
-  ldni::Contours contours;
-  for (const planar::Contour& loop : region.contours) {
-    contours.points.insert(contours.points.end(), loop.begin(), loop.end());
-    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
-  }
-  return contours;
+  return planar::from_contours(to_region(contours).contours,
+                               planar::FillRule::kNonZero);
 }
 
 class DifferencePicture {
@@ -62,9 +50,9 @@ class DifferencePicture {
                kTopStrip + kFieldSize + kFootStrip, kPaper) {
     const std::array regions = {region_of(a), region_of(b)};
     const std::array turned = {regions[1], regions[0]};
-    both_ = contours_of(planar::intersect(regions));
-    only_a_ = contours_of(planar::subtract(regions));
-    only_b_ = contours_of(planar::subtract(turned));
+    both_ = to_contours(planar::intersect(regions));
+    only_a_ = to_contours(planar::subtract(regions));
+    only_b_ = to_contours(planar::subtract(turned));
     bounds_.add(a);
     bounds_.add(b);
     if (a.points.empty() && b.points.empty()) bounds_ = around({0, 0}, 1);

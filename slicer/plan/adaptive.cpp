@@ -25,9 +25,6 @@ namespace {
 // What comes into a cell by no more than this does not count [mm].
 constexpr double kReach = kTieDistance;
 
-// Rows of SLC's sampling table.
-constexpr std::size_t kMostRuns = 255;
-
 // Cells times cells of the thickest layer: 300 MB and a minute.
 constexpr double kMostStates = 3e7;
 
@@ -270,7 +267,8 @@ ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
       scene, [&](const Box3& box) { return limits.is_wanted(box); },
       [&](const csg::BoundaryFace& face) { limits.take(face); });
   return ldni::LayerGrid::stacked(
-      heights.low, unit, stack_layers(limits.finish(), greatest, kMostRuns));
+      heights.low, unit,
+      stack_layers(limits.finish(), greatest, thickness.most_runs));
 }
 
 }  // namespace lamina::slicer

@@ -19,6 +19,9 @@
 // (stacking.h). Flat faces, peaks and pits make no steps: where one lies on a
 // border of cells a layer ends there, else its cell is a layer of its own.
 
+#include <cstddef>
+#include <limits>
+
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
 
@@ -29,6 +32,8 @@ struct AdaptiveThickness {
   double thinnest = 0;  // layers are multiples of it
   double thickest = 0;  // 0: four times the thinnest
   double cusp = 0;      // greatest distance of a step's corner from the surface
+  // Runs of layers of equal thickness, at most (stacking.h).
+  std::size_t most_runs = std::numeric_limits<std::size_t>::max();
 };
 
 // Layers for a cusp. In each of them t · |n_z| <= cusp for every facet

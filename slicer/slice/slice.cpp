@@ -11,6 +11,7 @@
 #include "ldni/section/grid.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/compensate.h"
+#include "slicer/contour/regions.h"
 #include "slicer/plan/adaptive.h"
 #include "slicer/slice/block_slicer.h"
 #include "slicer/slice/slice_job.h"
@@ -18,8 +19,8 @@
 namespace lamina::slicer {
 namespace {
 
-// No machine builds so many: 500 m of the usual ones. Formats have tables of
-// them, and adaptive layers a cell for each.
+// No machine builds so many layers: 500 m of the usual ones. Formats keep a
+// table of them, and the planner of adaptive layers a ply for each.
 constexpr double kMostLayers = 1e7;
 
 void require_layers(const csg::Scene& scene, double thickness) {
@@ -39,14 +40,15 @@ ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
   }
   require_layers(scene, settings.layer_thickness);
   if (settings.cusp > 0) {
-    return adaptive_grid(scene, {settings.layer_thickness,
-                                 settings.greatest_thickness, settings.cusp});
+    return adaptive_grid(scene,
+                         {settings.layer_thickness, settings.greatest_thickness,
+                          settings.cusp, settings.most_thickness_runs});
   }
   return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
                                   settings.layer_thickness);
 }
 
-// What must not happen, and would be a fault of ours, is never silent.
+// Reports faults of our own, which should never happen.
 void warn_of_broken_promises(const SliceReport& report,
                              Diagnostics& diagnostics) {
   const auto warn = [&](std::uint64_t count, const char* what) {
@@ -61,7 +63,7 @@ void warn_of_broken_promises(const SliceReport& report,
   warn(report.sweep.capped_columns, "stops of the ray did not settle");
 }
 
-// No fault of the layers either, but of what drew them.
+// Reports faults of what drew the leaves, which the layers do not have.
 void warn_of_repairs(const SliceReport& report, Diagnostics& diagnostics) {
   if (report.paper.repaired_pixels == 0) return;
   diagnostics.warning(
@@ -71,7 +73,8 @@ void warn_of_repairs(const SliceReport& report, Diagnostics& diagnostics) {
                   report.paper.repaired_pixels, report.renderer));
 }
 
-// Too thin for the beam is no fault of the layers, but no part of the print.
+// Reports what is too thin for the beam: the layers are right, the print will
+// lack it.
 void warn_of_losses(const CompensationCounts& losses, double compensation,
                     Diagnostics& diagnostics) {
   const auto warn = [&](std::uint64_t loops, const char* loop,
@@ -96,7 +99,7 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 }
 
 [[noreturn]] void throw_out_of_range(const SliceReport& report,
-                                     const LayerRange& wanted) {
+                                     const LayerNumbers& wanted) {
   throw GeometryError({Severity::kError,
                        {},
                        fmt::format("There is no layer {}: the layers are 1 to "
@@ -105,6 +108,15 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 }
 
 }  // namespace
+
+void SliceReport::add(const LayerMeasures& layer, double thickness) {
+  ++layers;
+  loops += layer.loops;
+  holes += layer.holes;
+  points += layer.vertices;
+  greatest_area = std::max(greatest_area, layer.area);
+  volume += layer.area * thickness;
+}
 
 SliceReport slice(const csg::Scene& scene, const Settings& settings,
                   LayerSink& sink, Diagnostics& diagnostics) {
@@ -156,22 +168,17 @@ SliceReport slice_outline(const planar::Region& outline,
                           Diagnostics& diagnostics) {
   Layer layer;
   layer.compensation = settings.compensation;
-  for (const planar::Contour& contour : outline.contours) {
-    auto& [points, ends] = layer.contours;
-    points.insert(points.end(), contour.begin(), contour.end());
-    ends.push_back(static_cast<std::uint32_t>(points.size()));
-  }
+  layer.contours = to_contours(outline);
   SliceReport report;
   if (settings.min_feature > 0) {
     report.features = find_thin_features(layer, settings.min_feature);
   }
   report.losses = compensate(layer.contours, settings.compensation);
-  report.layers = report.layers_there = 1;
+  report.layers_there = 1;
   if (!settings.written.contains(1)) {
     throw_out_of_range(report, settings.written);
   }
-  report.loops = layer.contours.loop_count();
-  report.points = layer.contours.points.size();
+  report.add(measure(layer.contours), 0);
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (layer.contours.is_empty()) throw_empty(report);
   sink.begin(box_of(layer.contours));

@@ -201,6 +201,25 @@ TEST(AdaptiveGrid, RefusesMoreThinLayersThanItCanPlan) {
   EXPECT_THROW(grid_of("cube([1, 1, 1e6]);", settings_for(0.05, 1e-4)), Error);
 }
 
+std::size_t count_runs(const std::vector<unsigned>& sizes) {
+  std::size_t runs = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    runs += i == 0 || sizes[i] != sizes[i - 1] ? 1 : 0;
+  }
+  return runs;
+}
+
+TEST(AdaptiveGrid, HasMoreLayersWhereAFormatTellsOfFewRuns) {
+  const Design ball = Design::from_text("sphere(3, $fn = 100);");
+  slicer::AdaptiveThickness thickness{0.02, 0.16, 0.02};
+  const auto free = multiples(adaptive_grid(ball.scene(), thickness), 0.02);
+  thickness.most_runs = 4;
+  const auto kept = multiples(adaptive_grid(ball.scene(), thickness), 0.02);
+  EXPECT_GT(count_runs(free), 4U);
+  EXPECT_LE(count_runs(kept), 4U);
+  EXPECT_GT(kept.size(), free.size());
+}
+
 TEST(AdaptiveLayers, HoldTheVolumeOfTheSolid) {
   // Sections in the middle: errors of the second order only.
   const Design ball = Design::from_text("sphere(5, $fn = 200);");

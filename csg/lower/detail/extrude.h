@@ -7,9 +7,9 @@
 
 namespace lamina::csg {
 
-// Straight and evenly scaled extrusions are Sweeps, one for each contour;
+// Straight and evenly scaled extrusions are Lofts, one for each contour;
 // twisted and unevenly scaled ones are meshes with OpenSCAD's vertices and
-// diagonals, because their sides are not planar. No sweep and no mesh where
+// diagonals, because their sides are not planar. No loft and no mesh where
 // the height or the region is nothing.
 //
 // chordal_error  of sides that are not planar, where neither $fn nor slices
@@ -27,7 +27,7 @@ struct ProfileRange {
 ProfileRange profile_range(const planar::Region& region);
 
 // The region turned about the y axis, which becomes z. A full turn gives
-// Sweeps, less gives a mesh. The region must not cross the axis.
+// Lofts, less gives a mesh. The region must not cross the axis.
 //
 // angle_deg  in (-360, 360]
 // fragments  over the whole angle

@@ -48,24 +48,24 @@ bool rises(const std::vector<Vec2>& profile) {
 
 }  // namespace
 
-// In coordinates of the leaf the section of a sweep at a height is its outline
+// In coordinates of the leaf the section of a loft at a height is its outline
 // times a scale, so it lies within outer · scale of the axis and holds all
 // within inner · scale.
 struct Relevance::Body {
   Body(const csg::Instance& instance, const csg::Leaf& leaf) {
     const glm::dmat3 linear(instance.world_from_leaf);
-    if (leaf.sweeps.size() != 1 || !leaf.meshes.empty() ||
+    if (leaf.lofts.size() != 1 || !leaf.meshes.empty() ||
         !(std::abs(glm::determinant(linear)) > 0)) {
       return;
     }
-    sweep = leaf.sweeps.data();
+    loft = leaf.lofts.data();
     leaf_from_world = glm::inverse(linear);
     shift = instance.world_from_leaf[3];
     for (int axis = 0; axis < 3; ++axis) {
       reach[axis] = glm::abs(leaf_from_world[axis]);
     }
-    std::tie(inner, outer) = radii_of(*sweep->outline);
-    if (sweep->is_closed_profile || !rises(sweep->profile)) inner = 0;
+    std::tie(inner, outer) = radii_of(*loft->outline);
+    if (loft->is_closed_profile || !rises(loft->profile)) inner = 0;
   }
 
   // Least and greatest scale of the profile between two heights, as if it went
@@ -73,8 +73,8 @@ struct Relevance::Body {
   std::pair<double, double> scales_between(double low, double high) const {
     double least = 1e300;
     double greatest = -1e300;
-    const std::vector<Vec2>& profile = sweep->profile;
-    Vec2 from = sweep->is_closed_profile ? profile.back() : profile.front();
+    const std::vector<Vec2>& profile = loft->profile;
+    Vec2 from = loft->is_closed_profile ? profile.back() : profile.front();
     for (const Vec2& to : profile) {
       const auto [below, above] = std::minmax(from.y, to.y);
       if (below <= high && above >= low) {
@@ -97,7 +97,7 @@ struct Relevance::Body {
     return {least, greatest};
   }
 
-  const csg::Sweep* sweep = nullptr;  // null: only the box is known
+  const csg::Loft* loft = nullptr;  // null: only the box is known
   glm::dmat3 leaf_from_world{1.0};
   glm::dmat3 reach{1.0};  // its magnitudes
   Vec3 shift{0.0};
@@ -209,7 +209,7 @@ Relevance::Count Relevance::value_of_leaf(std::uint32_t number,
   }
   const csg::Leaf& leaf = scene_.leaves[instance.leaf];
   const Body& body = bodies_.try_emplace(number, instance, leaf).first->second;
-  if (body.sweep == nullptr) return {0, 1};
+  if (body.loft == nullptr) return {0, 1};
 
   // The box around the box, in coordinates of the leaf.
   const Vec3 middle =
@@ -223,7 +223,7 @@ Relevance::Count Relevance::value_of_leaf(std::uint32_t number,
   const double high = middle.z + half.z;
   const auto [least, greatest] = body.scales_between(low, high);
   if (greatest < least || nearest > body.outer * greatest) return {0, 0};
-  const std::vector<Vec2>& profile = body.sweep->profile;
+  const std::vector<Vec2>& profile = body.loft->profile;
   if (farthest < body.inner * least && low > profile.front().y &&
       high < profile.back().y) {
     return {1, 1};
