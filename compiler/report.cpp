@@ -98,7 +98,7 @@ void add_layers(const RunReport& report, JsonObject& json) {
   json.add("chains", slice.sweep.chains);
   json.add("chain_points", slice.sweep.points);
   json.add("slabs", slice.sweep.slabs);
-  json.add("stops", slice.sweep.stops);
+  json.add("event_points", slice.sweep.event_points);
   json.add("evaluations", slice.sweep.evaluations);
   json.add("resolved_layers", slice.sweep.resolved_layers);
   json.add("image_pixels", slice.paper.pixels);
@@ -109,9 +109,9 @@ void add_layers(const RunReport& report, JsonObject& json) {
   json.add("broken_walls", slice.losses.broken_walls);
   json.add("closed_gaps", slice.losses.closed_gaps);
   json.add("open_paths", slice.open_paths);
-  json.add("unbalanced_columns", slice.sweep.unbalanced_columns);
-  json.add("repaired_columns", slice.sweep.repaired_columns);
-  json.add("capped_columns", slice.sweep.capped_columns);
+  json.add("unbalanced_clusters", slice.sweep.unbalanced_clusters);
+  json.add("repaired_clusters", slice.sweep.repaired_clusters);
+  json.add("capped_clusters", slice.sweep.capped_clusters);
   json.add("snapped_layers", report.snapped_layers);
   json.add("warnings", report.warnings);
   json.add("deviation_mm", deviation_json(report.deviation));

@@ -6,7 +6,7 @@
 
 #include "parser/ast_printer.h"
 #include "parser/detail/customizer_value.h"
-#include "parser/detail/literal.h"
+#include "parser/tree_facts.h"
 
 namespace lamina {
 
@@ -109,7 +109,7 @@ ParameterComment Customizer::comment_of(
   const SourceRange range = assignment.range;
   const auto& node = std::get<ast::Assignment>(assignment.node);
   if (range.source != &source_ || !node.value->range.is_known() ||
-      !detail::is_literal(*node.value)) {
+      !ast::is_literal(*node.value)) {
     return result;
   }
   const std::uint32_t line = source_.openscad_line(range.begin);

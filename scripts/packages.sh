@@ -4,7 +4,7 @@
 # To build and run the program.
 LAMINA_BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config bison flex
-  libglm-dev libfmt-dev libdouble-conversion-dev libcli11-dev
+  libglm-dev libfmt-dev libdouble-conversion-dev libutfcpp-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
   libqhull-dev libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
   libminizip-dev libpugixml-dev zlib1g-dev

@@ -9,11 +9,7 @@
 
 #include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
-#include "csg/import/amf.h"
-#include "csg/import/obj.h"
-#include "csg/import/off.h"
-#include "csg/import/stl.h"
-#include "csg/import/threemf.h"
+#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 namespace {

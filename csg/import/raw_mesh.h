@@ -2,6 +2,7 @@
 // Meshes as files have them.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "csg/scene.h"
@@ -18,6 +19,15 @@ struct RawMesh {
   bool is_joined = false;
   // Of a 3MF whose slices are the part: about where that is, and no more.
   bool is_stand_in = false;
+
+  // Appends a face; one of less than three corners is left out.
+  void add_face(std::span<const std::uint32_t> corners) {
+    if (corners.size() == 3) {
+      mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+    } else if (corners.size() > 3) {
+      polygons.emplace_back(corners.begin(), corners.end());
+    }
+  }
 };
 
 }  // namespace lamina::csg

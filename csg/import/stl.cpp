@@ -1,5 +1,3 @@
-#include "csg/import/stl.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +14,7 @@
 
 #include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
+#include "csg/import/mesh_readers.h"
 #include "csg/vertex_table.h"
 
 namespace lamina::csg {

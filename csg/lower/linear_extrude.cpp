@@ -92,8 +92,7 @@ Leaf loft_contours(const Region& region, double low, double high,
     auto outline = std::make_shared<std::vector<Vec2>>(contour);
     if (is_hole) std::reverse(outline->begin(), outline->end());
     leaf.lofts.push_back(
-        {std::move(outline), {{1, low}, {scale, high}}, false});
-    leaf.loft_is_cavity.push_back(is_hole);
+        {std::move(outline), {{1, low}, {scale, high}}, false, is_hole});
   }
   return leaf;
 }

@@ -14,7 +14,7 @@
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/flat.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/lower/detail/mend.h"
+#include "csg/lower/detail/repair.h"
 #include "csg/plane/clip.h"
 
 namespace lamina::csg {
@@ -42,8 +42,8 @@ Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
       mesh.triangles.push_back(t);
     }
   }
-  mend_and_report(mesh, range, diagnostics,
-                  raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
+  repair_and_report(mesh, range, diagnostics,
+                    raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
   return mesh;
 }
 

@@ -138,8 +138,8 @@ void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
   // A mirror turns faces inside out.
   const bool is_mirrored =
       glm::determinant(glm::dmat3(placed.world_from_leaf)) < 0;
-  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
-    state.sample_loft(leaf.lofts[i], is_mirrored != leaf.loft_is_cavity[i]);
+  for (const csg::Loft& loft : leaf.lofts) {
+    state.sample_loft(loft, is_mirrored != loft.is_cavity);
   }
   for (const csg::Mesh& mesh : leaf.meshes) {
     state.sample_mesh(mesh, is_mirrored);

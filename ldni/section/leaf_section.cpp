@@ -10,12 +10,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/chain_builder.h"
+#include "ldni/section/detail/csg_pruning.h"
 #include "ldni/section/detail/layer_index.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
 #include "ldni/section/detail/mesh_section.h"
-#include "ldni/section/detail/relevance.h"
 
 namespace lamina::ldni {
 
@@ -53,12 +53,12 @@ std::vector<LayerRange> layer_ranges(const csg::Scene& scene,
                                      const LayerGrid& grid) {
   std::vector<LayerRange> ranges;
   ranges.reserve(scene.instances.size());
-  detail::Relevance relevance(scene);
+  detail::CsgPruning pruning(scene);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const csg::Instance& instance = scene.instances[i];
     LayerRange range;
     if (!instance.box.is_empty() && boxes_meet(instance, scene.box) &&
-        relevance.matters(i)) {
+        pruning.matters(i)) {
       range.first = grid.layers_below(instance.box.low.z - kBoxMargin);
       range.last = grid.layers_below(instance.box.high.z + kBoxMargin);
     }
@@ -120,10 +120,10 @@ void LeafSectioner::State::cut_instance(std::uint32_t number,
   const Affine& matrix = instance.world_from_leaf;
   const double determinant = glm::determinant(glm::dmat3(matrix));
   const std::int32_t mirror = determinant < 0 ? -1 : 1;
-  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
-    const std::int32_t orientation = leaf.loft_is_cavity[i] ? -mirror : mirror;
-    scratch.lofts.cut(leaf.lofts[i], matrix, number, orientation,
-                      scratch.layers, scratch.builder);
+  for (const csg::Loft& loft : leaf.lofts) {
+    const std::int32_t orientation = loft.is_cavity ? -mirror : mirror;
+    scratch.lofts.cut(loft, matrix, number, orientation, scratch.layers,
+                      scratch.builder);
   }
   if (leaf.meshes.empty()) return;
   const std::vector<detail::MeshIndex>& indices = index_meshes(number);

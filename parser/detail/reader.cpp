@@ -12,42 +12,13 @@
 #include <fmt/format.h>
 
 #include "base/number.h"
+#include "base/utf8.h"
 #include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"
 
 namespace lamina::detail {
 
 namespace {
-
-// Appends a Unicode code point as UTF-8.
-void append_utf8(std::string& text, std::uint32_t code) {
-  const auto put = [&text](std::uint32_t byte) {
-    text += static_cast<char>(static_cast<unsigned char>(byte));
-  };
-  const auto tail = [code](int shift) {
-    return 0x80U | (code >> shift & 0x3fU);
-  };
-  if (code < 0x80) {
-    put(code);
-  } else if (code < 0x800) {
-    put(0xc0U | code >> 6);
-    put(tail(0));
-  } else if (code < 0x10000) {
-    put(0xe0U | code >> 12);
-    put(tail(6));
-    put(tail(0));
-  } else {
-    put(0xf0U | code >> 18);
-    put(tail(12));
-    put(tail(6));
-    put(tail(0));
-  }
-}
-
-bool is_character(std::uint32_t code) {
-  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-  return code != 0 && code < 0x110000 && !is_surrogate;
-}
 
 std::string quote(std::string_view text) { return fmt::format("'{}'", text); }
 
@@ -143,7 +114,7 @@ Text Reader::plain_string(SourceRange range) const {
 void Reader::add_code_point(const char* digits) {
   const auto code =
       static_cast<std::uint32_t>(std::strtoul(digits, nullptr, 16));
-  append_utf8(string_, is_character(code) ? code : ' ');
+  if (!append_utf8(code, string_)) string_ += ' ';
 }
 
 void Reader::break_string(SourceRange range) {

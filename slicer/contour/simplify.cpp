@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/plane.h"
-#include "ldni/section/loop_sums.h"
+#include "ldni/section/loop_area_and_box.h"
 #include "slicer/contour/farthest_reach.h"
 
 namespace lamina::slicer {
@@ -76,7 +76,7 @@ void Simplifier::simplify(ldni::Contours& contours) {
 void Simplifier::copy_loops(const ldni::Contours& contours) {
   points_.clear();
   loops_.clear();
-  ldni::Reach reach;
+  ldni::LoopBox box;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);
     const Vec2* first = loop.data();
@@ -85,7 +85,7 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
       if (point.x <= first->x && (point.x < first->x || point.y < first->y)) {
         first = &point;
       }
-      reach.add(point);
+      box.add(point);
       doubled_area.add(point);
     }
     const auto begin = static_cast<std::uint32_t>(points_.size());
@@ -94,7 +94,7 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
     loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
                       doubled_area.value()});
   }
-  clearance_ = kClearance * reach.value();
+  clearance_ = kClearance * box.greatest_coordinate();
 }
 
 // Chooses the vertices of a loop as if it were alone.

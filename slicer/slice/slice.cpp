@@ -58,9 +58,10 @@ void warn_of_broken_promises(const SliceReport& report,
                                         count, what));
   };
   warn(report.open_paths, "open paths in the sections of leaves were closed");
-  warn(report.sweep.unbalanced_columns, "stops of the ray left a leaf open");
-  warn(report.sweep.repaired_columns, "ends of boundary found no partner");
-  warn(report.sweep.capped_columns, "stops of the ray did not settle");
+  warn(report.sweep.unbalanced_clusters,
+       "event points of the ray left a leaf open");
+  warn(report.sweep.repaired_clusters, "ends of boundary found no partner");
+  warn(report.sweep.capped_clusters, "event points of the ray did not settle");
 }
 
 // Reports faults of what drew the leaves, which the layers do not have.
@@ -131,7 +132,7 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   report.renderer = plan.renderer;
   std::optional<FeatureCollector> features;
   if (settings.min_feature > 0) {
-    features.emplace(settings.min_feature, number_makers(scene));
+    features.emplace(settings.min_feature, source_ids(scene));
   }
   sink.begin(scene.box);
   sink.expect(grid.layer_count());

@@ -9,6 +9,7 @@
 // lower_minkowski.cpp the sum.
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -41,6 +42,11 @@ struct Shape {
 
 struct Operand;
 
+// What only unites its children.
+template <typename Op>
+concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
+    std::same_as<Op, Render> || std::same_as<Op, Color>;
+
 class Lowerer {
  public:
   // instances  about as many as there will be
@@ -58,10 +64,10 @@ class Lowerer {
 
  private:
   // --- lower_operators.cpp --------------------------------------------------
-  Shape lower_op(const Group&, const Node& node, const Affine& world);
-  Shape lower_op(const Union&, const Node& node, const Affine& world);
-  Shape lower_op(const Render&, const Node& node, const Affine& world);
-  Shape lower_op(const Color&, const Node& node, const Affine& world);
+  template <Grouping Op>
+  Shape lower_op(const Op&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kUnion);
+  }
   Shape lower_op(const Difference&, const Node& node, const Affine& world);
   Shape lower_op(const Intersection&, const Node& node, const Affine& world);
   Shape lower_op(const Transform& op, const Node& node, const Affine& world);

@@ -10,7 +10,7 @@
 namespace lamina::csg {
 
 // Faces are clockwise from outside, as OpenSCAD has them; the mesh is
-// counter-clockwise. Defects are mended and reported, one warning for each
+// counter-clockwise. Defects are repaired and reported, one warning for each
 // kind, with what was done as notes.
 Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
                      Diagnostics& diagnostics);

@@ -14,7 +14,4 @@ namespace lamina::csg {
 Vec2 resize_factor(const Resize& op, const planar::Region& region);
 Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean);
 
-// The box of the solid itself, however its leaves are combined.
-Box3 box_of_result(const Scene& scene);
-
 }  // namespace lamina::csg

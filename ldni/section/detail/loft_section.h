@@ -36,7 +36,7 @@
 
 #include "base/lanes.h"
 #include "csg/scene.h"
-#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/chain_builder.h"
 
 namespace lamina::ldni::detail {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "csg/scene.h"
-#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/chain_builder.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
 

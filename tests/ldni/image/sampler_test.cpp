@@ -378,9 +378,9 @@ TEST_P(Samplers, ShiftsOfTheLeafShiftTheDepths) {
 using Outline = std::vector<Vec2>;
 
 csg::Loft make_loft(Outline outline, std::vector<Vec2> profile,
-                    bool is_closed_profile = false) {
+                    bool is_closed_profile = false, bool is_cavity = false) {
   return {std::make_shared<const Outline>(std::move(outline)),
-          std::move(profile), is_closed_profile};
+          std::move(profile), is_closed_profile, is_cavity};
 }
 
 Outline circle(int sides, double r) {
@@ -392,11 +392,9 @@ Outline circle(int sides, double r) {
   return points;
 }
 
-csg::Leaf loft_leaf(std::vector<csg::Loft> lofts,
-                    std::vector<bool> loft_is_cavity) {
+csg::Leaf loft_leaf(std::vector<csg::Loft> lofts) {
   csg::Leaf leaf;
   leaf.lofts = std::move(lofts);
-  leaf.loft_is_cavity = std::move(loft_is_cavity);
   return leaf;
 }
 
@@ -406,17 +404,14 @@ std::vector<csg::Leaf> loft_leaves() {
   const Outline comb = {{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1},
                         {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
   return {
-      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {2, 1.5}})}, {false}),
-      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {0, 1.5}})}, {false}),
-      loft_leaf({make_loft(circle(9, 1), {{0, -1}, {2, 0}, {0, 1.5}})},
-                {false}),
+      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {2, 1.5}})}),
+      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {0, 1.5}})}),
+      loft_leaf({make_loft(circle(9, 1), {{0, -1}, {2, 0}, {0, 1.5}})}),
       loft_leaf({make_loft(circle(20, 1),
-                           {{3, -0.5}, {3.5, 0}, {3, 0.5}, {2.5, 0}}, true)},
-                {false}),
-      loft_leaf({make_loft(comb, {{1, 0}, {0.5, 2}})}, {false}),
+                           {{3, -0.5}, {3.5, 0}, {3, 0.5}, {2.5, 0}}, true)}),
+      loft_leaf({make_loft(comb, {{1, 0}, {0.5, 2}})}),
       loft_leaf({make_loft(circle(24, 3), {{1, 0}, {1, 2}}),
-                 make_loft(circle(12, 2), {{1, 0}, {1, 2}})},
-                {false, true}),
+                 make_loft(circle(12, 2), {{1, 0}, {1, 2}}, false, true)}),
   };
 }
 

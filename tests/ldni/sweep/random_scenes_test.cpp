@@ -96,9 +96,9 @@ class SceneJudge {
       where_ = name_ + ", layer " + std::to_string(l);
       judge_layer(scene, reference);
     }
-    EXPECT_EQ(ray.counts().unbalanced_columns, 0U) << name_;
-    EXPECT_EQ(ray.counts().capped_columns, 0U) << name_;
-    EXPECT_EQ(ray.counts().repaired_columns, 0U) << name_;
+    EXPECT_EQ(ray.counts().unbalanced_clusters, 0U) << name_;
+    EXPECT_EQ(ray.counts().capped_clusters, 0U) << name_;
+    EXPECT_EQ(ray.counts().repaired_clusters, 0U) << name_;
   }
 
  private:

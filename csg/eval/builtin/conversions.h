@@ -1,0 +1,31 @@
+#pragma once
+// Values as the parameters of modules: numbers, vectors, `$fn $fa $fs`.
+
+#include <optional>
+
+#include "base/vec.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/value.h"
+#include "csg/tree.h"
+
+namespace lamina::csg {
+
+// A vector of exactly two numbers.
+std::optional<Vec2> to_vec2(const Value& value);
+// A vector of exactly three numbers.
+std::optional<Vec3> to_vec3(const Value& value);
+// The same, or of two numbers, with `z` for the third.
+std::optional<Vec3> to_vec3(const Value& value, double z);
+// Any vector and what of it can be taken: OpenSCAD writes the elements that
+// are numbers before it finds the one that is none.
+bool read_vec3(const Value& value, double default_z, Vec3& target);
+
+std::optional<double> to_finite(const Value& value);
+
+// A number cut to an int as OpenSCAD does it; 0 for what is no number.
+int to_int(const Value& value);
+
+// `$fn $fa $fs` at this moment.
+Facets current_facets(Interpreter& in);
+
+}  // namespace lamina::csg
