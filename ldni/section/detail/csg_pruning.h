@@ -1,20 +1,19 @@
 #pragma once
-// Which leaves can matter at all: CSG pruning.
+// CSG pruning, or null-object detection (Tilove 1984): which leaves can matter.
 //
 // Of a lattice that a sphere bounds, half of the struts lie outside the sphere;
-// of a pattern of drills many meet nothing. Within the box of such a leaf the
-// Boolean is decided by others, and the leaf need not be cut in any layer.
+// of a pattern of drills many meet nothing. Within the box of such a leaf other
+// leaves decide the Boolean, and the leaf need not be cut in any layer.
 //
-// To see that, the ternary program is evaluated over the box (Tilove 1984). A
-// leaf is judged by its box, and a body that is round or straight by bounds of
-// its scale, in O(its rings): false where the box lies outside of it, true
-// where the box lies inside, else unknown. A leaf below an operator that is
-// decided while the leaf is unknown is left out.
+// To see that, the ternary program is evaluated over the box. A leaf is
+// judged by its box, and a body that is round or straight by bounds of its
+// scale, in O(its rings): false where the box lies outside of it, true where
+// the box lies inside, else unknown. A leaf below an operator that is decided
+// while the leaf is unknown is left out.
 //
-// All answers keep a distance that ties of faces do not bridge. That leaves
-// which are left out decide about others does no harm: a leaf is true only over
-// boxes smaller than its own, so each is decided by larger ones, whatever the
-// smaller ones hold.
+// All answers keep a distance that ties of faces do not bridge. Leaves that are
+// left out may decide about others: a leaf is true only over boxes smaller than
+// its own, so larger leaves decide about smaller ones and never in a circle.
 
 #include <cstdint>
 #include <unordered_map>
