@@ -29,8 +29,8 @@ using planar::Region;
 using Side = WindowSection::Side;
 
 Box3 expand(const Box3& box) {
-  // More than the box of a window is, so that what is judged by boxes here has
-  // no face in the window there.
+  // By more than the box of a window is, so that a leaf that misses this box
+  // has no face in the window.
   constexpr double kMargin = 4 * kTieDistance;
   return {box.low - kMargin, box.high + kMargin};
 }
@@ -91,8 +91,8 @@ class Finder {
  private:
   const PlacedLeaf& leaf() const { return leaves_[self_]; }
 
-  // Of the surface of one leaf, what meets no other surface lies wholly inside
-  // or wholly outside of each.
+  // The part of a leaf's surface that meets no other surface lies wholly inside
+  // or wholly outside of each other leaf.
   //
   // unknown  instances of which it is not yet known
   void descend(std::uint32_t index, std::span<const std::uint32_t> unknown) {
@@ -271,7 +271,7 @@ class Finder {
     return value;
   }
 
-  // Of faces that lie in one plane the first one speaks for what they share.
+  // Of faces that lie in one plane the first one gives what they share.
   void add_earlier(std::uint32_t other, std::span<const std::uint32_t> faces,
                    std::uint32_t face, const Plane& plane,
                    std::vector<Region>& earlier) const {

@@ -367,7 +367,7 @@ planar::Region WindowSection::contours(Side side) const {
     result.contours.push_back(std::move(chain));
   }
 
-  // These contours are right but for a constant: the whole section tells it.
+  // These contours are right but for a constant, which the whole section has.
   int missing = section_winding(leaf_, plane_, side, window_.low);
   for (const Contour& contour : result.contours) {
     missing -= winding_number(contour, window_.low);

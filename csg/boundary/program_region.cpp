@@ -16,8 +16,8 @@ using Value = std::optional<Region>;
 
 bool is_empty(const Value& value) { return value && value->is_empty(); }
 
-// An operator with live children. Children that are not live are in `count`
-// only (see ProgramState::count).
+// An operator with live children. `count` covers only those that are not live
+// (see ProgramState::count).
 struct LiveNode {
   std::int32_t count = 0;
   std::optional<Value> minuend;  // of a difference, if it is live

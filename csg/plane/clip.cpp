@@ -83,9 +83,9 @@ Region to_region(const ClipperLib::Paths& paths) {
   return region;
 }
 
-// Clipper keeps to itself whatever is thrown inside of it, and what it then
-// gives back is empty. That memory ended it cannot hide: operator new tells
-// that to its handler first, on the thread that asked.
+// Clipper catches whatever is thrown inside it and returns an empty result. It
+// cannot hide that memory ended: operator new calls its handler first, on the
+// thread that asked.
 thread_local bool has_memory_ended = false;
 std::new_handler next_handler = nullptr;
 
@@ -128,7 +128,8 @@ ClipperLib::Paths clip(ClipperLib::ClipType type,
   if (!has_subject && !has_other) return result;
   bool is_clipped = false;
   watch_memory([&] { is_clipped = clipper.Execute(type, result, fill, fill); });
-  // Else it found no order of crossings in which only neighbours cross.
+  // It fails where it finds no order of crossings in which only neighbours
+  // cross.
   LAMINA_CHECK_EQ(is_clipped, true);
   return result;
 }
