@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slicer/contour/layer_edges.h"
+
 namespace lamina::slicer {
 namespace {
 
@@ -26,25 +28,20 @@ LayerDistance::LayerDistance(const ldni::Contours& contours, double reach)
 
   std::vector<std::uint32_t> counts(rows);
   row_ends_.resize(rows);
-  const auto for_edges = [&](const auto& visit) {
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      const auto loop = contours.loop(i);
-      for (std::size_t j = 0; j < loop.size(); ++j) {
-        const Edge edge = {loop[j], loop[(j + 1) % loop.size()]};
-        const auto [first, last] =
-            std::minmax({row_of(edge.from.y), row_of(edge.to.y)});
-        for (int row = first; row <= last; ++row) {
-          visit(edge, static_cast<std::size_t>(row));
-        }
+  const auto visit_rows = [&](const auto& visit) {
+    visit_edges(contours, [&](Vec2 from, Vec2 to) {
+      const auto [first, last] = std::minmax({row_of(from.y), row_of(to.y)});
+      for (int row = first; row <= last; ++row) {
+        visit(Edge{from, to}, static_cast<std::size_t>(row));
       }
-    }
+    });
   };
-  for_edges([&](const Edge&, std::size_t row) { ++row_ends_[row]; });
+  visit_rows([&](const Edge&, std::size_t row) { ++row_ends_[row]; });
   for (std::size_t row = 1; row < rows; ++row) {
     row_ends_[row] += row_ends_[row - 1];
   }
   edges_.resize(row_ends_.back());
-  for_edges([&](const Edge& edge, std::size_t row) {
+  visit_rows([&](const Edge& edge, std::size_t row) {
     const std::uint32_t begin = row == 0 ? 0 : row_ends_[row - 1];
     edges_[begin + counts[row]++] = edge;
   });
