@@ -34,7 +34,7 @@ class Reader {
  private:
   [[noreturn]] void fail(std::size_t begin, std::size_t end,
                          std::string message) const {
-    throw FileError({Severity::kError, range(begin, end), std::move(message)});
+    throw FileError(std::move(message), range(begin, end));
   }
 
   SourceRange range(std::size_t begin, std::size_t end) const {

@@ -118,6 +118,9 @@ void append_terminal_text(std::string& text, SourceRange range,
 
 Error::Error(Diagnostic diagnostic) : diagnostic_(std::move(diagnostic)) {}
 
+Error::Error(std::string message, SourceRange range)
+    : diagnostic_{Severity::kError, range, std::move(message)} {}
+
 const char* Error::what() const noexcept { return diagnostic_.message.c_str(); }
 
 Diagnostics::Diagnostics(Observer observer) : observer_(std::move(observer)) {}

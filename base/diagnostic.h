@@ -41,10 +41,12 @@ struct Diagnostic {
   Audience audience = Audience::kAll;
 };
 
-// Thrown to end the run; only main catches.
+// Thrown where a run cannot go on.
 class Error : public std::exception {
  public:
   explicit Error(Diagnostic diagnostic);
+  // An error with a place, or without one.
+  explicit Error(std::string message, SourceRange range = {});
   const char* what() const noexcept override;
   const Diagnostic& diagnostic() const { return diagnostic_; }
 

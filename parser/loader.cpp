@@ -133,8 +133,7 @@ ast::Program Loader::load(const std::string& path) {
   access_.require(path);
   std::optional<std::string> text = read(path);
   if (!text) {
-    throw FileError(
-        {Severity::kError, {}, "Can't open input file '" + path + "'!"});
+    throw FileError("Can't open input file '" + path + "'!");
   }
   add_file(path);
   return load_text(path, std::move(*text));

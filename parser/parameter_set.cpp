@@ -221,8 +221,7 @@ bool apply_parameter_set(const std::string& path, const std::string& set,
 std::vector<std::string> parameter_set_names(const std::string& path,
                                              const FileAccess& access) {
   const auto refuse = [&](std::string_view why) {
-    throw FileError(
-        {Severity::kError, {}, fmt::format("Cannot open '{}': {}", path, why)});
+    throw FileError(fmt::format("Cannot open '{}': {}", path, why));
   };
   access.require(path);
   const std::optional<std::string> text = access.read(path);

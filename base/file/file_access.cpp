@@ -26,7 +26,6 @@ namespace lamina {
 
 namespace fs = std::filesystem;
 
-
 namespace {
 
 using State = Destination::State;
@@ -42,9 +41,7 @@ PermittedFolder open_folder(const std::string& path) {
   check_machine(path, fault);
   if (fault != 0) {
     throw AccessError(
-        {Severity::kError,
-         {},
-         fmt::format("Can't use folder '{}': {}", path, std::strerror(fault))});
+        fmt::format("Can't use folder '{}': {}", path, std::strerror(fault)));
   }
   folder.given_parts = parts_of(fs::absolute(path, error));
   folder.parts = parts_of(without_links);
@@ -53,8 +50,7 @@ PermittedFolder open_folder(const std::string& path) {
 
 [[noreturn]] void refuse(std::string_view written, std::string_view fault,
                          SourceRange range) {
-  throw AccessError(
-      {Severity::kError, range, fmt::format("'{}' {}", written, fault)});
+  throw AccessError(fmt::format("'{}' {}", written, fault), range);
 }
 
 constexpr std::string_view kOutside = "is outside of --root";
@@ -108,20 +104,17 @@ FileAccess FileAccess::none() {
 void check_machine(const std::string& path, int error) {
   switch (error) {
     case ESTALE:
-      throw FileError({Severity::kError,
-                       {},
-                       fmt::format("Can't read file '{}': it changed while it "
-                                   "was read.",
-                                   path)});
+      throw FileError(
+          fmt::format("Can't read file '{}': it changed while it "
+                      "was read.",
+                      path));
     case EIO:
     case ENOSPC:
     case ENOMEM:
     case EMFILE:
     case ENFILE:
-      throw FileError({Severity::kError,
-                       {},
-                       fmt::format("Can't read file '{}': {}.", path,
-                                   std::strerror(error))});
+      throw FileError(
+          fmt::format("Can't read file '{}': {}.", path, std::strerror(error)));
     default:
       return;
   }
