@@ -194,10 +194,8 @@ class Interpreter {
   // --- Modules being instantiated
   std::vector<std::string_view>
       module_names;  // of user modules, innermost last
-  const CallFrame* current_call = nullptr;
-  const CallFrame* keep_call(const CallFrame& call) {
-    return calls_.make(call);
-  }
+  const CallSite* current_call = nullptr;
+  const CallSite* keep_call(const CallSite& call) { return calls_.make(call); }
 
   // For rands() and everything else that is not a function of its arguments.
   MersenneTwister random;

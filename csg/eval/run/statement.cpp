@@ -58,7 +58,7 @@ class ModuleCall {
  public:
   ModuleCall(const UserModuleCode& code, Interpreter& in)
       : in_(in), outer_(in.current_call) {
-    CallFrame call;
+    CallSite call;
     call.caller = outer_;
     call.name = code.name;
     call.range = code.range;
@@ -74,7 +74,7 @@ class ModuleCall {
 
  private:
   Interpreter& in_;
-  const CallFrame* outer_;
+  const CallSite* outer_;
 };
 
 void run_module_body(const Module& module, Frame& frame) {
