@@ -68,7 +68,8 @@ bool is_of_kernel(const OpenFile& file) {
          system.f_type == PROC_SUPER_MAGIC || system.f_type == SYSFS_MAGIC;
 }
 
-// Where a rename must go: through symbolic links, to the file itself.
+// The path that a rename must take: that of the file itself, behind symbolic
+// links.
 std::string follow_links(const std::string& path) {
   const std::unique_ptr<char, void (*)(void*)> resolved(
       ::realpath(path.c_str(), nullptr), ::free);
@@ -316,7 +317,7 @@ void FileAccess::make_folders(const std::string& path) const {
     fs::create_directories(path, ignored);
     return;
   }
-  // Each turn makes one that lay in the way, of no more than a path can have.
+  // Each turn makes one missing folder; a path has no more than these.
   for (int i = 0; i < PATH_MAX; ++i) {
     const Destination found = find_in_root(path);
     const bool can_be_made =
