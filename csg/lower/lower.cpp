@@ -31,15 +31,15 @@ void survey(const Node& node, Survey& result) {
   }
 }
 
-std::vector<Note> call_chain(const CallFrame* caller) {
+std::vector<Note> call_chain(const CallSite* caller) {
   std::vector<Note> notes;
-  for (const CallFrame* frame = caller; frame; frame = frame->caller) {
-    notes.push_back({frame->range, fmt::format("called by '{}'", frame->name)});
+  for (const CallSite* call = caller; call; call = call->caller) {
+    notes.push_back({call->range, fmt::format("called by '{}'", call->name)});
   }
   return notes;
 }
 
-[[noreturn]] void fail_too_far(SourceRange range, const CallFrame* caller) {
+[[noreturn]] void fail_too_far(SourceRange range, const CallSite* caller) {
   throw GeometryError({Severity::kError, range,
                        "Coordinates beyond 1e9 mm: too large for exact layers",
                        call_chain(caller)});
