@@ -127,12 +127,13 @@ planar::Region read_svg(const ImportParams& params, const FileAccess& access,
   try {
     shapes = parse_svg(bytes->view(), options);
   } catch (const FormatError& fault) {
-    Diagnostic diagnostic{
-        Severity::kError, range,
-        fmt::format("Error parsing file '{}', import() at line {}", params.path,
-                    range.openscad_line())};
-    diagnostic.hints.push_back({range, fault.what()});
-    diagnostics.report(std::move(diagnostic));
+    diagnostics.report(
+        {Severity::kError,
+         range,
+         fmt::format("Error parsing file '{}', import() at line {}",
+                     params.path, range.openscad_line()),
+         {},
+         {{range, fault.what()}}});
     return {};
   }
   return fill_shapes(shapes);
