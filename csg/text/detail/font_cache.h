@@ -56,8 +56,11 @@ struct Font {
 // All caches share what Fontconfig finds.
 class FontCache {
  public:
+  // Loads Fontconfig's configuration; where only some files may be read, also
+  // every font among them.
+  //
   // files  outlives the cache
-  explicit FontCache(const FontFiles& files);
+  static FontCache open(const FontFiles& files);
 
   // To be called before the first find(). False if the file holds no font.
   bool add_font(const char* path);
@@ -66,6 +69,8 @@ class FontCache {
   const Font& find(const std::string& name);
 
  private:
+  explicit FontCache(const FontFiles& files) : files_(files) {}
+
   Font load(const std::string& name) const;
   void add_permitted_folders();
   void add_pattern(FT_FaceRec& face, const char* path, unsigned index);

@@ -1,5 +1,5 @@
 #pragma once
-// What may befall a file on its way: it is cut off, or a byte is another one.
+// Damages files: cuts them off, or replaces a byte.
 
 #include <functional>
 #include <string>
