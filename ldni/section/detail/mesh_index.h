@@ -2,14 +2,15 @@
 // Which parts of a mesh a block of layers meets.
 //
 // A mesh has a million triangles and a block of layers crosses few of them. So
-// triangles, and vertices likewise, are looked at in runs that stand together
-// in the mesh, and of each run one knows the layers between its lowest and its
-// highest vertex. Meshes from files come in some order along the surface, so a
-// run is a small patch of it; where they do not, every run is looked into, and
-// nothing but time is lost.
+// the index groups triangles, and vertices likewise, into runs that stand
+// together in the mesh, and knows for each run the layers between its lowest
+// and its highest vertex. Meshes from files come in some order along the
+// surface, so a run is a small patch of it; where they do not, every run is
+// opened, and nothing but time is lost.
 //
-// Each instance has an index of its own, made at one look over the mesh. That
-// is 0.4 bytes for a triangle, where the mesh, which instances share, has 24.
+// Each instance has an index of its own, made in one pass over the mesh. It
+// takes 0.4 bytes for a triangle, where the mesh, which instances share,
+// has 24.
 
 #include <algorithm>
 #include <cstddef>
@@ -41,7 +42,7 @@ class LayerRuns {
   LayerRuns(std::size_t count, const LayerGrid& grid,
             const HeightsOf& heights_of)
       : count_(count) {
-    ranges_.reserve(count / kLength + 1);
+    spans_.reserve(count / kLength + 1);
     for (std::size_t begin = 0; begin < count; begin += kLength) {
       HeightRange whole = heights_of(begin);
       for (std::size_t i = begin + 1; i < end_of(begin); ++i) {
@@ -49,7 +50,7 @@ class LayerRuns {
         whole.low = std::min(whole.low, heights.low);
         whole.high = std::max(whole.high, heights.high);
       }
-      ranges_.push_back(
+      spans_.push_back(
           {grid.layers_below(whole.low), grid.layers_below(whole.high)});
     }
   }
@@ -58,8 +59,8 @@ class LayerRuns {
   // the layers of the job that pass between its lowest and highest point.
   template <typename Visit>
   void for_each(const Visit& visit) const {
-    for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      visit(ranges_[i], i * kLength, end_of(i * kLength));
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+      visit(spans_[i], i * kLength, end_of(i * kLength));
     }
   }
 
@@ -71,7 +72,7 @@ class LayerRuns {
   }
 
   std::size_t count_;
-  std::vector<LayerRange> ranges_;
+  std::vector<LayerSpan> spans_;
 };
 
 // Of one mesh of one instance.
