@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/lower/detail/flat.h"
 #include "csg/lower/detail/lowerer.h"
+#include "csg/plane/clip.h"
 
 namespace lamina::csg {
 namespace {
@@ -27,6 +27,19 @@ Affine compose(const Affine& outer, const Mat4& inner) {
   const Affine m(inner);
   return {apply_linear(outer, m[0]), apply_linear(outer, m[1]),
           apply_linear(outer, m[2]), apply_linear(outer, m[3]) + outer[3]};
+}
+
+planar::Region combine_regions(BooleanOp op,
+                               std::span<const planar::Region> regions) {
+  switch (op) {
+    case BooleanOp::kDifference:
+      return planar::subtract(regions);
+    case BooleanOp::kIntersection:
+      return planar::intersect(regions);
+    case BooleanOp::kUnion:
+      break;
+  }
+  return planar::unite(regions);
 }
 
 }  // namespace

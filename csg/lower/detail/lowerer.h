@@ -190,6 +190,11 @@ class Lowerer {
   std::map<std::string, FileShape> file_shapes_;  // by path and csg_text
 };
 
+// Applies the part of the matrix that acts in the plane. Outer contours stay
+// counter-clockwise.
+planar::Region transform_region(planar::Region region, const Mat4& matrix,
+                                SourceRange range, Diagnostics& diagnostics);
+
 // Throws GeometryError, with the node's chain of calls.
 [[noreturn]] void fail_unsupported(const Node& node, std::string_view module);
 
