@@ -8,6 +8,7 @@
 #include "csg/boundary/leaf_box.h"
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/lowerer.h"
+#include "csg/lower/detail/points.h"
 #include "csg/lower/detail/polyhedron.h"
 
 namespace lamina::csg {
@@ -57,11 +58,14 @@ Shape Lowerer::lower_op(const Cylinder& c, const Node& node,
 
 Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
                         const Affine& world) {
+  const PolyhedronParams& params = *polyhedron.params;
+  if (!check_points(params.wrong_point, "vec3", node.range, diagnostics_)) {
+    return {Dimension::kSolid};
+  }
   Leaf leaf;
   leaf.meshes.push_back(
-      takes_corners_
-          ? make_corners(*polyhedron.params, node.range, diagnostics_)
-          : make_polyhedron(*polyhedron.params, node.range, diagnostics_));
+      takes_corners_ ? make_corners(params, node.range, diagnostics_)
+                     : make_polyhedron(params, node.range, diagnostics_));
   leaf.may_overlap_itself = true;
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};

@@ -44,16 +44,6 @@ planar::Region combine_regions(BooleanOp op,
 
 }  // namespace
 
-Shape Lowerer::lower_op(const Difference&, const Node& node,
-                        const Affine& world) {
-  return lower_children(node, world, BooleanOp::kDifference);
-}
-
-Shape Lowerer::lower_op(const Intersection&, const Node& node,
-                        const Affine& world) {
-  return lower_children(node, world, BooleanOp::kIntersection);
-}
-
 Shape Lowerer::lower_op(const Transform& op, const Node& node,
                         const Affine& world) {
   const std::size_t mark = builder_.mark();

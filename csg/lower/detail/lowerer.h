@@ -69,8 +69,12 @@ class Lowerer {
   Shape lower_op(const Op&, const Node& node, const Affine& world) {
     return lower_children(node, world, BooleanOp::kUnion);
   }
-  Shape lower_op(const Difference&, const Node& node, const Affine& world);
-  Shape lower_op(const Intersection&, const Node& node, const Affine& world);
+  Shape lower_op(const Difference&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kDifference);
+  }
+  Shape lower_op(const Intersection&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kIntersection);
+  }
   Shape lower_op(const Transform& op, const Node& node, const Affine& world);
 
   // Treats the parts above the mark, of this shape, as a singular matrix that

@@ -22,6 +22,7 @@
 #include <ft2build.h>
 #include <hb.h>
 #include FT_FREETYPE_H
+#include FT_GLYPH_H
 
 #include "csg/text/detail/engine.h"
 
@@ -34,6 +35,7 @@ struct Release {
   void operator()(FcPattern* pattern) const { FcPatternDestroy(pattern); }
   void operator()(FT_Library library) const { FT_Done_FreeType(library); }
   void operator()(FT_Face face) const { FT_Done_Face(face); }
+  void operator()(FT_Glyph glyph) const { FT_Done_Glyph(glyph); }
   void operator()(hb_font_t* font) const { hb_font_destroy(font); }
   void operator()(hb_buffer_t* buffer) const { hb_buffer_destroy(buffer); }
 };
