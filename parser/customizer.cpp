@@ -116,7 +116,7 @@ ParameterComment Customizer::comment_of(
   if (line >= end_line_) return result;
   result.is_parameter = true;
   result.description = read_description(source_.line_text(line - 1));
-  ast::Arena arena;
+  Arena arena;
   const std::string comment(find_comment(source_.line_text(line)));
   if (const ast::Expr* values = detail::read_customizer_value(comment, arena)) {
     result.values.clear();

@@ -148,10 +148,9 @@ std::optional<bool> read_truth(std::string_view text) {
 
 // The text as a value of a parameter of type `type`; null where it is none.
 const ast::Expr* read_value(std::string_view text, ast::ValueType type,
-                            ast::Arena& arena) {
+                            Arena& arena) {
   if (type == ast::ValueType::kString) {
-    const auto copy = arena.copy(std::span<const char>(text));
-    return arena.make(ast::Expr{ast::String{{copy.data(), copy.size()}}, {}});
+    return arena.make(ast::Expr{ast::String{arena.copy(text)}, {}});
   }
   if (type == ast::ValueType::kBool) {
     const std::optional<bool> truth = read_truth(text);
@@ -165,7 +164,7 @@ const ast::Expr* read_value(std::string_view text, ast::ValueType type,
 // Sets what `statement` assigns. False where the text is no value of a
 // parameter that wants true or false.
 bool set_value(const ast::Statement*& statement, std::string_view text,
-               ast::Arena& arena) {
+               Arena& arena) {
   const auto& assignment = std::get<ast::Assignment>(statement->node);
   const auto type = ast::type_of(*assignment.value);
   if (!type) return true;
@@ -186,7 +185,7 @@ bool set_value(const ast::Statement*& statement, std::string_view text,
 // Variable by variable, as OpenSCAD does, which tells what is set before a
 // value fails.
 bool set_values(const std::vector<Entry>& entries, ast::Program& program) {
-  ast::Arena& arena = *program.arena;
+  Arena& arena = *program.arena;
   std::vector<const ast::Statement*> statements(program.statements.begin(),
                                                 program.statements.end());
   bool is_good = true;

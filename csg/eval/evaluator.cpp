@@ -75,8 +75,8 @@ void check_view(const Unit& unit, Interpreter& in) {
 Tree evaluate(const ast::Program& program, const Loader& loader,
               const EvaluateOptions& options, Diagnostics& diagnostics) {
   Tree tree;
-  tree.arena = std::make_shared<std::pmr::monotonic_buffer_resource>(1 << 16);
-  tree.calls = std::make_shared<std::pmr::monotonic_buffer_resource>();
+  tree.arena = std::make_shared<Arena>();
+  tree.calls = std::make_shared<Arena>();
   DynamicNames names;
   Resolver resolver(loader, names, options);
   const Unit& unit = resolver.unit_of(program);

@@ -9,15 +9,15 @@
 
 namespace lamina::csg {
 
-// One body: nothing is turned or closed yet and equal vertices need not be one,
-// but every index names a vertex. Faces are counter-clockwise from outside, if
-// the file keeps to that.
+// One body. Nothing is repaired yet and equal vertices need not be one, but
+// every index names a vertex. Faces are counter-clockwise from outside, if the
+// file keeps to that.
 struct RawMesh {
   Mesh mesh;
   std::vector<std::vector<std::uint32_t>> polygons;  // faces of 4 corners up
   // No two vertices are equal, and each is a corner of a triangle.
   bool is_joined = false;
-  // Of a 3MF whose slices are the part: about where that is, and no more.
+  // Whether the mesh only stands in for the slices that a 3MF has of its part.
   bool is_stand_in = false;
 
   // Appends a face; one of less than three corners is left out.

@@ -12,7 +12,7 @@
 namespace lamina::csg {
 namespace {
 
-// As a mesh the loft would have about so many.
+// About how many triangles the loft would have as a mesh.
 double triangle_count(const Loft& loft) {
   return 2.0 * static_cast<double>(loft.outline->size()) *
          static_cast<double>(loft.profile.size());
@@ -47,7 +47,7 @@ std::vector<Vec2> sphere_profile(int fragments) {
   return profile;
 }
 
-// Word by word; equal content gives equal hashes, nothing else is asked of it.
+// Equal content gives equal hashes; more is not asked of it.
 class ContentHash {
  public:
   void add(std::uint64_t word) {

@@ -80,7 +80,7 @@ void Lowerer::place_sum(const Operand& sum, const Node& node,
   place_leaf(make_leaf(sum.convex), node, world);
 }
 
-// The operands on the stack, each with all leaves it needs.
+// Takes the operands off the stack, each as a scene with all leaves.
 std::vector<Scene> Lowerer::take_scenes(
     const std::vector<std::size_t>& begins) {
   std::vector<Scene> scenes;

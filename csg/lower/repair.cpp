@@ -1,13 +1,12 @@
-// Repairs on a table of edges.
+// Repairs of meshes, on a table of edges.
 //
 // Here a mesh is only a list of triangles and a sorted table of their edges,
 // which anything fits, and "closed" is a sum: as many a→b as b→a. Holes are
 // what is missing from that sum; as the boundary of anything has no boundary,
 // the missing edges always fall into loops, and every loop can be capped.
 //
-// Nearly every file is closed once its equal vertices are one. That is found
-// out without the table, by a sum in which matched edges cancel, and nothing is
-// repaired.
+// Nearly every file is closed once its equal vertices are one. A sum in which
+// matched edges cancel shows this without the table, and nothing is repaired.
 
 #include "csg/lower/detail/repair.h"
 
@@ -21,7 +20,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/leaf_mesh.h"
-#include "csg/lower/detail/edge_table.h"
+#include "csg/edge_table.h"
 #include "csg/lower/detail/face.h"
 #include "csg/vertex_table.h"
 
@@ -153,15 +152,15 @@ class Neighbours {
 
 std::vector<Neighbours> find_neighbours(const Mesh& mesh) {
   std::vector<Neighbours> neighbours(mesh.triangles.size());
-  const EdgeTable edges(mesh);
-  edges.for_each_edge([&](std::uint32_t, std::span<const Side> sides) {
-    if (sides.size() != 2) return;
-    const std::uint32_t a = sides[0].triangle();
-    const std::uint32_t b = sides[1].triangle();
-    const bool is_opposed = sides[0].is_rising() == sides[1].is_rising();
-    neighbours[a].add({b, is_opposed});
-    neighbours[b].add({a, is_opposed});
-  });
+  EdgeTable::of(mesh).for_each_edge(
+      [&](std::uint32_t, std::span<const Side> sides) {
+        if (sides.size() != 2) return;
+        const std::uint32_t a = sides[0].face();
+        const std::uint32_t b = sides[1].face();
+        const bool is_opposed = sides[0].is_rising() == sides[1].is_rising();
+        neighbours[a].add({b, is_opposed});
+        neighbours[b].add({a, is_opposed});
+      });
   return neighbours;
 }
 
@@ -203,14 +202,14 @@ using OpenEdges = std::unordered_map<std::uint32_t, std::vector<std::uint32_t>>;
 // The directed edges that are missing: from vertex to vertices.
 OpenEdges find_open_edges(const Mesh& mesh) {
   OpenEdges open;
-  const EdgeTable edges(mesh);
-  edges.for_each_edge([&](std::uint32_t low, std::span<const Side> sides) {
-    int rising = 0;
-    for (const Side& side : sides) rising += side.is_rising() ? 1 : -1;
-    const std::uint32_t high = sides[0].high;
-    for (; rising > 0; --rising) open[high].push_back(low);
-    for (; rising < 0; ++rising) open[low].push_back(high);
-  });
+  EdgeTable::of(mesh).for_each_edge(
+      [&](std::uint32_t low, std::span<const Side> sides) {
+        int rising = 0;
+        for (const Side& side : sides) rising += side.is_rising() ? 1 : -1;
+        const std::uint32_t high = sides[0].high;
+        for (; rising > 0; --rising) open[high].push_back(low);
+        for (; rising < 0; ++rising) open[low].push_back(high);
+      });
   return open;
 }
 
@@ -277,7 +276,7 @@ void drop_unused_vertices(Mesh& mesh) {
 
 // What is needed where a mesh is not closed.
 void repair_open(Mesh& mesh, Repairs& repairs) {
-  if (EdgeTable(mesh).is_open()) {
+  if (EdgeTable::of(mesh).is_open()) {
     merge_near_vertices(mesh);
     repairs.dropped_triangles += drop_degenerate(mesh);
   }

@@ -24,7 +24,7 @@ std::string quote(std::string_view text) { return fmt::format("'{}'", text); }
 
 }  // namespace
 
-Reader::Reader(const Source& source, ast::Arena& arena, Loader& loader,
+Reader::Reader(const Source& source, Arena& arena, Loader& loader,
                SyntaxErrors& errors, Diagnostics& diagnostics)
     : arena_(arena),
       loader_(loader),
@@ -102,8 +102,7 @@ ast::Use* Reader::find_use(SourceRange range) {
                          {{range, "used here"}}});
     path = file_name_;
   }
-  const auto copy = arena_.copy(std::span<const char>(path));
-  return arena_.make(ast::Use{{copy.data(), copy.size()}, range, is_found});
+  return arena_.make(ast::Use{arena_.copy(path), range, is_found});
 }
 
 Text Reader::plain_string(SourceRange range) const {
@@ -122,7 +121,7 @@ void Reader::break_string(SourceRange range) {
 }
 
 Text Reader::take_string() {
-  const auto copy = arena_.copy(std::span<const char>(string_));
+  const std::string_view copy = arena_.copy(string_);
   string_.clear();
   return {copy.data(), copy.size()};
 }

@@ -3,7 +3,6 @@
 // prints.
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -1,6 +1,5 @@
 #include "tests/oracle/random_suite.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>

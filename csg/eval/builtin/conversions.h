@@ -2,6 +2,7 @@
 // Values as the parameters of modules: numbers, vectors, `$fn $fa $fs`.
 
 #include <optional>
+#include <string_view>
 
 #include "base/vec.h"
 #include "csg/eval/run/interpreter.h"
@@ -21,6 +22,19 @@ std::optional<Vec3> to_vec3(const Value& value, double z);
 bool read_vec3(const Value& value, double default_z, Vec3& target);
 
 std::optional<double> to_finite(const Value& value);
+
+// true itself, not what `if` takes for it.
+inline bool is_set(const Value& value) {
+  return value.is_bool() && value.as_bool();
+}
+inline double number_or(const Value& value, double fallback) {
+  return value.is_number() ? value.as_number() : fallback;
+}
+// A view of the value's characters.
+inline std::string_view string_or(const Value& value,
+                                  std::string_view fallback) {
+  return value.is_string() ? value.as_string() : fallback;
+}
 
 // A number cut to an int as OpenSCAD does it; 0 for what is no number.
 int to_int(const Value& value);

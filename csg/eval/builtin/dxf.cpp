@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -111,12 +110,6 @@ DxfDrawing read_drawing(const Query& query, const CallCode& code,
     frame.in.warn({}, warning);
   }
   return drawing;
-}
-
-double atan2_deg(double y, double x) {
-  const double degrees = std::atan2(y, x) * (180.0 / std::numbers::pi);
-  const double whole = std::round(degrees);
-  return std::fabs(degrees - whole) < 3.0E-14 ? whole : degrees;
 }
 
 // The measured value; nothing for a kind of dimension without one.

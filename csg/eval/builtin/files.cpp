@@ -47,13 +47,6 @@ void make_leaf(Params params, const std::string& csg_text,
 
 // --- text -------------------------------------------------------------------
 
-std::string string_or(const Value& value, std::string_view fallback) {
-  return std::string(value.is_string() ? value.as_string() : fallback);
-}
-double number_or(const Value& value, double fallback) {
-  return value.is_number() ? value.as_number() : fallback;
-}
-
 void text(const BuiltinModuleCode& code, Frame& frame) {
   enum {
     kText,
@@ -68,7 +61,7 @@ void text(const BuiltinModuleCode& code, Frame& frame) {
   };
   const ModuleArguments arguments(code, frame);
   Interpreter& in = frame.in;
-  const std::string content = string_or(arguments[kText], "");
+  const std::string_view content = string_or(arguments[kText], "");
   const std::string script =
       text_script(content, string_or(arguments[kScript], ""));
   TextParams params;
@@ -113,13 +106,10 @@ void surface(const BuiltinModuleCode& code, Frame& frame) {
   const Value& file = arguments[kFile];
   const std::string path =
       find_file(file.is_undef() ? "" : to_text(file), code, frame);
-  const auto is_true = [&](std::size_t i) {
-    return arguments[i].is_bool() && arguments[i].as_bool();
-  };
   SurfaceParams params;
   params.path = frame.in.keep_text(path);
-  params.center = is_true(kCenter);
-  params.invert = is_true(kInvert);
+  params.center = is_set(arguments[kCenter]);
+  params.invert = is_set(arguments[kInvert]);
   params.convexity = std::max(to_int(arguments[kConvexity]), 1);
   const std::string csg =
       fmt::format("surface(file = {}, center = {}, invert = {}, {})",
@@ -201,7 +191,7 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   // The name is wrong in OpenSCAD, too.
   params.origin =
       read_origin(arguments[kOrigin], "linear_extrude", code, frame);
-  params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
+  params.center = is_set(arguments[kCenter]);
   params.dpi = read_dpi(arguments[kDpi], arguments[kOrigin], code, frame);
   const double scale = arguments[kScale].number_or_zero();
   params.scale = scale <= 0 ? 1 : scale;

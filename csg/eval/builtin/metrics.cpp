@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/named_arguments.h"
 #include "csg/eval/builtin/script.h"
 #include "csg/eval/run/interpreter.h"
@@ -49,16 +50,16 @@ class TextArguments {
   TextParams params() {
     TextParams params;
     params.size = size();
-    params.text = string_or("text", "");
-    params.spacing = number_or("spacing", 1);
-    params.font = string_or("font", "");
-    script_ = text_script(params.text, string_or("script", ""));
-    direction_ = text_direction(script_, string_or("direction", ""));
+    params.text = string_or((*this)["text"], "");
+    params.spacing = number_or((*this)["spacing"], 1);
+    params.font = string_or((*this)["font"], "");
+    script_ = text_script(params.text, string_or((*this)["script"], ""));
+    direction_ = text_direction(script_, string_or((*this)["direction"], ""));
     params.script = script_;
     params.direction = direction_;
-    params.language = string_or("language", "en");
-    params.halign = string_or("halign", "left");
-    params.valign = string_or("valign", "baseline");
+    params.language = string_or((*this)["language"], "en");
+    params.halign = string_or((*this)["halign"], "left");
+    params.valign = string_or((*this)["valign"], "baseline");
     return params;
   }
 
@@ -81,22 +82,13 @@ class TextArguments {
 
   double size() {
     const Value& em = (*this)["em"];
-    if (em.is_undef()) return number_or("size", kDefaultSize);
+    if (em.is_undef()) return number_or((*this)["size"], kDefaultSize);
     if (!(*this)["size"].is_undef()) {
       warn(fmt::format("{}: \"size\" ignored when \"em\" is set", code_.name));
     }
     return em.number_or_zero() * kSizePerEm;
   }
 
-  double number_or(std::string_view name, double fallback) const {
-    const Value& value = (*this)[name];
-    return value.is_number() ? value.as_number() : fallback;
-  }
-  std::string_view string_or(std::string_view name,
-                             std::string_view fallback) const {
-    const Value& value = (*this)[name];
-    return value.is_string() ? value.as_string() : fallback;
-  }
   void warn(std::string words) {
     frame_.in.warn(code_.range, std::move(words), frame_.document);
   }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/each_value.h"
 #include "csg/eval/value/integers.h"
 #include "csg/eval/value/text.h"
 

@@ -72,12 +72,6 @@ double acos_deg(double x) {
 double atan_deg(double x) {
   return exact_degrees<tan_deg>(to_degrees(std::atan(x)), x);
 }
-double atan2_deg(double y, double x) {
-  const double degrees = to_degrees(std::atan2(y, x));
-  const double whole = std::round(degrees);
-  return std::fabs(degrees - whole) < 3.0E-14 ? whole : degrees;
-}
-
 double math_abs(double x) { return std::fabs(x); }
 double math_round(double x) { return std::round(x); }
 double math_ceil(double x) { return std::ceil(x); }

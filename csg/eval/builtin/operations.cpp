@@ -121,7 +121,7 @@ void projection(const BuiltinModuleCode& code, Frame& frame) {
   const std::size_t mark = frame.in.node_mark();
   const ModuleArguments arguments(code, frame);
   Projection projection;
-  projection.cut = arguments[kCut].is_bool() && arguments[kCut].as_bool();
+  projection.cut = is_set(arguments[kCut]);
   projection.convexity = to_int(arguments[kConvexity]);
   run_block(*code.block, frame);
   frame.in.make_node(projection, code, mark);
@@ -140,8 +140,7 @@ void offset(const BuiltinModuleCode& code, Frame& frame) {
   } else if (arguments[kDelta].is_number()) {
     offset.amount = arguments[kDelta].as_number();
     offset.is_delta = true;
-    offset.chamfer =
-        arguments[kChamfer].is_bool() && arguments[kChamfer].as_bool();
+    offset.chamfer = is_set(arguments[kChamfer]);
   }
   run_statements(*code.block, frame);
   frame.in.make_node(offset, code, mark);
@@ -230,7 +229,7 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
       read_origin(arguments[kOrigin], "linear_extrude", code, frame);
   params.scale =
       read_extrusion_scale(arguments[kScale], arguments[kOrigin], code, frame);
-  params.center = arguments[kCenter].is_bool() && arguments[kCenter].as_bool();
+  params.center = is_set(arguments[kCenter]);
   if (to_finite(arguments[kSlices])) {
     params.slices = std::max(to_int(arguments[kSlices]), 0);
   }

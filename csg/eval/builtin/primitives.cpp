@@ -45,8 +45,6 @@ void make_leaf(decltype(Node::op) op, const BuiltinModuleCode& code,
   frame.in.make_node(op, code, frame.in.node_mark());
 }
 
-bool is_true(const Value& value) { return value.is_bool() && value.as_bool(); }
-
 // Radius from a diameter, which goes first, or a radius; undef if neither.
 Value radius(const Value& d, const Value& r, std::string_view d_name,
              std::string_view r_name, const BuiltinModuleCode& code,
@@ -106,7 +104,7 @@ void cube(const BuiltinModuleCode& code, Frame& frame) {
       warn(code, frame, fmt::format("cube(size={}, ...)", to_echo(size)));
     }
   }
-  cube.center = is_true(arguments[kCenter]);
+  cube.center = is_set(arguments[kCenter]);
   make_leaf(cube, code, frame);
 }
 
@@ -147,7 +145,7 @@ void cylinder(const BuiltinModuleCode& code, Frame& frame) {
     check_cylinder(cylinder, arguments[kH], r1.is_number() ? r1 : r,
                    r2.is_number() ? r2 : r, code, frame);
   }
-  cylinder.center = is_true(arguments[kCenter]);
+  cylinder.center = is_set(arguments[kCenter]);
   make_leaf(cylinder, code, frame);
 }
 
@@ -268,7 +266,7 @@ void square(const BuiltinModuleCode& code, Frame& frame) {
       warn(code, frame, fmt::format("square(size={}, ...)", to_echo(size)));
     }
   }
-  square.center = is_true(arguments[kCenter]);
+  square.center = is_set(arguments[kCenter]);
   make_leaf(square, code, frame);
 }
 

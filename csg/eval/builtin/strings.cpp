@@ -5,7 +5,7 @@
 #include "base/utf8.h"
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
-#include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/each_value.h"
 #include "csg/eval/value/object.h"
 #include "csg/eval/value/text.h"
 

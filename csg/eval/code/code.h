@@ -196,7 +196,11 @@ struct ForCElement : Element {
   Bindings init;
   const Expression* condition = nullptr;
   Bindings update;  // into slots of their own, then copied:
-  std::span<const std::pair<Target, Target>> copies;  // from, to
+  struct Copy {
+    Target from;
+    Target to;
+  };
+  std::span<const Copy> copies;
   const Element* body = nullptr;
 };
 struct IfElement : Element {
@@ -363,6 +367,8 @@ struct Unit {
 };
 
 struct Module {
+  static constexpr std::uint32_t kChildrenSlot = 0;  // of `$children`
+
   std::uint32_t number = 0;  // among the modules
   std::string_view name;
   const ast::ModuleDefinition* definition = nullptr;
@@ -370,7 +376,6 @@ struct Module {
   Scope* scope = nullptr;
   const Unit* unit = nullptr;
   std::span<Parameter> parameters;
-  std::uint32_t children_slot = 0;
   std::uint32_t slot_count = 0;
   bool is_resolved = false;
   Block body;

@@ -93,16 +93,13 @@ const Function& Resolver::with_extras(
       extra_names(function.parameters, arguments);
   if (names.empty()) return function;
   const Function*& known = extra_functions_[{&function, joined(names)}];
-  if (known != nullptr) return *known;
-  Function& version = new_function();
-  version.name = function.name;
-  version.definition = function.definition;
-  version.range = function.range;
-  version.scope = function.scope;
-  version.unit = function.unit;
-  version.parameters = extended_parameters(function.parameters, names, 0);
-  known = &version;
-  return version;
+  if (known == nullptr) {
+    Function& version =
+        new_function(*function.definition, function.range, *function.scope);
+    version.parameters = extended_parameters(function.parameters, names, 0);
+    known = &version;
+  }
+  return *known;
 }
 
 const Module& Resolver::with_extras(
@@ -111,17 +108,14 @@ const Module& Resolver::with_extras(
       extra_names(module.parameters, arguments);
   if (names.empty()) return module;
   const Module*& known = extra_modules_[{&module, joined(names)}];
-  if (known != nullptr) return *known;
-  Module& version = new_module();
-  version.name = module.name;
-  version.definition = module.definition;
-  version.range = module.range;
-  version.scope = module.scope;
-  version.unit = module.unit;
-  version.children_slot = module.children_slot;
-  version.parameters = extended_parameters(module.parameters, names, 1);
-  known = &version;
-  return version;
+  if (known == nullptr) {
+    Module& version =
+        new_module(*module.definition, module.range, *module.scope);
+    version.parameters = extended_parameters(module.parameters, names,
+                                             Module::kChildrenSlot + 1);
+    known = &version;
+  }
+  return *known;
 }
 
 // The literal's closures are made: its versions know what these captured.

@@ -28,9 +28,8 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
       code->callee = variable;
       code->run = run_call_value;
     }
-    const Resolver::Callee callee =
-        resolver_.find_function(*scope_, name->name);
-    if (callee.function == nullptr) {
+    const auto callee = resolver_.find_function(*scope_, name->name);
+    if (callee.code == nullptr) {
       const BuiltinFunctionRow* row = find_builtin_function(name->name);
       if (row != nullptr) {
         code->builtin = row->function;
@@ -50,16 +49,15 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
     } else {
       code->arguments = arguments(call.arguments);
     }
-    if (callee.function != nullptr) {
-      code->function =
-          &resolver_.with_extras(*callee.function, code->arguments);
+    if (callee.code != nullptr) {
+      code->function = &resolver_.with_extras(*callee.code, code->arguments);
       code->is_foreign = callee.is_foreign;
       if (!callee.is_foreign) {
         code->hops =
-            scope_->activation->count_hops(*callee.function->scope->activation);
+            scope_->activation->count_hops(*callee.code->scope->activation);
       }
       code->plan = &resolver_.keep_plan(plan_arguments(
-          code->function->parameters, callee.function->parameters.size(),
+          code->function->parameters, callee.code->parameters.size(),
           code->arguments, resolver_.names()));
       if (code->callee == nullptr) code->run = run_call_function;
     } else if (code->callee == nullptr) {

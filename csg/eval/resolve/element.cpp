@@ -105,12 +105,12 @@ const Element* ExpressionResolver::for_c_element(const ast::ForCElements& loop,
   Scope& loop_scope = *scope_;
   const NestedScope update_scope(resolver_, scope_);
   code->update = sequential_bindings(loop.head->update, range, false);
-  std::vector<std::pair<Target, Target>> copies;
+  std::vector<ForCElement::Copy> copies;
   for (const Binding& binding : code->update) {
     if (binding.target.kind != Target::Kind::kSlot) continue;
-    copies.emplace_back(
-        binding.target,
-        target(binding.name, loop_scope.variables.at(binding.name)));
+    copies.push_back(
+        {binding.target,
+         target(binding.name, loop_scope.variables.at(binding.name))});
   }
   code->copies = resolver_.keep(copies);
   return code;

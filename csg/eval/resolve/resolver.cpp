@@ -23,12 +23,6 @@ Resolver::Resolver(const Loader& loader, DynamicNames& names,
                    const EvaluateOptions& options)
     : loader_(loader), names_(names), options_(options) {}
 
-std::string_view Resolver::keep_text(std::string_view text) {
-  char* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
-  std::copy(text.begin(), text.end(), copy);
-  return {copy, text.size()};
-}
-
 Scope& Resolver::open_scope(Scope& parent, Activation& activation) {
   Scope& scope = scopes_.emplace_back();
   scope.parent = &parent;
@@ -120,7 +114,7 @@ DeclaredUnit& Resolver::declared_unit(const ast::Program& program) {
   unit->scope->activation = &unit->activation;
   unit->scope->unit = unit;
   unit->scope->home = unit->scope;
-  declare(*unit->scope, program.statements, *unit);
+  declare(*unit->scope, program.statements);
   for (const ast::Use& use : program.uses) unit->uses.push_back(&use);
   return *unit;
 }
@@ -141,80 +135,74 @@ void Resolver::resolve(const Unit& asked) {
   unit.slot_count = unit.activation.slot_count;
 }
 
-Function& Resolver::new_function() {
+Function& Resolver::new_function(const ast::FunctionDefinition& written,
+                                 SourceRange range, Scope& scope) {
   Function& function = functions_.emplace_back();
   function.number = static_cast<std::uint32_t>(functions_.size() - 1);
+  function.name = written.name;
+  function.definition = &written;
+  function.range = range;
+  function.scope = &scope;
+  function.unit = scope.unit;
   return function;
 }
 
-Module& Resolver::new_module() {
+Module& Resolver::new_module(const ast::ModuleDefinition& written,
+                             SourceRange range, Scope& scope) {
   Module& module = modules_.emplace_back();
   module.number = static_cast<std::uint32_t>(modules_.size() - 1);
+  module.name = written.name;
+  module.definition = &written;
+  module.range = range;
+  module.scope = &scope;
+  module.unit = scope.unit;
   return module;
 }
 
 // Functions and modules are known in their whole scope; the last of a name
 // wins.
-void Resolver::declare(Scope& scope, ast::Statements statements,
-                       const Unit& unit) {
+void Resolver::declare(Scope& scope, ast::Statements statements) {
   for (const ast::Statement* statement : statements) {
-    if (const auto* written =
+    if (const auto* function =
             std::get_if<ast::FunctionDefinition>(&statement->node)) {
-      Function& function = new_function();
-      function.name = written->name;
-      function.definition = written;
-      function.range = statement->range;
-      function.scope = &scope;
-      function.unit = &unit;
-      function.parameters = make_parameters(written->parameters, 0);
-      scope.functions[written->name] = &function;
+      Function& declared = new_function(*function, statement->range, scope);
+      declared.parameters = make_parameters(function->parameters, 0);
+      scope.functions[function->name] = &declared;
     } else if (const auto* module =
                    std::get_if<ast::ModuleDefinition>(&statement->node)) {
-      Module& declared = new_module();
-      declared.name = module->name;
-      declared.definition = module;
-      declared.range = statement->range;
-      declared.scope = &scope;
-      declared.unit = &unit;
-      declared.children_slot = 0;
-      declared.parameters = make_parameters(module->parameters, 1);
+      Module& declared = new_module(*module, statement->range, scope);
+      declared.parameters =
+          make_parameters(module->parameters, Module::kChildrenSlot + 1);
       scope.modules[module->name] = &declared;
     }
   }
 }
 
-Resolver::Callee Resolver::find_function(const Scope& scope,
-                                         std::string_view name) {
+template <typename Named>
+Resolver::Callee<Named> Resolver::find(
+    const Scope& scope, std::string_view name,
+    std::unordered_map<std::string_view, Named*> Scope::*table) {
   for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
-    const auto found = s->functions.find(name);
-    if (found != s->functions.end()) return {found->second, nullptr, false};
+    const auto found = (s->*table).find(name);
+    if (found != (s->*table).end()) return {found->second, false};
   }
   for (const ast::Use* use : scope.unit->uses) {
     const DeclaredUnit* unit = used_unit(*use);
     if (unit == nullptr) continue;
-    const auto found = unit->scope->functions.find(name);
-    if (found != unit->scope->functions.end()) {
-      return {found->second, nullptr, true};
-    }
+    const auto found = (unit->scope->*table).find(name);
+    if (found != (unit->scope->*table).end()) return {found->second, true};
   }
   return {};
 }
 
-Resolver::Callee Resolver::find_module(const Scope& scope,
-                                       std::string_view name) {
-  for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
-    const auto found = s->modules.find(name);
-    if (found != s->modules.end()) return {nullptr, found->second, false};
-  }
-  for (const ast::Use* use : scope.unit->uses) {
-    const DeclaredUnit* unit = used_unit(*use);
-    if (unit == nullptr) continue;
-    const auto found = unit->scope->modules.find(name);
-    if (found != unit->scope->modules.end()) {
-      return {nullptr, found->second, true};
-    }
-  }
-  return {};
+Resolver::Callee<Function> Resolver::find_function(const Scope& scope,
+                                                   std::string_view name) {
+  return find(scope, name, &Scope::functions);
+}
+
+Resolver::Callee<Module> Resolver::find_module(const Scope& scope,
+                                               std::string_view name) {
+  return find(scope, name, &Scope::modules);
 }
 
 // --- Parameters -------------------------------------------------------------

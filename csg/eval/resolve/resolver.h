@@ -16,12 +16,12 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <memory_resource>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "base/arena.h"
 #include "csg/eval/code/argument_plan.h"
 #include "csg/eval/code/code.h"
 #include "csg/eval/code/dynamic_names.h"
@@ -134,15 +134,11 @@ class Resolver : public LazyResolver {
 
   template <typename T>
   T* make() {
-    return new (arena_.allocate(sizeof(T), alignof(T))) T();
+    return arena_.make(T());
   }
   template <typename T>
   std::span<const T> keep(const std::vector<T>& values) {
-    if (values.empty()) return {};
-    T* copy =
-        std::pmr::polymorphic_allocator<T>(&arena_).allocate(values.size());
-    std::uninitialized_copy(values.begin(), values.end(), copy);
-    return {copy, values.size()};
+    return arena_.copy(std::span<const T>(values));
   }
 
   OpenVariables open_variables;
@@ -156,8 +152,10 @@ class Resolver : public LazyResolver {
                         const ast::Expr& body, Scope& inside, Scope& outside);
   void resolve_fallbacks(std::span<Parameter> parameters, Scope& inside,
                          Scope& outside);
-  std::string_view keep_text(std::string_view text);
-  void declare(Scope& scope, ast::Statements statements, const Unit& unit);
+  std::string_view keep_text(std::string_view text) {
+    return arena_.copy(text);
+  }
+  void declare(Scope& scope, ast::Statements statements);
   // Names and targets from `first_slot` on; fallbacks are resolved with the
   // body.
   std::span<Parameter> make_parameters(ast::Arguments written,
@@ -165,17 +163,17 @@ class Resolver : public LazyResolver {
   // Makes the parameters variables of the scope.
   void declare_parameters(std::span<const Parameter> parameters, Scope& scope);
 
+  template <typename Named>
   struct Callee {
-    const Function* function = nullptr;
-    const Module* module = nullptr;
-    bool is_foreign = false;
+    const Named* code = nullptr;
+    bool is_foreign = false;  // declared by a used file
   };
   std::span<Parameter> extended_parameters(
       std::span<const Parameter> parameters,
       const std::vector<std::string_view>& names, std::uint32_t first_slot);
   DeclaredUnit* used_unit(const ast::Use& use);
-  Callee find_function(const Scope& scope, std::string_view name);
-  Callee find_module(const Scope& scope, std::string_view name);
+  Callee<Function> find_function(const Scope& scope, std::string_view name);
+  Callee<Module> find_module(const Scope& scope, std::string_view name);
   // A callee with further parameters for what a caller names although it is no
   // parameter: OpenSCAD warns, but the callee sees those variables.
   const Function& with_extras(const Function& function,
@@ -201,13 +199,19 @@ class Resolver : public LazyResolver {
 
  private:
   DeclaredUnit& declared_unit(const ast::Program& program);
-  Function& new_function();
-  Module& new_module();
+  template <typename Named>
+  Callee<Named> find(
+      const Scope& scope, std::string_view name,
+      std::unordered_map<std::string_view, Named*> Scope::*table);
+  Function& new_function(const ast::FunctionDefinition& written,
+                         SourceRange range, Scope& scope);
+  Module& new_module(const ast::ModuleDefinition& written, SourceRange range,
+                     Scope& scope);
 
   const Loader& loader_;
   DynamicNames& names_;
   const EvaluateOptions& options_;
-  std::pmr::monotonic_buffer_resource arena_;
+  Arena arena_;
   std::deque<Value> constants_;
   std::deque<Scope> scopes_;
   std::deque<Activation> activations_;

@@ -35,16 +35,17 @@ Block StatementResolver::assignments_only(ast::Statements statements) {
 
 void StatementResolver::module(Module& module) {
   auto* children = resolver_.make<Variable>();
-  children->slot = module.children_slot;
+  children->slot = Module::kChildrenSlot;
   children->scope = scope_;
   children->is_set = children->is_parameter = true;
   children->is_statement_level = true;
   scope_->variables["$children"] = children;
-  scope_->activation->next_slot = scope_->activation->slot_count = 1;
+  scope_->activation->next_slot = scope_->activation->slot_count =
+      Module::kChildrenSlot + 1;
 
   resolver_.declare_parameters(module.parameters, *scope_);
   resolver_.resolve_fallbacks(module.parameters, *scope_, *module.scope);
-  resolver_.declare(*scope_, module.definition->body, *module.unit);
+  resolver_.declare(*scope_, module.definition->body);
   module.body.assignments = assignments(module.definition->body, &module);
   module.body.statements = instantiations(module.definition->body);
 }
@@ -125,8 +126,8 @@ const InstantiationCode* StatementResolver::instantiation(
 
 const InstantiationCode* StatementResolver::call(
     const ast::Instantiation& written, SourceRange range) {
-  const Resolver::Callee callee = resolver_.find_module(*scope_, written.name);
-  InstantiationCode* code = callee.module != nullptr
+  const auto callee = resolver_.find_module(*scope_, written.name);
+  InstantiationCode* code = callee.code != nullptr
                                 ? user_module(written, range, callee)
                                 : builtin(written, range);
   code->name = written.name;
@@ -137,21 +138,21 @@ const InstantiationCode* StatementResolver::call(
 // The arguments of a user module see the assignments among its children.
 InstantiationCode* StatementResolver::user_module(
     const ast::Instantiation& written, SourceRange range,
-    const Resolver::Callee& callee) {
+    const Resolver::Callee<Module>& callee) {
   auto* code = make<UserModuleCode>(run_user_module, range);
   code->is_foreign = callee.is_foreign;
   if (!callee.is_foreign) {
     code->hops =
-        scope_->activation->count_hops(*callee.module->scope->activation);
+        scope_->activation->count_hops(*callee.code->scope->activation);
   }
   const NestedScope open(resolver_, scope_);
   code->block = resolver_.make<Block>();
   code->block->assignments = assignments(written.children, nullptr);
   code->arguments = expressions().arguments(written.arguments);
-  code->module = &resolver_.with_extras(*callee.module, code->arguments);
+  code->module = &resolver_.with_extras(*callee.code, code->arguments);
   code->plan = &resolver_.keep_plan(plan_arguments(
-      code->module->parameters, callee.module->parameters.size(),
-      code->arguments, resolver_.names(), resolver_.module_surplus()));
+      code->module->parameters, callee.code->parameters.size(), code->arguments,
+      resolver_.names(), resolver_.module_surplus()));
   code->block->statements = instantiations(written.children);
   code->block->resets = resolver_.keep(scope_->resets);
   return code;

@@ -33,7 +33,7 @@ class StatementResolver {
                                 SourceRange range);
   InstantiationCode* user_module(const ast::Instantiation& written,
                                  SourceRange range,
-                                 const Resolver::Callee& callee);
+                                 const Resolver::Callee<Module>& callee);
   InstantiationCode* if_else(const ast::IfElse& written, SourceRange range);
   InstantiationCode* loop(const ast::Instantiation& written, SourceRange range);
   InstantiationCode* let(const ast::Instantiation& written, SourceRange range);

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/run/each_value.h"
 #include "csg/eval/run/expression.h"
-#include "csg/eval/run/interpreter.h"
-#include "csg/eval/value/object.h"
 
 namespace lamina::csg {
 
@@ -31,48 +30,6 @@ void emit(const Element& element, Frame& frame, VectorBuilder& out) {
   }
 }
 
-constexpr std::uint32_t kMostElements = 1000000;
-
-// Calls `give` for each value that `for` and `each` see in `values`.
-template <typename Give>
-void for_each_value(const Value& values, SourceRange range, Frame& frame,
-                    const Give& give) {
-  switch (values.type()) {
-    case Type::kRange: {
-      const Range& r = values.as_range();
-      const std::uint32_t count = r.count();
-      if (count >= kMostElements) {
-        warn(frame, range,
-             fmt::format("Bad range parameter in for statement: too many "
-                         "elements ({})",
-                         count));
-        return;
-      }
-      if (r.step == 0) return;
-      for (std::uint32_t i = 0; i < count; ++i) give(Value(r.at(i)));
-      return;
-    }
-    case Type::kVector:
-      for (const Value& value : values.as_vector()) give(Value(value));
-      return;
-    case Type::kObject:
-      for (const Value& key : values.as_object().keys.as_vector()) {
-        give(Value(key));
-      }
-      return;
-    case Type::kString: {
-      const std::uint32_t count = values.character_count();
-      for (std::uint32_t i = 0; i < count; ++i) give(values.character(i));
-      return;
-    }
-    case Type::kUnset:
-    case Type::kUndef:
-      return;
-    default:
-      give(Value(values));
-  }
-}
-
 // How many values that will be, as far as it is cheap to know.
 std::size_t count_values(const Value& values) {
   if (values.is_vector()) return values.as_vector().size();
@@ -85,6 +42,13 @@ std::size_t count_values(const Value& values) {
 
 }  // namespace
 
+void warn_of_long_range(std::uint32_t count, SourceRange place, Frame& frame) {
+  warn(frame, place,
+       fmt::format("Bad range parameter in for statement: too many elements "
+                   "({})",
+                   count));
+}
+
 void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
   const auto& code = static_cast<const ForElement&>(element);
   const Value values = run(code.binding.value, frame);
@@ -94,7 +58,7 @@ void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {
     out.make_room(count_values(values));
   }
   const DynamicScope scope(frame.in);
-  for_each_value(values, element.range, frame, [&](Value value) {
+  for_each_value(values, kMostElements, element.range, frame, [&](Value value) {
     frame.in.count_step();
     frame.in.unwind(scope.mark());
     frame.in.assign(target, std::move(value), frame);
@@ -143,7 +107,7 @@ void emit_each(const Element& element, Frame& frame, VectorBuilder& out) {
     } else if (value.is_object()) {
       out.push(value);  // `for` sees its keys, `each` the object
     } else {
-      for_each_value(value, element.range, frame,
+      for_each_value(value, kMostElements, element.range, frame,
                      [&](Value one) { out.push(std::move(one)); });
     }
   };

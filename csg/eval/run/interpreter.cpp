@@ -21,9 +21,7 @@ std::uintptr_t lowest_stack(std::uintptr_t highest, std::size_t bytes) {
 Interpreter::Interpreter(LazyResolver& resolver, DynamicNames& names,
                          const FileAccess& access,
                          const EvaluateOptions& options,
-                         Diagnostics& diagnostics,
-                         std::pmr::monotonic_buffer_resource& arena,
-                         std::pmr::monotonic_buffer_resource& calls)
+                         Diagnostics& diagnostics, Arena& arena, Arena& calls)
     : random(options.seed),
       resolver_(resolver),
       names_(names),
@@ -251,12 +249,6 @@ Frame& Interpreter::enter_unit(const Unit& unit) {
 
 // --- Nodes ------------------------------------------------------------------
 
-std::string_view Interpreter::keep_text(std::string_view text) {
-  char* copy = static_cast<char*>(arena_.allocate(text.size(), 1));
-  std::copy(text.begin(), text.end(), copy);
-  return {copy, text.size()};
-}
-
 const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
   const double mix = matrix[0].x + 3 * matrix[0].y + 5 * matrix[1].z +
                      7 * matrix[3].x + 11 * matrix[3].y + 13 * matrix[3].z;
@@ -280,7 +272,7 @@ void Interpreter::make_node(decltype(Node::op) op,
                      options_.max_leaves),
          nullptr);
   }
-  Node* node = new (arena_.allocate(sizeof(Node), alignof(Node))) Node;
+  Node* node = arena_.make(Node());
   node->op = op;
   node->children = keep_all(nodes_since(mark));
   node->range = code.range;

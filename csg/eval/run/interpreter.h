@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <memory_resource>
 #include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
+#include "base/arena.h"
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
 #include "csg/eval/code/code.h"
@@ -42,9 +42,7 @@ class Interpreter {
   // calls   for the calls that nodes come from
   Interpreter(LazyResolver& resolver, DynamicNames& names,
               const FileAccess& access, const EvaluateOptions& options,
-              Diagnostics& diagnostics,
-              std::pmr::monotonic_buffer_resource& arena,
-              std::pmr::monotonic_buffer_resource& calls);
+              Diagnostics& diagnostics, Arena& arena, Arena& calls);
   ~Interpreter();
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
@@ -171,20 +169,18 @@ class Interpreter {
   std::span<const Node* const> nodes_since(std::size_t mark) const {
     return {nodes_.data() + mark, nodes_.size() - mark};
   }
-  std::pmr::monotonic_buffer_resource& arena() { return arena_; }
+  // As long as the tree.
   template <typename T>
   const T* keep(const T& value) {
-    return new (arena_.allocate(sizeof(T), alignof(T))) T(value);
+    return arena_.make(value);
   }
   template <typename T>
   std::span<const T> keep_all(std::span<const T> values) {
-    if (values.empty()) return {};
-    T* copy =
-        std::pmr::polymorphic_allocator<T>(&arena_).allocate(values.size());
-    std::uninitialized_copy(values.begin(), values.end(), copy);
-    return {copy, values.size()};
+    return arena_.copy(values);
   }
-  std::string_view keep_text(std::string_view text);
+  std::string_view keep_text(std::string_view text) {
+    return arena_.copy(text);
+  }
   // Designs turn many parts alike: recent matrices are kept once.
   const Mat4* keep_matrix(const Mat4& matrix);
 
@@ -200,8 +196,7 @@ class Interpreter {
       module_names;  // of user modules, innermost last
   const CallFrame* current_call = nullptr;
   const CallFrame* keep_call(const CallFrame& call) {
-    return new (calls_.allocate(sizeof call, alignof(CallFrame)))
-        CallFrame(call);
+    return calls_.make(call);
   }
 
   // For rands() and everything else that is not a function of its arguments.
@@ -240,8 +235,8 @@ class Interpreter {
   const FileAccess& access_;
   const EvaluateOptions& options_;
   Diagnostics& diagnostics_;
-  std::pmr::monotonic_buffer_resource& arena_;
-  std::pmr::monotonic_buffer_resource& calls_;
+  Arena& arena_;
+  Arena& calls_;
   std::uintptr_t stack_begin_;  // the stack grows down from here
   std::uintptr_t stack_limit_;
   std::uint32_t depth_ = 0;
@@ -339,10 +334,6 @@ class FrameSlots {
   Value* slots_;
   std::uint32_t count_;
 };
-
-// Statements loop over ranges of fewer elements than this, comprehensions over
-// more: so OpenSCAD has it.
-constexpr std::uint32_t kMostStatementElements = 10000;
 
 // --- Running code -----------------------------------------------------------
 

@@ -18,6 +18,15 @@ Value take(const Value& value, Value& spill) {
   return value;
 }
 
+Value apply(ast::UnaryOp op, const Expression& expression, Value operand,
+            Frame& frame) {
+  Reason reason;
+  Value result = apply_unary(op, std::move(operand), reason);
+  if (!reason.text.empty())
+    warn(frame, expression.range, std::move(reason.text));
+  return result;
+}
+
 Value run_not(const Expression& expression, Frame& frame) {
   return Value(!is_true(as<UnaryCode>(expression).operand, frame));
 }
@@ -26,22 +35,12 @@ Value run_negate(const Expression& expression, Frame& frame) {
   Value spill;
   const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
   if (operand.is_number()) return Value(-operand.as_number());
-  Reason reason;
-  Value result = negate(take(operand, spill), reason);
-  if (!reason.text.empty())
-    warn(frame, expression.range, std::move(reason.text));
-  return result;
+  return apply(ast::UnaryOp::kNegate, expression, take(operand, spill), frame);
 }
 
 Value run_bit_not(const Expression& expression, Frame& frame) {
-  Value spill;
-  const Value& operand = look(as<UnaryCode>(expression).operand, frame, spill);
-  Reason reason;
-  Value result =
-      apply_unary(ast::UnaryOp::kBitNot, take(operand, spill), reason);
-  if (!reason.text.empty())
-    warn(frame, expression.range, std::move(reason.text));
-  return result;
+  return apply(ast::UnaryOp::kBitNot, expression,
+               run(as<UnaryCode>(expression).operand, frame), frame);
 }
 
 }  // namespace
@@ -199,10 +198,6 @@ Value run_or(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
   return Value(is_true(code.left, frame) || is_true(code.right, frame));
 }
-
-}  // namespace
-
-namespace {
 
 template <BinaryOp op, Reach left>
 Expression::Runner runner_for(const Expression& right) {

@@ -5,8 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "csg/eval/run/interpreter.h"
-#include "csg/eval/value/object.h"
+#include "csg/eval/run/each_value.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -116,7 +115,7 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
   callee.children_frame = &frame;
   Value* memory = LAMINA_FRAME_MEMORY(module.slot_count);
   const FrameSlots slots(callee, memory, module.slot_count);
-  callee.slots[module.children_slot] =
+  callee.slots[Module::kChildrenSlot] =
       Value(static_cast<double>(code.block->statements.size()));
   {
     const ModuleCall call(code, in);
@@ -181,39 +180,7 @@ void run_loop(const ForCode& code, std::size_t level, Frame& frame) {
     in.assign(binding.target, std::move(value), frame);
     run_loop(code, level + 1, frame);
   };
-  switch (values.type()) {
-    case Type::kRange: {
-      const Range& range = values.as_range();
-      const std::uint32_t count = range.count();
-      if (count >= kMostStatementElements) {
-        in.warn(code.range,
-                fmt::format("Bad range parameter in for statement: too many "
-                            "elements ({})",
-                            count),
-                frame.document);
-        return;
-      }
-      if (range.step == 0) return;
-      for (std::uint32_t i = 0; i < count; ++i) round(Value(range.at(i)));
-      return;
-    }
-    case Type::kVector:
-      for (const Value& value : values.as_vector()) round(value);
-      return;
-    case Type::kObject:
-      for (const Value& key : values.as_object().keys.as_vector()) round(key);
-      return;
-    case Type::kString:
-      for (std::uint32_t i = 0; i < values.character_count(); ++i) {
-        round(values.character(i));
-      }
-      return;
-    case Type::kUnset:
-    case Type::kUndef:
-      return;
-    default:
-      round(values);
-  }
+  for_each_value(values, kMostStatementElements, code.range, frame, round);
 }
 
 }  // namespace

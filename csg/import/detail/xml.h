@@ -22,7 +22,7 @@ inline void parse_xml(std::string_view bytes, std::string_view format,
   }
 }
 
-// The name without a namespace's prefix.
+// The element's name without a namespace's prefix.
 inline std::string_view local_name(const pugi::xml_node& node) {
   const std::string_view name = node.name();
   return name.substr(name.rfind(':') + 1);

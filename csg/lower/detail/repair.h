@@ -16,11 +16,11 @@ struct ClosedHole {
   Box3 box;
 };
 
-// What was found wrong. Nothing for a sound mesh.
+// What was wrong with a mesh; nothing with a sound one.
 struct Repairs {
-  std::size_t dropped_triangles = 0;   // of no area: a corner stands twice
-  std::size_t turned_triangles = 0;    // against their neighbours
-  std::size_t repeated_triangles = 0;  // dropped: there twice
+  std::size_t dropped_triangles = 0;   // two corners were the same
+  std::size_t turned_triangles = 0;    // ran against their neighbours
+  std::size_t repeated_triangles = 0;  // dropped, as they were there twice
   std::vector<ClosedHole> closed_holes;
 };
 
@@ -31,11 +31,11 @@ enum class Vertices : std::uint8_t { kAnyhow, kJoined };
 // Merges equal vertices (and where the mesh is open otherwise, those that are
 // no further apart than 1e-6 mm), turns triangles to agree with their
 // neighbours, and closes what is still open. Afterwards every directed edge is
-// matched by as many of the opposite direction, whatever came in; a mesh that
-// has that keeps all its triangles, for winding numbers have no trouble with
-// edges of more than two. Otherwise each component keeps the direction of most
-// of its triangles. A mesh whose volume comes out negative is turned as a
-// whole.
+// matched by as many of the opposite direction, whatever came in. A mesh of
+// which this holds before keeps all its triangles, as winding numbers have no
+// trouble with edges of more than two. Otherwise each component keeps the
+// direction of most of its triangles. A mesh whose volume comes out negative is
+// turned as a whole.
 Repairs repair(Mesh& mesh, Vertices vertices = Vertices::kAnyhow);
 
 // Repairs the mesh, and warns of what was wrong: one warning for each kind of

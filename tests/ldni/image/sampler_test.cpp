@@ -61,7 +61,7 @@ struct Sampled {
       return {};
     }
     const auto found =
-        images.rays(image, layer - box.layer_start, ray_index - box.ray_start);
+        images.ray(image, layer - box.layer_start, ray_index - box.ray_start);
     std::vector<Sample> sorted(found.begin(), found.end());
     std::sort(sorted.begin(), sorted.end(),
               [](const Sample& a, const Sample& b) {
@@ -167,9 +167,11 @@ TEST_P(Samplers, FillsASolidFromItsBottomUpToBelowItsTop) {
   LeafImages images;
   sampler->sample(0, global_box(rays, layers), images);
   const LeafImage& image = images.images[0];
-  EXPECT_EQ(images.rays(image, 0, 0, 2).size(), 4U);
-  EXPECT_EQ(images.rays(image, 1, 0, 2).size(), 4U);
-  EXPECT_EQ(images.rays(image, 2, 0, 2).size(), 0U);
+  for (const std::uint32_t ray : {0U, 1U}) {
+    EXPECT_EQ(images.ray(image, 0, ray).size(), 2U);
+    EXPECT_EQ(images.ray(image, 1, ray).size(), 2U);
+    EXPECT_EQ(images.ray(image, 2, ray).size(), 0U);
+  }
 }
 
 TEST_P(Samplers, GivesEveryRayAnEvenNumberOfSamplesInAnyOrientation) {
@@ -228,7 +230,7 @@ TEST_P(Samplers, GivesAnEvenNumberWhereRaysAndSectionsMeetVertices) {
   for (std::uint32_t layer = 0; layer < 9; ++layer) {
     const double half = 1 - std::abs(layers.section_z(layer));
     for (std::uint32_t ray = 0; ray < rays.ray_count(); ++ray) {
-      const auto found = images.rays(image, layer, ray);
+      const auto found = images.ray(image, layer, ray);
       ASSERT_EQ(found.size() % 2, 0U);
       double length = 0;
       for (const Sample& sample : found) {
