@@ -6,7 +6,7 @@
 
 #include "base/plane.h"
 #include "ldni/section/loop_area_and_box.h"
-#include "slicer/contour/farthest_reach.h"
+#include "slicer/contour/detail/farthest_reach.h"
 
 namespace lamina::slicer {
 namespace {
