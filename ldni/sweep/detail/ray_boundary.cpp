@@ -13,11 +13,6 @@ void RayBoundary::begin_layer() {
   stitcher_.begin();
 }
 
-void RayBoundary::begin_cluster(const EventCluster& cluster) {
-  if (states_.is_full()) forget_unused_states();
-  cluster_ = cluster;
-}
-
 // Keeps the states of the entries on the ray, where thousands of leaves
 // overlap.
 void RayBoundary::forget_unused_states() {
