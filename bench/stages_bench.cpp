@@ -1,9 +1,9 @@
-// Times the stages of a run one by one: evaluate, lower, cut leaves, move the
-// ray, over the benchmark scenes at the sizes that the design was measured on.
+// Times the stages of a run one by one (evaluate, lower, cut the leaves, sweep)
+// over the benchmark scenes, at the sizes that the design was measured on.
 //
 //   build/release/bench/stages_bench --benchmark_filter=ring55
 //
-// Whole runs beside one another: bench/whole_program.
+// bench/whole_program times whole runs.
 
 #include <cstdint>
 #include <string>
@@ -86,7 +86,7 @@ void cut_leaves(benchmark::State& state, const std::string& scene_name,
   state.counters["points"] = static_cast<double>(points);
 }
 
-// Cuts as well: the time above is to be taken off.
+// Cuts as well: subtract the time of cut_leaves().
 void cut_and_sweep(benchmark::State& state, const std::string& scene_name,
                    const std::string& definitions, double thickness) {
   Design design(scene_name, definitions);

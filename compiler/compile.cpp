@@ -10,7 +10,7 @@
 
 #include "cli/command.h"
 #include "compiler/make_rule.h"
-#include "csg/eval/csg_printer.h"
+#include "csg/csg_printer.h"
 #include "parser/ast_printer.h"
 #include "slicer/contour/deviation.h"
 #include "slicer/formats/layer_writer.h"

@@ -38,6 +38,7 @@ struct Loft {
   // of scale 0 is an apex. Only first and last ring of an open profile, and no
   // ring of a closed one, may have scale 0.
   bool is_closed_profile = false;
+  bool is_cavity = false;  // see Leaf
 };
 
 // A flat indexed triangle mesh, closed: every directed edge is matched by as
@@ -45,6 +46,8 @@ struct Loft {
 struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  bool operator==(const Mesh&) const = default;
 };
 
 // A closed solid in its own coordinates. Its surface is all its lofts and
@@ -55,7 +58,6 @@ struct Mesh {
 // the loft around it: there two crossings coincide and cancel.
 struct Leaf {
   std::vector<Loft> lofts;
-  std::vector<bool> loft_is_cavity;  // as many as lofts
   std::vector<Mesh> meshes;
   Box3 box;  // of all vertices, in leaf coordinates
   // false: surface known to be embedded, so that each crossing toggles

@@ -28,9 +28,8 @@ bool is_convex(const std::vector<Vec2>& outline) {
 // Appends one loft; an apex is one vertex, not a ring of equal ones.
 class LoftMesher {
  public:
-  LoftMesher(const csg::Loft& loft, bool is_cavity, TriangleMesh& mesh)
+  LoftMesher(const csg::Loft& loft, TriangleMesh& mesh)
       : loft_(loft),
-        is_cavity_(is_cavity),
         size_(static_cast<Index>(loft.outline->size())),
         mesh_(mesh) {}
 
@@ -66,8 +65,8 @@ class LoftMesher {
   }
 
   void add(Index a, Index b, Index c) {
-    mesh_.triangles.push_back(is_cavity_ ? Triangle{a, c, b}
-                                         : Triangle{a, b, c});
+    mesh_.triangles.push_back(loft_.is_cavity ? Triangle{a, c, b}
+                                              : Triangle{a, b, c});
   }
 
   // Along the ring, so that a section around the axis meets the triangles in
@@ -113,7 +112,6 @@ class LoftMesher {
   }
 
   const csg::Loft& loft_;
-  const bool is_cavity_;
   const Index size_;  // points a ring
   TriangleMesh& mesh_;
   std::vector<Index> ring_begins_;
@@ -123,9 +121,7 @@ class LoftMesher {
 
 TriangleMesh make_triangles(const csg::Leaf& leaf) {
   TriangleMesh result;
-  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
-    LoftMesher(leaf.lofts[i], leaf.loft_is_cavity[i], result).run();
-  }
+  for (const csg::Loft& loft : leaf.lofts) LoftMesher(loft, result).run();
   for (const csg::Mesh& mesh : leaf.meshes) {
     const auto shift = static_cast<Index>(result.vertices.size());
     result.vertices.insert(result.vertices.end(), mesh.vertices.begin(),

@@ -25,12 +25,10 @@ bool has_cap(const Loft& loft, std::size_t ring) {
 class FaceMaker {
  public:
   LeafFaces make(const Leaf& leaf, const Affine& world_from_leaf) {
-    for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
-      add_loft(leaf.lofts[i], leaf.loft_is_cavity[i]);
-    }
-    const auto& is_cavity = leaf.loft_is_cavity;
+    for (const Loft& loft : leaf.lofts) add_loft(loft);
     const bool has_holes =
-        std::find(is_cavity.begin(), is_cavity.end(), true) != is_cavity.end();
+        std::any_of(leaf.lofts.begin(), leaf.lofts.end(),
+                    [](const Loft& loft) { return loft.is_cavity; });
     add_caps(bottoms_, true, has_holes);
     add_caps(tops_, false, has_holes);
     for (const Mesh& mesh : leaf.meshes) add_mesh(mesh);
@@ -43,7 +41,7 @@ class FaceMaker {
     return static_cast<std::uint32_t>(result_.vertices.size());
   }
 
-  void add_loft(const Loft& loft, bool is_cavity) {
+  void add_loft(const Loft& loft) {
     // An apex is one vertex.
     std::vector<std::uint32_t> rings;
     for (const Vec2 ring : loft.profile) {
@@ -58,17 +56,17 @@ class FaceMaker {
     for (std::size_t i = loft.is_closed_profile ? 0 : 1; i < count; ++i) {
       const std::size_t low = (i + count - 1) % count;
       add_band(loft, rings[low], loft.profile[low].x == 0, rings[i],
-               loft.profile[i].x == 0, is_cavity);
+               loft.profile[i].x == 0);
     }
     const auto rim = [&](std::uint32_t first_vertex) {
-      return Rim{loft.outline.get(), first_vertex, is_cavity};
+      return Rim{loft.outline.get(), first_vertex, loft.is_cavity};
     };
     if (has_cap(loft, 0)) bottoms_.push_back(rim(rings.front()));
     if (has_cap(loft, count - 1)) tops_.push_back(rim(rings.back()));
   }
 
   void add_band(const Loft& loft, std::uint32_t low, bool is_low_apex,
-                std::uint32_t high, bool is_high_apex, bool is_cavity) {
+                std::uint32_t high, bool is_high_apex) {
     const auto n = static_cast<std::uint32_t>(loft.outline->size());
     std::vector<std::uint32_t> side;
     for (std::uint32_t j = 0; j < n; ++j) {
@@ -78,7 +76,7 @@ class FaceMaker {
       side.push_back(is_high_apex ? high : high + next);
       if (!is_high_apex) side.push_back(high + j);
       if (side.size() < 3) continue;
-      if (is_cavity) std::reverse(side.begin(), side.end());
+      if (loft.is_cavity) std::reverse(side.begin(), side.end());
       add_loop(side);
       for (std::size_t k = 2; k < side.size(); ++k) {
         result_.triangles.push_back({side[0], side[k - 1], side[k]});

@@ -19,8 +19,7 @@ void add_triangle(Mesh& mesh, bool is_cavity, Triangle t) {
 // Appends one loft; an apex is one vertex, not a ring of equal ones.
 class LoftExpander {
  public:
-  LoftExpander(const Loft& loft, bool is_cavity, Mesh& mesh)
-      : loft_(loft), is_cavity_(is_cavity), mesh_(mesh) {}
+  LoftExpander(const Loft& loft, Mesh& mesh) : loft_(loft), mesh_(mesh) {}
 
   void expand() {
     add_vertices();
@@ -56,11 +55,11 @@ class LoftExpander {
   void add_band(std::size_t low, std::size_t high) {
     for (std::size_t j = 0; j < loft_.outline->size(); ++j) {
       if (!is_apex(low)) {
-        add_triangle(mesh_, is_cavity_,
+        add_triangle(mesh_, loft_.is_cavity,
                      {vertex(low, j), vertex(low, j + 1), vertex(high, j + 1)});
       }
       if (!is_apex(high)) {
-        add_triangle(mesh_, is_cavity_,
+        add_triangle(mesh_, loft_.is_cavity,
                      {vertex(low, j), vertex(high, j + 1), vertex(high, j)});
       }
     }
@@ -71,13 +70,12 @@ class LoftExpander {
     const planar::Region cap{{*loft_.outline}};
     for (const Triangle& t : planar::triangulate(cap)) {
       add_triangle(
-          mesh_, is_cavity_ != faces_down,
+          mesh_, loft_.is_cavity != faces_down,
           {vertex(ring, t[0]), vertex(ring, t[1]), vertex(ring, t[2])});
     }
   }
 
   const Loft& loft_;
-  const bool is_cavity_;
   Mesh& mesh_;
   std::vector<std::uint32_t> ring_begins_;
 };
@@ -86,9 +84,7 @@ class LoftExpander {
 
 Mesh explicit_mesh(const Leaf& leaf) {
   Mesh result;
-  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
-    LoftExpander(leaf.lofts[i], leaf.loft_is_cavity[i], result).expand();
-  }
+  for (const Loft& loft : leaf.lofts) LoftExpander(loft, result).expand();
   for (const Mesh& mesh : leaf.meshes) {
     const auto shift = static_cast<std::uint32_t>(result.vertices.size());
     result.vertices.insert(result.vertices.end(), mesh.vertices.begin(),

@@ -12,7 +12,7 @@
 namespace lamina::csg {
 namespace {
 
-// As a mesh the loft would have about so many.
+// About how many triangles the loft would have as a mesh.
 double triangle_count(const Loft& loft) {
   return 2.0 * static_cast<double>(loft.outline->size()) *
          static_cast<double>(loft.profile.size());
@@ -31,7 +31,6 @@ Leaf make_leaf(Loft loft) {
   require_triangles(triangle_count(loft));
   Leaf leaf;
   leaf.lofts.push_back(std::move(loft));
-  leaf.loft_is_cavity.push_back(false);
   leaf.box = bound_leaf(leaf, Affine(1.0));
   return leaf;
 }
@@ -48,7 +47,7 @@ std::vector<Vec2> sphere_profile(int fragments) {
   return profile;
 }
 
-// Word by word; equal content gives equal hashes, nothing else is asked of it.
+// Equal content gives equal hashes; more is not asked of it.
 class ContentHash {
  public:
   void add(std::uint64_t word) {
@@ -77,24 +76,17 @@ std::uint64_t hash(const Leaf& leaf) {
 }
 
 bool are_equal(const Loft& a, const Loft& b) {
-  return a.is_closed_profile == b.is_closed_profile && a.profile == b.profile &&
+  return a.is_closed_profile == b.is_closed_profile &&
+         a.is_cavity == b.is_cavity && a.profile == b.profile &&
          (a.outline == b.outline || *a.outline == *b.outline);
 }
 
-bool are_equal(const Mesh& a, const Mesh& b) {
-  return a.vertices == b.vertices && a.triangles == b.triangles;
-}
-
 bool are_equal(const Leaf& a, const Leaf& b) {
-  const auto equal = [](const auto& x, const auto& y) {
-    return are_equal(x, y);
-  };
   return a.may_overlap_itself == b.may_overlap_itself &&
-         a.loft_is_cavity == b.loft_is_cavity &&
-         std::equal(a.lofts.begin(), a.lofts.end(), b.lofts.begin(),
-                    b.lofts.end(), equal) &&
-         std::equal(a.meshes.begin(), a.meshes.end(), b.meshes.begin(),
-                    b.meshes.end(), equal);
+         std::equal(
+             a.lofts.begin(), a.lofts.end(), b.lofts.begin(), b.lofts.end(),
+             [](const Loft& x, const Loft& y) { return are_equal(x, y); }) &&
+         a.meshes == b.meshes;
 }
 
 }  // namespace

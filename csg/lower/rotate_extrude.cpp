@@ -86,8 +86,7 @@ class FullTurn {
   void add_loft(std::vector<Vec2> profile, bool is_closed) {
     const bool is_cavity = planar::signed_area(profile) < 0;
     if (is_cavity) std::reverse(profile.begin(), profile.end());
-    leaf_.lofts.push_back({circle_, std::move(profile), is_closed});
-    leaf_.loft_is_cavity.push_back(is_cavity);
+    leaf_.lofts.push_back({circle_, std::move(profile), is_closed, is_cavity});
   }
 
   std::shared_ptr<const std::vector<Vec2>> circle_;

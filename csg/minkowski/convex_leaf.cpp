@@ -44,6 +44,12 @@ Draft draft_of(const Mesh& mesh) {
   return draft;
 }
 
+Draft draft_of(Loft loft) {
+  Leaf leaf;
+  leaf.lofts.push_back(std::move(loft));
+  return draft_of(explicit_mesh(leaf));
+}
+
 // --- Extrusions --------------------------------------------------------------
 
 bool is_extrusion(const Leaf& leaf) {
@@ -56,20 +62,16 @@ bool is_extrusion(const Leaf& leaf) {
 
 std::vector<Draft> draft_extrusion(const Leaf& leaf) {
   planar::Region region;
-  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
-    Contour outline = *leaf.lofts[i].outline;
-    if (leaf.loft_is_cavity[i]) std::reverse(outline.begin(), outline.end());
+  for (const Loft& loft : leaf.lofts) {
+    Contour outline = *loft.outline;
+    if (loft.is_cavity) std::reverse(outline.begin(), outline.end());
     region.contours.push_back(std::move(outline));
   }
   std::vector<Draft> drafts;
   for (Contour& piece : planar::cut_into_convex(region)) {
-    Loft loft;
-    loft.outline = std::make_shared<const Contour>(std::move(piece));
-    loft.profile = leaf.lofts[0].profile;
-    Leaf part;
-    part.lofts.push_back(std::move(loft));
-    part.loft_is_cavity.push_back(false);
-    drafts.push_back(draft_of(explicit_mesh(part)));
+    drafts.push_back(
+        draft_of({std::make_shared<const Contour>(std::move(piece)),
+                  leaf.lofts[0].profile}));
   }
   return drafts;
 }
@@ -99,14 +101,13 @@ bool is_revolution(const Leaf& leaf) {
 // The profiles as a region of the plane of (scale, height).
 planar::Region section_through_axis(const Leaf& leaf) {
   planar::Region region;
-  for (std::size_t i = 0; i < leaf.lofts.size(); ++i) {
-    const Loft& loft = leaf.lofts[i];
+  for (const Loft& loft : leaf.lofts) {
     Contour contour = loft.profile;
     if (!loft.is_closed_profile) {
       if (contour.back().x > 0) contour.push_back({0, contour.back().y});
       if (contour.front().x > 0) contour.push_back({0, contour.front().y});
     }
-    if (leaf.loft_is_cavity[i]) std::reverse(contour.begin(), contour.end());
+    if (loft.is_cavity) std::reverse(contour.begin(), contour.end());
     region.contours.push_back(std::move(contour));
   }
   return region;
@@ -145,10 +146,7 @@ Draft draft_turn(const Loft& whole, const Contour& piece) {
   std::vector<Vec2>& profile = loft.profile;
   if (profile[0].y == profile[1].y) profile.erase(profile.begin());
   if (profile.back().y == profile[profile.size() - 2].y) profile.pop_back();
-  Leaf part;
-  part.lofts.push_back(std::move(loft));
-  part.loft_is_cavity.push_back(false);
-  return draft_of(explicit_mesh(part));
+  return draft_of(std::move(loft));
 }
 
 // From one point of the outline to the next.

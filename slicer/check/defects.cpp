@@ -66,15 +66,15 @@ bool is_within(const Edge& edge, Vec2 p) {
 
 using EdgePair = std::pair<std::uint32_t, std::uint32_t>;
 
-// The edges of a layer, and where they are.
+// Finds the edges of a layer by place.
 class EdgeGrid {
  public:
   explicit EdgeGrid(std::span<const WrittenLoop> loops);
 
   void find_crossings(std::vector<Defect>& defects) const;
 
-  // Sum of windings of the other loops around a point of `loop`; none
-  // where one of them passes through it.
+  // The winding number of the other loops around a point of `loop`; none where
+  // one of them passes through it.
   std::optional<int> winding_around(Vec2 point, std::uint32_t loop) const;
 
  private:
@@ -132,7 +132,7 @@ void EdgeGrid::collect_edges(std::span<const WrittenLoop> loops) {
     const std::vector<Vec2>& points = loops[l].points;
     const auto first = static_cast<std::uint32_t>(edges_.size());
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      if (points[i] == points[i + 1]) continue;  // told as a repeat
+      if (points[i] == points[i + 1]) continue;  // reported as a repeat
       const auto next = static_cast<std::uint32_t>(edges_.size()) + 1;
       edges_.push_back({points[i], points[i + 1], l, next});
     }
@@ -140,8 +140,9 @@ void EdgeGrid::collect_edges(std::span<const WrittenLoop> loops) {
   }
 }
 
-// About one cell an edge, square if that can be. Long edges must not stand in
-// more cells than kMostCells: few cells along them then, and more across.
+// Chooses about one cell for each edge, square if possible. Edges must not
+// stand in more than kMostCells on the average: along long ones, cells are few
+// then.
 void EdgeGrid::choose_cells() {
   constexpr double kMostCells = 64;
   if (edges_.empty()) return;
@@ -193,8 +194,8 @@ void EdgeGrid::visit_cells(const Edge& edge, const Visit& visit) const {
   }
 }
 
-// Whether the loop of `at` passes, at the end of that edge, from one side
-// of the loop of `other` to the other side.
+// Whether the loop of `at` passes, at the end of that edge, from one side of
+// the loop of `other` to the other side.
 bool EdgeGrid::passes_through(const Edge& at, const Edge& other) const {
   const Vec2 p = at.to;
   const Vec2 before = at.from;
@@ -302,8 +303,8 @@ std::optional<int> EdgeGrid::winding_around(Vec2 point,
   return winding;
 }
 
-// Whether a loop turns against what its nesting asks for. Judged at the
-// middle of an edge that nothing else touches; the first few are tried.
+// Whether a loop is turned against its nesting. The middle of an edge that
+// nothing else touches decides; the first few are tried.
 bool is_turned_wrongly(const EdgeGrid& grid, std::span<const Vec2> points,
                        std::uint32_t loop) {
   constexpr std::size_t kTries = 16;
@@ -316,7 +317,7 @@ bool is_turned_wrongly(const EdgeGrid& grid, std::span<const Vec2> points,
   return false;
 }
 
-// Defects of a loop by itself; true if it encloses something.
+// Finds the defects of a loop by itself; returns whether it encloses something.
 bool find_own_defects(const WrittenLoop& loop, std::uint32_t index,
                       std::vector<Defect>& defects) {
   const std::vector<Vec2>& points = loop.points;
@@ -369,7 +370,7 @@ std::vector<Defect> find_defects(std::span<const WrittenLoop> loops) {
   const EdgeGrid grid(loops);
   const std::size_t known = defects.size();
   grid.find_crossings(defects);
-  // What crosses has no nesting.
+  // Loops that cross have no nesting.
   if (defects.size() > known) return defects;
   for (const std::uint32_t l : enclosing) {
     const std::vector<Vec2>& points = loops[l].points;

@@ -11,7 +11,7 @@
 namespace lamina::slicer {
 namespace {
 
-constexpr std::size_t kToldDefects = 20;
+constexpr std::size_t kReportedDefects = 20;
 
 }  // namespace
 
@@ -24,8 +24,8 @@ Inspector::Inspector(double min_feature) {
 }
 
 void Inspector::add_defect(std::string words) {
-  if (++found_.defects <= kToldDefects) {
-    found_.told_defects.push_back(std::move(words));
+  if (++found_.defects <= kReportedDefects) {
+    found_.reported_defects.push_back(std::move(words));
   }
 }
 

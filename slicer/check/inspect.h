@@ -33,8 +33,8 @@ struct Inspection {
   double greatest_coordinate = 0;  // |x| or |y| [mm]
 
   std::uint64_t defects = 0;
-  std::vector<std::string> told_defects;  // the first ones, in words
-  double min_feature = 0;                 // [mm]; 0: not looked for
+  std::vector<std::string> reported_defects;  // the first ones, in words
+  double min_feature = 0;                     // [mm]; 0: not searched for
   std::vector<ThinFeature> features;
 };
 

@@ -36,7 +36,7 @@ Totals totals_of(const Inspection& found) {
   return totals;
 }
 
-// What would be shown as "-0.0000" is 0.
+// Turns what would read "-0.0000" into 0.
 Vec3 without_minus_zero(Vec3 place) {
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(place[axis]) < 0.00005) place[axis] = 0;
@@ -162,9 +162,11 @@ class Text : PrintedText {
       return;
     }
     print("defects   {}\n", found_.defects);
-    for (const std::string& words : found_.told_defects) print("  {}\n", words);
-    if (found_.defects > found_.told_defects.size()) {
-      print("  … and {} more\n", found_.defects - found_.told_defects.size());
+    for (const std::string& words : found_.reported_defects)
+      print("  {}\n", words);
+    if (found_.defects > found_.reported_defects.size()) {
+      print("  … and {} more\n",
+            found_.defects - found_.reported_defects.size());
     }
   }
 
@@ -239,7 +241,7 @@ std::string inspection_json(const Inspection& found) {
   json["empty_layers"] = totals.empty;
   json["deviation_mm"] = number_or_null(found.file.deviation);
   json["defects"] = found.defects;
-  json["told_defects"] = found.told_defects;
+  json["told_defects"] = found.reported_defects;
   if (found.min_feature > 0) json["features"] = features_json(found);
   json["layers"] = layers_json(found);
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) +

@@ -13,7 +13,7 @@
 
 namespace lamina::slicer {
 
-// A loop as its file holds it, with the closing vertex: a faulty one is open.
+// A loop as its file holds it: with the closing vertex, unless it is open.
 struct WrittenLoop {
   std::uint32_t gaps = 0;    // as the file counts them
   std::vector<Vec2> points;  // [mm]
@@ -31,16 +31,16 @@ std::vector<WrittenLoop> closed_loops(const ldni::Contours& contours);
 
 struct LayerFileFacts {
   std::string format;  // "SLC 2.0", "CLI, binary"; empty: layers of a design
-  std::string writer;  // program that made it; empty: not told
-  // What contours deviate by from the design's sections, if told [mm].
+  std::string writer;  // program that made it; empty: not known
+  // Bound on the contours' deviation from the design's sections, if noted [mm].
   std::optional<double> deviation;
   // Coordinates are 32-bit numbers.
   bool is_float32 = true;
   // false: only heights of sections; sides of layers are then halfway between.
   bool has_sides = true;
   std::uint64_t lines_left_out = 0;  // hatches and open polylines
-  // SLC alone tells these: a line of words, the table of thicknesses, the low
-  // and high of x, y, z [file's unit], and the top of the part [mm].
+  // SLC alone has these: a line of words, the table of thicknesses, the low and
+  // high of x, y, z [file's unit], and the top of the part [mm].
   std::string header;
   std::vector<SamplingRow> sampling;
   std::optional<std::array<Vec2, 3>> extents;

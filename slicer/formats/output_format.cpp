@@ -30,7 +30,8 @@ constexpr std::array<Written, 12> kWritten = {{
     {"csg", OutputFormat::kCsg},
 }};
 
-// What openscad writes and lamina has no mesh for, with what comes nearest.
+// Formats of openscad that need a mesh, which lamina does not make, with the
+// nearest that it writes.
 struct Refused {
   std::string_view extension;
   std::string_view nearest;

@@ -4,15 +4,14 @@
 // Files come from anywhere, so nothing in them is trusted: every count is
 // checked against the bytes that really follow before memory is asked for, and
 // whatever breaks the format's frame throws FileError with the byte offset.
-// What merely breaks a rule (an open loop, a repeat) is handed over as it is:
-// `lamina inspect` wants to see it.
+// What merely breaks a rule (an open loop, a repeat) is handed over as it is,
+// so that `lamina inspect` can report it.
 
 #include <array>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +31,7 @@ struct SlcHeader {
   std::string package;
   // Bound on what contours deviate by, where lamina noted it [mm].
   std::optional<double> deviation;
-  // x, y, z as {low, high}, in the file's unit, where the header tells them.
+  // x, y, z as {low, high} [file's unit], where the header has them.
   std::optional<std::array<Vec2, 3>> extents;
 };
 
@@ -45,20 +44,20 @@ struct SlcLayer {
 class SlcReader {
  public:
   // Reads up to the first layer. Throws FileError, also for the two other
-  // formats that bear the suffix.
+  // formats with this suffix.
   explicit SlcReader(std::string path, const FileAccess& access = kAllFiles);
 
   const SlcHeader& header() const { return header_; }
   const std::vector<SamplingRow>& sampling() const { return sampling_; }
-  double mm_per_unit() const { return mm_per_unit_; }
-  // All that the file tells; to be asked when read_layer() has returned false.
+  // All that the file says; known when read_layer() has returned false.
   LayerFileFacts facts() const;
 
   // Replaces `layer` by the next one; false at the end of the layers. Throws
   // FileError.
   bool read_layer(SlcLayer& layer);
 
-  // Of the end record [mm]; known when read_layer has returned false.
+  // Top of the part [mm], from the end record; known when read_layer() has
+  // returned false.
   double top() const { return top_; }
 
  private:
@@ -84,7 +83,8 @@ class SlcReader {
   double top_ = 0;
 };
 
-// The layer as the rest of lamina knows it: loops without the closing vertex.
+// Returns the layer as the rest of lamina has it: loops without the closing
+// vertex.
 Layer to_layer(const SlcLayer& layer);
 
 }  // namespace lamina::slicer

@@ -84,8 +84,8 @@ Plan plan_paper(const csg::Scene& scene, const Settings& settings,
   // The paper's rays are as far apart as its layers.
   const double pitch =
       settings.ray_pitch > 0 ? settings.ray_pitch : settings.layer_thickness;
-  auto plan =
-      std::make_shared<ldni::PaperPlan>(scene, grid, pitch, settings.paper);
+  const auto plan = std::make_shared<const ldni::PaperPlan>(
+      ldni::make_paper_plan(scene, grid, pitch, settings.paper));
   BlockSizes blocks = settings.paper.sampler == ldni::SamplerKind::kScanline
                           ? kPaperBlocks
                           : kDrawnBlocks;

@@ -1,5 +1,5 @@
 #pragma once
-// What a slicing job is asked for, from the command line or a library's user.
+// The settings of a slicing job, from the command line or a library's user.
 
 #include <cstddef>
 #include <cstdint>

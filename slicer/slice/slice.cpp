@@ -132,7 +132,7 @@ SliceReport slice(const csg::Scene& scene, const Settings& settings,
   report.renderer = plan.renderer;
   std::optional<FeatureCollector> features;
   if (settings.min_feature > 0) {
-    features.emplace(settings.min_feature, number_makers(scene));
+    features.emplace(settings.min_feature, source_ids(scene));
   }
   sink.begin(scene.box);
   sink.expect(grid.layer_count());

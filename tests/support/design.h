@@ -1,5 +1,5 @@
 #pragma once
-// The library's whole way from text to layers, for tests.
+// Takes a design all the way from text to layers, for tests.
 
 #include <filesystem>
 #include <memory>

@@ -84,7 +84,6 @@ class SceneMaker {
     csg::Leaf leaf;
     leaf.lofts = {
         make_loft(std::move(outline), std::move(profile), is_closed_profile)};
-    leaf.loft_is_cavity = {false};
     add_leaf(std::move(leaf));
   }
   void add_leaf(csg::Leaf leaf) {
@@ -103,7 +102,7 @@ class SceneMaker {
         make_loft({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {{1, 0}, {1, 1}}),
         make_loft({{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}},
                   {{1, 0}, {1, 1}})};
-    leaf.loft_is_cavity = {false, true};
+    leaf.lofts[1].is_cavity = true;
     return leaf;
   }
   // Boxes in one mesh: two overlap, a third one, inside out, takes a bite.

@@ -10,7 +10,6 @@
 
 #include "csg/boundary/leaf_mesh.h"
 #include "csg/tie_distance.h"
-#include "ldni/image/sample.h"
 #include "slicer/slice/slice.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"

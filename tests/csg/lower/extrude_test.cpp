@@ -131,8 +131,8 @@ TEST_F(RotateExtrudeTest, AShellOnTheAxisHasACavity) {
   const Scene scene =
       run_solid({b.node(RotateExtrude{360, 2, {16}}, {profile})});
   ASSERT_EQ(scene.leaves[0].lofts.size(), 2u);
-  EXPECT_NE(scene.leaves[0].loft_is_cavity[0],
-            scene.leaves[0].loft_is_cavity[1]);
+  EXPECT_NE(scene.leaves[0].lofts[0].is_cavity,
+            scene.leaves[0].lofts[1].is_cavity);
   EXPECT_NEAR(run_volume({b.node(RotateExtrude{360, 2, {16}}, {profile})}),
               swept(16, 18, 1.5) - swept(16, 8, 1), 1e-6);
 }

@@ -61,7 +61,7 @@ struct Sampled {
       return {};
     }
     const auto found =
-        images.rays(image, layer - box.layer_start, ray_index - box.ray_start);
+        images.ray(image, layer - box.layer_start, ray_index - box.ray_start);
     std::vector<Sample> sorted(found.begin(), found.end());
     std::sort(sorted.begin(), sorted.end(),
               [](const Sample& a, const Sample& b) {
@@ -167,9 +167,11 @@ TEST_P(Samplers, FillsASolidFromItsBottomUpToBelowItsTop) {
   LeafImages images;
   sampler->sample(0, global_box(rays, layers), images);
   const LeafImage& image = images.images[0];
-  EXPECT_EQ(images.rays(image, 0, 0, 2).size(), 4U);
-  EXPECT_EQ(images.rays(image, 1, 0, 2).size(), 4U);
-  EXPECT_EQ(images.rays(image, 2, 0, 2).size(), 0U);
+  for (const std::uint32_t ray : {0U, 1U}) {
+    EXPECT_EQ(images.ray(image, 0, ray).size(), 2U);
+    EXPECT_EQ(images.ray(image, 1, ray).size(), 2U);
+    EXPECT_EQ(images.ray(image, 2, ray).size(), 0U);
+  }
 }
 
 TEST_P(Samplers, GivesEveryRayAnEvenNumberOfSamplesInAnyOrientation) {
@@ -228,7 +230,7 @@ TEST_P(Samplers, GivesAnEvenNumberWhereRaysAndSectionsMeetVertices) {
   for (std::uint32_t layer = 0; layer < 9; ++layer) {
     const double half = 1 - std::abs(layers.section_z(layer));
     for (std::uint32_t ray = 0; ray < rays.ray_count(); ++ray) {
-      const auto found = images.rays(image, layer, ray);
+      const auto found = images.ray(image, layer, ray);
       ASSERT_EQ(found.size() % 2, 0U);
       double length = 0;
       for (const Sample& sample : found) {
@@ -378,9 +380,9 @@ TEST_P(Samplers, ShiftsOfTheLeafShiftTheDepths) {
 using Outline = std::vector<Vec2>;
 
 csg::Loft make_loft(Outline outline, std::vector<Vec2> profile,
-                    bool is_closed_profile = false) {
+                    bool is_closed_profile = false, bool is_cavity = false) {
   return {std::make_shared<const Outline>(std::move(outline)),
-          std::move(profile), is_closed_profile};
+          std::move(profile), is_closed_profile, is_cavity};
 }
 
 Outline circle(int sides, double r) {
@@ -392,11 +394,9 @@ Outline circle(int sides, double r) {
   return points;
 }
 
-csg::Leaf loft_leaf(std::vector<csg::Loft> lofts,
-                    std::vector<bool> loft_is_cavity) {
+csg::Leaf loft_leaf(std::vector<csg::Loft> lofts) {
   csg::Leaf leaf;
   leaf.lofts = std::move(lofts);
-  leaf.loft_is_cavity = std::move(loft_is_cavity);
   return leaf;
 }
 
@@ -406,17 +406,14 @@ std::vector<csg::Leaf> loft_leaves() {
   const Outline comb = {{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1},
                         {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
   return {
-      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {2, 1.5}})}, {false}),
-      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {0, 1.5}})}, {false}),
-      loft_leaf({make_loft(circle(9, 1), {{0, -1}, {2, 0}, {0, 1.5}})},
-                {false}),
+      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {2, 1.5}})}),
+      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {0, 1.5}})}),
+      loft_leaf({make_loft(circle(9, 1), {{0, -1}, {2, 0}, {0, 1.5}})}),
       loft_leaf({make_loft(circle(20, 1),
-                           {{3, -0.5}, {3.5, 0}, {3, 0.5}, {2.5, 0}}, true)},
-                {false}),
-      loft_leaf({make_loft(comb, {{1, 0}, {0.5, 2}})}, {false}),
+                           {{3, -0.5}, {3.5, 0}, {3, 0.5}, {2.5, 0}}, true)}),
+      loft_leaf({make_loft(comb, {{1, 0}, {0.5, 2}})}),
       loft_leaf({make_loft(circle(24, 3), {{1, 0}, {1, 2}}),
-                 make_loft(circle(12, 2), {{1, 0}, {1, 2}})},
-                {false, true}),
+                 make_loft(circle(12, 2), {{1, 0}, {1, 2}}, false, true)}),
   };
 }
 

@@ -133,7 +133,7 @@ TEST(LeafSection, ACavityIsTakenOffTheArea) {
   csg::Leaf tube = extrusion_leaf({{0, 0}, {6, 0}, {6, 6}, {0, 6}}, 3);
   tube.lofts.push_back(
       extrusion_leaf({{2, 2}, {4, 2}, {4, 4}, {2, 4}}, 3).lofts[0]);
-  tube.loft_is_cavity.push_back(true);
+  tube.lofts.back().is_cavity = true;
   EXPECT_NEAR(area_at(tube, kIdentity, 1), 36 - 4, 1e-12);
   EXPECT_NEAR(area_at(tube, scaled({-1, 1, 1}), 1), 36 - 4, 1e-12);
 }

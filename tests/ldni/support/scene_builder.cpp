@@ -28,7 +28,6 @@ csg::Loft make_loft(std::vector<Vec2> outline, std::vector<Vec2> profile,
 csg::Leaf leaf_of(csg::Loft loft) {
   csg::Leaf leaf;
   leaf.lofts.push_back(std::move(loft));
-  leaf.loft_is_cavity.push_back(false);
   return leaf;
 }
 
@@ -153,8 +152,7 @@ csg::Leaf as_mesh(const csg::Leaf& leaf) {
   csg::Leaf result;
   result.may_overlap_itself = leaf.may_overlap_itself;
   result.meshes = leaf.meshes;
-  for (std::size_t s = 0; s < leaf.lofts.size(); ++s) {
-    const csg::Loft& loft = leaf.lofts[s];
+  for (const csg::Loft& loft : leaf.lofts) {
     const auto corners = static_cast<std::uint32_t>(loft.outline->size());
     const auto rings = static_cast<std::uint32_t>(loft.profile.size());
     csg::Leaf single;
@@ -186,7 +184,7 @@ csg::Leaf as_mesh(const csg::Leaf& leaf) {
       volume += glm::dot(mesh.vertices[t[0]],
                          glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
     }
-    if ((volume < 0) != leaf.loft_is_cavity[s]) {
+    if ((volume < 0) != loft.is_cavity) {
       for (auto& t : mesh.triangles) std::swap(t[0], t[2]);
     }
     result.meshes.push_back(std::move(mesh));
