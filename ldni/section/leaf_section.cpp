@@ -144,7 +144,8 @@ const std::vector<detail::MeshIndex>& LeafSectioner::State::index_meshes(
   indexed.indices.clear();  // of what an earlier call did not end
   const csg::Instance& instance = scene.instances[number];
   for (const csg::Mesh& mesh : scene.leaves[instance.leaf].meshes) {
-    indexed.indices.emplace_back(mesh, instance.world_from_leaf, grid);
+    indexed.indices.push_back(
+        detail::index_mesh(mesh, instance.world_from_leaf, grid));
   }
   indexed.is_made.store(true, std::memory_order_release);
   return indexed.indices;
