@@ -9,10 +9,9 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/command.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
-#include "cli/options/access_options.h"
-#include "cli/process/process_limits.h"
+#include "cli/options/common_options.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/formats/panel.h"
 
@@ -159,13 +158,10 @@ void read_usage(const std::vector<HelpBlock>& main_help, CommandPage& page) {
 CommandPage command_page(const std::string& name, Command& command,
                          const std::vector<HelpBlock>& main_help) {
   CLI::App app("", "lamina");
-  app.set_help_flag("-h,--help");
-  app.set_version_flag("-v,--version", "");
   command.add_options(app);
   ProcessLimits limits;
-  add_process_limits(app, limits);
-  FileAccess::Limits access_limits;
-  add_access_options(app, access_limits);
+  FileAccess::Limits access;
+  add_common_options(app, limits, access);
   CommandPage page;
   page.name = name;
   page.help = read_help(command.help());

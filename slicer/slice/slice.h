@@ -10,6 +10,7 @@
 #include "csg/plane/region.h"
 #include "csg/scene.h"
 #include "ldni/image/paper_counts.h"
+#include "ldni/section/grid.h"
 #include "ldni/sweep/kinetic_ray.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/compensate.h"
@@ -22,8 +23,8 @@ namespace lamina::slicer {
 // threads.
 struct SliceReport {
   ldni::SweepCounts sweep;
-  ldni::PaperCounts paper;     // all 0 but for the paper's contours
-  std::string renderer;  // what drew, if OpenGL did
+  ldni::PaperCounts paper;  // all 0 but for the paper's contours
+  std::string renderer;     // what drew, if OpenGL did
   std::uint64_t open_paths =
       0;                       // of leaves' sections, closed: 0 if all is well
   double section_seconds = 0;  // leaves to chains, or to samples
@@ -41,11 +42,18 @@ struct SliceReport {
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
 };
 
+// Where the layers of a scene stand. Throws GeometryError where the scene is
+// empty (unless heights were given) or would have too many layers.
+ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings);
+
 // Same layers for any number of threads. Throws GeometryError if no layer that
 // is wanted has a contour (unless heights were given). Warns of what
 // compensation lost.
-SliceReport slice(const csg::Scene& scene, const Settings& settings,
-                  LayerSink& sink, Diagnostics& diagnostics);
+//
+// grid  of plan_layers()
+SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
+                  const Settings& settings, LayerSink& sink,
+                  Diagnostics& diagnostics);
 
 // The one layer of a 2D design, at height 0, with all its vertices.
 SliceReport slice_outline(const planar::Region& outline,
