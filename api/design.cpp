@@ -292,7 +292,7 @@ void Design::write(const std::string& path, const SliceOptions& options,
   messages.run([&](Diagnostics& diagnostics) {
     TemporaryFiles temporary_files(state_->access);
     compiler::LayerOutput output(request, temporary_files);
-    state_->slice(request.settings, output.sink(), diagnostics);
+    state_->slice(compiler::settings_of(request), output.sink(), diagnostics);
     compiler::Report report;
     output.finish(diagnostics, report);
   });

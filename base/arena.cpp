@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lamina::ast {
+namespace lamina {
 
 namespace {
 
@@ -41,4 +41,4 @@ void Arena::release(Mark mark) {
   used_ = mark.used;
 }
 
-}  // namespace lamina::ast
+}  // namespace lamina

@@ -1,5 +1,5 @@
 #pragma once
-// Memory of one syntax tree: handed out piece by piece, freed at once.
+// Memory of one tree (syntax tree, resolved code, CSG tree), freed at once.
 //
 // Nodes are trivially destructible, so freeing costs a few blocks and no walk.
 // Unlike std::pmr::monotonic_buffer_resource the arena can go back to a mark:
@@ -10,11 +10,12 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-namespace lamina::ast {
+namespace lamina {
 
 class Arena {
  public:
@@ -44,6 +45,11 @@ class Arena {
     return {target, values.size()};
   }
 
+  std::string_view copy(std::string_view text) {
+    const auto kept = copy(std::span<const char>(text));
+    return {kept.data(), kept.size()};
+  }
+
   Mark mark() const { return {block_, used_}; }
 
   // Forgets all that was allocated after `mark`.
@@ -62,4 +68,4 @@ class Arena {
   std::size_t used_ = 0;   // bytes used in it
 };
 
-}  // namespace lamina::ast
+}  // namespace lamina

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/character_length.h"
 #include "base/diagnostic.h"
+#include "base/utf8.h"
 
 namespace lamina {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "base/character_length.h"
 #include "base/paths.h"
+#include "base/utf8.h"
 
 namespace lamina {
 

@@ -54,6 +54,10 @@ struct SourceRange {
   std::uint32_t end = 0;
 
   bool is_known() const { return source != nullptr; }
+  // Its first line as OpenSCAD counts it; 0 without a place.
+  std::uint32_t openscad_line() const {
+    return is_known() ? source->openscad_line(begin) : 0;
+  }
   std::string_view text() const;
 };
 

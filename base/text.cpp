@@ -1,7 +1,8 @@
 #include "base/text.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include <double-conversion/double-conversion.h>
 
@@ -41,7 +42,9 @@ bool append_small_integer(double number, std::string& text) {
   if (!(std::fabs(number) < 1e6)) return false;
   const int integer = static_cast<int>(number);
   if (integer != number) return false;
-  text += std::to_string(integer);
+  std::array<char, 16> digits;
+  const auto end = std::to_chars(digits.begin(), digits.end(), integer).ptr;
+  text.append(digits.begin(), end);
   return true;
 }
 
@@ -59,6 +62,19 @@ void append_number(double number, std::string& text) {
   const int length = builder.position();
   builder.Finalize();
   append_trimmed({buffer, static_cast<std::size_t>(length)}, text);
+}
+
+void append_stream_number(double number, std::string& text) {
+  if (!(number == 0 && std::signbit(number)) &&
+      append_small_integer(number, text)) {
+    return;
+  }
+  // As printf's %g.
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.begin(), digits.end(), number,
+                                 std::chars_format::general, kDigits)
+                       .ptr;
+  text.append(digits.begin(), end);
 }
 
 void append_quoted(std::string_view content, std::string& text) {

@@ -1,14 +1,22 @@
 #pragma once
-// Literals as OpenSCAD shows them.
+// Numbers and strings as OpenSCAD shows them.
+//
+// OpenSCAD writes the numbers of values with double-conversion (six significant
+// digits, zeros at the end cut off: 1e+6) and those of most module parameters
+// with C++ streams (`%g`: 1e+06). Both are here, because a `.csg` file mixes
+// them.
 
 #include <string>
 #include <string_view>
 
 namespace lamina {
 
-// Appends a number as OpenSCAD shows values: six significant digits, zeros cut
-// off the end: 0.333333, 1e+6, inf, nan; never -0.
+// Appends a number as OpenSCAD shows values: 0.333333, 1e+6, inf, nan; never
+// -0.
 void append_number(double number, std::string& text);
+
+// Appends a number as C++ streams show it: 0.333333, 1e+06, inf, -nan, -0.
+void append_stream_number(double number, std::string& text);
 
 // Appends "…" with \t \n \r \" \\ escaped.
 void append_quoted(std::string_view content, std::string& text);

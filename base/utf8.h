@@ -1,15 +1,16 @@
 #pragma once
-// UTF-8 as OpenSCAD counts it.
+// UTF-8: well-formed text as the standard has it, broken text as OpenSCAD
+// (GLib) counts it.
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace lamina {
 
 // Bytes of the character that begins with `lead`, by that byte alone: broken
-// text has a length too, the one that OpenSCAD (GLib) gives it.
+// text has a length too.
 inline std::uint32_t utf8_length(char lead) {
   const auto byte = static_cast<unsigned char>(lead);
   if (byte < 0xC0 || byte >= 0xFE) return 1;
@@ -19,14 +20,19 @@ inline std::uint32_t utf8_length(char lead) {
   return byte < 0xFC ? 5 : 6;
 }
 
-// Whether all of `text` is well-formed (no overlong forms, no surrogates).
+// Bytes of the character at the beginning of `text`, which is not empty; 0
+// where its first byte begins none or bytes are missing.
+std::size_t character_length(std::string_view text);
+
+// Whether all of `text` is well-formed (no overlong forms, no surrogates) and
+// holds no zero byte.
 bool is_valid_utf8(std::string_view text);
 
 // The first character of a text that may be broken.
 std::uint32_t first_code_point(std::string_view text);
 
-// Appends `code_point`; nothing where no such character exists (0, surrogates,
-// beyond U+10FFFF).
-void append_utf8(double code_point, std::string& text);
+// Appends `code_point`. Returns false and appends nothing where there is no
+// such character (0, surrogates, beyond U+10FFFF).
+bool append_utf8(double code_point, std::string& text);
 
 }  // namespace lamina

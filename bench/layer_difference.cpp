@@ -1,10 +1,10 @@
-// How far the layers of two SLC files differ: the area of the symmetric
-// difference of all layers, as a share of the area of the first file's.
+// Prints how far the layers of two SLC files differ: the area of the symmetric
+// difference of all layers, as a share of the area of the first file's layers.
 //
 //   build/release/bench/layer_difference a.slc b.slc
 //
-// A layer that only one of the files has counts whole. Areas by Clipper, in
-// units of 1e-7 mm.
+// A layer that only one of the files has counts whole. Clipper computes the
+// areas, in units of 1e-7 mm.
 
 #include <cmath>
 #include <cstdio>

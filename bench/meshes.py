@@ -4,8 +4,8 @@ packages, and the ring of ring_mesh.scad.
 
 The scans are Stanford's (graphics.stanford.edu/data/3Dscanrep): turned
 upright, moved to the origin, their longest side 20 mm. Stanford asks not to
-apply Booleans to the dragon, which is a symbol of Chinese culture; so only the
-bunny is pierced.
+apply Booleans to the dragon, a symbol of Chinese culture, so only the bunny is
+pierced.
 """
 import gzip
 import json

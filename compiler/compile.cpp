@@ -124,7 +124,7 @@ bool compile(Compilation& c) {
   require_sliceable(c, lowered);
 
   // Plan, and slice layer by layer into the output.
-  make_layers(c, lowered, c.request.settings, output.sink());
+  make_layers(c, lowered, settings_of(c.request), output.sink());
 
   // Write the end of the output. It gets its name when all has gone well.
   output.finish(c.diagnostics, c.report);

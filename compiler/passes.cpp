@@ -9,7 +9,7 @@
 #include "base/thread_clock.h"
 #include "compiler/imported_design.h"
 #include "csg/boundary/move_scene.h"
-#include "csg/eval/csg_printer.h"
+#include "csg/csg_printer.h"
 #include "parser/parameter_set.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/plan/surface_heights.h"
@@ -107,10 +107,9 @@ Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
 
 std::size_t Compilation::count(Severity severity) const {
   const std::vector<Diagnostic>& all = diagnostics.all();
-  return static_cast<std::size_t>(
-      std::count_if(all.begin(), all.end(), [&](const Diagnostic& d) {
-        return d.severity == severity;
-      }));
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(),
+      [&](const Diagnostic& d) { return d.severity == severity; }));
 }
 
 ast::Program load(Compilation& c) {
@@ -164,6 +163,12 @@ csg::Lowered lower(Compilation& c) {
     place(c, *scene);
   }
   return lowered;
+}
+
+slicer::Settings settings_of(const Request& request) {
+  slicer::Settings settings = request.settings;
+  settings.most_thickness_runs = slicer::most_thickness_runs(request.format);
+  return settings;
 }
 
 ldni::LayerGrid plan(const csg::Lowered& lowered,

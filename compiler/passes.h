@@ -25,6 +25,9 @@ csg::Tree evaluate(Compilation& compilation, const ast::Program& program);
 // What compilation.tree stands for, turned to the axis and placed on the bed.
 csg::Lowered lower(Compilation& compilation);
 
+// The settings of the request, with the limits of its format.
+slicer::Settings settings_of(const Request& request);
+
 // Where the layers stand; of an outline, nowhere. Throws GeometryError where
 // the solid is empty or has too many layers.
 ldni::LayerGrid plan(const csg::Lowered& lowered,

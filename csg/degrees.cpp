@@ -60,4 +60,11 @@ double cos_deg(double angle_deg) {
   return is_left_half ? -c : c;
 }
 
+double atan2_deg(double y, double x) {
+  constexpr double kRounding = 3.0E-14;  // OpenSCAD's, in degrees
+  const double degrees = std::atan2(y, x) * (180.0 / std::numbers::pi);
+  const double whole = std::round(degrees);
+  return std::fabs(degrees - whole) < kRounding ? whole : degrees;
+}
+
 }  // namespace lamina::csg

@@ -3,7 +3,7 @@
 // the world, and a flat Boolean program over the instances.
 //
 // Transforms are pushed down to the instances, unions of unions are one
-// union, empty parts are gone. Primitives stay parametric: a Sweep gives its
+// union, empty parts are gone. Primitives stay parametric: a Loft gives its
 // vertices by formula, so a sphere of a million facets costs two small tables.
 
 #include <array>
@@ -22,7 +22,7 @@ namespace lamina::csg {
 // i < profile.size() rings, j < outline->size() points a ring. Sides are
 // quads between neighbouring rings, planar because the edges of two rings run
 // parallel. Cylinder, cone, sphere, cube, straight or scaled linear_extrude,
-// and every full rotate_extrude are Sweeps.
+// and every full rotate_extrude are Lofts.
 //
 // Orientation: the outline runs counter-clockwise and the profile has the
 // solid on its left in the (scale, height) plane: a bottom ring stands before
@@ -30,7 +30,7 @@ namespace lamina::csg {
 // (i,j) (i,j+1) (i+1,j+1) (i+1,j) is then counter-clockwise from outside.
 // The outline is a simple polygon, convex or not; where it is not convex the
 // section of a cap can be several segments.
-struct Sweep {
+struct Loft {
   std::shared_ptr<const std::vector<Vec2>> outline;  // shared tables per $fn
   std::vector<Vec2> profile;  // x: scale ≥ 0, y: height
   // true: the last ring is joined to the first (a torus), no caps.
@@ -38,6 +38,7 @@ struct Sweep {
   // of scale 0 is an apex. Only first and last ring of an open profile, and no
   // ring of a closed one, may have scale 0.
   bool is_closed_profile = false;
+  bool is_cavity = false;  // see Leaf
 };
 
 // A flat indexed triangle mesh, closed: every directed edge is matched by as
@@ -45,17 +46,18 @@ struct Sweep {
 struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  bool operator==(const Mesh&) const = default;
 };
 
-// A closed solid in its own coordinates. Its surface is all its sweeps and
-// meshes together. Every sweep bounds a solid of its own; a point is inside
-// the leaf where the sum of winding numbers is not 0: +1 inside a sweep, -1
-// inside a sweep that is a cavity (a hole of an extruded region). A cavity is
-// stored with the same orientation as any sweep. Its caps lie in the caps of
-// the sweep around it: there two crossings coincide and cancel.
+// A closed solid in its own coordinates. Its surface is all its lofts and
+// meshes together. Every loft bounds a solid of its own; a point is inside
+// the leaf where the sum of winding numbers is not 0: +1 inside a loft, -1
+// inside a loft that is a cavity (a hole of an extruded region). A cavity is
+// stored with the same orientation as any loft. Its caps lie in the caps of
+// the loft around it: there two crossings coincide and cancel.
 struct Leaf {
-  std::vector<Sweep> sweeps;
-  std::vector<bool> sweep_is_cavity;  // as many as sweeps
+  std::vector<Loft> lofts;
   std::vector<Mesh> meshes;
   Box3 box;  // of all vertices, in leaf coordinates
   // false: surface known to be embedded, so that each crossing toggles

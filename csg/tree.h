@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/arena.h"
 #include "base/source.h"
 #include "base/vec.h"
 
@@ -215,9 +215,9 @@ struct Node {
 
 // Owns its nodes. The root is a Group ("group", the implicit top level).
 struct Tree {
-  std::shared_ptr<std::pmr::monotonic_buffer_resource> arena;
+  std::shared_ptr<Arena> arena;
   // Has the call frames: a scene goes on pointing at them.
-  std::shared_ptr<std::pmr::monotonic_buffer_resource> calls;
+  std::shared_ptr<Arena> calls;
   const Node* root = nullptr;
   // Paths that modules and functions named as files to read, whether they are
   // there or not; in the order of evaluation, each once.

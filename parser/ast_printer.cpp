@@ -1,58 +1,57 @@
 #include "parser/ast_printer.h"
 
 #include <cmath>
-#include <unordered_map>
 #include <variant>
-#include <vector>
 
 #include "base/text.h"
 #include "parser/customizer.h"
+#include "parser/tree_facts.h"
 
 namespace lamina::ast {
 
-namespace {
-
-const char* symbol(BinaryOp op) {
+std::string_view symbol(BinaryOp op) {
   switch (op) {
     case BinaryOp::kOr:
-      return " || ";
+      return "||";
     case BinaryOp::kAnd:
-      return " && ";
+      return "&&";
     case BinaryOp::kEqual:
-      return " == ";
+      return "==";
     case BinaryOp::kNotEqual:
-      return " != ";
+      return "!=";
     case BinaryOp::kLess:
-      return " < ";
+      return "<";
     case BinaryOp::kLessEqual:
-      return " <= ";
+      return "<=";
     case BinaryOp::kGreater:
-      return " > ";
+      return ">";
     case BinaryOp::kGreaterEqual:
-      return " >= ";
+      return ">=";
     case BinaryOp::kBitOr:
-      return " | ";
+      return "|";
     case BinaryOp::kBitAnd:
-      return " & ";
+      return "&";
     case BinaryOp::kShiftLeft:
-      return " << ";
+      return "<<";
     case BinaryOp::kShiftRight:
-      return " >> ";
+      return ">>";
     case BinaryOp::kAdd:
-      return " + ";
+      return "+";
     case BinaryOp::kSubtract:
-      return " - ";
+      return "-";
     case BinaryOp::kMultiply:
-      return " * ";
+      return "*";
     case BinaryOp::kDivide:
-      return " / ";
+      return "/";
     case BinaryOp::kModulo:
-      return " % ";
+      return "%";
     case BinaryOp::kPower:
-      return " ^ ";
+      return "^";
   }
   return "";
 }
+
+namespace {
 
 char symbol(UnaryOp op) {
   switch (op) {
@@ -99,7 +98,9 @@ class ExpressionPrinter {
   void operator()(const Binary& node) {
     text_ += '(';
     print(*node.left);
+    text_ += ' ';
     text_ += symbol(node.op);
+    text_ += ' ';
     print(*node.right);
     text_ += ')';
   }
@@ -260,25 +261,6 @@ class ExpressionPrinter {
   std::string& text_;
 };
 
-// The variables of a scope, each once: where it is assigned first, with the
-// statement that assigns it last.
-std::vector<const Statement*> variables_of(Statements statements) {
-  std::vector<const Statement*> variables;
-  std::unordered_map<std::string_view, std::size_t> places;
-  for (const Statement* statement : statements) {
-    const auto* assignment = std::get_if<Assignment>(&statement->node);
-    if (assignment == nullptr) continue;
-    const auto [place, is_new] =
-        places.try_emplace(assignment->name, variables.size());
-    if (is_new) {
-      variables.push_back(statement);
-    } else {
-      variables[place->second] = statement;
-    }
-  }
-  return variables;
-}
-
 class StatementPrinter {
  public:
   StatementPrinter(std::string& text, const Customizer& customizer)
@@ -294,8 +276,8 @@ class StatementPrinter {
     for (const Statement* statement : statements) {
       print_module(*statement, indent);
     }
-    for (const Statement* statement : variables_of(statements)) {
-      print_variable(*statement, indent);
+    for (const std::size_t i : assignments_that_count(statements)) {
+      print_variable(*statements[i], indent);
     }
     for (const Statement* statement : statements) {
       print_instantiation(*statement, indent, place);
@@ -411,6 +393,10 @@ std::string print(const Program& program) {
 
 void append_expression(const Expr& expression, std::string& text) {
   ExpressionPrinter(text).print(expression);
+}
+
+void append_expression(const FunctionLiteral& function, std::string& text) {
+  ExpressionPrinter{text}(function);
 }
 
 }  // namespace lamina::ast

@@ -8,6 +8,7 @@
 // Recursion is as deep as the tree.
 
 #include <string>
+#include <string_view>
 
 #include "parser/ast.h"
 
@@ -19,5 +20,9 @@ std::string print(const Program& program);
 
 // Appends one expression: `(a + 1)`, `function(x) x`.
 void append_expression(const Expr& expression, std::string& text);
+void append_expression(const FunctionLiteral& function, std::string& text);
+
+// As it is written: "<=".
+std::string_view symbol(BinaryOp op);
 
 }  // namespace lamina::ast

@@ -11,9 +11,9 @@
 #include "base/letter_case.h"
 #include "base/number.h"
 #include "base/text.h"
-#include "parser/detail/literal.h"
 #include "parser/loader.h"
 #include "parser/parser.h"
+#include "parser/tree_facts.h"
 
 namespace lamina {
 namespace {
@@ -61,7 +61,7 @@ bool is_literal(std::string_view cell) {
     if (program.statements.size() != 1) return false;
     const auto* assignment =
         std::get_if<ast::Assignment>(&program.statements[0]->node);
-    return assignment != nullptr && detail::is_literal(*assignment->value);
+    return assignment != nullptr && ast::is_literal(*assignment->value);
   } catch (const SyntaxError&) {
     return false;
   } catch (const AccessError&) {

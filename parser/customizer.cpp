@@ -6,7 +6,7 @@
 
 #include "parser/ast_printer.h"
 #include "parser/detail/customizer_value.h"
-#include "parser/detail/literal.h"
+#include "parser/tree_facts.h"
 
 namespace lamina {
 
@@ -109,14 +109,14 @@ ParameterComment Customizer::comment_of(
   const SourceRange range = assignment.range;
   const auto& node = std::get<ast::Assignment>(assignment.node);
   if (range.source != &source_ || !node.value->range.is_known() ||
-      !detail::is_literal(*node.value)) {
+      !ast::is_literal(*node.value)) {
     return result;
   }
   const std::uint32_t line = source_.openscad_line(range.begin);
   if (line >= end_line_) return result;
   result.is_parameter = true;
   result.description = read_description(source_.line_text(line - 1));
-  ast::Arena arena;
+  Arena arena;
   const std::string comment(find_comment(source_.line_text(line)));
   if (const ast::Expr* values = detail::read_customizer_value(comment, arena)) {
     result.values.clear();

@@ -76,7 +76,6 @@ class Loader {
   const Source* open_include(const std::string& path);
 
  private:
-  ast::Program load_source(const Source& source);
   void load_uses(const ast::Program& program);
   void note_fonts(const ast::Program& program);
   std::optional<ast::Program> load_used(const std::string& path,

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -13,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "parser/detail/customizer_value.h"
-#include "parser/detail/literal.h"
+#include "parser/tree_facts.h"
 
 namespace lamina {
 namespace {
@@ -148,33 +147,32 @@ std::optional<bool> read_truth(std::string_view text) {
 }
 
 // The text as a value of a parameter of type `type`; null where it is none.
-const ast::Expr* read_value(std::string_view text, detail::ValueType type,
-                            ast::Arena& arena) {
-  if (type == detail::ValueType::kString) {
-    const auto copy = arena.copy(std::span<const char>(text));
-    return arena.make(ast::Expr{ast::String{{copy.data(), copy.size()}}, {}});
+const ast::Expr* read_value(std::string_view text, ast::ValueType type,
+                            Arena& arena) {
+  if (type == ast::ValueType::kString) {
+    return arena.make(ast::Expr{ast::String{arena.copy(text)}, {}});
   }
-  if (type == detail::ValueType::kBool) {
+  if (type == ast::ValueType::kBool) {
     const std::optional<bool> truth = read_truth(text);
     return truth ? arena.make(ast::Expr{ast::Bool{*truth}, {}}) : nullptr;
   }
   const ast::Expr* value = detail::read_customizer_value(text, arena);
-  const bool is_fit = value != nullptr && detail::type_of(*value) == type;
+  const bool is_fit = value != nullptr && ast::type_of(*value) == type;
   return is_fit ? value : nullptr;
 }
 
 // Sets what `statement` assigns. False where the text is no value of a
 // parameter that wants true or false.
 bool set_value(const ast::Statement*& statement, std::string_view text,
-               ast::Arena& arena) {
+               Arena& arena) {
   const auto& assignment = std::get<ast::Assignment>(statement->node);
-  const auto type = detail::type_of(*assignment.value);
+  const auto type = ast::type_of(*assignment.value);
   if (!type) return true;
   const ast::Expr* value = read_value(text, *type, arena);
-  if (value == nullptr) return type != detail::ValueType::kBool;
+  if (value == nullptr) return type != ast::ValueType::kBool;
   // What was no parameter does not become one: the customizer's comments
   // describe values with a place in the text.
-  const bool was_literal = detail::is_literal(*assignment.value);
+  const bool was_literal = ast::is_literal(*assignment.value);
   const SourceRange range =
       was_literal ? assignment.value->range : SourceRange();
   ast::Statement replaced = *statement;
@@ -184,33 +182,15 @@ bool set_value(const ast::Statement*& statement, std::string_view text,
   return true;
 }
 
-// The variables of a program in the order of their first assignments, each
-// with the place of its last one, which counts.
-std::vector<std::size_t> places_of_variables(const ast::Program& program) {
-  std::vector<std::size_t> places;
-  std::unordered_map<std::string_view, std::size_t> known;
-  for (std::size_t i = 0; i < program.statements.size(); ++i) {
-    const auto* node =
-        std::get_if<ast::Assignment>(&program.statements[i]->node);
-    if (node == nullptr) continue;
-    const auto [place, is_new] = known.try_emplace(node->name, places.size());
-    if (is_new) {
-      places.push_back(i);
-    } else {
-      places[place->second] = i;
-    }
-  }
-  return places;
-}
-
 // Variable by variable, as OpenSCAD does, which tells what is set before a
 // value fails.
 bool set_values(const std::vector<Entry>& entries, ast::Program& program) {
-  ast::Arena& arena = *program.arena;
+  Arena& arena = *program.arena;
   std::vector<const ast::Statement*> statements(program.statements.begin(),
                                                 program.statements.end());
   bool is_good = true;
-  for (const std::size_t place : places_of_variables(program)) {
+  for (const std::size_t place :
+       ast::assignments_that_count(program.statements)) {
     const ast::Statement*& statement = statements[place];
     for (const Entry& entry : entries) {
       if (std::get<ast::Assignment>(statement->node).name != entry.name) {

@@ -3,24 +3,24 @@
 #include <set>
 #include <variant>
 
-#include "parser/detail/literal.h"
+#include "parser/tree_facts.h"
 
 namespace lamina {
 namespace {
 
 VariableKind kind_of(const ast::Expr& value) {
-  const auto type = detail::type_of(value);
+  const auto type = ast::type_of(value);
   if (!type) return VariableKind::kAny;
   switch (*type) {
-    case detail::ValueType::kBool:
+    case ast::ValueType::kBool:
       return VariableKind::kBool;
-    case detail::ValueType::kNumber:
+    case ast::ValueType::kNumber:
       return VariableKind::kNumber;
-    case detail::ValueType::kString:
+    case ast::ValueType::kString:
       return VariableKind::kString;
-    case detail::ValueType::kVector:
+    case ast::ValueType::kVector:
       return VariableKind::kVector;
-    case detail::ValueType::kRange:
+    case ast::ValueType::kRange:
       return VariableKind::kAny;
   }
   return VariableKind::kAny;

@@ -4,7 +4,7 @@
 # To build and run the program.
 LAMINA_BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config bison flex
-  libglm-dev libfmt-dev libdouble-conversion-dev libcli11-dev
+  libglm-dev libfmt-dev libdouble-conversion-dev libutfcpp-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
   libqhull-dev libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
   libminizip-dev libpugixml-dev zlib1g-dev
@@ -20,8 +20,8 @@ LAMINA_TEST_PACKAGES=(
   man-db bash-completion zsh fish locales
 )
 
-# install_missing <package>…: installs those that are not there; asks for
-# nothing and needs no root when all are.
+# install_missing <package>…: installs those that are missing; where none is, it
+# asks for nothing and needs no root.
 install_missing() {
   local package missing=()
   for package in "$@"; do
@@ -46,8 +46,8 @@ install_missing() {
     apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
 
-# configure <BUILD_TESTING value>: writes build/release, or leaves it as it is
-# where it already does what is asked for (tests included do no harm to `run`).
+# configure <BUILD_TESTING value>: configures build/release, unless it already
+# builds what is asked for (`run` does not mind tests).
 configure() {
   if [ -f build/release/build.ninja ] &&
      { [ "$1" = OFF ] ||
@@ -57,8 +57,8 @@ configure() {
   run_quietly cmake --preset release -DBUILD_TESTING="$1"
 }
 
-# build <target>…: what takes longer than a moment says so. (Ninja cannot tell
-# beforehand, as it looks for new files first.)
+# build <target>…: builds, and says so where it takes longer than a moment.
+# (Ninja does not know beforehand, as it looks for new files first.)
 build() {
   local notice status=0
   { sleep 1 <&- >&- 2>&-
@@ -70,7 +70,7 @@ build() {
   return "$status"
 }
 
-# run_quietly <command>…: shows what it printed only if it fails.
+# run_quietly <command>…: shows what the command printed only if it fails.
 run_quietly() {
   local log status=0
   log=$(mktemp)

@@ -6,9 +6,9 @@
 // sort); those of the layer in hand are in a list of their own. Each gives one
 // directed segment from edge to edge. A segment's end is the start of the next
 // one: most often of the next triangle in the list, otherwise a hash table of
-// the edges tells. So a point is computed once, and loops close exactly.
-// Points in the middle of a straight line are left out: two triangles of a
-// quad would have the clipper work twice.
+// the edges finds it. So a point is computed once, and loops close exactly.
+// Points in the middle of a straight line are left out, or the two triangles of
+// a quad would make the clipper work twice.
 
 #include <cstdint>
 #include <memory>
@@ -47,7 +47,7 @@ struct Loop {
 
 IntBox box_of(const Path& path);
 
-// Paths that are used again and again, so that they keep their memory.
+// Paths to be used again and again, which keep their memory.
 class PathPool {
  public:
   Path& next();
@@ -62,7 +62,7 @@ class PathPool {
 class Heights {
  public:
   explicit Heights(const ldni::LayerGrid& grid);
-  // Number of layers that a vertex at this height is above of.
+  // Number of layers whose section a vertex at this height lies above.
   std::uint32_t layers_below(double z) const;
   double section_z(std::uint32_t layer) const { return sections_[layer]; }
 

@@ -25,21 +25,20 @@ bool is_convex(const std::vector<Vec2>& outline) {
   return true;
 }
 
-// Appends one sweep; an apex is one vertex, not a ring of equal ones.
-class SweepMesher {
+// Appends one loft; an apex is one vertex, not a ring of equal ones.
+class LoftMesher {
  public:
-  SweepMesher(const csg::Sweep& sweep, bool is_cavity, TriangleMesh& mesh)
-      : sweep_(sweep),
-        is_cavity_(is_cavity),
-        size_(static_cast<Index>(sweep.outline->size())),
+  LoftMesher(const csg::Loft& loft, TriangleMesh& mesh)
+      : loft_(loft),
+        size_(static_cast<Index>(loft.outline->size())),
         mesh_(mesh) {}
 
   void run() {
     add_vertices();
-    const std::size_t rings = sweep_.profile.size();
+    const std::size_t rings = loft_.profile.size();
     mesh_.triangles.reserve(mesh_.triangles.size() + 2 * rings * size_);
     for (std::size_t i = 0; i + 1 < rings; ++i) add_band(i, i + 1);
-    if (sweep_.is_closed_profile) {
+    if (loft_.is_closed_profile) {
       add_band(rings - 1, 0);
     } else {
       add_cap(0, true);
@@ -48,26 +47,26 @@ class SweepMesher {
   }
 
  private:
-  bool is_apex(std::size_t ring) const { return sweep_.profile[ring].x == 0; }
+  bool is_apex(std::size_t ring) const { return loft_.profile[ring].x == 0; }
 
   void add_vertices() {
     mesh_.vertices.reserve(mesh_.vertices.size() +
-                           sweep_.profile.size() * size_);
-    for (const Vec2 ring : sweep_.profile) {
+                           loft_.profile.size() * size_);
+    for (const Vec2 ring : loft_.profile) {
       ring_begins_.push_back(static_cast<Index>(mesh_.vertices.size()));
       if (ring.x == 0) {
         mesh_.vertices.push_back({0, 0, ring.y});
         continue;
       }
-      for (const Vec2 point : *sweep_.outline) {
+      for (const Vec2 point : *loft_.outline) {
         mesh_.vertices.push_back({ring.x * point.x, ring.x * point.y, ring.y});
       }
     }
   }
 
   void add(Index a, Index b, Index c) {
-    mesh_.triangles.push_back(is_cavity_ ? Triangle{a, c, b}
-                                         : Triangle{a, b, c});
+    mesh_.triangles.push_back(loft_.is_cavity ? Triangle{a, c, b}
+                                              : Triangle{a, b, c});
   }
 
   // Along the ring, so that a section around the axis meets the triangles in
@@ -87,12 +86,12 @@ class SweepMesher {
   void add_cap(std::size_t ring, bool faces_down) {
     if (is_apex(ring)) return;
     const Index begin = ring_begins_[ring];
-    if (is_convex(*sweep_.outline)) {
+    if (is_convex(*loft_.outline)) {
       add_convex_cap(begin, 0, size_ - 1, faces_down);
       return;
     }
     for (const Triangle& t :
-         planar::triangulate(planar::Region{{*sweep_.outline}})) {
+         planar::triangulate(planar::Region{{*loft_.outline}})) {
       add_cap_triangle(begin, t[0], t[1], t[2], faces_down);
     }
   }
@@ -112,8 +111,7 @@ class SweepMesher {
     add(begin + a, begin + b, begin + c);
   }
 
-  const csg::Sweep& sweep_;
-  const bool is_cavity_;
+  const csg::Loft& loft_;
   const Index size_;  // points a ring
   TriangleMesh& mesh_;
   std::vector<Index> ring_begins_;
@@ -123,9 +121,7 @@ class SweepMesher {
 
 TriangleMesh make_triangles(const csg::Leaf& leaf) {
   TriangleMesh result;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    SweepMesher(leaf.sweeps[i], leaf.sweep_is_cavity[i], result).run();
-  }
+  for (const csg::Loft& loft : leaf.lofts) LoftMesher(loft, result).run();
   for (const csg::Mesh& mesh : leaf.meshes) {
     const auto shift = static_cast<Index>(result.vertices.size());
     result.vertices.insert(result.vertices.end(), mesh.vertices.begin(),

@@ -1,9 +1,8 @@
 // lamina inspect: layers of a file or of a design checked, measured and listed.
 
-#include "slicer/check/inspect.h"
-
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/commands/command.h"
 #include "cli/commands/commands.h"
@@ -14,6 +13,8 @@
 #include "cli/process/streams.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
+#include "compiler/inspect_file.h"
+#include "compiler/passes.h"
 #include "slicer/check/inspection_text.h"
 #include "slicer/formats/layer_reader.h"
 
@@ -66,17 +67,17 @@ class InspectCommand : public Command {
   std::optional<slicer::Inspection> look(
       compiler::Compilation& compilation) const {
     if (slicer::is_readable_layer_file(request_.design)) {
-      return slicer::inspect_file(request_.design, min_feature_,
-                                  compilation.file_access());
+      return compiler::inspect_file(request_.design, min_feature_,
+                                    compilation.file_access());
     }
     const auto lowered = compiler::make_geometry(compilation);
     if (!lowered) return std::nullopt;
     slicer::Inspector inspector(min_feature_);
-    compiler::make_layers(compilation, *lowered, request_.settings, inspector);
-    slicer::Inspection found = inspector.finish();
-    found.name = request_.design;
-    found.is_float32 = false;
-    return found;
+    compiler::make_layers(compilation, *lowered,
+                          compiler::settings_of(request_), inspector);
+    slicer::LayerFileFacts exact;
+    exact.is_float32 = false;
+    return inspector.finish(request_.design, std::move(exact));
   }
 
   int inspect(compiler::Compilation& compilation) const {

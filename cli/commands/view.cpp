@@ -21,6 +21,7 @@
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
+#include "compiler/passes.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/picture/image.h"
@@ -102,7 +103,8 @@ std::optional<std::vector<slicer::Layer>> layers_of(
   }
   const auto lowered = compiler::make_geometry(compilation);
   if (!lowered) return std::nullopt;
-  compiler::make_layers(compilation, *lowered, request.settings, list);
+  compiler::make_layers(compilation, *lowered, compiler::settings_of(request),
+                        list);
   return std::move(list.layers);
 }
 

@@ -27,7 +27,7 @@ double require_thin_width(const std::string& option, std::string_view text) {
 }
 
 // "3:7", "3:", ":7" or "3".
-slicer::LayerRange parse_layers(const std::string& text) {
+slicer::LayerNumbers parse_layers(const std::string& text) {
   const auto number = [&](std::string_view word, std::uint32_t otherwise) {
     if (word.empty()) return otherwise;
     std::uint32_t value = 0;
@@ -44,7 +44,7 @@ slicer::LayerRange parse_layers(const std::string& text) {
   };
   const std::string_view all = text;
   const std::size_t colon = all.find(':');
-  slicer::LayerRange range;
+  slicer::LayerNumbers range;
   range.first = number(all.substr(0, colon), range.first);
   range.last = colon == std::string_view::npos
                    ? range.first
@@ -113,7 +113,7 @@ void add_thin_width(CLI::App& app, double& width) {
   });
 }
 
-void add_layer_range(CLI::App& app, slicer::LayerRange& range) {
+void add_layer_range(CLI::App& app, slicer::LayerNumbers& range) {
   add_text(app, "--layers", "range",
            [&range](const std::string& text) { range = parse_layers(text); });
 }

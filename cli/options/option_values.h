@@ -43,6 +43,6 @@ void add_switch(CLI::App& app, const std::string& name, bool& target);
 void add_thin_width(CLI::App& app, double& width);
 
 // --layers: which of them are written.
-void add_layer_range(CLI::App& app, slicer::LayerRange& range);
+void add_layer_range(CLI::App& app, slicer::LayerNumbers& range);
 
 }  // namespace lamina::cli

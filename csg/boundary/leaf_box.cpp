@@ -17,24 +17,24 @@ struct Range {
   }
 };
 
-// Range of row · vertex over all vertices of the sweep.
-Range range_along(const Sweep& sweep, Vec3 row) {
+// Range of row · vertex over all vertices of the loft.
+Range range_along(const Loft& loft, Vec3 row) {
   Range plan;
-  for (const Vec2 point : *sweep.outline) {
+  for (const Vec2 point : *loft.outline) {
     plan.add(row.x * point.x + row.y * point.y);
   }
   Range range;
-  for (const Vec2 ring : sweep.profile) {
+  for (const Vec2 ring : loft.profile) {
     range.add(ring.x * plan.low + row.z * ring.y);
     range.add(ring.x * plan.high + row.z * ring.y);
   }
   return range;
 }
 
-void extend(Box3& box, const Sweep& sweep, const Affine& linear) {
+void extend(Box3& box, const Loft& loft, const Affine& linear) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 row(linear[0][axis], linear[1][axis], linear[2][axis]);
-    const Range range = range_along(sweep, row);
+    const Range range = range_along(loft, row);
     box.low[axis] = std::min(box.low[axis], range.low);
     box.high[axis] = std::max(box.high[axis], range.high);
   }
@@ -55,7 +55,7 @@ void extend(Box3& box, const Mesh& mesh, const Affine& linear) {
 
 Box3 bound_leaf(const Leaf& leaf, const Affine& linear) {
   Box3 box;
-  for (const Sweep& sweep : leaf.sweeps) extend(box, sweep, linear);
+  for (const Loft& loft : leaf.lofts) extend(box, loft, linear);
   for (const Mesh& mesh : leaf.meshes) extend(box, mesh, linear);
   return box;
 }

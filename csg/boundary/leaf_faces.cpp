@@ -11,26 +11,24 @@
 namespace lamina::csg {
 namespace {
 
-// One ring of a sweep that a cap closes.
+// One ring of a loft that a cap closes.
 struct Rim {
   const std::vector<Vec2>* outline;
   std::uint32_t first_vertex;
   bool is_hole;
 };
 
-bool has_cap(const Sweep& sweep, std::size_t ring) {
-  return !sweep.is_closed_profile && sweep.profile[ring].x > 0;
+bool has_cap(const Loft& loft, std::size_t ring) {
+  return !loft.is_closed_profile && loft.profile[ring].x > 0;
 }
 
 class FaceMaker {
  public:
   LeafFaces make(const Leaf& leaf, const Affine& world_from_leaf) {
-    for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-      add_sweep(leaf.sweeps[i], leaf.sweep_is_cavity[i]);
-    }
-    const auto& is_cavity = leaf.sweep_is_cavity;
+    for (const Loft& loft : leaf.lofts) add_loft(loft);
     const bool has_holes =
-        std::find(is_cavity.begin(), is_cavity.end(), true) != is_cavity.end();
+        std::any_of(leaf.lofts.begin(), leaf.lofts.end(),
+                    [](const Loft& loft) { return loft.is_cavity; });
     add_caps(bottoms_, true, has_holes);
     add_caps(tops_, false, has_holes);
     for (const Mesh& mesh : leaf.meshes) add_mesh(mesh);
@@ -43,33 +41,33 @@ class FaceMaker {
     return static_cast<std::uint32_t>(result_.vertices.size());
   }
 
-  void add_sweep(const Sweep& sweep, bool is_cavity) {
+  void add_loft(const Loft& loft) {
     // An apex is one vertex.
     std::vector<std::uint32_t> rings;
-    for (const Vec2 ring : sweep.profile) {
+    for (const Vec2 ring : loft.profile) {
       rings.push_back(next_vertex());
-      for (const Vec2 point : *sweep.outline) {
+      for (const Vec2 point : *loft.outline) {
         result_.vertices.emplace_back(ring.x * point.x, ring.x * point.y,
                                       ring.y);
         if (ring.x == 0) break;
       }
     }
     const std::size_t count = rings.size();
-    for (std::size_t i = sweep.is_closed_profile ? 0 : 1; i < count; ++i) {
+    for (std::size_t i = loft.is_closed_profile ? 0 : 1; i < count; ++i) {
       const std::size_t low = (i + count - 1) % count;
-      add_band(sweep, rings[low], sweep.profile[low].x == 0, rings[i],
-               sweep.profile[i].x == 0, is_cavity);
+      add_band(loft, rings[low], loft.profile[low].x == 0, rings[i],
+               loft.profile[i].x == 0);
     }
     const auto rim = [&](std::uint32_t first_vertex) {
-      return Rim{sweep.outline.get(), first_vertex, is_cavity};
+      return Rim{loft.outline.get(), first_vertex, loft.is_cavity};
     };
-    if (has_cap(sweep, 0)) bottoms_.push_back(rim(rings.front()));
-    if (has_cap(sweep, count - 1)) tops_.push_back(rim(rings.back()));
+    if (has_cap(loft, 0)) bottoms_.push_back(rim(rings.front()));
+    if (has_cap(loft, count - 1)) tops_.push_back(rim(rings.back()));
   }
 
-  void add_band(const Sweep& sweep, std::uint32_t low, bool is_low_apex,
-                std::uint32_t high, bool is_high_apex, bool is_cavity) {
-    const auto n = static_cast<std::uint32_t>(sweep.outline->size());
+  void add_band(const Loft& loft, std::uint32_t low, bool is_low_apex,
+                std::uint32_t high, bool is_high_apex) {
+    const auto n = static_cast<std::uint32_t>(loft.outline->size());
     std::vector<std::uint32_t> side;
     for (std::uint32_t j = 0; j < n; ++j) {
       const std::uint32_t next = (j + 1) % n;
@@ -78,7 +76,7 @@ class FaceMaker {
       side.push_back(is_high_apex ? high : high + next);
       if (!is_high_apex) side.push_back(high + j);
       if (side.size() < 3) continue;
-      if (is_cavity) std::reverse(side.begin(), side.end());
+      if (loft.is_cavity) std::reverse(side.begin(), side.end());
       add_loop(side);
       for (std::size_t k = 2; k < side.size(); ++k) {
         result_.triangles.push_back({side[0], side[k - 1], side[k]});
@@ -87,7 +85,7 @@ class FaceMaker {
     }
   }
 
-  // The caps of cavities lie in those of the sweeps around them: one face.
+  // The caps of cavities lie in those of the lofts around them: one face.
   void add_caps(std::span<const Rim> rims, bool faces_down, bool are_one) {
     const std::size_t step = are_one ? rims.size() : 1;
     for (std::size_t i = 0; i < rims.size(); i += step) {

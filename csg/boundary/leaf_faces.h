@@ -40,7 +40,7 @@ struct LeafFaces {
   Vec3 normal_of(std::size_t face) const;
 };
 
-// Sides of sweeps are quads and triangles, caps whole polygons with their
+// Sides of lofts are quads and triangles, caps whole polygons with their
 // holes; a mesh gives its triangles.
 LeafFaces faces_of(const Leaf& leaf, const Affine& world_from_leaf);
 

@@ -16,51 +16,50 @@ void add_triangle(Mesh& mesh, bool is_cavity, Triangle t) {
   mesh.triangles.push_back(t);
 }
 
-// Appends one sweep; an apex is one vertex, not a ring of equal ones.
-class SweepExpander {
+// Appends one loft; an apex is one vertex, not a ring of equal ones.
+class LoftExpander {
  public:
-  SweepExpander(const Sweep& sweep, bool is_cavity, Mesh& mesh)
-      : sweep_(sweep), is_cavity_(is_cavity), mesh_(mesh) {}
+  LoftExpander(const Loft& loft, Mesh& mesh) : loft_(loft), mesh_(mesh) {}
 
   void expand() {
     add_vertices();
-    const std::size_t rings = sweep_.profile.size();
-    const std::size_t bands = sweep_.is_closed_profile ? rings : rings - 1;
+    const std::size_t rings = loft_.profile.size();
+    const std::size_t bands = loft_.is_closed_profile ? rings : rings - 1;
     for (std::size_t i = 0; i < bands; ++i) add_band(i, (i + 1) % rings);
-    if (sweep_.is_closed_profile) return;
+    if (loft_.is_closed_profile) return;
     add_cap(0, true);
     add_cap(rings - 1, false);
   }
 
  private:
-  bool is_apex(std::size_t ring) const { return sweep_.profile[ring].x == 0; }
+  bool is_apex(std::size_t ring) const { return loft_.profile[ring].x == 0; }
 
   void add_vertices() {
-    for (const Vec2 ring : sweep_.profile) {
+    for (const Vec2 ring : loft_.profile) {
       ring_begins_.push_back(static_cast<std::uint32_t>(mesh_.vertices.size()));
       if (ring.x == 0) {
         mesh_.vertices.push_back({0, 0, ring.y});
         continue;
       }
-      for (const Vec2 point : *sweep_.outline) {
+      for (const Vec2 point : *loft_.outline) {
         mesh_.vertices.push_back({ring.x * point.x, ring.x * point.y, ring.y});
       }
     }
   }
 
   std::uint32_t vertex(std::size_t ring, std::size_t j) const {
-    const std::size_t point = is_apex(ring) ? 0 : j % sweep_.outline->size();
+    const std::size_t point = is_apex(ring) ? 0 : j % loft_.outline->size();
     return ring_begins_[ring] + static_cast<std::uint32_t>(point);
   }
 
   void add_band(std::size_t low, std::size_t high) {
-    for (std::size_t j = 0; j < sweep_.outline->size(); ++j) {
+    for (std::size_t j = 0; j < loft_.outline->size(); ++j) {
       if (!is_apex(low)) {
-        add_triangle(mesh_, is_cavity_,
+        add_triangle(mesh_, loft_.is_cavity,
                      {vertex(low, j), vertex(low, j + 1), vertex(high, j + 1)});
       }
       if (!is_apex(high)) {
-        add_triangle(mesh_, is_cavity_,
+        add_triangle(mesh_, loft_.is_cavity,
                      {vertex(low, j), vertex(high, j + 1), vertex(high, j)});
       }
     }
@@ -68,16 +67,15 @@ class SweepExpander {
 
   void add_cap(std::size_t ring, bool faces_down) {
     if (is_apex(ring)) return;
-    const planar::Region cap{{*sweep_.outline}};
+    const planar::Region cap{{*loft_.outline}};
     for (const Triangle& t : planar::triangulate(cap)) {
       add_triangle(
-          mesh_, is_cavity_ != faces_down,
+          mesh_, loft_.is_cavity != faces_down,
           {vertex(ring, t[0]), vertex(ring, t[1]), vertex(ring, t[2])});
     }
   }
 
-  const Sweep& sweep_;
-  const bool is_cavity_;
+  const Loft& loft_;
   Mesh& mesh_;
   std::vector<std::uint32_t> ring_begins_;
 };
@@ -86,9 +84,7 @@ class SweepExpander {
 
 Mesh explicit_mesh(const Leaf& leaf) {
   Mesh result;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    SweepExpander(leaf.sweeps[i], leaf.sweep_is_cavity[i], result).expand();
-  }
+  for (const Loft& loft : leaf.lofts) LoftExpander(loft, result).expand();
   for (const Mesh& mesh : leaf.meshes) {
     const auto shift = static_cast<std::uint32_t>(result.vertices.size());
     result.vertices.insert(result.vertices.end(), mesh.vertices.begin(),

@@ -5,7 +5,7 @@
 
 namespace lamina::csg {
 
-// All sweeps and meshes of the leaf in one closed triangle mesh, in leaf
+// All lofts and meshes of the leaf in one closed triangle mesh, in leaf
 // coordinates, with exactly the vertices of the formula (multiplied, not added
 // up). Surfaces of cavities face inwards, so that winding numbers add up.
 // Degenerate sides at an apex are left out.

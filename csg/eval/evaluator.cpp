@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "csg/eval/conversions.h"
-#include "csg/eval/interpreter.h"
-#include "csg/eval/resolver.h"
-#include "csg/eval/text.h"
+#include "csg/eval/builtin/conversions.h"
+#include "csg/eval/resolve/resolver.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/text.h"
+#include "parser/loader.h"
 
 namespace lamina::csg {
 
@@ -29,9 +30,9 @@ void bind_well_known(const EvaluateOptions& options, Interpreter& in) {
   in.bind_dynamic(kViewField, Value(22.5));
 }
 
-void run_program(Unit& unit, Interpreter& in) {
+void run_program(const Unit& unit, Interpreter& in) {
   Frame frame{in};
-  std::vector<Value> slots(unit.activation.slot_count, Value::unset());
+  std::vector<Value> slots(unit.slot_count, Value::unset());
   frame.slots = slots.data();
   run_block(unit.body, frame);
 }
@@ -74,15 +75,16 @@ void check_view(const Unit& unit, Interpreter& in) {
 Tree evaluate(const ast::Program& program, const Loader& loader,
               const EvaluateOptions& options, Diagnostics& diagnostics) {
   Tree tree;
-  tree.arena = std::make_shared<std::pmr::monotonic_buffer_resource>(1 << 16);
-  tree.calls = std::make_shared<std::pmr::monotonic_buffer_resource>();
-  Resolver resolver(loader, options);
-  Unit& unit = resolver.unit_of(program);
-  Interpreter in(resolver, options, diagnostics, *tree.arena, *tree.calls);
+  tree.arena = std::make_shared<Arena>();
+  tree.calls = std::make_shared<Arena>();
+  DynamicNames names;
+  Resolver resolver(loader, names, options);
+  const Unit& unit = resolver.unit_of(program);
+  resolver.resolve(unit);
+  Interpreter in(resolver, names, loader.file_access(), options, diagnostics,
+                 *tree.arena, *tree.calls);
   in.set_design_folder(
       std::filesystem::absolute(program.source->path()).parent_path().string());
-  resolver.resolve(unit);
-  in.grow_dynamic();
   bind_well_known(options, in);
   const auto report_failure = [&](const auto& pass) {
     try {

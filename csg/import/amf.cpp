@@ -1,10 +1,9 @@
-#include "csg/import/amf.h"
-
 #include <fmt/format.h>
 
 #include "base/file/zip.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/detail/xml.h"
+#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 namespace {
@@ -19,39 +18,10 @@ std::string_view child_text(const pugi::xml_node& node, const char* child) {
 }
 
 double read_coordinate(const pugi::xml_node& vertex, const char* name) {
-  const std::string_view text = child_text(vertex, name);
+  const std::string_view text = child_text(vertex.child("coordinates"), name);
   const auto number = to_number<double>(text);
   if (!number) fail("a coordinate", text);
   return *number;
-}
-
-void read_vertices(const pugi::xml_node& mesh, RawMesh& raw) {
-  for_each_child(mesh, "vertices", [&](const pugi::xml_node& vertices) {
-    for_each_child(vertices, "vertex", [&](const pugi::xml_node& vertex) {
-      const pugi::xml_node at = vertex.child("coordinates");
-      raw.mesh.vertices.push_back({read_coordinate(at, "x"),
-                                   read_coordinate(at, "y"),
-                                   read_coordinate(at, "z")});
-    });
-  });
-}
-
-void read_triangles(const pugi::xml_node& mesh, RawMesh& raw) {
-  const auto corner = [&raw](const pugi::xml_node& triangle, const char* name) {
-    const std::string_view text = child_text(triangle, name);
-    const auto index = to_number<std::uint32_t>(text);
-    if (!index || *index >= raw.mesh.vertices.size()) {
-      fail("the index of a vertex", text);
-    }
-    return *index;
-  };
-  for_each_child(mesh, "volume", [&](const pugi::xml_node& volume) {
-    for_each_child(volume, "triangle", [&](const pugi::xml_node& triangle) {
-      raw.mesh.triangles.push_back({corner(triangle, "v1"),
-                                    corner(triangle, "v2"),
-                                    corner(triangle, "v3")});
-    });
-  });
 }
 
 std::vector<RawMesh> parse_model(std::string_view bytes) {
@@ -61,9 +31,17 @@ std::vector<RawMesh> parse_model(std::string_view bytes) {
   for_each_child(
       document.child("amf"), "object", [&](const pugi::xml_node& object) {
         RawMesh& raw = bodies.emplace_back();
+        const auto corner = [&raw](const pugi::xml_node& triangle,
+                                   const char* name) {
+          const std::string_view text = child_text(triangle, name);
+          const auto index = to_number<std::uint32_t>(text);
+          if (!index || *index >= raw.mesh.vertices.size()) {
+            fail("the index of a vertex", text);
+          }
+          return *index;
+        };
         for_each_child(object, "mesh", [&](const pugi::xml_node& mesh) {
-          read_vertices(mesh, raw);
-          read_triangles(mesh, raw);
+          read_mesh(mesh, "volume", read_coordinate, corner, raw.mesh);
         });
       });
   return bodies;

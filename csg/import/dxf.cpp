@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,13 +17,13 @@
 namespace lamina::csg {
 namespace {
 
-// Blocks of blocks of blocks, and arcs of any number of turns: a few hundred
-// bytes may ask for any number of lines. Drawings need far fewer than these.
+// A few hundred bytes may ask for any number of lines, by blocks within blocks
+// and by arcs of many turns. Drawings need far fewer than these.
 constexpr std::size_t kMostLines = 1'000'000;
 constexpr std::size_t kMostLinesOfAByte = 20;
 
-// One entity: its groups up to the next one. What a group means depends on the
-// entity; OpenSCAD keeps some in one place.
+// One entity: its groups up to the next entity. What a group means depends on
+// the entity; OpenSCAD keeps some of different meaning in one place, as here.
 struct Entity {
   std::string kind;
   std::string layer;
@@ -40,9 +39,6 @@ struct Entity {
   double group_42 = 0;
   int flags = 0;
 };
-
-// Thrown where an entity lacks coordinates.
-struct MissingValue {};
 
 class Reader {
  public:
@@ -73,9 +69,7 @@ class Reader {
 
   void read_group(int code, std::string_view data) {
     if (code == 0) {
-      try {
-        finish_entity();
-      } catch (const MissingValue&) {
+      if (!finish_entity()) {
         drawing_.warnings.push_back(fmt::format(
             "Not enough input values for {}. in '{}'", data, options_.path));
         return;  // OpenSCAD goes on with the same entity
@@ -151,23 +145,20 @@ class Reader {
     return options_.layer.empty() || options_.layer == entity_.layer;
   }
 
-  void finish_entity() {
+  // These return false where the entity lacks coordinates; what it drew before
+  // stays, as in OpenSCAD.
+
+  bool finish_entity() {
     const std::string& kind = entity_.kind;
+    if (kind == "LINE") return add_line(point(0), point(1));
+    if (kind == "LWPOLYLINE") return add_polyline();
+    if (kind == "CIRCLE") return add_arc(0, 360);
+    if (kind == "ARC") return add_arc(entity_.angle_deg, entity_.end_angle_deg);
+    if (kind == "ELLIPSE") return add_ellipse();
+    if (kind == "INSERT") return insert_block();
     if (kind == "SECTION") {
       is_in_entities_ = entity_.name == "ENTITIES";
       is_in_blocks_ = entity_.name == "BLOCKS";
-    } else if (kind == "LINE") {
-      add_line(point(0), point(1));
-    } else if (kind == "LWPOLYLINE") {
-      add_polyline();
-    } else if (kind == "CIRCLE") {
-      add_arc(0, 360);
-    } else if (kind == "ARC") {
-      add_arc(entity_.angle_deg, entity_.end_angle_deg);
-    } else if (kind == "ELLIPSE") {
-      add_ellipse();
-    } else if (kind == "INSERT") {
-      insert_block();
     } else if (kind == "DIMENSION" && is_asked_for()) {
       drawing_.dimensions.push_back(
           {entity_.flags, entity_.points, entity_.angle_deg, entity_.text});
@@ -179,23 +170,26 @@ class Reader {
                (is_in_blocks_ || (is_in_entities_ && is_asked_for()))) {
       ++drawing_.unknown_entities[kind];
     }
+    return true;
   }
 
-  Vec2 point(std::size_t i) const {
-    if (i >= entity_.x.size() || i >= entity_.y.size()) throw MissingValue();
-    return {entity_.x[i], entity_.y[i]};
+  std::optional<Vec2> point(std::size_t i) const {
+    if (i >= entity_.x.size() || i >= entity_.y.size()) return std::nullopt;
+    return Vec2(entity_.x[i], entity_.y[i]);
   }
 
-  void add_line(Vec2 from, Vec2 to) {
+  bool add_line(std::optional<Vec2> from, std::optional<Vec2> to) {
+    if (!from || !to) return false;
     const bool is_drawn = is_in_entities_ && is_asked_for();
     const bool is_kept = is_in_blocks_ && !block_.empty();
-    if (!is_drawn && !is_kept) return;
+    if (!is_drawn && !is_kept) return true;
     if (++line_count_ > most_lines_) {
       throw FormatError(fmt::format("DXF line {}, more than {} lines to draw",
                                     lines_.number(), most_lines_));
     }
-    const DxfLine line = {snap(from), snap(to)};
+    const DxfLine line = {snap(*from), snap(*to)};
     (is_drawn ? drawn_ : blocks_[block_]).push_back(line);
+    return true;
   }
 
   std::uint32_t snap(Vec2 point) {
@@ -207,11 +201,13 @@ class Reader {
     return grid_.snap(point);
   }
 
-  void add_polyline() {
+  bool add_polyline() {
     const std::size_t count = std::max(entity_.x.size(), entity_.y.size());
-    for (std::size_t i = 1; i < count; ++i) add_line(point(i - 1), point(i));
+    for (std::size_t i = 1; i < count; ++i) {
+      if (!add_line(point(i - 1), point(i))) return false;
+    }
     const bool is_closed = (entity_.flags & 1) != 0;
-    if (is_closed) add_line(point(count - 1), point(0));
+    return !is_closed || add_line(point(count - 1), point(0));
   }
 
   // Fragments of the part of a circle.
@@ -223,17 +219,19 @@ class Reader {
         std::min({count, static_cast<double>(most_lines_) + 1, kMost}));
   }
 
-  void add_arc(double begin_deg, double end_deg) {
-    const Vec2 center = point(0);
+  bool add_arc(double begin_deg, double end_deg) {
+    const auto center = point(0);
+    if (!center) return false;
     const double r = entity_.radius;
     end_deg = turn_past(begin_deg, end_deg, 360.0);
     const double sweep = end_deg - begin_deg;
     const int n = fragments(r, sweep / 360);
     const auto at = [&](int i) {
       const double angle = begin_deg + sweep * i / n;
-      return center + Vec2(cos_deg(angle) * r, sin_deg(angle) * r);
+      return *center + Vec2(cos_deg(angle) * r, sin_deg(angle) * r);
     };
     for (int i = 0; i < n; ++i) add_line(at(i), at(i + 1));
+    return true;
   }
 
   // `end` and as many whole turns as take it to `begin` or past it.
@@ -242,41 +240,45 @@ class Reader {
     return end + turn * std::ceil((begin - end) / turn);
   }
 
-  void add_ellipse() {
+  bool add_ellipse() {
     constexpr double kTurn = 2 * std::numbers::pi;
-    const Vec2 center = point(0);
-    const Vec2 axis = point(1);
-    const double major = std::sqrt(axis.x * axis.x + axis.y * axis.y);
-    if (!(major > 0)) return;
+    const auto center = point(0);
+    const auto axis = point(1);
+    if (!center || !axis) return false;
+    const double major = std::sqrt(axis->x * axis->x + axis->y * axis->y);
+    if (!(major > 0)) return true;
     const double minor = major * entity_.radius;
-    double tilt = std::acos(std::clamp(axis.x / major, -1.0, 1.0));
-    if (axis.y < 0) tilt = kTurn - tilt;
+    double tilt = std::acos(std::clamp(axis->x / major, -1.0, 1.0));
+    if (axis->y < 0) tilt = kTurn - tilt;
     const double begin = entity_.group_41;
     const double sweep = turn_past(begin, entity_.group_42, kTurn) - begin;
     const int n = fragments(major, sweep / kTurn);
     const auto at = [&](int i) {
       const double angle = begin + sweep * i / n;
       const Vec2 p(std::cos(angle) * major, std::sin(angle) * minor);
-      return center + Vec2(std::cos(tilt) * p.x - std::sin(tilt) * p.y,
-                           std::sin(tilt) * p.x + std::cos(tilt) * p.y);
+      return *center + Vec2(std::cos(tilt) * p.x - std::sin(tilt) * p.y,
+                            std::sin(tilt) * p.x + std::cos(tilt) * p.y);
     };
     for (int i = 0; i < n; ++i) add_line(at(i), at(i + 1));
+    return true;
   }
 
-  void insert_block() {
+  bool insert_block() {
     const auto block = blocks_.find(entity_.name);
-    if (block == blocks_.end()) return;
-    const Vec2 place = point(0);
+    if (block == blocks_.end()) return true;
+    const auto place = point(0);
+    if (!place) return false;
     const double cos = cos_deg(entity_.angle_deg);
     const double sin = sin_deg(entity_.angle_deg);
     const auto moved = [&](std::uint32_t i) {
       const Vec2 p = grid_[i] * Vec2(entity_.group_41, entity_.group_42);
-      return place + Vec2(cos * p.x - sin * p.y, sin * p.x + cos * p.y) *
-                         options_.scale;
+      return *place + Vec2(cos * p.x - sin * p.y, sin * p.x + cos * p.y) *
+                          options_.scale;
     };
     // A copy: a block may be inserted into itself.
     const std::vector<DxfLine> lines = block->second;
     for (const auto [from, to] : lines) add_line(moved(from), moved(to));
+    return true;
   }
 
   TextLines lines_;

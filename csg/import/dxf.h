@@ -3,8 +3,8 @@
 //
 // LINE, LWPOLYLINE (bulges count as straight), CIRCLE, ARC, ELLIPSE and INSERT
 // become lines on a grid of 2^-10 mm, whose ends meet where they are no further
-// apart than one step of it; lines that meet are joined to paths. Of other
-// entities only their number is kept.
+// apart than one step of it; lines that meet are joined to paths. Other
+// entities are only counted.
 
 #include <array>
 #include <functional>
@@ -21,7 +21,7 @@ struct DxfOptions {
   std::string layer;  // empty: all
   Vec2 origin = Vec2(0);
   double scale = 1;
-  // Sides of a full circle of that radius.
+  // Number of sides of a full circle of that radius.
   std::function<int(double radius)> fragments;
   std::string path;  // as messages show it
 };
@@ -41,17 +41,17 @@ struct DxfDimension {
 struct DxfDrawing {
   std::vector<DxfPath> paths;  // open ones first
   std::vector<DxfDimension> dimensions;
-  // OpenSCAD's words, one warning each: for values that are no numbers, …
+  // In OpenSCAD's words: of values that are no numbers, and the like.
   std::vector<std::string> warnings;
-  // Entities of the layer that OpenSCAD does not know, with their number, in
-  // the order in which its hash table gives them back.
+  // How many entities of each kind that OpenSCAD does not know are in the
+  // layer, in the order of its hash table.
   std::unordered_map<std::string, int> unknown_entities;
 };
 
 // throws  FormatError where blocks inserted into blocks make too many lines
 DxfDrawing parse_dxf(std::string_view bytes, const DxfOptions& options);
 
-// OpenSCAD's warnings of unknown entities.
+// OpenSCAD's warnings about unknown entities.
 //
 // shown_path  quoted, as OpenSCAD shows it
 std::vector<std::string> unknown_entity_warnings(const DxfDrawing& drawing,

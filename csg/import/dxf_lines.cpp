@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kStep = 0x1p-10;  // mm
 
-// Whether OpenSCAD turns the closed path round, to have all run the same way:
-// by the directions at its leftmost point.
+// Whether OpenSCAD reverses the closed path, so that all run the same way. The
+// directions at its leftmost point decide.
 bool would_turn(const std::vector<Vec2>& points) {
   const auto leftmost = std::min_element(
       points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });

@@ -9,11 +9,7 @@
 
 #include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
-#include "csg/import/amf.h"
-#include "csg/import/obj.h"
-#include "csg/import/off.h"
-#include "csg/import/stl.h"
-#include "csg/import/threemf.h"
+#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 namespace {
@@ -43,18 +39,14 @@ std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
   return bodies;
 }
 
-std::uint32_t line_of(SourceRange range) {
-  return range.is_known() ? range.source->openscad_line(range.begin) : 0;
-}
-
-// The words of OpenSCAD, which differ from format to format.
+// In the words of OpenSCAD, which differ from format to format.
 void report_unreadable(const std::string& path, ImportFormat format,
                        SourceRange range, Diagnostics& diagnostics) {
   const std::string_view words = format == ImportFormat::k3mf
                                      ? "Could not read file"
                                      : "Can't open import file";
   diagnostics.warning(range, fmt::format("{} '{}', import() at line {}", words,
-                                         path, line_of(range)));
+                                         path, range.openscad_line()));
 }
 
 void report_broken(const std::string& path, ImportFormat format,
@@ -70,9 +62,9 @@ void report_broken(const std::string& path, ImportFormat format,
   const std::string_view words = format == ImportFormat::k3mf
                                      ? "Could not read file"
                                      : "Failed to parse file";
-  Diagnostic diagnostic{
-      Severity::kWarning, range,
-      fmt::format("{} '{}', import() at line {}", words, path, line_of(range))};
+  Diagnostic diagnostic{Severity::kWarning, range,
+                        fmt::format("{} '{}', import() at line {}", words, path,
+                                    range.openscad_line())};
   diagnostic.hints.push_back({range, fault.what()});
   diagnostics.report(std::move(diagnostic));
 }
@@ -81,7 +73,7 @@ bool is_finite(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-// Takes the faces out that have a corner nowhere.
+// Drops the faces with a corner that is not finite; returns their number.
 std::size_t drop_infinite(RawMesh& raw) {
   auto& vertices = raw.mesh.vertices;
   if (std::all_of(vertices.begin(), vertices.end(), is_finite)) return 0;
@@ -123,7 +115,7 @@ std::vector<RawMesh> read_mesh_file(const std::string& path,
     diagnostics.warning(
         range, fmt::format("'{}' shows its part by slices, and its mesh only "
                            "stands in for them, import() at line {}",
-                           path, line_of(range)));
+                           path, range.openscad_line()));
   }
   std::size_t dropped = 0;
   for (RawMesh& raw : bodies) dropped += drop_infinite(raw);

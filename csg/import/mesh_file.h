@@ -11,11 +11,11 @@
 
 namespace lamina::csg {
 
-// The bodies of the file; none where it cannot be read, which is reported with
-// OpenSCAD's words at `range`. Facets with coordinates that are no numbers are
-// dropped with a warning, so all vertices are finite.
+// Reads the bodies of a file; none where it cannot be read, which it reports in
+// OpenSCAD's words at `range`. It drops facets with coordinates that are no
+// numbers, with a warning, so all vertices are finite.
 //
-// format  of a mesh
+// format  one of meshes
 std::vector<RawMesh> read_mesh_file(const std::string& path,
                                     ImportFormat format,
                                     const FileAccess& access, SourceRange range,

@@ -1,12 +1,10 @@
-#include "csg/import/obj.h"
-
 #include <string>
 
 #include <fmt/format.h>
 
 #include "base/file/format_error.h"
-#include "csg/import/detail/faces.h"
 #include "csg/import/detail/text_lines.h"
+#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 namespace {
@@ -68,7 +66,7 @@ class Reader {
       if (word.empty() || word.front() == '#') break;
       corners_.push_back(to_corner(word.substr(0, word.find('/'))));
     }
-    add_face(corners_, raw_);
+    raw_.add_face(corners_);
   }
 
   std::uint32_t to_corner(std::string_view word) const {

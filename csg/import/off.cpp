@@ -1,13 +1,10 @@
-#include "csg/import/off.h"
-
 #include <algorithm>
-#include <string>
 
 #include <fmt/format.h>
 
 #include "base/file/format_error.h"
-#include "csg/import/detail/faces.h"
 #include "csg/import/detail/text_lines.h"
+#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 namespace {
@@ -94,7 +91,7 @@ class Reader {
       }
       corners.push_back(*corner);
     }
-    add_face(corners, raw);
+    raw.add_face(corners);
   }
 
   TextLines lines_;

@@ -1,5 +1,5 @@
-// Images of heights. libpng reports faults by longjmp, so what it runs in has
-// nothing to destroy.
+// Images of heights. libpng reports faults by longjmp, so the function that
+// calls it has nothing to destroy.
 
 #include <csetjmp>
 #include <cstddef>
@@ -41,7 +41,7 @@ void keep_fault(png_structp png, png_const_charp message) {
 }
 void ignore_warning(png_structp, png_const_charp) {}
 
-// libpng tells a lack of memory in many words, and some it passes over.
+// libpng reports a lack of memory in many words, and passes over some.
 png_voidp allocate(png_structp png, png_alloc_size_t size) {
   void* memory = std::malloc(size);
   if (memory == nullptr) {
@@ -51,7 +51,7 @@ png_voidp allocate(png_structp png, png_alloc_size_t size) {
 }
 void deallocate(png_structp, png_voidp memory) { std::free(memory); }
 
-// Everything as 8 bits of red, green, blue, alpha, and as it stands: no gamma.
+// Asks for 8 bits of red, green, blue and alpha, without gamma correction.
 void ask_for_rgba(png_structp png) {
   png_set_expand(png);
   png_set_strip_16(png);
@@ -75,13 +75,13 @@ struct Reader {
   png_infop info;
 };
 
-// False where it failed: image.fault says why.
+// Returns false where it failed; image.fault says why.
 //
 // throws  LimitExceeded
 bool decode(png_structp png, png_infop info, Image& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &image, read_bytes);
-  // Of the rest (texts, profiles) libpng would ask for as much memory as its
+  // For the rest (texts, profiles) libpng would allocate as much memory as the
   // length says, before it sees that the file is shorter.
   constexpr int kAllButThePicture = -1;
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr,

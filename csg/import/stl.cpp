@@ -1,5 +1,3 @@
-#include "csg/import/stl.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +5,6 @@
 #include <limits>
 #include <numeric>
 #include <span>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +13,7 @@
 
 #include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
+#include "csg/import/mesh_readers.h"
 #include "csg/vertex_table.h"
 
 namespace lamina::csg {
@@ -37,9 +35,9 @@ bool is_binary(std::string_view bytes) {
          bytes.size() == kHeader + kRecord * std::size_t{facet_count(bytes)};
 }
 
-// Joins equal corners at once: there are six times as many as vertices, and
-// they are most of what a large file needs of memory. Most facets share two
-// corners with the one before; only the others are looked up, many at a time.
+// Joins equal corners at once: there are six times as many as vertices, and a
+// large file needs most of its memory for them. Most facets share two corners
+// with the one before; only the other corners are looked up, many at a time.
 class FacetJoiner {
  public:
   // count  of facets; a guess
@@ -63,7 +61,7 @@ class FacetJoiner {
   }
 
  private:
-  // Among the corners that wait.
+  // The corner's place among those that wait.
   std::uint32_t place_of(const Vec3& corner) {
     for (const std::uint32_t place : last_) {
       if (corners_[place] == corner) return place;
@@ -88,7 +86,7 @@ class FacetJoiner {
   VertexTable vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::size_t joined_ = 0;  // of triangles_
-  // Behind them one that equals none.
+  // Those that wait; the last one equals none.
   std::array<Vec3, kAtOnce + 1> corners_{};
   std::uint32_t waiting_ = 0;
   std::array<std::uint32_t, 3> last_{};  // places of the last facet's corners
@@ -131,7 +129,7 @@ class BinaryFacets {
 // Programs write facets in some order along the surface, and all that follows
 // profits: neighbours meet in the processor's caches, and layers meet runs of
 // facets. A file whose facets stand in no order is read in that of the cells of
-// a grid, which costs less than reading it at random.
+// a grid, which costs less than random access.
 
 constexpr std::uint32_t kFewFacets = 1 << 14;  // fit into a cache anyway
 constexpr std::uint32_t kSamples = 1 << 10;
@@ -140,7 +138,7 @@ float distance(glm::vec3 a, glm::vec3 b) {
   return std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.z - b.z);
 }
 
-// Whether the next facet is hardly nearer than one anywhere.
+// Whether the next facet is hardly nearer than any other one.
 bool is_scattered(const BinaryFacets& facets) {
   constexpr float kHardlyNearer = 0.25F;
   const std::uint32_t count = facets.count();
@@ -185,7 +183,7 @@ class CellGrid {
 
   // The bits of the cell's number along an axis, each with two free places.
   static std::uint32_t spread(float place) {
-    const bool is_inside = place > 0;  // and a number
+    const bool is_inside = place > 0;  // false for NaN
     std::uint32_t bits = is_inside
                              ? static_cast<std::uint32_t>(std::min(
                                    place, static_cast<float>(kCellsASide - 1)))
@@ -257,7 +255,8 @@ LineKind kind_of(std::string_view line) {
                                 line.substr(0, kMostShown)));
 }
 
-// The numbers behind "vertex"; nothing where there are not even three words.
+// Reads the numbers behind "vertex"; nothing where there are less than three
+// words.
 std::optional<Vec3> read_vertex(std::string_view line, const TextLines& lines) {
   std::string_view rest = line.substr(line.find("vertex") + 6);
   Vec3 vertex(0);

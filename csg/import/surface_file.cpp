@@ -105,8 +105,8 @@ class MeshBuilder {
     add_half(2 * x + y, x, y, at);
   }
 
-  // Between the points of the border before a corner and those behind it, up to
-  // the two ends of the diagonal. No triangle is flat.
+  // Fills the half between the border's points before a corner and those behind
+  // it, up to the two ends of the diagonal. No triangle is degenerate.
   template <typename At>
   void add_half(std::uint32_t corner, std::uint32_t before,
                 std::uint32_t behind, At at) {
@@ -134,7 +134,7 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-// Appends the numbers of a line; one that is none is the field's fault.
+// Appends the numbers of a line, or sets the field's fault.
 void take_row(std::string_view line, HeightField& field,
               std::vector<double>& numbers) {
   while (true) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,7 +49,7 @@ double tan_deg(double angle_deg) {
   return sin_deg(angle_deg) / cos_deg(angle_deg);
 }
 
-// One function of a transform; with a wrong number of arguments, none.
+// One function of a transform; the identity for a wrong number of arguments.
 Matrix read_transform(std::string_view name, const std::vector<double>& v) {
   const std::size_t n = v.size();
   if (name == "matrix" && n == 6) return {v[0], v[1], v[2], v[3], v[4], v[5]};
@@ -85,12 +84,12 @@ Matrix read_transforms(std::string_view text) {
   return matrix;
 }
 
-// The whole attribute as a number; 0 where it is none, "3mm" included.
+// The whole attribute as a number; 0 where it is not one, as "3mm".
 double number_of(const pugi::xml_node& element, const char* attribute) {
   return to_number<double>(element.attribute(attribute).value()).value_or(0);
 }
 
-// What an attribute says, or the element's own style.
+// The value of an attribute, or else that of the element's own style.
 std::string_view presentation(const pugi::xml_node& element, const char* name) {
   const std::string_view own = element.attribute(name).value();
   if (!own.empty()) return own;
@@ -99,7 +98,7 @@ std::string_view presentation(const pugi::xml_node& element, const char* name) {
     const std::size_t end = std::min(style.find(';'), style.size());
     const std::string_view entry = style.substr(0, end);
     const std::size_t colon = std::min(entry.find(':'), entry.size());
-    // To the letter, blanks included.
+    // OpenSCAD compares to the letter, blanks included.
     if (entry.substr(0, colon) == name && colon < entry.size()) {
       return entry.substr(colon + 1);
     }
@@ -246,7 +245,7 @@ class Reader {
     if (std::abs(ry) < kSharp) ry = rx;
     rx = std::min(rx, width / 2);
     ry = std::min(ry, height / 2);
-    // Six digits, as OpenSCAD writes this path.
+    // OpenSCAD writes this path, too, with six digits.
     add_path(
         fmt::format("M{:g},{:g} H{:g} A{:g},{:g} 0 0,1 {:g},{:g} V{:g} "
                     "A{:g},{:g} 0 0,1 {:g},{:g} H{:g} A{:g},{:g} 0 0,1 "

@@ -1,10 +1,10 @@
 #pragma once
 // SVG drawings, as OpenSCAD 2021.01 understands them.
 //
-// Shapes and paths of any nesting of groups, with their transforms, count where
-// they are no part of <defs>; fill, visibility, style sheets, <use> and <text>
-// do not. What is closed is filled, what is open is drawn with the width, cap
-// and join of its stroke. Curves become as many lines as there, whatever $fn.
+// Shapes and paths in groups of any depth count, with their transforms, except
+// below <defs>; fill, visibility, style sheets, <use> and <text> do not. Closed
+// paths are filled, open ones drawn with the width, cap and join of their
+// stroke. Curves become as many lines as in OpenSCAD, whatever $fn is.
 
 #include <functional>
 #include <span>
@@ -29,16 +29,17 @@ using SvgContours = std::vector<std::vector<Vec2>>;
 struct SvgOptions {
   double dpi = 72;
   bool center = false;
-  // The outlines of a drawn path. Planar geometry knows how.
+  // Gives the outlines of a drawn path. It is a function, as plane geometry
+  // stands above the readers.
   std::function<SvgContours(std::span<const Vec2> path, const SvgStroke&)>
       outline;
 };
 
-// The contours of each shape, in millimetres, y up. A point is inside a shape
-// where its contours enclose it an odd number of times; the drawing is the
-// union of its shapes.
+// Reads the contours of each shape, in millimetres, y up. A point is inside a
+// shape where its contours enclose it an odd number of times; the drawing is
+// the union of its shapes.
 //
-// throws  FormatError for what is no XML, and for groups in groups without end
+// throws  FormatError for malformed XML, and for groups nested too deep
 std::vector<SvgContours> parse_svg(std::string_view bytes,
                                    const SvgOptions& options);
 

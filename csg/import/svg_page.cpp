@@ -52,8 +52,8 @@ double read_length(std::string_view text, double view, double dpi) {
 
 struct Alignment {
   bool is_uniform = true;  // scale
-  bool is_slice = false;   // fills the page; else fits into it
-  Vec2 share = Vec2(0.5);  // of the room left, that goes before the drawing
+  bool is_slice = false;   // the drawing fills the page; else it fits in
+  Vec2 share = Vec2(0.5);  // of the room left, in front of the drawing
 };
 
 Alignment read_alignment(std::string_view text) {

@@ -20,7 +20,7 @@ constexpr double kOpenDistance = 0.1;
 
 double distance(Vec2 a, Vec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-// Whole where it is so up to rounding.
+// The vector's angle, whole where it is so up to rounding.
 double angle_deg(Vec2 v) {
   constexpr double kRounding = 3e-14;
   const double angle = std::atan2(v.y, v.x) * (180.0 / std::numbers::pi);
@@ -45,7 +45,7 @@ class Reader {
         numbers_.skip(1);
         if (c == 'z' || c == 'Z') close();
       } else if (!run_command()) {
-        break;  // what comes is no path
+        break;  // malformed from here on
       }
     }
     finish_last();
@@ -57,7 +57,7 @@ class Reader {
     return std::islower(static_cast<unsigned char>(command_)) != 0;
   }
 
-  // False where the command's numbers are not there.
+  // Returns false where numbers of the command are missing.
   bool run_command() {
     switch (std::toupper(static_cast<unsigned char>(command_))) {
       case 'M':
@@ -180,7 +180,7 @@ class Reader {
     const double sin = sin_deg(tilt_deg);
     const Vec2 half = (at_ - to) / 2.0;
     const Vec2 p(cos * half.x + sin * half.y, cos * half.y - sin * half.x);
-    // Radii too small to reach grow.
+    // Radii that are too small to reach grow.
     const double reach =
         p.x * p.x / (radii.x * radii.x) + p.y * p.y / (radii.y * radii.y);
     if (reach > 1) radii *= std::sqrt(reach);
@@ -199,7 +199,7 @@ class Reader {
     const Vec2 v = (-p - c) / radii;
     const double begin = angle_between_deg({1, 0}, u);
     const double sweep = angle_between_deg(u, v) - (is_positive ? 0 : 360);
-    // Ends too close, or radii too large, for numbers to tell the centre.
+    // The ends are too close, or the radii too large, to compute the centre.
     if (!std::isfinite(sweep)) {
       points().push_back(to);
       return;

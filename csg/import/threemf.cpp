@@ -1,5 +1,3 @@
-#include "csg/import/threemf.h"
-
 #include <string>
 
 #include <fmt/format.h>
@@ -7,6 +5,7 @@
 #include "base/file/zip.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/detail/xml.h"
+#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 namespace {
@@ -43,15 +42,8 @@ Number read_number(const pugi::xml_node& node, const char* attribute) {
   return *number;
 }
 
-RawMesh read_mesh(const pugi::xml_node& mesh) {
+RawMesh read_body(const pugi::xml_node& mesh) {
   RawMesh raw;
-  for_each_child(mesh, "vertices", [&](const pugi::xml_node& vertices) {
-    for_each_child(vertices, "vertex", [&](const pugi::xml_node& vertex) {
-      raw.mesh.vertices.push_back({read_number<double>(vertex, "x"),
-                                   read_number<double>(vertex, "y"),
-                                   read_number<double>(vertex, "z")});
-    });
-  });
   const auto corner = [&raw](const pugi::xml_node& triangle, const char* name) {
     const auto index = read_number<std::uint32_t>(triangle, name);
     if (index >= raw.mesh.vertices.size()) {
@@ -59,13 +51,7 @@ RawMesh read_mesh(const pugi::xml_node& mesh) {
     }
     return index;
   };
-  for_each_child(mesh, "triangles", [&](const pugi::xml_node& triangles) {
-    for_each_child(triangles, "triangle", [&](const pugi::xml_node& triangle) {
-      raw.mesh.triangles.push_back({corner(triangle, "v1"),
-                                    corner(triangle, "v2"),
-                                    corner(triangle, "v3")});
-    });
-  });
+  read_mesh(mesh, "triangles", read_number<double>, corner, raw.mesh);
   return raw;
 }
 
@@ -92,7 +78,7 @@ std::vector<RawMesh> parse_3mf(std::string_view bytes) {
   std::vector<RawMesh> bodies;
   const auto read_object = [&](const pugi::xml_node& object) {
     for_each_child(object, "mesh", [&](const pugi::xml_node& mesh) {
-      bodies.push_back(read_mesh(mesh));
+      bodies.push_back(read_body(mesh));
       bodies.back().is_stand_in = has_low_resolution(object);
     });
   };

@@ -12,10 +12,10 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Normal of the largest triangle over the polygon's longest extent. Of a
-// polygon that is not plane this is OpenSCAD's idea of its direction, in
-// OpenSCAD's single precision and with its first vertex looked at last; any
-// other is as good where it is plane.
+// Normal of the largest triangle over the polygon's longest extent. For a
+// polygon that is not planar this is OpenSCAD's choice of its direction, in
+// OpenSCAD's single precision and with the first vertex looked at last; for a
+// planar one any direction would do.
 glm::vec3 typical_normal(std::span<const Vec3> vertices,
                          std::span<const std::uint32_t> face) {
   std::vector<glm::vec3> points;

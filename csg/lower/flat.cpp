@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "csg/degrees.h"
 #include "csg/lower/detail/points.h"
 #include "csg/plane/clip.h"

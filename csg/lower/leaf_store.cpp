@@ -12,26 +12,25 @@
 namespace lamina::csg {
 namespace {
 
-// As a mesh the sweep would have about so many.
-double triangle_count(const Sweep& sweep) {
-  return 2.0 * static_cast<double>(sweep.outline->size()) *
-         static_cast<double>(sweep.profile.size());
+// About how many triangles the loft would have as a mesh.
+double triangle_count(const Loft& loft) {
+  return 2.0 * static_cast<double>(loft.outline->size()) *
+         static_cast<double>(loft.profile.size());
 }
 
 double triangle_count(const Leaf& leaf) {
   double count = 0;
-  for (const Sweep& sweep : leaf.sweeps) count += triangle_count(sweep);
+  for (const Loft& loft : leaf.lofts) count += triangle_count(loft);
   for (const Mesh& mesh : leaf.meshes) {
     count += static_cast<double>(mesh.triangles.size());
   }
   return count;
 }
 
-Leaf make_leaf(Sweep sweep) {
-  require_triangles(triangle_count(sweep));
+Leaf make_leaf(Loft loft) {
+  require_triangles(triangle_count(loft));
   Leaf leaf;
-  leaf.sweeps.push_back(std::move(sweep));
-  leaf.sweep_is_cavity.push_back(false);
+  leaf.lofts.push_back(std::move(loft));
   leaf.box = bound_leaf(leaf, Affine(1.0));
   return leaf;
 }
@@ -48,7 +47,7 @@ std::vector<Vec2> sphere_profile(int fragments) {
   return profile;
 }
 
-// Word by word; equal content gives equal hashes, nothing else is asked of it.
+// Equal content gives equal hashes; more is not asked of it.
 class ContentHash {
  public:
   void add(std::uint64_t word) {
@@ -65,9 +64,9 @@ class ContentHash {
 
 std::uint64_t hash(const Leaf& leaf) {
   ContentHash hash;
-  for (const Sweep& sweep : leaf.sweeps) {
-    for (const Vec2 point : *sweep.outline) hash.add(point);
-    for (const Vec2 ring : sweep.profile) hash.add(ring);
+  for (const Loft& loft : leaf.lofts) {
+    for (const Vec2 point : *loft.outline) hash.add(point);
+    for (const Vec2 ring : loft.profile) hash.add(ring);
   }
   for (const Mesh& mesh : leaf.meshes) {
     for (const Vec3 vertex : mesh.vertices) hash.add(vertex);
@@ -76,25 +75,18 @@ std::uint64_t hash(const Leaf& leaf) {
   return hash.value();
 }
 
-bool are_equal(const Sweep& a, const Sweep& b) {
-  return a.is_closed_profile == b.is_closed_profile && a.profile == b.profile &&
+bool are_equal(const Loft& a, const Loft& b) {
+  return a.is_closed_profile == b.is_closed_profile &&
+         a.is_cavity == b.is_cavity && a.profile == b.profile &&
          (a.outline == b.outline || *a.outline == *b.outline);
 }
 
-bool are_equal(const Mesh& a, const Mesh& b) {
-  return a.vertices == b.vertices && a.triangles == b.triangles;
-}
-
 bool are_equal(const Leaf& a, const Leaf& b) {
-  const auto equal = [](const auto& x, const auto& y) {
-    return are_equal(x, y);
-  };
   return a.may_overlap_itself == b.may_overlap_itself &&
-         a.sweep_is_cavity == b.sweep_is_cavity &&
-         std::equal(a.sweeps.begin(), a.sweeps.end(), b.sweeps.begin(),
-                    b.sweeps.end(), equal) &&
-         std::equal(a.meshes.begin(), a.meshes.end(), b.meshes.begin(),
-                    b.meshes.end(), equal);
+         std::equal(
+             a.lofts.begin(), a.lofts.end(), b.lofts.begin(), b.lofts.end(),
+             [](const Loft& x, const Loft& y) { return are_equal(x, y); }) &&
+         a.meshes == b.meshes;
 }
 
 }  // namespace
@@ -111,17 +103,17 @@ std::uint32_t LeafStore::unit_cube(bool center) {
   return find_or_add({Shape::kCube, center, 4, 1, 1}, [&] {
     const double low = center ? -0.5 : 0;
     const double high = low + 1;
-    Sweep sweep;
-    sweep.outline = std::make_shared<const std::vector<Vec2>>(
+    Loft loft;
+    loft.outline = std::make_shared<const std::vector<Vec2>>(
         planar::square(Vec2(1), center).contours.front());
-    sweep.profile = {{1, low}, {1, high}};
-    return sweep;
+    loft.profile = {{1, low}, {1, high}};
+    return loft;
   });
 }
 
 std::uint32_t LeafStore::unit_sphere(int fragments) {
   return find_or_add({Shape::kSphere, true, fragments, 1, 1}, [&] {
-    return Sweep{circle(fragments), sphere_profile(fragments), false};
+    return Loft{circle(fragments), sphere_profile(fragments), false};
   });
 }
 
@@ -129,7 +121,7 @@ std::uint32_t LeafStore::unit_height_cone(double r1, double r2, bool center,
                                           int fragments) {
   return find_or_add({Shape::kCone, center, fragments, r1, r2}, [&] {
     const double low = center ? -0.5 : 0;
-    return Sweep{circle(fragments), {{r1, low}, {r2, low + 1}}, false};
+    return Loft{circle(fragments), {{r1, low}, {r2, low + 1}}, false};
   });
 }
 

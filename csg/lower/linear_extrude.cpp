@@ -1,4 +1,4 @@
-// linear_extrude: sweeps where sides are planar, a mesh where they are not.
+// linear_extrude: lofts where sides are planar, a mesh where they are not.
 //
 // A twisted side is a quad that no plane holds, so the choice of its diagonal
 // is part of the shape. OpenSCAD 2021.01 takes the shorter one and, between
@@ -45,7 +45,7 @@ double max_shift(const Region& region, Vec2 scale) {
   return shift;
 }
 
-// Of an edge, so that none is longer; 0: it stays whole.
+// Into how many parts an edge is cut, none longer than this; 0: it stays whole.
 double part_count(Vec2 edge, double longest) {
   return longest == 0 ? 1
                       : std::max(std::ceil(glm::length(edge) / longest), 1.0);
@@ -55,7 +55,7 @@ Vec2 edge_at(const Contour& contour, std::size_t i) {
   return contour[(i + 1) % contour.size()] - contour[i];
 }
 
-// Of the sides, once edges are split.
+// How many triangles the sides have, once edges are split.
 double triangle_count(const Region& region, const ExtrusionSteps& steps) {
   double points = 0;
   for (const Contour& contour : region.contours) {
@@ -66,7 +66,7 @@ double triangle_count(const Region& region, const ExtrusionSteps& steps) {
   return 2 * points * steps.slices;
 }
 
-// The region with points added so that no edge is longer; 0: as it is.
+// Adds points to the region so that no edge is longer than this; 0: adds none.
 Region split_edges(const Region& region, double longest) {
   if (longest == 0) return region;
   Region split;
@@ -84,16 +84,15 @@ Region split_edges(const Region& region, double longest) {
   return split;
 }
 
-Leaf sweep_contours(const Region& region, double low, double high,
-                    double scale) {
+Leaf loft_contours(const Region& region, double low, double high,
+                   double scale) {
   Leaf leaf;
   for (const Contour& contour : region.contours) {
     const bool is_hole = planar::signed_area(contour) < 0;
     auto outline = std::make_shared<std::vector<Vec2>>(contour);
     if (is_hole) std::reverse(outline->begin(), outline->end());
-    leaf.sweeps.push_back(
-        {std::move(outline), {{1, low}, {scale, high}}, false});
-    leaf.sweep_is_cavity.push_back(is_hole);
+    leaf.lofts.push_back(
+        {std::move(outline), {{1, low}, {scale, high}}, false, is_hole});
   }
   return leaf;
 }
@@ -229,7 +228,7 @@ Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region,
   const double low = params.center ? -height / 2 : 0;
   const double high = params.center ? height / 2 : height;
   if (!params.has_twist && params.scale.x == params.scale.y) {
-    return sweep_contours(region, low, high, params.scale.x);
+    return loft_contours(region, low, high, params.scale.x);
   }
   const ExtrusionSteps steps =
       extrusion_steps(params, max_radius(region),

@@ -17,7 +17,7 @@
 namespace lamina::csg {
 namespace {
 
-// What a walk over the tree tells before it is lowered.
+// What a walk over the tree finds before it is lowered.
 struct Survey {
   const Node* root_modifier = nullptr;  // first node with `!`
   std::size_t childless = 0;            // most of these are leaves
@@ -49,7 +49,7 @@ bool is_too_far(double coordinate) {
   return !(std::abs(coordinate) <= kGreatestCoordinate);
 }
 
-// Whether the instance is what stretches the scene's box too far.
+// Whether the instance makes the scene's box too large.
 bool stretches(const Box3& box, const Box3& whole) {
   for (int i = 0; i < 3; ++i) {
     if (box.low[i] == whole.low[i] && is_too_far(box.low[i])) return true;
@@ -58,7 +58,7 @@ bool stretches(const Box3& box, const Box3& whole) {
   return false;
 }
 
-// Judges what the layers can show: a cutter may be as large as it likes.
+// Rejects a result that is too large. Subtrahends may have any size.
 void check_range(const Scene& scene) {
   if (scene.box.is_empty()) return;
   for (const Instance& instance : scene.instances) {

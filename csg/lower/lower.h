@@ -22,21 +22,21 @@ class Typesetter;
 namespace lamina::csg {
 
 struct LowerOptions {
-  // Put in front of every instance's matrix (`--axis`). Orthogonal. An outline
-  // is not turned.
+  // Multiplies every instance's matrix from the left (`--axis`); orthogonal.
+  // Outlines stay as they are.
   Affine world_from_design{1.0};
   // Greatest distance in the world of facets from the round surface that they
   // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
   double chordal_error = 0;
-  // For text(), which is an error without.
+  // Sets text(), which is an error without it.
   text::Typesetter* typesetter = nullptr;
   const FileAccess* file_access = &kAllFiles;  // what import() may read
-  // Of the whole design, outlines too, about its origin (`--scale`); more
-  // than 0. Facets are those of the design before.
+  // Scales the whole design about its origin, outlines too (`--scale`);
+  // positive. Facets are those of the design before.
   double scale = 1;
 };
 
-// What a design is: nothing, an outline in the plane, or a solid.
+// A design is nothing, an outline in the plane, or a solid.
 struct Lowered {
   std::variant<std::monostate, planar::Region, Scene> geometry;
 
@@ -51,9 +51,10 @@ struct Lowered {
 // as the tree is nested. Time and memory are linear in the tree.
 //
 // throws  GeometryError where the solid, or a polygon or face that has to be
-//         clipped on the way, reaches beyond 1e9 mm; by csg/limits.h
+//         clipped on the way, reaches beyond 1e9 mm, and where the tree asks
+//         for more than csg/limits.h allows
 //
-// The scene keeps pointers to the tree's call frames, to nothing else in it.
+// The scene points to the tree's call frames and to nothing else in it.
 Lowered lower(const Tree& tree, const LowerOptions& options,
               Diagnostics& diagnostics);
 

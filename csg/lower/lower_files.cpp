@@ -14,15 +14,11 @@
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/flat.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/lower/detail/mend.h"
+#include "csg/lower/detail/repair.h"
 #include "csg/plane/clip.h"
 
 namespace lamina::csg {
 namespace {
-
-std::uint32_t line_of(SourceRange range) {
-  return range.is_known() ? range.source->openscad_line(range.begin) : 0;
-}
 
 // As OpenSCAD shows a path in quotes.
 std::string quoted_from_here(std::string_view path) {
@@ -42,8 +38,8 @@ Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
       mesh.triangles.push_back(t);
     }
   }
-  mend_and_report(mesh, range, diagnostics,
-                  raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
+  repair_and_report(mesh, range, diagnostics,
+                    raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);
   return mesh;
 }
 
@@ -123,7 +119,7 @@ planar::Region read_svg(const ImportParams& params, const FileAccess& access,
   if (!bytes) {
     diagnostics.error(range,
                       fmt::format("Can't open file '{}', import() at line {}",
-                                  params.path, line_of(range)));
+                                  params.path, range.openscad_line()));
     return {};
   }
   SvgOptions options{params.dpi, params.center, outline_stroke};
@@ -134,7 +130,7 @@ planar::Region read_svg(const ImportParams& params, const FileAccess& access,
     Diagnostic diagnostic{
         Severity::kError, range,
         fmt::format("Error parsing file '{}', import() at line {}", params.path,
-                    line_of(range))};
+                    range.openscad_line())};
     diagnostic.hints.push_back({range, fault.what()});
     diagnostics.report(std::move(diagnostic));
     return {};
@@ -172,9 +168,10 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
   switch (params.format) {
     case ImportFormat::kUnknown:
       diagnostics_.error(
-          range, fmt::format("Unsupported file format while trying to import "
-                             "file '{}', import() at line {}",
-                             quoted_from_here(params.path), line_of(range)));
+          range,
+          fmt::format("Unsupported file format while trying to import "
+                      "file '{}', import() at line {}",
+                      quoted_from_here(params.path), range.openscad_line()));
       return {Dimension::kSolid};
     case ImportFormat::kDxf:
       return {Dimension::kFlat,

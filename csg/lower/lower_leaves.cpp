@@ -129,7 +129,7 @@ void Lowerer::place_leaf(Leaf leaf, const Node& node, const Affine& world) {
 std::optional<std::uint32_t> Lowerer::add_leaf(Leaf leaf) {
   std::erase_if(leaf.meshes,
                 [](const Mesh& mesh) { return mesh.triangles.empty(); });
-  if (leaf.sweeps.empty() && leaf.meshes.empty()) return std::nullopt;
+  if (leaf.lofts.empty() && leaf.meshes.empty()) return std::nullopt;
   return leaves_.add(std::move(leaf));
 }
 

@@ -40,9 +40,7 @@ bool is_lost(const std::vector<Operand>& terms) {
 
 Shape Lowerer::lower_op(const Minkowski&, const Node& node,
                         const Affine& world) {
-  LowerOptions options = options_;
-  options.chordal_error = fineness({}, world).chordal_error;
-  Lowerer apart(node.children.size(), options, diagnostics_);
+  Lowerer apart = make_inner(node, world);
   const Operands operands =
       apart.lower_operands(node, Affine(1.0), false, Dimension::kNone);
   report_strays(operands);
@@ -82,7 +80,7 @@ void Lowerer::place_sum(const Operand& sum, const Node& node,
   place_leaf(make_leaf(sum.convex), node, world);
 }
 
-// The operands on the stack, each with all leaves it needs.
+// Takes the operands off the stack, each as a scene with all leaves.
 std::vector<Scene> Lowerer::take_scenes(
     const std::vector<std::size_t>& begins) {
   std::vector<Scene> scenes;

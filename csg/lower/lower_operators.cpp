@@ -10,10 +10,6 @@
 namespace lamina::csg {
 namespace {
 
-double determinant(const Affine& m) {
-  return glm::dot(m[0], glm::cross(m[1], m[2]));
-}
-
 bool is_finite(const Mat4& m) {
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
@@ -34,22 +30,6 @@ Affine compose(const Affine& outer, const Mat4& inner) {
 }
 
 }  // namespace
-
-Shape Lowerer::lower_op(const Group&, const Node& node, const Affine& world) {
-  return lower_children(node, world, BooleanOp::kUnion);
-}
-
-Shape Lowerer::lower_op(const Union&, const Node& node, const Affine& world) {
-  return lower_children(node, world, BooleanOp::kUnion);
-}
-
-Shape Lowerer::lower_op(const Render&, const Node& node, const Affine& world) {
-  return lower_children(node, world, BooleanOp::kUnion);
-}
-
-Shape Lowerer::lower_op(const Color&, const Node& node, const Affine& world) {
-  return lower_children(node, world, BooleanOp::kUnion);
-}
 
 Shape Lowerer::lower_op(const Difference&, const Node& node,
                         const Affine& world) {
@@ -77,7 +57,9 @@ Shape Lowerer::lower_op(const Transform& op, const Node& node,
             transform_region(std::move(shape.region), *op.matrix, node.range,
                              diagnostics_)};
   }
-  if (determinant(Affine(*op.matrix)) == 0) flatten(mark, shape, node.range);
+  const Affine m(*op.matrix);
+  const bool is_singular = glm::dot(m[0], glm::cross(m[1], m[2])) == 0;
+  if (is_singular) flatten(mark, shape, node.range);
   return shape;
 }
 

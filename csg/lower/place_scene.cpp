@@ -1,8 +1,7 @@
-// A scene put on the builder's stack: what was lowered apart comes back.
+// Puts a scene that was lowered apart on the builder's stack.
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "csg/lower/detail/lowerer.h"

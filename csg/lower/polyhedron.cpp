@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "csg/lower/detail/face.h"
-#include "csg/lower/detail/mend.h"
 #include "csg/lower/detail/points.h"
+#include "csg/lower/detail/repair.h"
 
 namespace lamina::csg {
 namespace {
@@ -61,7 +61,7 @@ Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
   if (has_degenerate) {
     diagnostics.warning(range, "PolySet has degenerate polygons");
   }
-  mend_and_report(mesh, range, diagnostics);
+  repair_and_report(mesh, range, diagnostics);
   return mesh;
 }
 

@@ -8,57 +8,11 @@
 namespace lamina::csg {
 namespace {
 
-// new size / size where there is a new size, else 1.
-double factor_of(double new_size, double size, bool may_mirror) {
-  const bool is_given = may_mirror ? new_size != 0 : new_size > 0;
-  return is_given && size > 0 ? new_size / size : 1;
-}
-
 bool only_unites(const Scene& scene) {
   return scene.program.size() == 1 && scene.program[0].op == BooleanOp::kUnion;
 }
 
-}  // namespace
-
-Vec2 resize_factor(const Resize& op, const planar::Region& region) {
-  Vec2 low(1e300);
-  Vec2 high(-1e300);
-  for (const planar::Contour& contour : region.contours) {
-    for (const Vec2 point : contour) {
-      low = glm::min(low, point);
-      high = glm::max(high, point);
-    }
-  }
-  const bool is_y = op.new_size.y != 0 && op.new_size.y > op.new_size.x;
-  const int greatest = is_y ? 1 : 0;
-  Vec2 factor;
-  for (int i = 0; i < 2; ++i) {
-    const bool follows =
-        op.auto_size[static_cast<std::size_t>(i)] && !(op.new_size[i] > 0);
-    const int axis = follows ? greatest : i;
-    factor[i] = factor_of(op.new_size[axis], high[axis] - low[axis], false);
-  }
-  return factor;
-}
-
-Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
-  const Box3 box = box_of_result(scene);
-  if (box.is_empty()) return Vec3(1);
-  int greatest = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (op.new_size[i] > op.new_size[greatest]) greatest = i;
-  }
-  Vec3 factor;
-  for (int i = 0; i < 3; ++i) {
-    const bool is_given = is_boolean ? op.new_size[i] != 0 : op.new_size[i] > 0;
-    const bool follows = op.auto_size[static_cast<std::size_t>(i)] && !is_given;
-    const int axis = follows ? greatest : i;
-    factor[i] = factor_of(op.new_size[axis], box.high[axis] - box.low[axis],
-                          is_boolean);
-  }
-  return factor;
-}
-
+// The box of the solid itself, however its leaves are combined.
 Box3 box_of_result(const Scene& scene) {
   if (only_unites(scene)) return scene.box;
   Box3 box;
@@ -72,6 +26,50 @@ Box3 box_of_result(const Scene& scene) {
     box.high = glm::max(box.high, part.high);
   });
   return box;
+}
+
+// size  of what is resized
+template <int kDimensions>
+glm::vec<kDimensions, double> factor_for(
+    const Resize& op, const glm::vec<kDimensions, double>& size,
+    bool may_mirror) {
+  int greatest = 0;
+  for (int i = 1; i < kDimensions; ++i) {
+    if (op.new_size[i] > op.new_size[greatest]) greatest = i;
+  }
+  const auto is_given = [&](int i) {
+    return may_mirror ? op.new_size[i] != 0 : op.new_size[i] > 0;
+  };
+  glm::vec<kDimensions, double> factor(1.0);
+  for (int i = 0; i < kDimensions; ++i) {
+    const bool follows =
+        op.auto_size[static_cast<std::size_t>(i)] && !is_given(i);
+    const int axis = follows ? greatest : i;
+    if (is_given(axis) && size[axis] > 0) {
+      factor[i] = op.new_size[axis] / size[axis];
+    }
+  }
+  return factor;
+}
+
+}  // namespace
+
+Vec2 resize_factor(const Resize& op, const planar::Region& region) {
+  Vec2 low(1e300);
+  Vec2 high(-1e300);
+  for (const planar::Contour& contour : region.contours) {
+    for (const Vec2 point : contour) {
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
+  }
+  return factor_for<2>(op, high - low, false);
+}
+
+Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
+  const Box3 box = box_of_result(scene);
+  if (box.is_empty()) return Vec3(1);
+  return factor_for<3>(op, box.high - box.low, is_boolean);
 }
 
 }  // namespace lamina::csg

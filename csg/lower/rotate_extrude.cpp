@@ -1,7 +1,7 @@
-// rotate_extrude: the outline of the sweeps is the circle, the region's
+// rotate_extrude: the outline of the lofts is the circle, the region's
 // contours are the profiles.
 //
-// A contour apart from the axis gives a torus-like sweep with a closed
+// A contour apart from the axis gives a torus-like loft with a closed
 // profile. One that touches the axis falls into runs between points on the
 // axis; the edges along the axis sweep nothing. Each run is an open profile
 // with an apex at both ends, a solid of its own or, where the run has the
@@ -62,7 +62,7 @@ class FullTurn {
   void add(const std::vector<Vec2>& profile) {
     const auto on_axis = [](Vec2 point) { return point.x == 0; };
     const auto first = std::find_if(profile.begin(), profile.end(), on_axis);
-    if (first == profile.end()) return add_sweep(profile, true);
+    if (first == profile.end()) return add_loft(profile, true);
 
     // Begin on the axis and cut at every further point on it.
     std::vector<Vec2> turned(first, profile.end());
@@ -72,9 +72,9 @@ class FullTurn {
     for (std::size_t end = 1; end < turned.size(); ++end) {
       if (!on_axis(turned[end])) continue;
       if (end > begin + 1) {
-        add_sweep({turned.begin() + static_cast<std::ptrdiff_t>(begin),
-                   turned.begin() + static_cast<std::ptrdiff_t>(end) + 1},
-                  false);
+        add_loft({turned.begin() + static_cast<std::ptrdiff_t>(begin),
+                  turned.begin() + static_cast<std::ptrdiff_t>(end) + 1},
+                 false);
       }
       begin = end;
     }
@@ -83,11 +83,10 @@ class FullTurn {
   Leaf take() { return std::move(leaf_); }
 
  private:
-  void add_sweep(std::vector<Vec2> profile, bool is_closed) {
+  void add_loft(std::vector<Vec2> profile, bool is_closed) {
     const bool is_cavity = planar::signed_area(profile) < 0;
     if (is_cavity) std::reverse(profile.begin(), profile.end());
-    leaf_.sweeps.push_back({circle_, std::move(profile), is_closed});
-    leaf_.sweep_is_cavity.push_back(is_cavity);
+    leaf_.lofts.push_back({circle_, std::move(profile), is_closed, is_cavity});
   }
 
   std::shared_ptr<const std::vector<Vec2>> circle_;

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
-#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -73,7 +71,7 @@ bool touch(const Convex& a, const Convex& b) {
 }  // namespace
 
 std::vector<Vec3> points_of_components(std::span<const Convex> faces) {
-  // Sweep along x over the faces' boxes.
+  // Sweep a plane along x over the faces' boxes.
   std::vector<Box3> boxes;
   for (const Convex& face : faces) boxes.push_back(box_of(face));
   std::vector<std::size_t> order(faces.size());

@@ -1,13 +1,12 @@
 #include "csg/minkowski/convex.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "csg/edge_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -20,58 +19,6 @@ constexpr double kReflexSine = 1e-9;
 
 // Top and base of a prism agree to this part of its size.
 constexpr double kPrismPrecision = 1e-13;
-
-struct HalfEdge {
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::uint32_t facet = 0;
-  bool is_rising = false;  // runs from low to high
-};
-
-std::vector<HalfEdge> half_edges(const Convex& body) {
-  std::vector<HalfEdge> result;
-  result.reserve(body.corners.size());
-  for (std::uint32_t f = 0; f < body.facet_count(); ++f) {
-    const auto loop = body.facet(f);
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::uint32_t a = loop[i];
-      const std::uint32_t b = loop[i + 1 == loop.size() ? 0 : i + 1];
-      result.push_back({std::min(a, b), std::max(a, b), f, a < b});
-    }
-  }
-  std::sort(result.begin(), result.end(),
-            [](const HalfEdge& a, const HalfEdge& b) {
-              return std::tie(a.low, a.high, a.is_rising, a.facet) <
-                     std::tie(b.low, b.high, b.is_rising, b.facet);
-            });
-  return result;
-}
-
-}  // namespace
-
-void find_edges(Convex& body) {
-  const std::vector<HalfEdge> sides = half_edges(body);
-  body.edges.clear();
-  body.is_closed = true;
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    std::size_t rising = begin;
-    while (end < sides.size() && sides[end].low == sides[begin].low &&
-           sides[end].high == sides[begin].high) {
-      if (!sides[end].is_rising) rising = end + 1;
-      ++end;
-    }
-    if (rising - begin != end - rising) {
-      body.is_closed = false;
-      continue;
-    }
-    for (std::size_t i = rising; i < end; ++i) {
-      body.edges.push_back({sides[i].low, sides[i].high, sides[i].facet,
-                            sides[begin + i - rising].facet});
-    }
-  }
-}
-
-namespace {
 
 bool has_reflex_edge(const Convex& body) {
   return std::any_of(
@@ -193,6 +140,35 @@ void drop_unused_vertices(Convex& body) {
 }
 
 }  // namespace
+
+void find_edges(Convex& body) {
+  const auto table = EdgeTable::make(body.vertices.size(), [&body](auto visit) {
+    for (std::uint32_t f = 0; f < body.facet_count(); ++f) {
+      const auto loop = body.facet(f);
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        visit(f, loop[i], loop[i + 1 == loop.size() ? 0 : i + 1]);
+      }
+    }
+  });
+  body.edges.clear();
+  body.is_closed = true;
+  std::vector<std::uint32_t> rising;
+  std::vector<std::uint32_t> falling;
+  table.for_each_edge([&](std::uint32_t low, std::span<const Side> sides) {
+    rising.clear();
+    falling.clear();
+    for (const Side& side : sides) {
+      (side.is_rising() ? rising : falling).push_back(side.face());
+    }
+    if (rising.size() != falling.size()) {
+      body.is_closed = false;
+      return;
+    }
+    for (std::size_t i = 0; i < rising.size(); ++i) {
+      body.edges.push_back({low, sides[0].high, rising[i], falling[i]});
+    }
+  });
+}
 
 void Convex::add_facet(std::span<const std::uint32_t> loop, Vec3 normal) {
   corners.insert(corners.end(), loop.begin(), loop.end());

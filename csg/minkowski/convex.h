@@ -4,15 +4,15 @@
 // The surface of A ⊕ B is found by merging the normals of the two: each facet
 // of B moves by the vertex of A that lies farthest along its normal; where two
 // neighbouring facets go with different vertices of A, the edge between them
-// sweeps the edges of A that lead from one to the other; and the vertex of B
-// around which these ways close a full turn carries A itself.
+// sweeps along the edges of A that lead from one to the other; and the vertex
+// of B around which these ways close a full turn carries A itself.
 //
-// With a flat A this is robust by construction, which is why sums with flat
-// bodies are all that there is: the pieces above fit together whatever
-// rounding decides, because a way around a vertex that closes is a whole number
-// of turns. So the surface is always closed. A wrong decision between two
-// vertices of A that are equally far, up to rounding, gives facets that lie in
-// one plane, up to rounding.
+// With a flat A this is robust by construction, so only sums with flat bodies
+// are made this way: the pieces above fit together whatever rounding decides,
+// because a way around a vertex that closes is a whole number of turns. So the
+// surface is always closed. A wrong decision between two vertices of A that are
+// equally far, up to rounding, gives facets that lie in one plane, up to
+// rounding.
 //
 // A solid A is taken apart. A prism is its base ⊕ its axis, two flat sums. Any
 // other solid is covered as csg/minkowski/minkowski.h does it for bodies
@@ -48,7 +48,7 @@ struct Convex {
   std::vector<Vec3> normals;              // of the facets; unit length
   std::vector<Edge> edges;                // none in a sum: see find_edges()
   bool is_flat = false;                   // then facet 0 is the polygon
-  bool is_closed = false;  // all sides of facets found their edge
+  bool is_closed = false;  // every side of a facet has its partner
 
   std::size_t facet_count() const { return facet_ends.size(); }
   std::span<const std::uint32_t> facet(std::size_t i) const {
@@ -58,13 +58,14 @@ struct Convex {
   void add_facet(std::span<const std::uint32_t> loop, Vec3 normal);
 };
 
-// polygon  convex, counter-clockwise around the normal; of two points, it is a
-//          segment, and the normal anything at a right angle to it; of one,
-//          anything
+// polygon  convex, counter-clockwise around the normal. Two points are a
+// segment,
+//          and the normal may be any at a right angle to it; one point takes
+//          any normal
 Convex make_flat(std::vector<Vec3> polygon, Vec3 normal);
 
-// The solid with these facets. Whether they are closed and convex is for the
-// caller to know, or to ask below.
+// The solid with these facets. The caller knows that they are closed and
+// convex, or asks is_convex().
 //
 // loops  counter-clockwise from outside
 Convex make_solid(std::vector<Vec3> vertices,
@@ -82,8 +83,8 @@ Vec3 middle(const Convex& body);
 // body  has its edges
 Convex add_flat(const Convex& flat, const Convex& body);
 
-// Pairs the sides of the facets to edges: before a sum is added to something
-// itself.
+// Pairs the sides of the facets to edges. A sum needs this before it is added
+// to something itself.
 void find_edges(Convex& body);
 
 // The base and the axis of a prism: prism = base ⊕ axis.

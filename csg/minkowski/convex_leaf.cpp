@@ -44,32 +44,34 @@ Draft draft_of(const Mesh& mesh) {
   return draft;
 }
 
+Draft draft_of(Loft loft) {
+  Leaf leaf;
+  leaf.lofts.push_back(std::move(loft));
+  return draft_of(explicit_mesh(leaf));
+}
+
 // --- Extrusions --------------------------------------------------------------
 
 bool is_extrusion(const Leaf& leaf) {
   return std::all_of(
-      leaf.sweeps.begin(), leaf.sweeps.end(), [&](const Sweep& sweep) {
-        return !sweep.is_closed_profile && sweep.profile.size() == 2 &&
-               sweep.profile == leaf.sweeps[0].profile;
+      leaf.lofts.begin(), leaf.lofts.end(), [&](const Loft& loft) {
+        return !loft.is_closed_profile && loft.profile.size() == 2 &&
+               loft.profile == leaf.lofts[0].profile;
       });
 }
 
 std::vector<Draft> draft_extrusion(const Leaf& leaf) {
   planar::Region region;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    Contour outline = *leaf.sweeps[i].outline;
-    if (leaf.sweep_is_cavity[i]) std::reverse(outline.begin(), outline.end());
+  for (const Loft& loft : leaf.lofts) {
+    Contour outline = *loft.outline;
+    if (loft.is_cavity) std::reverse(outline.begin(), outline.end());
     region.contours.push_back(std::move(outline));
   }
   std::vector<Draft> drafts;
   for (Contour& piece : planar::cut_into_convex(region)) {
-    Sweep sweep;
-    sweep.outline = std::make_shared<const Contour>(std::move(piece));
-    sweep.profile = leaf.sweeps[0].profile;
-    Leaf part;
-    part.sweeps.push_back(std::move(sweep));
-    part.sweep_is_cavity.push_back(false);
-    drafts.push_back(draft_of(explicit_mesh(part)));
+    drafts.push_back(
+        draft_of({std::make_shared<const Contour>(std::move(piece)),
+                  leaf.lofts[0].profile}));
   }
   return drafts;
 }
@@ -89,24 +91,23 @@ bool is_convex_around_axis(const Contour& outline) {
 }
 
 bool is_revolution(const Leaf& leaf) {
-  const Contour& outline = *leaf.sweeps[0].outline;
+  const Contour& outline = *leaf.lofts[0].outline;
   return is_convex_around_axis(outline) &&
          std::all_of(
-             leaf.sweeps.begin(), leaf.sweeps.end(),
-             [&](const Sweep& sweep) { return *sweep.outline == outline; });
+             leaf.lofts.begin(), leaf.lofts.end(),
+             [&](const Loft& loft) { return *loft.outline == outline; });
 }
 
 // The profiles as a region of the plane of (scale, height).
 planar::Region section_through_axis(const Leaf& leaf) {
   planar::Region region;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    const Sweep& sweep = leaf.sweeps[i];
-    Contour contour = sweep.profile;
-    if (!sweep.is_closed_profile) {
+  for (const Loft& loft : leaf.lofts) {
+    Contour contour = loft.profile;
+    if (!loft.is_closed_profile) {
       if (contour.back().x > 0) contour.push_back({0, contour.back().y});
       if (contour.front().x > 0) contour.push_back({0, contour.front().y});
     }
-    if (leaf.sweep_is_cavity[i]) std::reverse(contour.begin(), contour.end());
+    if (loft.is_cavity) std::reverse(contour.begin(), contour.end());
     region.contours.push_back(std::move(contour));
   }
   return region;
@@ -129,26 +130,23 @@ bool spans_axis(const Contour& piece) {
 }
 
 // The whole turn of a piece that spans the axis.
-Draft draft_turn(const Sweep& whole, const Contour& piece) {
+Draft draft_turn(const Loft& whole, const Contour& piece) {
   // The profile begins behind the piece's side along the axis.
   std::size_t start = 0;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     const Vec2 before = piece[(i + piece.size() - 1) % piece.size()];
     if (before.x == 0 && piece[i].x == 0) start = i;
   }
-  Sweep sweep;
-  sweep.outline = whole.outline;
+  Loft loft;
+  loft.outline = whole.outline;
   for (std::size_t i = 0; i < piece.size(); ++i) {
-    sweep.profile.push_back(piece[(start + i) % piece.size()]);
+    loft.profile.push_back(piece[(start + i) % piece.size()]);
   }
   // Flat ends are one polygon each.
-  std::vector<Vec2>& profile = sweep.profile;
+  std::vector<Vec2>& profile = loft.profile;
   if (profile[0].y == profile[1].y) profile.erase(profile.begin());
   if (profile.back().y == profile[profile.size() - 2].y) profile.pop_back();
-  Leaf part;
-  part.sweeps.push_back(std::move(sweep));
-  part.sweep_is_cavity.push_back(false);
-  return draft_of(explicit_mesh(part));
+  return draft_of(std::move(loft));
 }
 
 // From one point of the outline to the next.
@@ -176,12 +174,12 @@ Draft draft_wedge(const Contour& piece, Vec2 from, Vec2 to) {
 }
 
 std::vector<Draft> draft_revolution(const Leaf& leaf) {
-  const auto& outline = leaf.sweeps[0].outline;
+  const auto& outline = leaf.lofts[0].outline;
   std::vector<Draft> drafts;
   for (const Contour& piece :
        planar::cut_into_convex(section_through_axis(leaf))) {
     if (spans_axis(piece)) {
-      drafts.push_back(draft_turn(leaf.sweeps[0], piece));
+      drafts.push_back(draft_turn(leaf.lofts[0], piece));
       continue;
     }
     for (std::size_t i = 0; i < outline->size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a leaf shows of its convex parts.
+// The convex parts that a leaf's form shows.
 
 #include <optional>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace lamina::csg {
 
-// The leaf as a union of convex solids under the matrix, where its form tells
-// how: an extrusion is cut in the plane of its outlines, a body of revolution
-// in the plane of its profile, and there into wedges from fragment to fragment
-// unless it is convex as a whole. No value for any other leaf, unless it is
+// The leaf under the matrix as a union of convex solids, where its form shows
+// them: an extrusion is cut in the plane of its outlines, a body of revolution
+// in that of its profile, and where a piece is not convex all around, into
+// wedges from fragment to fragment. Any other leaf has a value only if it is
 // convex.
 std::optional<std::vector<Convex>> convex_parts(const Leaf& leaf,
                                                 const Affine& matrix);

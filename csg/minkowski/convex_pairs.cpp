@@ -1,9 +1,7 @@
 #include "csg/minkowski/convex_pairs.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include <glm/geometric.hpp>
 

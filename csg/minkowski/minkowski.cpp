@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -20,6 +18,7 @@
 #include "csg/minkowski/convex_pairs.h"
 #include "csg/plane/convex_faces.h"
 #include "csg/plane/triangulate.h"
+#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -78,16 +77,10 @@ std::vector<Convex> make_faces(const Mesh& mesh) {
   return faces;
 }
 
-struct VertexLess {
-  bool operator()(const Vec3& a, const Vec3& b) const {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  }
-};
-
 // The faces of a Boolean as triangles; equal vertices are one.
 Mesh triangulate(std::span<const BoundaryFace> faces) {
   Mesh mesh;
-  std::map<Vec3, std::uint32_t, VertexLess> names;
+  VertexTable names;
   for (const BoundaryFace& face : faces) {
     // A plane that turns the face's normal to the viewer.
     const Vec3 n = face.normal;
@@ -101,16 +94,14 @@ Mesh triangulate(std::span<const BoundaryFace> faces) {
       for (const Vec3& p : contour) {
         region.contours.back().emplace_back(glm::dot(p, x_axis),
                                             glm::dot(p, y_axis));
-        const auto name = static_cast<std::uint32_t>(mesh.vertices.size());
-        const auto [place, is_new] = names.try_emplace(p, name);
-        if (is_new) mesh.vertices.push_back(p);
-        corners.push_back(place->second);
+        corners.push_back(names.name(p));
       }
     }
     for (const auto& t : planar::triangulate(region)) {
       mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
     }
   }
+  mesh.vertices = names.take_points();
   return mesh;
 }
 

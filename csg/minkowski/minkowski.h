@@ -1,9 +1,9 @@
 #pragma once
 // Minkowski sums of solids, as unions of convex parts and moved bodies.
 //
-// No solid is taken apart into convex pieces, beyond what its leaves show of
-// themselves. For A with boundary faces F and a compact connected B with any
-// point b of B,
+// No solid is taken apart into convex pieces beyond those that its leaves show
+// (convex_leaf.h). For A with boundary faces F and a compact connected B with
+// any point b of B,
 //
 //     A ⊕ B = (A + b) ∪ ⋃ (F ⊕ B),
 //
@@ -12,11 +12,12 @@
 // A only the faces are needed, in any number and order. Where B is convex F ⊕
 // B is convex too: one merge of normals (convex.h).
 //
-// Where B is not convex either, the same is said of F ⊕ B with the roles
-// exchanged: it is (B + f) ∪ ⋃ (F ⊕ G) over the faces G of B. One f will do for
-// each connected component of A's boundary, and one b for each of B's, which
-// also serves a B of several components. Without the first a small A that a
-// hollow B could hold would leave a cavity; without the second, the other way.
+// Where B is not convex either, the same holds for F ⊕ B with the roles
+// exchanged: it is (B + f) ∪ ⋃ (F ⊕ G) over the faces G of B. One f suffices
+// for each connected component of A's boundary, and one b for each of B's,
+// which also serves a B of several components. Without the former, a small A
+// that fits into a hollow B would leave a cavity; without the latter, a small B
+// in A.
 //
 // Sums distribute over unions, so operands are unions of parts: what is convex
 // stays whole, and only what is not is treated by its faces.

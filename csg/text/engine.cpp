@@ -56,7 +56,7 @@ class FontEngine : public Engine {
                          const Work& work) noexcept {
     try {
       // The libraries below go on without what they have no memory for, and
-      // the text would be another one. Few of them tell; malloc() does.
+      // the text would be another one. Few report it; malloc() does.
       errno = 0;
       messages_.clear();
       result_ = {};

@@ -34,8 +34,8 @@ const char* from_fc(const FcChar8* text) {
   return reinterpret_cast<const char*>(text);
 }
 
-// What these libraries cannot do for lack of memory they leave undone, and the
-// text would be another one.
+// For lack of memory these libraries leave things undone, and the text would be
+// another one.
 void require(bool is_done) {
   if (!is_done) throw std::bad_alloc();
 }
@@ -59,8 +59,8 @@ bool has_family(const FcPattern& pattern, const FcChar8* family) {
   return false;
 }
 
-// Whether the configuration says that a font of `match` is as good as the one
-// asked for (Liberation Sans for Arial), or one was asked for by its kind only.
+// Whether the configuration calls the font `match` as good as the one asked for
+// (Liberation Sans for Arial).
 bool is_equivalent(const FcPattern& substituted, const FcPattern& match) {
   FcValue value;
   FcValueBinding binding = FcValueBindingWeak;
@@ -81,8 +81,8 @@ bool is_generic(std::string_view family) {
          std::end(kGeneric);
 }
 
-// What to tell where Fontconfig had to take another font than the one asked
-// for. OpenSCAD takes it silently.
+// The warning where Fontconfig took another font than the one asked for.
+// OpenSCAD takes it silently.
 std::string describe_substitution(const FcPattern& asked,
                                   const FcPattern& substituted,
                                   const FcPattern& match) {
@@ -114,8 +114,8 @@ std::vector<std::string> font_folders() {
   return folders;
 }
 
-// Fontconfig falls over where memory ends within it, so it is asked first
-// whether there is as much as it takes.
+// Fontconfig crashes where memory runs out within it, so check beforehand that
+// there is as much as it takes.
 void require_room() {
   constexpr std::size_t kRoom = std::size_t{64} << 20;
   void* const room = ::mmap(nullptr, kRoom, PROT_READ | PROT_WRITE,
@@ -140,8 +140,8 @@ Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
   return config;
 }
 
-// Fontconfig's rules of what stands for what, without any font. They are those
-// of the machine: HOME may be where strangers write.
+// Fontconfig's rules of which font stands for which, without any font. They are
+// the machine's: others may be able to write to HOME.
 Owned<FcConfig> load_rules() {
   require_room();
   FcConfigEnableHome(FcFalse);
@@ -153,8 +153,8 @@ Owned<FcConfig> load_rules() {
   return config;
 }
 
-// Looking for all fonts takes longer than many a design, and finds the same
-// for each. Fontconfig lets threads share what it found.
+// Looking for all fonts takes longer than many a design, and finds the same for
+// each. Fontconfig lets threads share the result.
 Owned<FcConfig> shared_config() {
   static std::mutex mutex;
   static std::vector<std::string> known_folders;

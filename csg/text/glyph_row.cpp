@@ -1,7 +1,5 @@
 #include "csg/text/detail/glyph_row.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <new>
 #include <string>
 #include <utility>
@@ -15,7 +13,7 @@ namespace {
 constexpr hb_codepoint_t kSymbolPage = 0xF000;
 constexpr hb_codepoint_t kPageSize = 0x100;
 
-// What is no UTF-8 is read as a replacement character.
+// HarfBuzz reads malformed UTF-8 as a replacement character.
 constexpr hb_codepoint_t kReplacement = 0xFFFD;
 
 void move_to_symbol_page(hb_buffer_t* buffer, const std::string& text,
@@ -72,7 +70,7 @@ OwnedGlyph load_glyph(const Font& font, FT_UInt index) {
   return glyph->format == FT_GLYPH_FORMAT_OUTLINE ? std::move(owned) : nullptr;
 }
 
-// Of FreeType's whole numbers and HarfBuzz's.
+// From the whole numbers of FreeType and HarfBuzz.
 Vec2 to_vec(double x, double y) { return Vec2(x, y) / double{Font::kSize}; }
 
 Box box_of(FT_Glyph glyph) {

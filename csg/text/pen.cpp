@@ -55,7 +55,7 @@ void Pen::draw(FT_Outline& outline, Vec2 origin) {
   strokes.line_to = Strokes::line_to;
   strokes.conic_to = Strokes::conic_to;
   strokes.cubic_to = Strokes::cubic_to;
-  // An outline that is no outline draws what it can, as in OpenSCAD.
+  // A malformed outline is drawn as far as it goes, as in OpenSCAD.
   const FT_Error error = FT_Outline_Decompose(&outline, &strokes, this);
   if (error == 1) throw std::bad_alloc();
   close();

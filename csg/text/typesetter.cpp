@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <exception>
 #include <filesystem>
-#include <memory>
 #include <new>
 #include <optional>
 #include <utility>
@@ -45,10 +44,16 @@ MakeEngine* open_module(const std::vector<std::string>& folders,
                                 kModuleName, fmt::join(folders, " or ")));
 }
 
-void add_words(const Typeset& typeset, std::vector<std::string>& warnings) {
+// What the module measured; nothing where it found no font.
+template <typename Metrics>
+std::optional<Metrics> measured(const Typeset& typeset,
+                                Metrics Typeset::*metrics,
+                                std::vector<std::string>& warnings) {
   for (const Message& message : typeset.messages) {
     warnings.push_back(message.words);
   }
+  if (!typeset.has_font) return std::nullopt;
+  return typeset.*metrics;
 }
 
 }  // namespace
@@ -188,18 +193,14 @@ std::vector<std::vector<Vec2>> Typesetter::outline(
 
 std::optional<csg::TextMetrics> Typesetter::measure_text(
     const csg::TextParams& params, std::vector<std::string>& warnings) {
-  const Typeset& typeset = checked(engine().measure_text(params));
-  add_words(typeset, warnings);
-  if (!typeset.has_font) return std::nullopt;
-  return typeset.text_metrics;
+  return measured(checked(engine().measure_text(params)),
+                  &Typeset::text_metrics, warnings);
 }
 
 std::optional<csg::FontMetrics> Typesetter::measure_font(
     const csg::TextParams& params, std::vector<std::string>& warnings) {
-  const Typeset& typeset = checked(engine().measure_font(params));
-  add_words(typeset, warnings);
-  if (!typeset.has_font) return std::nullopt;
-  return typeset.font_metrics;
+  return measured(checked(engine().measure_font(params)),
+                  &Typeset::font_metrics, warnings);
 }
 
 }  // namespace lamina::text

@@ -1,5 +1,5 @@
 #pragma once
-// From text() to outlines, vertex for vertex those of OpenSCAD 2021.01.
+// Sets text() as outlines, vertex for vertex those of OpenSCAD 2021.01.
 //
 // The font libraries stand behind a module that the first text opens
 // (detail/engine.h): a design without text pays nothing for them.
@@ -20,8 +20,8 @@ namespace lamina::text {
 // The file of the module that holds the font libraries.
 inline constexpr const char* kModuleName = "lamina_text.so";
 
-// Where the program's modules lie: beside it, or in lib/lamina next to its
-// folder where it is installed.
+// The folders of the program's modules: its own, or, where it is installed,
+// lib/lamina beside that.
 std::vector<std::string> module_folders();
 
 // Into how many chords a curve is cut.
@@ -37,17 +37,18 @@ class ReadableFonts;
 
 class Typesetter : public csg::TextMeasurer {
  public:
-  // folders      where the module is looked for, in this order
-  // diagnostics  gets what is wrong with fonts that the design brings along;
+  // folders      where to look for the module, in this order
+  // diagnostics  gets the faults of fonts that the design brings along;
   //              outlives the typesetter
-  // access       what fonts may be read; outlives it, too
+  // access       says which fonts may be read; outlives it, too
   Typesetter(std::vector<std::string> folders, Diagnostics& diagnostics,
              const FileAccess& access = kAllFiles);
   ~Typesetter() override;
   Typesetter(const Typesetter&) = delete;
   Typesetter& operator=(const Typesetter&) = delete;
 
-  // Fonts that the design brings along (`use <x.ttf>`), before the first text.
+  // Adds fonts that the design brings along (`use <x.ttf>`); to be called
+  // before the first text.
   void add_fonts(const std::vector<std::string>& files);
 
   // The polygons of a text; inside is where they wind other than 0 times.

@@ -1,8 +1,8 @@
 #include "ldni/gl/face_raster.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -47,8 +47,8 @@ void main() {
 )";
 
 // Colours are depth and face: the order of peeling. A pixel of which nothing is
-// left keeps the greatest colour, behind which there is nothing. The depth is
-// written, not left to OpenGL, so that it is compared as it is read back.
+// left keeps the greatest colour, behind which there is nothing. The shader
+// writes the depth itself, so that it is compared as it is read back.
 constexpr GLuint kNothing = 0xFFFFFFFF;
 constexpr const char* kPeelShader = R"(#version 330 core
 uniform usampler2D peeled;
@@ -100,7 +100,7 @@ class Drawer {
   }
   void draw() { gl_.DrawArrays(GL_TRIANGLES, 0, corner_count_); }
 
-  // Lets go of all objects; the context must be current.
+  // Deletes all objects; the context must be current.
   void clear() {
     program_ = {};
     array_ = {};
@@ -168,7 +168,8 @@ class ListRaster final : public FaceRaster {
     gl_.Uniform1ui(drawer_.uniform("capacity"), capacity);
   }
 
-  // Draws; what goes beyond the capacity is counted only.
+  // Draws, and returns the number of fragments. Those beyond the capacity are
+  // only counted.
   std::uint32_t count_fragments() {
     std::uint32_t count = 0;
     gl_.BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof(count), &count);
@@ -282,7 +283,7 @@ class PeelingRaster final : public FaceRaster {
     gl_.ClearBufferfv(GL_DEPTH, 0, &far);
   }
 
-  // The nearest fragments behind those of `peeled`.
+  // Draws the nearest fragments behind those of `peeled`.
   void draw_peel(const Peel& peeled, const Peel& target) {
     clear(target, kNothing);
     gl_.BindTexture(GL_TEXTURE_2D, peeled.pixels.name());
@@ -295,8 +296,9 @@ class PeelingRaster final : public FaceRaster {
                    image_.data());
     for (std::uint32_t pixel = 0; pixel < image_.size(); ++pixel) {
       const std::uint32_t face_and_side = image_[pixel].face_and_side;
-      if (face_and_side != kNothing)
+      if (face_and_side != kNothing) {
         fragments.push_back({pixel, face_and_side});
+      }
     }
   }
 

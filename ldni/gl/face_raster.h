@@ -1,5 +1,5 @@
 #pragma once
-// Which faces the rays of a picture meet: what the GL sampler asks of OpenGL.
+// Which faces the rays of a picture meet, as the GL sampler asks OpenGL.
 //
 // Zeng et al. 2011 (section 3) read depths and normals back from the graphics
 // processor. Departure: here a fragment says which face it is of, and the
@@ -7,32 +7,30 @@
 // 100 mm, so that faces of two leaves which coincide would no longer tie
 // (kTieDistance), and leave skins; and what is read back is a third.
 //
-// There are two ways to get at all the fragments of a pixel.
+// There are two ways to get all the fragments of a pixel.
 //
-// A list: each fragment is appended to a buffer, one atomic counter says where.
-// One pass, whatever the depth; needs OpenGL 4.3.
+// A list: each fragment is appended to a buffer, where an atomic counter says.
+// That takes one pass, whatever the depth, and OpenGL 4.3.
 //
 // Peeling, as the paper has it: pass k keeps the nearest fragment behind the
-// one of pass k-1, until nothing is left. Behind is meant by depth and then by
-// face, else of faces that coincide all but one would be lost. Depths are
-// floats of 32 bits: a buffer of 24 rounds them, so that a fragment lies behind
-// itself and peeling never ends.
+// one of pass k-1, until nothing is left. The order is by depth and then by
+// face, since of faces that coincide all but one would be lost otherwise.
+// Depths are floats of 32 bits: a buffer of 24 rounds them, so that a fragment
+// lies behind itself and peeling never ends.
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "ldni/gl/gl_context.h"
 
 namespace lamina::ldni {
 
-// What a context must have. Corners on whole steps of 1/256 pixel in a viewport
-// of this size are exact in 32 bits all the way to the rasteriser. A larger one
-// would not do: llvmpipe loses triangles that reach 4000 pixels beyond a small
-// picture (Mesa 22.3.6).
+// The precision that a context must have. Corners on whole steps of 1/256 pixel
+// in a viewport of this size are exact in 32 bits all the way to the
+// rasteriser. A larger one would not do: llvmpipe loses triangles that reach
+// 4000 pixels beyond a small picture (Mesa 22.3.6).
 inline constexpr int kSubPixelBits = 8;
 inline constexpr int kViewportSize = 1 << 12;
 
@@ -44,7 +42,7 @@ inline constexpr int kPictureMargin = (kViewportSize - kPictureSize) / 2;
 // Triangles of a picture, at most: 36 bytes each.
 inline constexpr std::size_t kPictureTriangles = 3'000'000;
 
-// A corner as OpenGL gets it, in pixels from the left lower corner of the
+// A corner as OpenGL gets it, in pixels from the lower left corner of the
 // picture; pixel i reaches from i to i + 1. depth: from 0 to 1 along the rays.
 struct RasterCorner {
   float x;
@@ -73,9 +71,8 @@ class FaceRaster {
   // counter-clockwise.
   //
   // corners  three for each triangle
-  // returns  false if there are more fragments than memory is meant for (16
-  // million);
-  //          then `fragments` is as it was
+  // returns  false if there are too many fragments (16 million); `fragments` is
+  //          then as it was
   virtual bool draw(std::span<const RasterCorner> corners, int width,
                     int height, std::vector<Fragment>& fragments) = 0;
 
@@ -85,7 +82,7 @@ class FaceRaster {
 
 enum class GlMethod : std::uint8_t { kList, kPeeling };
 
-// The version that a method needs.
+// The least version of OpenGL that a method needs.
 GlVersion least_version(GlMethod method);
 
 std::unique_ptr<FaceRaster> make_face_raster(const GlPlatform& platform,

@@ -13,7 +13,8 @@
 namespace lamina::ldni {
 namespace {
 
-// What makes corners exact (face_raster.h). Everything of this century has it.
+// Throws FileError where OpenGL lacks the precision that makes corners exact
+// (face_raster.h). Every driver of this century has it.
 void require_precision(const GlFunctions& gl) {
   GLint bits = 0;
   std::array<GLint, 2> viewport{};

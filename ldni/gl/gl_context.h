@@ -3,9 +3,9 @@
 // OSMesa on the processor.
 //
 // Both libraries are opened when they are first needed and stay open: to link
-// them would cost every start 14 ms and 50 MB. Whoever draws in software
-// (Mesa's llvmpipe) is asked for no threads of its own: the layers are parallel
-// already, and so processor time is counted where it is spent.
+// them would cost every start 14 ms and 50 MB. A renderer in software (Mesa's
+// llvmpipe) is asked to start no threads: the layers are parallel already, and
+// processor time is counted where it is spent.
 
 #include <functional>
 #include <memory>
@@ -16,14 +16,14 @@ namespace lamina::ldni {
 struct GlFunctions;
 using GlSymbol = void (*)();
 
-// The least version that is of use.
+// A version of OpenGL; the least that is of use.
 struct GlVersion {
   int major = 3;
   int minor = 3;
 };
 
-// A state machine of OpenGL's, with its objects. For one thread at a time,
-// while a GlScope of that thread lives. May outlive its platform.
+// A context of OpenGL, with its objects. It is for one thread at a time, while
+// a GlScope of that thread lives, and may outlive its platform.
 class GlContext {
  public:
   virtual ~GlContext() = default;
@@ -63,12 +63,12 @@ class GlPlatform {
   GlPlatform(const GlPlatform&) = delete;
   GlPlatform& operator=(const GlPlatform&) = delete;
 
-  // Throws FileError where there is none of that version with what a sampler
-  // needs.
+  // Throws FileError where there is no context of that version with the
+  // precision that a sampler needs.
   std::unique_ptr<GlContext> make_context(GlVersion least) const;
 
  protected:
-  // Of a function of OpenGL's, null where there is none of that name.
+  // Finds a function of OpenGL; null where no function has that name.
   using Finder = std::function<GlSymbol(const char* name)>;
 
   GlPlatform() = default;
@@ -78,15 +78,16 @@ class GlPlatform {
   virtual Finder finder() const = 0;
 };
 
-// What draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+// The name of what draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
 std::string renderer_name(GlContext& context);
 
-// The best that there is: EGL on a graphics processor that has the version,
-// else OSMesa. Throws FileError, with the package that is missing, if there is
-// none. To be called before threads are started: it may set LP_NUM_THREADS.
+// Opens the best platform: EGL on a graphics processor that has the version,
+// else OSMesa. Throws FileError, with the package that is missing, where
+// neither can be opened. To be called before threads are started: it may set
+// LP_NUM_THREADS.
 std::shared_ptr<const GlPlatform> open_gl(GlVersion least);
 
-// These throw FileError where there is no such thing.
+// Both throw FileError where there is no such platform.
 std::shared_ptr<const GlPlatform> open_osmesa();
 enum class EglDevice { kHardware, kAny };
 std::shared_ptr<const GlPlatform> open_egl(EglDevice device, GlVersion least);

@@ -22,10 +22,10 @@ namespace {
   throw FileError({Severity::kError, {}, words});
 }
 
-// A shared library, open to the end: those below it keep state of their own.
+// A shared library. It stays open, as the libraries below it keep state.
 class Library {
  public:
-  // The first one of `names` that there is.
+  // Opens the first one of `names` that exists.
   Library(std::initializer_list<const char*> names, const char* package) {
     std::string reason;
     for (const char* const name : names) {
@@ -87,7 +87,7 @@ class OsMesaContext final : public GlContext {
 
   std::shared_ptr<const OsMesaFunctions> osmesa_;
   OSMesaContext context_;
-  // OSMesa wants a picture to draw in; nothing is drawn in this one.
+  // OSMesa needs a picture to draw in; nothing is drawn in this one.
   std::array<unsigned char, 4> window_{};
 };
 
@@ -212,7 +212,8 @@ bool has_word(const char* text, std::string_view word) {
          std::string_view(text).find(word) != std::string_view::npos;
 }
 
-// Mesa draws in software where a device's own driver is missing, too.
+// Whether the context draws in software: Mesa also does so where the driver of
+// a device is missing.
 bool is_software(GlContext& context) {
   const std::string name = renderer_name(context);
   return has_word(name.c_str(), "llvmpipe") ||
@@ -228,7 +229,7 @@ std::vector<EGLDeviceEXT> list_devices(const EglFunctions& egl) {
   return devices;
 }
 
-// Null where `device` is not what is wanted.
+// Returns null where `device` is not of the wanted kind.
 std::shared_ptr<const GlPlatform> open_device(
     const std::shared_ptr<const EglFunctions>& egl, EGLDeviceEXT device,
     EglDevice wanted, GlVersion least) {

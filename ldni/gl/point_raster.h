@@ -1,9 +1,9 @@
 #pragma once
-// Which points of a heap of triangles a camera sees.
+// Which points of a set of triangles a camera sees.
 //
-// OpenGL draws with a depth buffer; a pixel gets no colour but the place of
-// what it shows, and the tag of its triangle. Light and shade are then a matter
-// of the points, wherever that is computed.
+// OpenGL draws with a depth buffer; a pixel gets no colour but the place that
+// it shows, and the tag of its triangle. Light and shade are computed from
+// these points elsewhere.
 
 #include <array>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace lamina::ldni {
 
-// A place, and the tag of what is there; less than 0: nothing is.
+// A place, and the tag of what is there; less than 0 where nothing is.
 struct TaggedPoint {
   float x = 0;
   float y = 0;
@@ -34,7 +34,7 @@ class PointRaster {
   // Draws triangles, three corners each. The tag is that of the last one.
   void draw(std::span<const TaggedPoint> corners);
 
-  // What each pixel shows: rows × columns, row-major, y down.
+  // Returns what each pixel shows: rows × columns, row-major, y down.
   std::vector<TaggedPoint> read();
 
  private:

@@ -8,8 +8,8 @@
 namespace lamina::ldni {
 namespace {
 
-// `sample` as a sample of the result's surface: where its leaf is subtracted,
-// the normal turns round.
+// Returns `sample` as a sample of the result's surface: where its leaf is
+// subtracted, the normal is reversed.
 Sample surface_sample(Sample sample, bool is_entry) {
   if (sample.is_entry() != is_entry) sample.normal = -sample.normal;
   return sample;
@@ -34,8 +34,8 @@ void RayBoolean::evaluate(std::span<Sample> samples,
             });
   Sample enter;
   for (std::size_t i = 0; i < samples.size();) {
-    // Flip all leaves of one event; the last sample that brought the state
-    // after the event stands for it.
+    // Flip all leaves of one event; the last sample that changed to the state
+    // after the event represents it.
     const bool was_inside = program_.value();
     bool is_inside = was_inside;
     std::size_t surface = i;

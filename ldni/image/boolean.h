@@ -4,14 +4,15 @@
 // Over closed leaves a CSG tree becomes set algebra on sorted intervals, one
 // ray at a time, so no surface-surface intersection is ever computed.
 // Source: Zeng et al. 2011, section 4.2, whose rules (keep the end points of A
-// outside of B, …) say which samples of two operands survive. Departure: the
-// paper takes two operands at a time, leaf by leaf up the tree. Here the
-// samples of all leaves are sorted together; each flips its leaf and the
-// program is re-evaluated along the path to the root, O(k log k + k·depth)
-// for k samples however many leaves the scene has. And where samples tie the
-// paper says nothing: here they are one event (kTieDistance), so that the
-// result is regularised. Touching solids unite without an inner wall, and a
-// difference with coplanar faces leaves no skin.
+// outside of B, …) say which samples of two operands survive; set membership
+// classification along a line goes back to Tilove 1980. Departures: the paper
+// takes two operands at a time, leaf by leaf up the tree. Here the samples of
+// all leaves are sorted together; each flips its leaf and the program is
+// evaluated again along the path to the root, O(k log k + k·depth) for k
+// samples however many leaves the scene has. Where samples tie, the paper says
+// nothing; here they are one event (kTieDistance), so that the result is
+// regularised: touching solids unite without an inner wall, and a difference
+// with coplanar faces leaves no skin.
 
 #include <cstdint>
 #include <span>
@@ -33,7 +34,7 @@ class RayBoolean {
   //
   // samples  of all leaves, in any order; sorted here by depth, then by
   //          instance, so the result does not depend on their order.
-  // Checks that every leaf is left as often as it was entered.
+  // Every leaf must be left as often as it is entered (checked).
   void evaluate(std::span<Sample> samples, std::vector<Interval>& out);
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kNoLeaf = std::numeric_limits<std::uint32_t>::max();
 
-// `box` in two halves, across its longer side.
+// Returns the two halves of `box`, cut across its longer side.
 std::array<GridBox, 2> halves(const GridBox& box) {
   std::array<GridBox, 2> result = {box, box};
   if (box.ray_count >= box.layer_count) {
@@ -35,8 +35,8 @@ std::array<GridBox, 2> halves(const GridBox& box) {
   return result;
 }
 
-// Where the ray at (x, z) meets the plane of a face, as far as the face
-// reaches. `normal` is any normal of it.
+// Returns the depth at which the ray at (x, z) meets the plane of a face,
+// within the depths of the face. `normal` is any normal of it.
 double depth_on(const std::array<Vec3, 3>& face, const Vec3& normal, double x,
                 double z) {
   if (normal.y == 0) return face[0].y;
@@ -54,18 +54,23 @@ bool is_balanced(std::span<const std::uint32_t> faces_and_sides) {
   return 2 * static_cast<std::size_t>(entries) == faces_and_sides.size();
 }
 
-}  // namespace
+class GlSampler final : public Sampler {
+ public:
+  GlSampler(const csg::Scene& scene, const RayGrid& rays,
+            const LayerGrid& layers, std::unique_ptr<FaceRaster> raster)
+      : scene_(scene),
+        rays_(rays),
+        layers_(layers),
+        raster_(std::move(raster)),
+        projector_(rays, layers),
+        exact_sampler_(make_scanline_sampler(scene, rays, layers)) {}
 
-struct GlSampler::State {
-  State(const csg::Scene& scene_in, const RayGrid& rays_in,
-        const LayerGrid& layers_in, std::unique_ptr<FaceRaster> raster_in)
-      : scene(scene_in),
-        rays(rays_in),
-        layers(layers_in),
-        raster(std::move(raster_in)),
-        projector(rays_in, layers_in),
-        exact_sampler(scene_in, rays_in, layers_in) {}
+  void sample(std::uint32_t instance, const GridBox& box,
+              LeafImages& out) override;
 
+  std::uint64_t repaired_pixels() const override { return repaired_pixels_; }
+
+ private:
   const csg::Mesh& mesh_of(std::uint32_t leaf);
   void draw(const GridBox& picture);
   bool try_draw(const GridBox& picture);
@@ -75,119 +80,105 @@ struct GlSampler::State {
   Sample make_sample(const Fragment& fragment) const;
   void repair_pixel(std::uint32_t pixel, LeafImages& out);
 
-  const csg::Scene& scene;
-  const RayGrid& rays;
-  const LayerGrid& layers;
-  std::unique_ptr<FaceRaster> raster;
-  FaceProjector projector;
-  std::uint64_t repaired_pixels = 0;
+  const csg::Scene& scene_;
+  const RayGrid& rays_;
+  const LayerGrid& layers_;
+  std::unique_ptr<FaceRaster> raster_;
+  FaceProjector projector_;
+  std::uint64_t repaired_pixels_ = 0;
 
   // The last leaf, where it has no mesh of its own.
-  std::uint32_t leaf = kNoLeaf;
-  csg::Mesh mesh;
+  std::uint32_t leaf_ = kNoLeaf;
+  csg::Mesh mesh_;
 
   // The image at hand.
-  std::uint32_t instance = 0;
-  GridBox box;
-  std::vector<Fragment> fragments;  // pixels of the box, faces of the mesh
-  std::vector<std::uint32_t> ends;
-  std::vector<std::uint32_t> faces_and_sides;  // of the fragments, by pixel
+  std::uint32_t instance_ = 0;
+  GridBox box_;
+  std::vector<Fragment> fragments_;  // pixels of the box, faces of the mesh
+  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint32_t> faces_and_sides_;  // of the fragments, by pixel
 
-  ScanlineSampler exact_sampler;
-  LeafImages exact;  // the same image, once a pixel was found wrong
+  std::unique_ptr<Sampler> exact_sampler_;
+  LeafImages exact_;  // the same image, once a pixel was found wrong
 };
-
-GlSampler::GlSampler(const csg::Scene& scene, const RayGrid& rays,
-                     const LayerGrid& layers,
-                     std::unique_ptr<FaceRaster> raster)
-    : state_(std::make_unique<State>(scene, rays, layers, std::move(raster))) {}
-
-GlSampler::~GlSampler() = default;
-
-std::uint64_t GlSampler::repaired_pixels() const {
-  return state_->repaired_pixels;
-}
 
 void GlSampler::sample(std::uint32_t instance, const GridBox& box,
                        LeafImages& out) {
-  State& state = *state_;
-  const csg::Instance& placed = state.scene.instances[instance];
-  state.instance = instance;
-  state.box = box;
-  state.fragments.clear();
-  state.exact.clear();
-  state.projector.place(state.mesh_of(placed.leaf), placed.world_from_leaf);
-  state.draw(box);
-  state.sort_by_pixel();
+  const csg::Instance& placed = scene_.instances[instance];
+  instance_ = instance;
+  box_ = box;
+  fragments_.clear();
+  exact_.clear();
+  projector_.place(mesh_of(placed.leaf), placed.world_from_leaf);
+  draw(box);
+  sort_by_pixel();
 
   out.images.push_back({instance, box, out.ends.size()});
   std::uint32_t begin = 0;
-  for (std::uint32_t pixel = 0; pixel < state.ends.size(); ++pixel) {
-    const std::uint32_t end = state.ends[pixel];
-    state.append_pixel(
-        pixel, std::span(state.faces_and_sides).subspan(begin, end - begin),
-        out);
+  for (std::uint32_t pixel = 0; pixel < ends_.size(); ++pixel) {
+    const std::uint32_t end = ends_[pixel];
+    append_pixel(pixel, std::span(faces_and_sides_).subspan(begin, end - begin),
+                 out);
     begin = end;
   }
 }
 
-const csg::Mesh& GlSampler::State::mesh_of(std::uint32_t index) {
-  const csg::Leaf& wanted = scene.leaves[index];
-  if (wanted.sweeps.empty() && wanted.meshes.size() == 1) {
+const csg::Mesh& GlSampler::mesh_of(std::uint32_t index) {
+  const csg::Leaf& wanted = scene_.leaves[index];
+  if (wanted.lofts.empty() && wanted.meshes.size() == 1) {
     return wanted.meshes[0];
   }
-  if (leaf != index) mesh = csg::explicit_mesh(wanted);
-  leaf = index;
-  return mesh;
+  if (leaf_ != index) mesh_ = csg::explicit_mesh(wanted);
+  leaf_ = index;
+  return mesh_;
 }
 
 // Draws `picture`, in parts where it is too large or too full.
-void GlSampler::State::draw(const GridBox& picture) {
+void GlSampler::draw(const GridBox& picture) {
   if (try_draw(picture)) return;
   if (picture.pixel_count() == 1) throw std::bad_alloc();
   for (const GridBox& half : halves(picture)) draw(half);
 }
 
-bool GlSampler::State::try_draw(const GridBox& picture) {
+bool GlSampler::try_draw(const GridBox& picture) {
   if (picture.ray_count > kPictureSize || picture.layer_count > kPictureSize) {
     return false;
   }
-  projector.project(picture);
-  if (projector.corners().empty()) return true;
-  if (projector.corners().size() > 3 * kPictureTriangles) return false;
-  const std::size_t begin = fragments.size();
-  if (!raster->draw(projector.corners(), static_cast<int>(picture.ray_count),
-                    static_cast<int>(picture.layer_count), fragments)) {
+  projector_.project(picture);
+  if (projector_.corners().empty()) return true;
+  if (projector_.corners().size() > 3 * kPictureTriangles) return false;
+  const std::size_t begin = fragments_.size();
+  if (!raster_->draw(projector_.corners(), static_cast<int>(picture.ray_count),
+                     static_cast<int>(picture.layer_count), fragments_)) {
     return false;
   }
   // From the picture's pixels and triangles to those of box and mesh.
-  for (Fragment& fragment : std::span(fragments).subspan(begin)) {
+  for (Fragment& fragment : std::span(fragments_).subspan(begin)) {
     const std::uint32_t row = fragment.pixel / picture.ray_count +
-                              picture.layer_start - box.layer_start;
+                              picture.layer_start - box_.layer_start;
     const std::uint32_t column =
-        fragment.pixel % picture.ray_count + picture.ray_start - box.ray_start;
-    fragment.pixel = row * box.ray_count + column;
-    fragment.face_and_side = projector.face_of(fragment.face()) << 1 |
+        fragment.pixel % picture.ray_count + picture.ray_start - box_.ray_start;
+    fragment.pixel = row * box_.ray_count + column;
+    fragment.face_and_side = projector_.face_of(fragment.face()) << 1 |
                              (fragment.is_entry() ? 1U : 0U);
   }
   return true;
 }
 
 // Counting sort.
-void GlSampler::State::sort_by_pixel() {
-  ends.assign(box.pixel_count(), 0);
-  for (const Fragment& fragment : fragments) ++ends[fragment.pixel];
-  std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
-  faces_and_sides.resize(fragments.size());
-  for (const Fragment& fragment : fragments) {
-    faces_and_sides[ends[fragment.pixel]++] = fragment.face_and_side;
+void GlSampler::sort_by_pixel() {
+  ends_.assign(box_.pixel_count(), 0);
+  for (const Fragment& fragment : fragments_) ++ends_[fragment.pixel];
+  std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), 0U);
+  faces_and_sides_.resize(fragments_.size());
+  for (const Fragment& fragment : fragments_) {
+    faces_and_sides_[ends_[fragment.pixel]++] = fragment.face_and_side;
   }
 }
 
 // `found`: in any order, which depends on how OpenGL's threads went.
-void GlSampler::State::append_pixel(std::uint32_t pixel,
-                                    std::span<std::uint32_t> found,
-                                    LeafImages& out) {
+void GlSampler::append_pixel(std::uint32_t pixel,
+                             std::span<std::uint32_t> found, LeafImages& out) {
   if (is_balanced(found)) {
     std::sort(found.begin(), found.end());
     for (const std::uint32_t face_and_side : found) {
@@ -199,25 +190,35 @@ void GlSampler::State::append_pixel(std::uint32_t pixel,
   out.ends.push_back(static_cast<std::uint32_t>(out.samples.size()));
 }
 
-Sample GlSampler::State::make_sample(const Fragment& fragment) const {
-  const std::array<Vec3, 3> face = projector.corners_of(fragment.face());
+Sample GlSampler::make_sample(const Fragment& fragment) const {
+  const std::array<Vec3, 3> face = projector_.corners_of(fragment.face());
   const Vec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
-  const double x = rays.ray_x(box.ray_start + fragment.pixel % box.ray_count);
+  const double x =
+      rays_.ray_x(box_.ray_start + fragment.pixel % box_.ray_count);
   const double z =
-      layers.section_z(box.layer_start + fragment.pixel / box.ray_count);
+      layers_.section_z(box_.layer_start + fragment.pixel / box_.ray_count);
   const double length = glm::length(normal);
   return {
       depth_on(face, normal, x, z),
       sample_normal(length > 0 ? normal / length : normal, fragment.is_entry()),
-      instance};
+      instance_};
 }
 
-void GlSampler::State::repair_pixel(std::uint32_t pixel, LeafImages& out) {
-  if (exact.images.empty()) exact_sampler.sample(instance, box, exact);
-  const auto samples =
-      exact.rays(exact.images[0], pixel / box.ray_count, pixel % box.ray_count);
+void GlSampler::repair_pixel(std::uint32_t pixel, LeafImages& out) {
+  if (exact_.images.empty()) exact_sampler_->sample(instance_, box_, exact_);
+  const auto samples = exact_.ray(exact_.images[0], pixel / box_.ray_count,
+                                  pixel % box_.ray_count);
   out.samples.insert(out.samples.end(), samples.begin(), samples.end());
-  ++repaired_pixels;
+  ++repaired_pixels_;
+}
+
+}  // namespace
+
+std::unique_ptr<Sampler> make_gl_sampler(const csg::Scene& scene,
+                                         const RayGrid& rays,
+                                         const LayerGrid& layers,
+                                         std::unique_ptr<FaceRaster> raster) {
+  return std::make_unique<GlSampler>(scene, rays, layers, std::move(raster));
 }
 
 }  // namespace lamina::ldni

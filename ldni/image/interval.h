@@ -1,5 +1,5 @@
 #pragma once
-// Intervals: what the Boolean leaves of a ray, and the rays of a layer.
+// Intervals: the parts of a ray inside the solid, which the Boolean returns.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +12,7 @@ namespace lamina::ldni {
 
 // A stretch of a ray inside the solid, half-open: [enter.depth, exit.depth).
 // The two samples are those of the leaves that make the boundary there; their
-// normals point out of the solid, so where a leaf is subtracted they are the
-// reverse of the leaf's own.
+// normals point out of the solid, so those of a subtracted leaf are reversed.
 struct Interval {
   Sample enter;
   Sample exit;

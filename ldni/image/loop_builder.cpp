@@ -10,8 +10,8 @@ namespace lamina::ldni {
 namespace {
 
 // A point this near to the line through its neighbours [mm] lies on it. Just
-// above the rounding of a depth: the loops stay those of the paper, for along
-// an arc the nearness adds up over the rays of a loop (some 10³).
+// above the rounding of a depth, so that the loops stay those of the paper:
+// along an arc the distances add up over the rays of a loop (some 10³).
 constexpr double kCollinearDistance = 1e-12;
 
 constexpr std::uint32_t kWalked = std::numeric_limits<std::uint32_t>::max();
@@ -20,7 +20,7 @@ constexpr std::uint32_t kWalked = std::numeric_limits<std::uint32_t>::max();
 // layer, sample 2i+1 leaves it.
 class RayCursor {
  public:
-  // An empty ray where `ray` is none of the layer's.
+  // The ray is empty where the layer has no such ray.
   RayCursor(const LayerIntervals& layer, std::size_t ray)
       : intervals_(layer.intervals.data()) {
     if (ray >= layer.ray_count()) return;
@@ -88,13 +88,13 @@ void LoopBuilder::build(const RayGrid& rays, const LayerIntervals& intervals,
   walk_links(rays, intervals, contours);
 }
 
-// Links the samples of the two rays beside gap `gap`: that between ray gap-1
-// and ray gap; before the first ray and after the last nothing is solid.
+// Links the samples of the rays beside a gap: ray gap-1 and ray gap. Before the
+// first ray and after the last nothing is solid.
 void LoopBuilder::link_gap(const LayerIntervals& intervals, std::size_t gap) {
   RayCursor left(intervals, gap == 0 ? intervals.ray_count() : gap - 1);
   RayCursor right(intervals, gap);
   while (!left.is_done() || !right.is_done()) {
-    // Take the two ends of the next stretch where the rays differ.
+    // Take the two ends of the next stretch in which one ray alone is inside.
     std::array<std::uint32_t, 2> pair{};
     std::array<bool, 2> goes_on{};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -128,7 +128,7 @@ void LoopBuilder::walk_links(const RayGrid& rays,
       next_[sample] = kWalked;
       sample = next;
     }
-    // What one ray alone has seen is a line without area.
+    // A loop on one ray alone is a line without area.
     if (contours.points.size() - first_point < 4) {
       contours.points.resize(first_point);
       continue;

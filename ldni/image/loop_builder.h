@@ -14,11 +14,11 @@
 // on one ray (rule 3), and every sample is in exactly one pair on either side.
 // So all loops close, whatever the samples are, and none crosses another.
 //
-// What the method cannot do, and `--contour faithful` is for: corners are cut
-// off between two rays; caps stop at the last ray that meets them; what is
-// thinner than the pitch in x is seen by one ray at most and leaves no loop; a
-// wall so oblique that its intervals on two neighbouring rays do not overlap
-// falls apart.
+// Limits of the method, which `--contour faithful` does not have: corners are
+// cut off between two rays; caps stop at the last ray that meets them; what is
+// thinner than the pitch in x meets one ray at most and leaves no loop; a wall
+// so oblique that its intervals on two neighbouring rays do not overlap falls
+// apart.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,8 +47,8 @@ class LoopBuilder {
   void walk_links(const RayGrid& rays, const LayerIntervals& intervals,
                   Contours& contours);
 
-  // Where the loop goes on from each sample; sample 2i enters interval i,
-  // sample 2i+1 leaves it.
+  // The link from each sample to the next of its loop; sample 2i enters
+  // interval i, sample 2i+1 leaves it.
   std::vector<std::uint32_t> next_;
   std::vector<std::uint32_t> ray_of_interval_;
 };

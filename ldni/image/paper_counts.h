@@ -1,5 +1,5 @@
 #pragma once
-// What a job by the paper's method met and took.
+// The counts and times of a job by the paper's method.
 
 #include <cstdint>
 
@@ -14,7 +14,7 @@ struct PaperCounts {
   std::uint64_t samples = 0;    // of all leaves
   std::uint64_t intervals = 0;  // that the Boolean left
 
-  std::uint64_t repaired_pixels = 0;  // Sampler
+  std::uint64_t repaired_pixels = 0;  // Sampler::repaired_pixels()
 
   // Processor seconds, summed over threads.
   double boolean_seconds = 0;

@@ -1,13 +1,14 @@
 #include "ldni/image/ray_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace lamina::ldni {
 namespace {
 
-// Where in its pitch a ray stands: the golden ratio's fraction, which no
-// multiple brings near a round number.
+// The share of a pitch at which rays stand: the fraction of the golden ratio,
+// no multiple of which is near a round number.
 constexpr double kRayShare = 0.61803398874989484820;
 
 // Local boxes grow by this [mm]: the bounds of an instance and the vertices

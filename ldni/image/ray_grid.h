@@ -9,7 +9,6 @@
 //   global layer = layer_start + local layer
 // so both boxes give the same samples, and only memory differs.
 
-#include <algorithm>
 #include <cstdint>
 
 #include "base/vec.h"
@@ -21,9 +20,11 @@ namespace lamina::ldni {
 class RayGrid {
  public:
   RayGrid() = default;
-  // The rays that meet [low_x, high_x]. The first one stands in it by an
-  // irrational share of the pitch: designs keep to round coordinates, and a ray
-  // in a wall parallel to it would be a matter of chance.
+  // The rays that meet [low_x, high_x]. The first one stands an irrational
+  // share of the pitch inside: designs keep to round coordinates, and whether a
+  // ray within a wall parallel to it meets the solid would be a matter of
+  // chance.
+  //
   // pitch  > 0 [mm]
   RayGrid(double low_x, double high_x, double pitch);
 
@@ -71,11 +72,12 @@ enum class BoxMode : std::uint8_t { kLocal, kGlobal };
 
 GridBox global_box(const RayGrid& rays, const LayerGrid& layers);
 
-// Rays and layers that `box` [mm] can meet, rounding of its bounds included.
+// Returns the rays and layers that `box` [mm] can meet, with a margin for the
+// rounding of its bounds.
 GridBox local_box(const Box3& box, const RayGrid& rays,
                   const LayerGrid& layers);
 
-// The part of `box` in layers [first_layer, first_layer + layer_count).
+// Returns the part of `box` in layers [first_layer, first_layer + layer_count).
 GridBox clip_to_layers(const GridBox& box, std::uint32_t first_layer,
                        std::uint32_t layer_count);
 

@@ -12,9 +12,10 @@
 
 namespace lamina::ldni {
 
-// Rays run along +y, so the sign of the normal's y tells whether the ray
-// enters the leaf or leaves it. y is never 0: a sampler that sees a face almost
-// parallel to the ray gives it the sign that the leaf's contour has there.
+// Rays run along +y, so the ray enters the leaf where the normal's y is
+// negative and leaves it where y is positive. y is never 0: a sampler that
+// meets a face almost parallel to the ray gives it the sign that the leaf's
+// contour has there.
 struct Sample {
   double depth = 0;                        // y [mm]
   glm::vec3 normal = glm::vec3(0, -1, 0);  // of the face, unit, outwards
@@ -23,8 +24,8 @@ struct Sample {
   bool is_entry() const { return normal.y < 0; }
 };
 
-// `normal` as that of an entry or an exit. Where a face is almost parallel to
-// the rays, rounding must not turn one into the other.
+// Returns `normal` as that of an entry or an exit. Where a face is almost
+// parallel to the rays, rounding must not turn one into the other.
 inline glm::vec3 sample_normal(const Vec3& normal, bool is_entry) {
   glm::vec3 result(normal);
   const float y =

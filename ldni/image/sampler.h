@@ -1,6 +1,6 @@
 #pragma once
-// The contract of all samplers of the paper's way: a leaf in, its layered
-// depth-normal image (LDNI) out.
+// The contract of all samplers: each makes the layered depth-normal image
+// (LDNI) of a leaf.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,15 +27,13 @@ struct LeafImages {
   std::vector<std::uint32_t> ends;  // pixel p: samples [ends[p-1], ends[p])
   std::vector<Sample> samples;
 
-  // Samples of rays [ray, ray + count) of one row, by the image's own
-  // (local) indices.
-  std::span<const Sample> rays(const LeafImage& image, std::uint32_t layer,
-                               std::uint32_t ray,
-                               std::uint32_t count = 1) const {
-    const std::size_t first =
-        image.first_pixel + std::size_t{layer} * image.box.ray_count + ray;
-    const std::size_t begin = first == 0 ? 0 : ends[first - 1];
-    return {samples.data() + begin, ends[first + count - 1] - begin};
+  // Returns the samples of one ray, by the image's own (local) indices.
+  std::span<const Sample> ray(const LeafImage& image, std::uint32_t layer,
+                              std::uint32_t index) const {
+    const std::size_t pixel =
+        image.first_pixel + std::size_t{layer} * image.box.ray_count + index;
+    const std::size_t begin = pixel == 0 ? 0 : ends[pixel - 1];
+    return {samples.data() + begin, ends[pixel] - begin};
   }
   void clear() {
     images.clear();
@@ -43,6 +41,10 @@ struct LeafImages {
     samples.clear();
   }
 };
+
+// How the samples are made: exactly, or drawn by OpenGL, by a list of fragments
+// or by the paper's depth peeling.
+enum class SamplerKind { kScanline, kGl, kGlPeeling };
 
 // One object per thread: it owns scratch, or a graphics context.
 class Sampler {
@@ -57,7 +59,7 @@ class Sampler {
   virtual void sample(std::uint32_t instance, const GridBox& box,
                       LeafImages& out) = 0;
 
-  // Pixels so far that it had to sample another way to keep this contract.
+  // Pixels so far that had to be sampled another way to keep this contract.
   virtual std::uint64_t repaired_pixels() const { return 0; }
 
  protected:

@@ -14,15 +14,15 @@
 namespace lamina::ldni {
 namespace {
 
-// A corner of a face, in the world. Its level, the number of sections below it,
-// alone decides between which layers it lies.
+// A corner of a face, in the world. Its level is the number of sections below
+// it, which alone decides between which layers it lies.
 struct Corner {
   Vec3 position;
   std::uint32_t level;
 };
 
-// Where the edge from `lower` to `upper` meets height z. Never left or right of
-// both ends, not even by rounding.
+// Returns where the edge from `lower` to `upper` meets height z: never left or
+// right of both ends, not even by rounding.
 Vec2 point_on_edge(const Vec3& lower, const Vec3& upper, double z) {
   // A vertex on the section counts as below, so z may lie off the edge by the
   // distance that counts as on.
@@ -58,21 +58,23 @@ struct LevelRange {
   std::uint32_t high = 0;
 };
 
-}  // namespace
+class ScanlineSampler final : public Sampler {
+ public:
+  ScanlineSampler(const csg::Scene& scene, const RayGrid& rays,
+                  const LayerGrid& layers)
+      : scene_(scene), rays_(rays), layers_(layers) {}
 
-// The faces of one leaf instance on their way into samples.
-struct ScanlineSampler::State {
-  State(const csg::Scene& scene_in, const RayGrid& rays_in,
-        const LayerGrid& layers_in)
-      : scene(scene_in), rays(rays_in), layers(layers_in) {}
+  void sample(std::uint32_t instance, const GridBox& box,
+              LeafImages& out) override;
 
-  void sample_sweep(const csg::Sweep& sweep, bool is_inside_out);
-  void place_sweep(const csg::Sweep& sweep);
+ private:
+  void sample_loft(const csg::Loft& loft, bool is_inside_out);
+  void place_loft(const csg::Loft& loft);
   void fill_ring(std::size_t ring, std::vector<std::uint32_t>& levels) const;
-  void cross_band(std::size_t low, std::size_t high, bool is_inside_out);
+  void cross_strip(std::size_t low, std::size_t high, bool is_inside_out);
   void cross_cap(std::size_t ring, bool is_inside_out);
-  Vec3 sweep_vertex(std::size_t ring, std::size_t spoke) const {
-    return scales[ring] * spokes[spoke] + centres[ring];
+  Vec3 loft_vertex(std::size_t ring, std::size_t corner) const {
+    return scales_[ring] * outline_[corner] + centres_[ring];
   }
 
   void sample_mesh(const csg::Mesh& mesh, bool is_inside_out);
@@ -84,179 +86,168 @@ struct ScanlineSampler::State {
   void sort_by_pixel(LeafImages& out);
 
   bool meets_box(LevelRange levels) const {
-    return levels.low < box.layer_end() && levels.high > box.layer_start;
+    return levels.low < box_.layer_end() && levels.high > box_.layer_start;
   }
 
-  const csg::Scene& scene;
-  const RayGrid& rays;
-  const LayerGrid& layers;
+  const csg::Scene& scene_;
+  const RayGrid& rays_;
+  const LayerGrid& layers_;
 
   // The leaf at hand.
-  std::uint32_t instance = 0;
-  Affine world_from_leaf{1.0};
-  GridBox box;
-  std::vector<Sample> samples;        // in the order of the faces
-  std::vector<std::uint32_t> pixels;  // of the samples
+  std::uint32_t instance_ = 0;
+  Affine world_from_leaf_{1.0};
+  GridBox box_;
+  std::vector<Sample> samples_;        // in the order of the faces
+  std::vector<std::uint32_t> pixels_;  // of the samples
 
-  // The sweep at hand: vertex (i, j) = scale_i · spoke_j + centre_i.
-  std::vector<double> scales;
-  std::vector<Vec3> centres;
-  std::vector<Vec3> spokes;
-  std::vector<LevelRange> ring_levels;
-  std::vector<std::uint32_t> low_levels;  // of the rings of a band, by spoke
-  std::vector<std::uint32_t> high_levels;
-  std::size_t filled_ring = 0;  // the ring of high_levels
+  // The loft at hand: vertex (i, j) = scale_i · outline_j + centre_i.
+  std::vector<double> scales_;
+  std::vector<Vec3> centres_;
+  std::vector<Vec3> outline_;
+  std::vector<LevelRange> ring_levels_;
+  std::vector<std::uint32_t> low_levels_;  // of the rings of a strip, by corner
+  std::vector<std::uint32_t> high_levels_;
+  std::size_t filled_ring_ = 0;  // the ring of high_levels
 
   // The mesh at hand.
-  std::vector<Corner> vertices;
+  std::vector<Corner> vertices_;
 
   // The face at hand.
-  bool has_normal = false;
-  Vec3 normal{0};
-  std::vector<Corner> cap;
-  std::vector<Vec2> begins;
-  std::vector<Vec2> ends;
+  bool has_normal_ = false;
+  Vec3 normal_{0};
+  std::vector<Corner> cap_;
+  std::vector<Vec2> begins_;
+  std::vector<Vec2> ends_;
 };
-
-ScanlineSampler::ScanlineSampler(const csg::Scene& scene, const RayGrid& rays,
-                                 const LayerGrid& layers)
-    : state_(std::make_unique<State>(scene, rays, layers)) {}
-
-ScanlineSampler::~ScanlineSampler() = default;
 
 void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
                              LeafImages& out) {
-  State& state = *state_;
-  const csg::Instance& placed = state.scene.instances[instance];
-  const csg::Leaf& leaf = state.scene.leaves[placed.leaf];
-  state.instance = instance;
-  state.world_from_leaf = placed.world_from_leaf;
-  state.box = box;
-  state.samples.clear();
-  state.pixels.clear();
+  const csg::Instance& placed = scene_.instances[instance];
+  const csg::Leaf& leaf = scene_.leaves[placed.leaf];
+  instance_ = instance;
+  world_from_leaf_ = placed.world_from_leaf;
+  box_ = box;
+  samples_.clear();
+  pixels_.clear();
 
   // A mirror turns faces inside out.
   const bool is_mirrored =
       glm::determinant(glm::dmat3(placed.world_from_leaf)) < 0;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    state.sample_sweep(leaf.sweeps[i], is_mirrored != leaf.sweep_is_cavity[i]);
+  for (const csg::Loft& loft : leaf.lofts) {
+    sample_loft(loft, is_mirrored != loft.is_cavity);
   }
-  for (const csg::Mesh& mesh : leaf.meshes) {
-    state.sample_mesh(mesh, is_mirrored);
-  }
+  for (const csg::Mesh& mesh : leaf.meshes) sample_mesh(mesh, is_mirrored);
 
   out.images.push_back({instance, box, out.ends.size()});
-  state.sort_by_pixel(out);
+  sort_by_pixel(out);
 }
 
-// --- Sweeps -----------------------------------------------------------------
+// --- Lofts ------------------------------------------------------------------
 
-void ScanlineSampler::State::sample_sweep(const csg::Sweep& sweep,
-                                          bool is_inside_out) {
-  place_sweep(sweep);
-  const std::size_t rings = sweep.profile.size();
+void ScanlineSampler::sample_loft(const csg::Loft& loft, bool is_inside_out) {
+  place_loft(loft);
+  const std::size_t rings = loft.profile.size();
   for (std::size_t low = 0; low + 1 < rings; ++low) {
-    cross_band(low, low + 1, is_inside_out);
+    cross_strip(low, low + 1, is_inside_out);
   }
-  if (sweep.is_closed_profile) {
-    cross_band(rings - 1, 0, is_inside_out);
+  if (loft.is_closed_profile) {
+    cross_strip(rings - 1, 0, is_inside_out);
   } else {
     cross_cap(0, !is_inside_out);
     cross_cap(rings - 1, is_inside_out);
   }
 }
 
-void ScanlineSampler::State::place_sweep(const csg::Sweep& sweep) {
-  filled_ring = sweep.profile.size();
-  spokes.clear();
+void ScanlineSampler::place_loft(const csg::Loft& loft) {
+  filled_ring_ = loft.profile.size();
+  outline_.clear();
   double lowest = std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::lowest();
-  for (const Vec2& point : *sweep.outline) {
-    spokes.push_back(world_from_leaf * Vec4(point, 0, 0));
-    lowest = std::min(lowest, spokes.back().z);
-    highest = std::max(highest, spokes.back().z);
+  for (const Vec2& point : *loft.outline) {
+    outline_.push_back(world_from_leaf_ * Vec4(point, 0, 0));
+    lowest = std::min(lowest, outline_.back().z);
+    highest = std::max(highest, outline_.back().z);
   }
-  scales.clear();
-  centres.clear();
-  ring_levels.clear();
-  for (const Vec2& ring : sweep.profile) {
-    scales.push_back(ring.x);
-    centres.push_back(world_from_leaf * Vec4(0, 0, ring.y, 1));
+  scales_.clear();
+  centres_.clear();
+  ring_levels_.clear();
+  for (const Vec2& ring : loft.profile) {
+    scales_.push_back(ring.x);
+    centres_.push_back(world_from_leaf_ * Vec4(0, 0, ring.y, 1));
     // Rounding keeps order, so these bound the levels of all vertices.
-    ring_levels.push_back(
-        {layers.layers_below(ring.x * lowest + centres.back().z),
-         layers.layers_below(ring.x * highest + centres.back().z)});
+    ring_levels_.push_back(
+        {layers_.layers_below(ring.x * lowest + centres_.back().z),
+         layers_.layers_below(ring.x * highest + centres_.back().z)});
   }
 }
 
 // Levels of a ring's vertices.
-void ScanlineSampler::State::fill_ring(
-    std::size_t ring, std::vector<std::uint32_t>& levels) const {
-  const auto [low, high] = ring_levels[ring];
-  levels.assign(spokes.size(), low);
+void ScanlineSampler::fill_ring(std::size_t ring,
+                                std::vector<std::uint32_t>& levels) const {
+  const auto [low, high] = ring_levels_[ring];
+  levels.assign(outline_.size(), low);
   if (low == high) return;
-  for (std::size_t j = 0; j < spokes.size(); ++j) {
+  for (std::size_t j = 0; j < outline_.size(); ++j) {
     levels[j] =
-        layers.layers_below(scales[ring] * spokes[j].z + centres[ring].z);
+        layers_.layers_below(scales_[ring] * outline_[j].z + centres_[ring].z);
   }
 }
 
 // Side quads between two rings.
-void ScanlineSampler::State::cross_band(std::size_t low, std::size_t high,
-                                        bool is_inside_out) {
-  const LevelRange a = ring_levels[low];
-  const LevelRange b = ring_levels[high];
+void ScanlineSampler::cross_strip(std::size_t low, std::size_t high,
+                                  bool is_inside_out) {
+  const LevelRange a = ring_levels_[low];
+  const LevelRange b = ring_levels_[high];
   const LevelRange all{std::min(a.low, b.low), std::max(a.high, b.high)};
   if (all.low == all.high || !meets_box(all)) return;
-  if (filled_ring == low) {
-    std::swap(low_levels, high_levels);
+  if (filled_ring_ == low) {
+    std::swap(low_levels_, high_levels_);
   } else {
-    fill_ring(low, low_levels);
+    fill_ring(low, low_levels_);
   }
-  fill_ring(high, high_levels);
-  filled_ring = high;
-  std::size_t j = spokes.size() - 1;
-  for (std::size_t next = 0; next < spokes.size(); j = next++) {
+  fill_ring(high, high_levels_);
+  filled_ring_ = high;
+  std::size_t j = outline_.size() - 1;
+  for (std::size_t next = 0; next < outline_.size(); j = next++) {
     const std::array<std::uint32_t, 4> levels = {
-        low_levels[j], low_levels[next], high_levels[next], high_levels[j]};
+        low_levels_[j], low_levels_[next], high_levels_[next], high_levels_[j]};
     const auto [least, most] =
         std::minmax_element(levels.begin(), levels.end());
     if (*least == *most || !meets_box({*least, *most})) continue;
-    std::array<Corner, 4> corners = {{{sweep_vertex(low, j), levels[0]},
-                                      {sweep_vertex(low, next), levels[1]},
-                                      {sweep_vertex(high, next), levels[2]},
-                                      {sweep_vertex(high, j), levels[3]}}};
+    std::array<Corner, 4> corners = {{{loft_vertex(low, j), levels[0]},
+                                      {loft_vertex(low, next), levels[1]},
+                                      {loft_vertex(high, next), levels[2]},
+                                      {loft_vertex(high, j), levels[3]}}};
     if (is_inside_out) std::swap(corners[1], corners[3]);
     cross_face(corners);
   }
 }
 
-void ScanlineSampler::State::cross_cap(std::size_t ring, bool is_inside_out) {
-  const LevelRange all = ring_levels[ring];
+void ScanlineSampler::cross_cap(std::size_t ring, bool is_inside_out) {
+  const LevelRange all = ring_levels_[ring];
   if (all.low == all.high || !meets_box(all)) return;
-  fill_ring(ring, low_levels);
-  cap.clear();
-  for (std::size_t j = 0; j < spokes.size(); ++j) {
-    cap.push_back({sweep_vertex(ring, j), low_levels[j]});
+  fill_ring(ring, low_levels_);
+  cap_.clear();
+  for (std::size_t j = 0; j < outline_.size(); ++j) {
+    cap_.push_back({loft_vertex(ring, j), low_levels_[j]});
   }
-  if (is_inside_out) std::reverse(cap.begin(), cap.end());
-  cross_face(cap);
+  if (is_inside_out) std::reverse(cap_.begin(), cap_.end());
+  cross_face(cap_);
 }
 
 // --- Meshes -----------------------------------------------------------------
 
-void ScanlineSampler::State::sample_mesh(const csg::Mesh& mesh,
-                                         bool is_inside_out) {
-  vertices.clear();
+void ScanlineSampler::sample_mesh(const csg::Mesh& mesh, bool is_inside_out) {
+  vertices_.clear();
   for (const Vec3& vertex : mesh.vertices) {
-    const Vec3 position = world_from_leaf * Vec4(vertex, 1);
-    vertices.push_back({position, layers.layers_below(position.z)});
+    const Vec3 position = world_from_leaf_ * Vec4(vertex, 1);
+    vertices_.push_back({position, layers_.layers_below(position.z)});
   }
   for (const auto& [a, b, c] : mesh.triangles) {
-    const auto [low, high] =
-        std::minmax({vertices[a].level, vertices[b].level, vertices[c].level});
+    const auto [low, high] = std::minmax(
+        {vertices_[a].level, vertices_[b].level, vertices_[c].level});
     if (low == high || !meets_box({low, high})) continue;
-    std::array<Corner, 3> corners = {vertices[a], vertices[b], vertices[c]};
+    std::array<Corner, 3> corners = {vertices_[a], vertices_[b], vertices_[c]};
     if (is_inside_out) std::swap(corners[1], corners[2]);
     cross_face(corners);
   }
@@ -265,7 +256,7 @@ void ScanlineSampler::State::sample_mesh(const csg::Mesh& mesh,
 // --- Faces ------------------------------------------------------------------
 
 // Samples a planar face whose corners run counter-clockwise from outside.
-void ScanlineSampler::State::cross_face(std::span<const Corner> corners) {
+void ScanlineSampler::cross_face(std::span<const Corner> corners) {
   std::uint32_t low = corners[0].level;
   std::uint32_t high = low;
   double left = corners[0].position.x;
@@ -277,91 +268,99 @@ void ScanlineSampler::State::cross_face(std::span<const Corner> corners) {
     right = std::max(right, corner.position.x);
   }
   // Most faces of a fine mesh pass between two rays.
-  if (rays.rays_below(left) == rays.rays_below(right)) return;
-  has_normal = false;
-  const std::uint32_t end = std::min(high, box.layer_end());
-  for (std::uint32_t layer = std::max(low, box.layer_start); layer < end;
+  if (rays_.rays_below(left) == rays_.rays_below(right)) return;
+  has_normal_ = false;
+  const std::uint32_t end = std::min(high, box_.layer_end());
+  for (std::uint32_t layer = std::max(low, box_.layer_start); layer < end;
        ++layer) {
     cross_layer(corners, layer);
   }
 }
 
-void ScanlineSampler::State::cross_layer(std::span<const Corner> corners,
-                                         std::uint32_t layer) {
-  const double z = layers.section_z(layer);
-  begins.clear();
-  ends.clear();
+void ScanlineSampler::cross_layer(std::span<const Corner> corners,
+                                  std::uint32_t layer) {
+  const double z = layers_.section_z(layer);
+  begins_.clear();
+  ends_.clear();
   const Corner* from = &corners.back();
   for (const Corner& to : corners) {
     const bool from_above = from->level > layer;
     if (from_above != (to.level > layer)) {
       if (from_above) {
-        begins.push_back(point_on_edge(to.position, from->position, z));
+        begins_.push_back(point_on_edge(to.position, from->position, z));
       } else {
-        ends.push_back(point_on_edge(from->position, to.position, z));
+        ends_.push_back(point_on_edge(from->position, to.position, z));
       }
     }
     from = &to;
   }
-  if (begins.size() > 1) {
+  if (begins_.size() > 1) {
     // A face that is not convex: its segments follow one another on one line,
     // all in the direction from begin to end, so the k-th begin belongs to the
     // k-th end. By rounding they may mix up; the ends stay the same points.
-    const Vec2 across = ends[0] - begins[0];
+    const Vec2 across = ends_[0] - begins_[0];
     const bool sorts_by_x = std::abs(across.x) >= std::abs(across.y);
     const auto comes_first = [sorts_by_x](const Vec2& a, const Vec2& b) {
       return sorts_by_x ? a.x < b.x : a.y < b.y;
     };
-    std::sort(begins.begin(), begins.end(), comes_first);
-    std::sort(ends.begin(), ends.end(), comes_first);
+    std::sort(begins_.begin(), begins_.end(), comes_first);
+    std::sort(ends_.begin(), ends_.end(), comes_first);
   }
-  for (std::size_t i = 0; i < begins.size(); ++i) {
-    cross_segment({begins[i], ends[i]}, layer, corners);
+  for (std::size_t i = 0; i < begins_.size(); ++i) {
+    cross_segment({begins_[i], ends_[i]}, layer, corners);
   }
 }
 
-void ScanlineSampler::State::cross_segment(const Segment& segment,
-                                           std::uint32_t layer,
-                                           std::span<const Corner> corners) {
+void ScanlineSampler::cross_segment(const Segment& segment, std::uint32_t layer,
+                                    std::span<const Corner> corners) {
   const bool is_entry = segment.begin.x < segment.end.x;
   const Vec2 left = is_entry ? segment.begin : segment.end;
   const Vec2 right = is_entry ? segment.end : segment.begin;
-  const std::uint32_t begin = std::max(rays.rays_below(left.x), box.ray_start);
-  const std::uint32_t end = std::min(rays.rays_below(right.x), box.ray_end());
+  const std::uint32_t begin =
+      std::max(rays_.rays_below(left.x), box_.ray_start);
+  const std::uint32_t end = std::min(rays_.rays_below(right.x), box_.ray_end());
   if (begin >= end) return;
 
-  if (!has_normal) {
-    normal = polygon_normal(corners);
-    has_normal = true;
+  if (!has_normal_) {
+    normal_ = polygon_normal(corners);
+    has_normal_ = true;
   }
-  Sample sample{0, sample_normal(normal, is_entry), instance};
+  Sample sample{0, sample_normal(normal_, is_entry), instance_};
   const double slope = (right.y - left.y) / (right.x - left.x);
   const auto [low, high] = std::minmax(left.y, right.y);
   const std::size_t row =
-      std::size_t{layer - box.layer_start} * box.ray_count - box.ray_start;
+      std::size_t{layer - box_.layer_start} * box_.ray_count - box_.ray_start;
   for (std::uint32_t ray = begin; ray < end; ++ray) {
-    const double y = left.y + (rays.ray_x(ray) - left.x) * slope;
+    const double y = left.y + (rays_.ray_x(ray) - left.x) * slope;
     sample.depth = std::clamp(y, low, high);
-    samples.push_back(sample);
-    pixels.push_back(static_cast<std::uint32_t>(row + ray));
+    samples_.push_back(sample);
+    pixels_.push_back(static_cast<std::uint32_t>(row + ray));
   }
 }
 
 // Counting sort of the samples at hand to the end of `out`.
-void ScanlineSampler::State::sort_by_pixel(LeafImages& out) {
+void ScanlineSampler::sort_by_pixel(LeafImages& out) {
   const std::size_t first_sample = out.samples.size();
   const std::size_t first_pixel = out.ends.size();
-  out.samples.resize(first_sample + samples.size());
-  out.ends.resize(first_pixel + box.pixel_count(), 0);
+  out.samples.resize(first_sample + samples_.size());
+  out.ends.resize(first_pixel + box_.pixel_count(), 0);
   const std::span<std::uint32_t> ends_of_image =
       std::span(out.ends).subspan(first_pixel);
-  for (const std::uint32_t pixel : pixels) ++ends_of_image[pixel];
+  for (const std::uint32_t pixel : pixels_) ++ends_of_image[pixel];
   std::exclusive_scan(ends_of_image.begin(), ends_of_image.end(),
                       ends_of_image.begin(),
                       static_cast<std::uint32_t>(first_sample));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    out.samples[ends_of_image[pixels[i]]++] = samples[i];
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    out.samples[ends_of_image[pixels_[i]]++] = samples_[i];
   }
+}
+
+}  // namespace
+
+std::unique_ptr<Sampler> make_scanline_sampler(const csg::Scene& scene,
+                                               const RayGrid& rays,
+                                               const LayerGrid& layers) {
+  return std::make_unique<ScanlineSampler>(scene, rays, layers);
 }
 
 }  // namespace lamina::ldni

@@ -1,9 +1,9 @@
 #pragma once
-// The exact sampler: faces are intersected with layers, the segments that arise
-// with rays, in double precision. The reference for all others.
+// The exact sampler, the reference for all others: it intersects faces with
+// layers, and the segments that arise with rays, in double precision.
 //
-// A face is a triangle of a mesh, or of a sweep a whole side quad or cap: they
-// are planar, so that is half the segments, and no triangle of a primitive is
+// A face is a triangle of a mesh, or of a loft a whole side quad or cap: they
+// are planar, which saves half the segments, and no triangle of a primitive is
 // ever stored.
 //
 // Watertight by three rules. A vertex is above a section or not by
@@ -13,7 +13,6 @@
 // meets. So the segments of a layer form closed loops, every ray enters a leaf
 // as often as it leaves it, and rounding can only move a sample.
 
-#include <cstdint>
 #include <memory>
 
 #include "csg/scene.h"
@@ -22,21 +21,13 @@
 
 namespace lamina::ldni {
 
-class ScanlineSampler final : public Sampler {
- public:
-  // All arguments must outlive the sampler.
-  ScanlineSampler(const csg::Scene& scene, const RayGrid& rays,
-                  const LayerGrid& layers);
-  ~ScanlineSampler() override;
-
-  // Cost: the rings of sweeps, the vertices of rings that meet the box, the
-  // vertices and triangles of meshes, the samples, the pixels of the box.
-  void sample(std::uint32_t instance, const GridBox& box,
-              LeafImages& out) override;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
+// All arguments must outlive the sampler.
+//
+// Cost of an image: the rings of lofts, the vertices of rings that meet the
+// box, the vertices and triangles of meshes, the samples, the pixels of the
+// box.
+std::unique_ptr<Sampler> make_scanline_sampler(const csg::Scene& scene,
+                                               const RayGrid& rays,
+                                               const LayerGrid& layers);
 
 }  // namespace lamina::ldni

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "ldni/section/loop_sums.h"
+#include "ldni/section/loop_area_and_box.h"
 
 namespace lamina::ldni {
 
@@ -23,9 +23,9 @@ double perimeter(std::span<const Vec2> loop) {
 }
 
 double greatest_coordinate(std::span<const Vec2> points) {
-  Reach reach;
-  for (const Vec2& point : points) reach.add(point);
-  return reach.value();
+  LoopBox box;
+  for (const Vec2& point : points) box.add(point);
+  return box.greatest_coordinate();
 }
 
 }  // namespace lamina::ldni

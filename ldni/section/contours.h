@@ -24,6 +24,10 @@ struct Contours {
     return {points.data() + begin, ends[i] - begin};
   }
   bool is_empty() const { return ends.empty(); }
+  void add_loop(std::span<const Vec2> loop) {
+    points.insert(points.end(), loop.begin(), loop.end());
+    ends.push_back(static_cast<std::uint32_t>(points.size()));
+  }
   void clear() {
     points.clear();
     ends.clear();

@@ -10,12 +10,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/chain_builder.h"
+#include "ldni/section/detail/csg_pruning.h"
 #include "ldni/section/detail/layer_index.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
 #include "ldni/section/detail/mesh_section.h"
-#include "ldni/section/detail/relevance.h"
 
 namespace lamina::ldni {
 
@@ -24,7 +24,7 @@ namespace detail {
 struct SectionScratch {
   BlockLayers layers;
   ChainBuilder builder;
-  SweepSectioner sweeps;
+  LoftSectioner lofts;
   MeshSectioner meshes;
 };
 
@@ -32,7 +32,7 @@ struct SectionScratch {
 
 namespace {
 
-using detail::LayerRange;
+using detail::LayerSpan;
 
 // An instance is looked for this much [mm] beyond its box, which may have been
 // rounded in another way than its vertices.
@@ -49,22 +49,22 @@ bool boxes_meet(const csg::Instance& instance, const Box3& box) {
 // Layers that each instance may reach. Outside the scene's box the result is
 // empty whatever the leaves are there, so what lies wholly outside is left out,
 // as is what others decide.
-std::vector<LayerRange> layer_ranges(const csg::Scene& scene,
-                                     const LayerGrid& grid) {
-  std::vector<LayerRange> ranges;
-  ranges.reserve(scene.instances.size());
-  detail::Relevance relevance(scene);
+std::vector<LayerSpan> layer_spans(const csg::Scene& scene,
+                                   const LayerGrid& grid) {
+  std::vector<LayerSpan> spans;
+  spans.reserve(scene.instances.size());
+  detail::CsgPruning pruning(scene);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const csg::Instance& instance = scene.instances[i];
-    LayerRange range;
+    LayerSpan span;
     if (!instance.box.is_empty() && boxes_meet(instance, scene.box) &&
-        relevance.matters(i)) {
-      range.first = grid.layers_below(instance.box.low.z - kBoxMargin);
-      range.last = grid.layers_below(instance.box.high.z + kBoxMargin);
+        pruning.matters(i)) {
+      span.first = grid.layers_below(instance.box.low.z - kBoxMargin);
+      span.last = grid.layers_below(instance.box.high.z + kBoxMargin);
     }
-    ranges.push_back(range);
+    spans.push_back(span);
   }
-  return ranges;
+  return spans;
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ struct LeafSectioner::State {
   };
 
   State(const csg::Scene& s, const LayerGrid& g)
-      : scene(s), grid(g), index(layer_ranges(s, g), g.layer_count()) {
+      : scene(s), grid(g), index(layer_spans(s, g), g.layer_count()) {
     for (std::uint32_t i = 0; i < s.instances.size(); ++i) {
       if (!s.leaves[s.instances[i].leaf].meshes.empty()) meshes[i];
     }
@@ -120,10 +120,10 @@ void LeafSectioner::State::cut_instance(std::uint32_t number,
   const Affine& matrix = instance.world_from_leaf;
   const double determinant = glm::determinant(glm::dmat3(matrix));
   const std::int32_t mirror = determinant < 0 ? -1 : 1;
-  for (std::size_t i = 0; i < leaf.sweeps.size(); ++i) {
-    const std::int32_t orientation = leaf.sweep_is_cavity[i] ? -mirror : mirror;
-    scratch.sweeps.cut(leaf.sweeps[i], matrix, number, orientation,
-                       scratch.layers, scratch.builder);
+  for (const csg::Loft& loft : leaf.lofts) {
+    const std::int32_t orientation = loft.is_cavity ? -mirror : mirror;
+    scratch.lofts.cut(loft, matrix, number, orientation, scratch.layers,
+                      scratch.builder);
   }
   if (leaf.meshes.empty()) return;
   const std::vector<detail::MeshIndex>& indices = index_meshes(number);

@@ -1,9 +1,8 @@
 #include "ldni/sweep/loop_resolver.h"
 
-#include <utility>
-
-#include "ldni/section/detail/chain_builder.h"
-#include "ldni/section/leaf_section.h"
+#include "csg/scene.h"
+#include "ldni/section/chain_builder.h"
+#include "ldni/sweep/detail/program_states.h"
 #include "ldni/sweep/detail/ray_sweep.h"
 
 namespace lamina::ldni {
@@ -23,14 +22,15 @@ csg::Scene one_leaf() {
 struct LoopResolver::State {
   State(double tie_distance, double merge_distance)
       : scene(one_leaf()),
-        sweep(scene, {0, tie_distance, merge_distance,
-                      detail::LeafSets::Rule::kPositive}) {
+        states(scene, detail::ProgramStates::Rule::kPositive),
+        sweep(states, {0, tie_distance, merge_distance}) {
     block.layer_count = 1;
   }
 
   const csg::Scene scene;
+  detail::ProgramStates states;
   detail::RaySweep sweep;
-  detail::ChainBuilder builder;
+  ChainBuilder builder;
   ChainBlock block;
 };
 
@@ -40,7 +40,7 @@ LoopResolver::LoopResolver(double tie_distance, double merge_distance)
 LoopResolver::~LoopResolver() = default;
 
 void LoopResolver::resolve(Contours& contours) {
-  detail::ChainBuilder& builder = state_->builder;
+  ChainBuilder& builder = state_->builder;
   builder.begin(state_->block);
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
@@ -51,8 +51,6 @@ void LoopResolver::resolve(Contours& contours) {
   state_->sweep.sweep(state_->block, 0, contours);
 }
 
-const SweepCounts& LoopResolver::counts() const {
-  return std::as_const(state_->sweep).counts();
-}
+SweepCounts LoopResolver::counts() const { return state_->sweep.counts(); }
 
 }  // namespace lamina::ldni

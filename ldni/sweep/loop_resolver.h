@@ -27,7 +27,7 @@ class LoopResolver {
   void resolve(Contours& contours);
 
   // Of all sweeps since construction.
-  const SweepCounts& counts() const;
+  SweepCounts counts() const;
 
  private:
   struct State;

@@ -7,12 +7,12 @@ SweepCounts& SweepCounts::operator+=(const SweepCounts& other) {
   chains += other.chains;
   points += other.points;
   slabs += other.slabs;
-  stops += other.stops;
+  event_points += other.event_points;
   evaluations += other.evaluations;
   resolved_layers += other.resolved_layers;
-  unbalanced_columns += other.unbalanced_columns;
-  repaired_columns += other.repaired_columns;
-  capped_columns += other.capped_columns;
+  unbalanced_clusters += other.unbalanced_clusters;
+  repaired_clusters += other.repaired_clusters;
+  capped_clusters += other.capped_clusters;
   return *this;
 }
 

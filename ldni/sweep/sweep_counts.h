@@ -1,25 +1,24 @@
 #pragma once
-// What the moving ray met, for `--report`.
 
 #include <cstdint>
 
 namespace lamina::ldni {
 
-// What a sweep met, added up over layers (`--report`).
+// What the moving ray met, added up over layers (`--report`).
 struct SweepCounts {
   std::uint64_t layers = 0;
   std::uint64_t chains = 0;
   std::uint64_t points = 0;  // vertices of chains
   std::uint64_t slabs = 0;
-  std::uint64_t stops = 0;
-  std::uint64_t evaluations = 0;  // of sets by the Boolean program
+  std::uint64_t event_points = 0;
+  std::uint64_t evaluations = 0;  // of states by the Boolean program
   // Layers with faces nearer than a tie but not the same: their loops were
   // swept once more.
   std::uint64_t resolved_layers = 0;
   // What must not happen (ldni/sweep/detail/ray_sweep.h): always 0.
-  std::uint64_t unbalanced_columns = 0;  // I1: a leaf did not end on the ray
-  std::uint64_t repaired_columns = 0;    // I4: an end found no partner
-  std::uint64_t capped_columns = 0;      // I6: swaps reached their cap
+  std::uint64_t unbalanced_clusters = 0;  // I1: a leaf did not end on the ray
+  std::uint64_t repaired_clusters = 0;    // I4: an end found no partner
+  std::uint64_t capped_clusters = 0;      // I6: swaps reached their cap
 
   SweepCounts& operator+=(const SweepCounts& other);
 };

@@ -28,7 +28,7 @@ std::size_t Builder::ScopedNameHash::operator()(const ScopedName& key) const {
 
 Builder::Builder(const Source& source, const Source* user, SyntaxErrors& errors,
                  const FileAccess& files, Diagnostics& diagnostics)
-    : program_{std::make_shared<ast::Arena>(), &source, {}, {}, {}},
+    : program_{std::make_shared<Arena>(), &source, {}, {}, {}},
       arena_(*program_.arena),
       user_(user),
       errors_(errors),
@@ -264,8 +264,7 @@ bool Builder::collect_numbers(std::uint32_t begin) {
   return true;
 }
 
-Tree Builder::make_vector(ast::Arena::Mark mark, List elements,
-                          SourceRange range) {
+Tree Builder::make_vector(Arena::Mark mark, List elements, SourceRange range) {
   if (collect_numbers(elements.begin)) {
     arena_.release(mark);
     elements_.resize(elements.begin);

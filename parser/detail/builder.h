@@ -29,7 +29,7 @@ class Builder {
   Builder(const Source& source, const Source* user, SyntaxErrors& errors,
           const FileAccess& files, Diagnostics& diagnostics);
 
-  ast::Arena& arena() { return arena_; }
+  Arena& arena() { return arena_; }
 
   // The finished program. Throws the first error, if there was one.
   ast::Program finish();
@@ -92,8 +92,8 @@ class Builder {
 
   // A vector of number literals alone is made anew, as Numbers, in the memory
   // that its elements took: `mark` is the state of the arena before them.
-  ast::Arena::Mark mark() const { return arena_.mark(); }
-  Tree make_vector(ast::Arena::Mark mark, List elements, SourceRange range);
+  Arena::Mark mark() const { return arena_.mark(); }
+  Tree make_vector(Arena::Mark mark, List elements, SourceRange range);
 
   List start_elements(Tree first);
   List append_element(List elements, Tree element);
@@ -120,7 +120,7 @@ class Builder {
                         SourceRange now);
 
   ast::Program program_;
-  ast::Arena& arena_;
+  Arena& arena_;
   const Source* user_;
   SyntaxErrors& errors_;
   const FileAccess& file_access_;

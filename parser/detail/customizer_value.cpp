@@ -23,8 +23,7 @@ namespace {
 // parentheses are skipped. A string in quotes is one word.
 class Reader {
  public:
-  Reader(std::string_view text, ast::Arena& arena)
-      : rest_(text), arena_(arena) {
+  Reader(std::string_view text, Arena& arena) : rest_(text), arena_(arena) {
     advance();
   }
 
@@ -127,8 +126,7 @@ class Reader {
     }
     if (begins_with_number && parts == 1) return make(ast::Number{first});
     if (!has_word) return nullptr;
-    const auto text = arena_.copy(std::span<const char>(joined));
-    return make(ast::String{{text.data(), text.size()}});
+    return make(ast::String{arena_.copy(joined)});
   }
 
   static bool is_number(const ast::Expr* item) {
@@ -166,7 +164,7 @@ class Reader {
   }
 
   std::string_view rest_;
-  ast::Arena& arena_;
+  Arena& arena_;
   Kind kind_ = Kind::kEnd;
   char sign_ = 0;
   double number_ = 0;
@@ -175,8 +173,7 @@ class Reader {
 
 }  // namespace
 
-const ast::Expr* read_customizer_value(std::string_view text,
-                                       ast::Arena& arena) {
+const ast::Expr* read_customizer_value(std::string_view text, Arena& arena) {
   return Reader(text, arena).read();
 }
 

@@ -9,7 +9,6 @@
 namespace lamina::detail {
 
 // The value as an expression in `arena`; null where the text makes no sense.
-const ast::Expr* read_customizer_value(std::string_view text,
-                                       ast::Arena& arena);
+const ast::Expr* read_customizer_value(std::string_view text, Arena& arena);
 
 }  // namespace lamina::detail

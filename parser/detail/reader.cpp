@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/number.h"
+#include "base/utf8.h"
 #include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"
 
@@ -19,41 +20,11 @@ namespace lamina::detail {
 
 namespace {
 
-// Appends a Unicode code point as UTF-8.
-void append_utf8(std::string& text, std::uint32_t code) {
-  const auto put = [&text](std::uint32_t byte) {
-    text += static_cast<char>(static_cast<unsigned char>(byte));
-  };
-  const auto tail = [code](int shift) {
-    return 0x80U | (code >> shift & 0x3fU);
-  };
-  if (code < 0x80) {
-    put(code);
-  } else if (code < 0x800) {
-    put(0xc0U | code >> 6);
-    put(tail(0));
-  } else if (code < 0x10000) {
-    put(0xe0U | code >> 12);
-    put(tail(6));
-    put(tail(0));
-  } else {
-    put(0xf0U | code >> 18);
-    put(tail(12));
-    put(tail(6));
-    put(tail(0));
-  }
-}
-
-bool is_character(std::uint32_t code) {
-  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-  return code != 0 && code < 0x110000 && !is_surrogate;
-}
-
 std::string quote(std::string_view text) { return fmt::format("'{}'", text); }
 
 }  // namespace
 
-Reader::Reader(const Source& source, ast::Arena& arena, Loader& loader,
+Reader::Reader(const Source& source, Arena& arena, Loader& loader,
                SyntaxErrors& errors, Diagnostics& diagnostics)
     : arena_(arena),
       loader_(loader),
@@ -131,8 +102,7 @@ ast::Use* Reader::find_use(SourceRange range) {
                          {{range, "used here"}}});
     path = file_name_;
   }
-  const auto copy = arena_.copy(std::span<const char>(path));
-  return arena_.make(ast::Use{{copy.data(), copy.size()}, range, is_found});
+  return arena_.make(ast::Use{arena_.copy(path), range, is_found});
 }
 
 Text Reader::plain_string(SourceRange range) const {
@@ -143,7 +113,7 @@ Text Reader::plain_string(SourceRange range) const {
 void Reader::add_code_point(const char* digits) {
   const auto code =
       static_cast<std::uint32_t>(std::strtoul(digits, nullptr, 16));
-  append_utf8(string_, is_character(code) ? code : ' ');
+  if (!append_utf8(code, string_)) string_ += ' ';
 }
 
 void Reader::break_string(SourceRange range) {
@@ -151,7 +121,7 @@ void Reader::break_string(SourceRange range) {
 }
 
 Text Reader::take_string() {
-  const auto copy = arena_.copy(std::span<const char>(string_));
+  const std::string_view copy = arena_.copy(string_);
   string_.clear();
   return {copy.data(), copy.size()};
 }

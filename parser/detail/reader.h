@@ -26,7 +26,7 @@ namespace lamina::detail {
 class Reader {
  public:
   // arena  of the program: takes decoded strings
-  Reader(const Source& source, ast::Arena& arena, Loader& loader,
+  Reader(const Source& source, Arena& arena, Loader& loader,
          SyntaxErrors& errors, Diagnostics& diagnostics);
 
   // Up to `most` bytes of the current text, 0 at its end.
@@ -89,7 +89,7 @@ class Reader {
   std::vector<const Source*> open_includes() const;
   SourceRange last_text(SourceRange before) const;
 
-  ast::Arena& arena_;
+  Arena& arena_;
   Loader& loader_;
   SyntaxErrors& errors_;
   Diagnostics& diagnostics_;

@@ -10,20 +10,14 @@
 
 #include "base/diagnostic.h"
 #include "base/parallel.h"
+#include "slicer/contour/layer_measures.h"
 
 namespace lamina::slicer {
 namespace {
 
 LoopCount count_loops(const ldni::Contours& contours) {
-  LoopCount count;
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    if (ldni::signed_area(contours.loop(i)) < 0) {
-      ++count.holes;
-    } else {
-      ++count.regions;
-    }
-  }
-  return count;
+  const LayerMeasures measures = measure(contours);
+  return {measures.loops - measures.holes, measures.holes};
 }
 
 bool is_sliver(std::span<const Vec2> loop) {
@@ -36,8 +30,7 @@ ldni::Contours without_slivers(const ldni::Contours& contours) {
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
     if (is_sliver(loop)) continue;
-    kept.points.insert(kept.points.end(), loop.begin(), loop.end());
-    kept.ends.push_back(static_cast<std::uint32_t>(kept.points.size()));
+    kept.add_loop(loop);
   }
   return kept;
 }
@@ -46,7 +39,7 @@ ldni::Contours without_slivers(const ldni::Contours& contours) {
   throw GeometryError({Severity::kError, {}, words});
 }
 
-// One of the two while they are walked through.
+// A stack of layers, and how far a walk through both has come.
 struct Walk {
   const std::vector<Layer>& layers;
   double shift;
@@ -55,7 +48,7 @@ struct Walk {
 
   bool is_over() const { return at == layers.size(); }
   double height(std::size_t i) const { return layers[i].section_z + shift; }
-  // Of the layer in hand; infinite behind the last one.
+  // The height of the layer in hand; infinite behind the last one.
   double height() const {
     return is_over() ? std::numeric_limits<double>::infinity() : height(at);
   }
@@ -69,7 +62,7 @@ struct Walk {
   }
 };
 
-// A layer of `walk` that has no partner. Null where it is nothing to compare.
+// Takes a layer of `walk` that has no partner; null where it is empty.
 const Layer* take_alone(Walk& walk, const Walk& other) {
   const Layer& layer = walk.layers[walk.at];
   const double z = walk.height();

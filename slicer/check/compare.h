@@ -1,11 +1,11 @@
 #pragma once
-// Two stacks of layers compared, layer by layer (`lamina compare`).
+// Compares two stacks of layers, layer by layer (`lamina compare`).
 //
-// Where both are cut at the same heights, what counts is in the plane: the area
-// that only one of them covers, and how far the contours of one are from those
-// of the other at most. A distance tells a wall that moved from a wall that is
-// missing; an area tells how much of it. Loops are counted, but do not judge:
-// two squares that touch in a corner are one loop or two.
+// Layers at the same heights are compared in the plane: by the area that only
+// one of them covers, and by how far the contours of one are from those of the
+// other at most. The distance tells a wall that moved from one that is missing;
+// the area tells how much of it. Loops are counted but decide nothing: two
+// squares that touch in a corner are one loop or two.
 
 #include <cstddef>
 #include <optional>
@@ -34,16 +34,16 @@ struct LayerDifference {
   LoopCount loops_b;
   // Infinite where only one of them has contours.
   ContourDistance distance;
-  // What was cut to be compared was cut this much higher than z, to be on the
-  // same side of a horizontal face that lies in the plane of the section [mm].
+  // A design cut for the comparison was cut this much above z, to be on the
+  // same side of a horizontal face in the plane of the section [mm].
   double moved = 0;
 
   double area() const { return areas.only_a + areas.only_b; }
 };
 
 // Loops narrower than this on the whole (2 · area / perimeter) count for areas
-// and numbers only, not for distances: ten times what lamina takes for one and
-// the same place, and what float32 numbers of a part of 100 mm resolve [mm].
+// and numbers, not for distances [mm]: ten times the distance of a tie, and
+// what float32 numbers of a part of 100 mm resolve.
 constexpr double kSliverWidth = 1e-5;
 
 LayerDifference compare_layers(const ldni::Contours& a,
@@ -53,19 +53,19 @@ LayerDifference compare_layers(const ldni::Contours& a,
 // before.
 void require_rising(const std::vector<Layer>& layers, const std::string& name);
 
-// A layer of each; one may be null: there is none.
+// A layer of each; one may be null, where there is none.
 struct LayerPair {
   const Layer* a = nullptr;
   const Layer* b = nullptr;
 };
 
-// Pairs layers whose sections are within kSameHeight. What lies below or above
-// all layers of the other stays alone; alone and empty it is left out.
+// Pairs layers whose sections are within kSameHeight. A layer below or above
+// all layers of the other stack stays alone, or is left out where it is empty.
 //
-// shift          added to heights of b [mm]
-// names          for messages
-// throws         GeometryError where a layer between layers of the other has no
-//                partner, and as require_rising() does
+// shift   added to heights of b [mm]
+// names   for messages
+// throws  GeometryError where a layer between layers of the other has no
+//         partner, and as require_rising() does
 std::vector<LayerPair> pair_layers(const std::vector<Layer>& a,
                                    const std::vector<Layer>& b, double shift,
                                    const std::string& name_a,
@@ -75,16 +75,16 @@ constexpr double kSameHeight = 1e-4;  // [mm], float32's rounding included
 // shift  of b in the plane [mm]
 LayerDifference compare_pair(const LayerPair& pair, Vec2 shift);
 
-// All pairs, on all processors, numbered.
+// Compares and numbers all pairs, on all processors.
 std::vector<LayerDifference> compare(const std::vector<LayerPair>& pairs,
                                      Vec2 shift);
 
-// What makes the lower left corner of b's box, over all layers, and the lower
-// side of its lowest layer that is not empty those of a; 0 where one of them
-// has no contour.
+// The shift that moves the lower left corner of b's box, over all layers, and
+// the lower side of its lowest layer with contours to those of a; 0 where one
+// of them has no contour.
 Vec3 aligning_shift(const std::vector<Layer>& a, const std::vector<Layer>& b);
 
-// Of all layers.
+// Sums over all layers.
 struct ComparisonTotals {
   std::size_t layers = 0;
   std::size_t outside = 0;      // layers beyond the tolerance
@@ -96,8 +96,8 @@ struct ComparisonTotals {
   std::optional<std::size_t> worst;  // index of the layer; none: no layer
 };
 
-// The worst is the one with the greatest distance, of these the one with the
-// greatest area that differs.
+// The worst layer has the greatest distance, and of such the greatest area that
+// differs.
 ComparisonTotals sum_up(const std::vector<LayerDifference>& layers,
                         double tolerance);
 

@@ -21,12 +21,9 @@ struct Segment {
 std::vector<Segment> segments_of(const ldni::Contours& contours) {
   std::vector<Segment> segments;
   segments.reserve(contours.points.size());
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      segments.push_back({loop[k], loop[k + 1 < loop.size() ? k + 1 : 0]});
-    }
-  }
+  visit_edges(contours, [&](Vec2 from, Vec2 to) {
+    segments.push_back({from, to});
+  });
   return segments;
 }
 
@@ -45,7 +42,7 @@ struct Box {
   }
 };
 
-// Edges of one set, to be found by place.
+// Finds edges of one set by place.
 class EdgeTree {
  public:
   explicit EdgeTree(std::vector<Segment> segments)
@@ -76,7 +73,7 @@ class EdgeTree {
 
   // The nearest edge, or any that is no farther than `enough`.
   //
-  // guess  any edge: the nearer it or the one behind it, the faster
+  // guess  any edge; the search is the faster the nearer it is, or the next one
   std::size_t nearest(Vec2 point, std::size_t guess, double enough) const {
     double best = distance(guess, point);
     std::size_t found = guess;
@@ -123,8 +120,7 @@ class EdgeTree {
   mutable std::vector<Entry> stack_;
 };
 
-// The greatest distance of points of `from` from `to`, if it is more than
-// `greatest` says already.
+// Raises `greatest` to the greatest distance of points of `from` from `to`.
 class Search {
  public:
   Search(const EdgeTree& to, ContourDistance& greatest)
@@ -157,7 +153,7 @@ class Search {
     End end;
   };
 
-  // What is no farther than what has been found need not be told exactly.
+  // A distance below the greatest so far need not be exact.
   End end_at(Vec2 point, std::size_t guess) {
     const std::size_t nearest = to_.nearest(point, guess, greatest_.distance);
     const double distance = to_.distance(nearest, point);

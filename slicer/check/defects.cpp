@@ -16,7 +16,7 @@ namespace {
 struct Edge {
   Vec2 from;
   Vec2 to;
-  std::uint32_t boundary;
+  std::uint32_t loop;
   std::uint32_t next;  // the edge that follows
 };
 
@@ -66,19 +66,19 @@ bool is_within(const Edge& edge, Vec2 p) {
 
 using EdgePair = std::pair<std::uint32_t, std::uint32_t>;
 
-// The edges of a layer, and where they are.
+// Finds the edges of a layer by place.
 class EdgeGrid {
  public:
-  explicit EdgeGrid(const SlcLayer& layer);
+  explicit EdgeGrid(std::span<const WrittenLoop> loops);
 
   void find_crossings(std::vector<Defect>& defects) const;
 
-  // Sum of windings of the other boundaries around a point of `boundary`; none
-  // where one of them passes through it.
-  std::optional<int> winding_around(Vec2 point, std::uint32_t boundary) const;
+  // The winding number of the other loops around a point of `loop`; none where
+  // one of them passes through it.
+  std::optional<int> winding_around(Vec2 point, std::uint32_t loop) const;
 
  private:
-  void collect_edges(const SlcLayer& layer);
+  void collect_edges(std::span<const WrittenLoop> loops);
   void choose_cells();
   std::uint32_t column_of(double x) const {
     return cell_of((x - low_.x) * cells_per_mm_.x, columns_);
@@ -109,8 +109,8 @@ class EdgeGrid {
   std::vector<std::uint32_t> members_;
 };
 
-EdgeGrid::EdgeGrid(const SlcLayer& layer) {
-  collect_edges(layer);
+EdgeGrid::EdgeGrid(std::span<const WrittenLoop> loops) {
+  collect_edges(loops);
   choose_cells();
   // Sort by counting: sizes first, then places.
   const std::size_t cells = std::size_t{columns_} * rows_;
@@ -127,21 +127,22 @@ EdgeGrid::EdgeGrid(const SlcLayer& layer) {
   }
 }
 
-void EdgeGrid::collect_edges(const SlcLayer& layer) {
-  for (std::uint32_t b = 0; b < layer.boundaries.size(); ++b) {
-    const std::vector<Vec2>& points = layer.boundaries[b].points;
+void EdgeGrid::collect_edges(std::span<const WrittenLoop> loops) {
+  for (std::uint32_t l = 0; l < loops.size(); ++l) {
+    const std::vector<Vec2>& points = loops[l].points;
     const auto first = static_cast<std::uint32_t>(edges_.size());
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      if (points[i] == points[i + 1]) continue;  // told as a repeat
+      if (points[i] == points[i + 1]) continue;  // reported as a repeat
       const auto next = static_cast<std::uint32_t>(edges_.size()) + 1;
-      edges_.push_back({points[i], points[i + 1], b, next});
+      edges_.push_back({points[i], points[i + 1], l, next});
     }
     if (edges_.size() > first) edges_.back().next = first;
   }
 }
 
-// About one cell an edge, square if that can be. Long edges must not stand in
-// more cells than kMostCells: few cells along them then, and more across.
+// Chooses about one cell for each edge, square if possible. Edges must not
+// stand in more than kMostCells on the average: along long ones, cells are few
+// then.
 void EdgeGrid::choose_cells() {
   constexpr double kMostCells = 64;
   if (edges_.empty()) return;
@@ -193,8 +194,8 @@ void EdgeGrid::visit_cells(const Edge& edge, const Visit& visit) const {
   }
 }
 
-// Whether the boundary of `at` passes, at the end of that edge, from one side
-// of the boundary of `other` to the other side.
+// Whether the loop of `at` passes, at the end of that edge, from one side of
+// the loop of `other` to the other side.
 bool EdgeGrid::passes_through(const Edge& at, const Edge& other) const {
   const Vec2 p = at.to;
   const Vec2 before = at.from;
@@ -271,12 +272,12 @@ void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
   for (const auto& [first, second] : crossing) {
     const Edge& edge = edges_[first];
     defects.push_back(
-        {DefectKind::kCrossing, edge.boundary, (edge.from + edge.to) / 2.0});
+        {DefectKind::kCrossing, edge.loop, (edge.from + edge.to) / 2.0});
   }
 }
 
 std::optional<int> EdgeGrid::winding_around(Vec2 point,
-                                            std::uint32_t boundary) const {
+                                            std::uint32_t loop) const {
   int winding = 0;
   const std::uint32_t column = column_of(point.x);
   const std::uint32_t last_row = row_of(point.y);
@@ -284,7 +285,7 @@ std::optional<int> EdgeGrid::winding_around(Vec2 point,
     for (const std::uint32_t i :
          members(std::size_t{row} * columns_ + column)) {
       const Edge& edge = edges_[i];
-      if (edge.boundary == boundary) continue;
+      if (edge.loop == loop) continue;
       const bool begins_left = edge.from.x <= point.x;
       if (begins_left == (edge.to.x <= point.x)) continue;
       const Vec2 left = begins_left ? edge.from : edge.to;
@@ -302,26 +303,26 @@ std::optional<int> EdgeGrid::winding_around(Vec2 point,
   return winding;
 }
 
-// Whether a boundary turns against what its nesting asks for. Judged at the
-// middle of an edge that nothing else touches; the first few are tried.
+// Whether a loop is turned against its nesting. The middle of an edge that
+// nothing else touches decides; the first few are tried.
 bool is_turned_wrongly(const EdgeGrid& grid, std::span<const Vec2> points,
-                       std::uint32_t boundary) {
+                       std::uint32_t loop) {
   constexpr std::size_t kTries = 16;
   const int wanted = ldni::signed_area(points) < 0 ? 1 : 0;
   for (std::size_t i = 0; i + 1 < std::min(points.size(), kTries); ++i) {
     const Vec2 middle = (points[i] + points[i + 1]) / 2.0;
-    const std::optional<int> winding = grid.winding_around(middle, boundary);
+    const std::optional<int> winding = grid.winding_around(middle, loop);
     if (winding) return *winding != wanted;
   }
   return false;
 }
 
-// Defects of a boundary by itself; true if it encloses something.
-bool find_own_defects(const SlcBoundary& boundary, std::uint32_t index,
+// Finds the defects of a loop by itself; returns whether it encloses something.
+bool find_own_defects(const WrittenLoop& loop, std::uint32_t index,
                       std::vector<Defect>& defects) {
-  const std::vector<Vec2>& points = boundary.points;
+  const std::vector<Vec2>& points = loop.points;
   const Vec2 place = points.empty() ? Vec2(0) : points.front();
-  if (boundary.gaps != 0) defects.push_back({DefectKind::kGap, index, place});
+  if (loop.gaps != 0) defects.push_back({DefectKind::kGap, index, place});
   if (points.size() < 2 || points.front() != points.back()) {
     defects.push_back({DefectKind::kOpen, index, place});
     return false;
@@ -358,23 +359,23 @@ std::string_view describe(DefectKind kind) {
   return "";
 }
 
-std::vector<Defect> find_defects(const SlcLayer& layer) {
+std::vector<Defect> find_defects(std::span<const WrittenLoop> loops) {
   std::vector<Defect> defects;
   std::vector<std::uint32_t> enclosing;
-  for (std::uint32_t b = 0; b < layer.boundaries.size(); ++b) {
-    if (find_own_defects(layer.boundaries[b], b, defects)) {
-      enclosing.push_back(b);
+  for (std::uint32_t l = 0; l < loops.size(); ++l) {
+    if (find_own_defects(loops[l], l, defects)) {
+      enclosing.push_back(l);
     }
   }
-  const EdgeGrid grid(layer);
+  const EdgeGrid grid(loops);
   const std::size_t known = defects.size();
   grid.find_crossings(defects);
-  // What crosses has no nesting.
+  // Loops that cross have no nesting.
   if (defects.size() > known) return defects;
-  for (const std::uint32_t b : enclosing) {
-    const std::vector<Vec2>& points = layer.boundaries[b].points;
-    if (is_turned_wrongly(grid, points, b)) {
-      defects.push_back({DefectKind::kOrientation, b, points.front()});
+  for (const std::uint32_t l : enclosing) {
+    const std::vector<Vec2>& points = loops[l].points;
+    if (is_turned_wrongly(grid, points, l)) {
+      defects.push_back({DefectKind::kOrientation, l, points.front()});
     }
   }
   return defects;

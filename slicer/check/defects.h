@@ -1,28 +1,30 @@
 #pragma once
-// What a layer file's reader could stumble over.
+// Defects of a layer that the reader of its file could stumble over.
 //
-// Contours of a layer must be closed, simple, disjoint and turned by their
-// nesting: outer ones counter-clockwise, holes clockwise. Edges are sorted into
-// a grid of about one cell an edge; only edges of one cell are compared, so a
-// layer costs time in proportion to its edges. Coordinates are float32, which
-// doubles subtract exactly; signs of turns are exact too, so a defect is a
-// defect of the numbers in the file and not of this check.
+// Loops of a layer must be closed, simple, disjoint and turned by their
+// nesting: outer ones counter-clockwise, holes clockwise. A grid has about one
+// cell for each edge; only edges of one cell are compared, so a layer costs
+// time in proportion to its edges. Coordinates are float32, which doubles
+// subtract exactly, and orientations are exact too: a defect is one of the
+// numbers in the file and not of this check.
 //
-// Contours may touch in a point (two squares corner to corner are two regions);
-// to pass through each other there is a crossing.
+// Loops may touch in a point (two squares corner to corner are two regions); to
+// pass through each other there is a crossing.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "base/vec.h"
-#include "slicer/formats/slc_reader.h"
+#include "slicer/contour/layer_file.h"
 
 namespace lamina::slicer {
 
 enum class DefectKind {
   kOpen,         // the last vertex is not the first
-  kGap,          // the boundary counts gaps
+  kGap,          // the file counts gaps
   kRepeat,       // two equal neighbours
   kZeroArea,     //
   kCrossing,     // two edges cross or run along each other
@@ -31,16 +33,16 @@ enum class DefectKind {
 
 struct Defect {
   DefectKind kind;
-  std::uint32_t boundary;  // from 0
-  Vec2 place;              // [mm]
+  std::uint32_t loop;  // from 0
+  Vec2 place;          // [mm]
 };
 
 // "is not closed"
 std::string_view describe(DefectKind kind);
 
-// All defects of a layer; empty for a sound one. Edges that cross each other
-// many times are told at most kMostCrossings times.
-std::vector<Defect> find_defects(const SlcLayer& layer);
+// All defects of a layer; empty for a sound one. Of crossings it reports
+// kMostCrossings at most.
+std::vector<Defect> find_defects(std::span<const WrittenLoop> loops);
 constexpr std::size_t kMostCrossings = 100;
 
 }  // namespace lamina::slicer

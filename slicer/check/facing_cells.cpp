@@ -43,7 +43,7 @@ std::uint64_t facing(std::uint64_t sectors) {
   return widen(widen(widen(widen(opposite, 1), 2), 4), 3);
 }
 
-// Of an edge and of the turn at its beginning.
+// The sectors of an edge and of the turn at its beginning.
 std::uint64_t directions_of(const LayerEdge& previous, const LayerEdge& edge) {
   const int before = sector_of(previous.along);
   const int here = sector_of(edge.along);
@@ -74,7 +74,7 @@ void FacingCells::choose_cells() {
     low_ = {std::min(low_.x, edge.from.x), std::min(low_.y, edge.from.y)};
     high = {std::max(high.x, edge.from.x), std::max(high.y, edge.from.y)};
   }
-  // Where all edges are long they would stand in too many cells.
+  // Long edges must not be listed in too many cells.
   constexpr double kMostCells = 64;
   double way = 0;
   for (const LayerEdge& edge : edges_) {

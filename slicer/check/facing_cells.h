@@ -2,13 +2,13 @@
 // Which edges of a layer may face each other across less than a given width.
 //
 // Thin places are rare, and most of a layer should cost no more than a look. A
-// disk thinner than the width touches edges that lie within half the width of
-// its centre, so every edge is listed in all cells of a grid that come as near
-// to it: the cell of a disk's centre has all that the disk can touch. A cell
-// also knows the directions of its edges, and of the turns between them, as 64
+// disk thinner than the width touches edges within half the width of its
+// centre, so every edge is listed in all cells of a grid that come as near to
+// it: the cell of a disk's centre lists all that the disk can touch. A cell
+// also has the directions of its edges, and of the turns between them, as 64
 // bits. Edges that face each other run in nearly opposite directions; where no
-// two directions of a cell do, the cell is passed over, and its edges are never
-// listed. On a smooth part that is nearly every cell.
+// two directions of a cell do, the cell is passed over and lists no edge. On a
+// smooth part that is nearly every cell.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,28 +20,28 @@
 
 namespace lamina::slicer {
 
-// The most by which two sides may miss running in opposite directions to count
-// as facing each other [rad]: 30 degrees. Then the disk between them touches
-// them at places at least 150 degrees apart. Large enough for every prong and
-// every taper that holds its width for about twice that width; small enough to
-// keep the corners of a part, and the crevices where its leaves meet, out.
+// Two sides face each other where they run in opposite directions but for this
+// angle at most [rad]: 30 degrees. Then the disk between them touches them at
+// places at least 150 degrees apart. That takes in every prong, and every taper
+// that holds its width for about twice that width; it keeps out the corners of
+// a part and the crevices where its leaves meet.
 inline constexpr double kFacingAngle = 0.5235987755982988;
 
 class FacingCells {
  public:
-  // Replaces what was known by these edges, which must stay as they are.
+  // Replaces all edges by these, which must outlive the queries.
   void build(std::span<const LayerEdge> edges, double width);
 
   // Whether any two edges may face each other.
   bool has_facing() const { return has_facing_; }
 
   // Replaces `neighbours` by all edges near disks that may touch the edge and
-  // one that faces it: in no order, each once, and the edge among them. None
-  // where nothing can face it.
+  // one that faces it: in no order, each once, the edge among them. There are
+  // none where nothing can face it.
   void gather(std::uint32_t edge, std::vector<std::uint32_t>& neighbours);
 
-  // All edges, and perhaps more, that a disk thinner than the width touches
-  // which has its centre there and touches two that face each other.
+  // All edges, and perhaps more, that touch a disk thinner than the width
+  // around that centre, if it touches two that face each other.
   std::span<const std::uint32_t> near(Vec2 centre) const;
 
  private:
@@ -65,7 +65,7 @@ class FacingCells {
   std::vector<std::uint64_t> directions_;  // of a cell; 0: passed over
   std::vector<std::uint32_t> starts_;      // of each cell, in members_
   std::vector<std::uint32_t> members_;
-  std::vector<std::uint32_t> last_gather_;  // an edge: gathering that has it
+  std::vector<std::uint32_t> last_gather_;  // that each edge was in
   std::uint32_t gather_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostLines = 20;
 
-// A width below this [mm] is none: two sides meet in an edge.
+// Sides that are no farther apart than this [mm] meet in an edge.
 constexpr double kEdgeWidth = 1e-6;
 
 std::string plural(std::size_t count, std::string_view word) {
@@ -43,14 +44,14 @@ struct Line {
   std::size_t count = 0;
 };
 
-// One line for each kind and origin, and for each feature where origins are
-// not known; the thinnest first.
-std::vector<Line> lines_of(std::span<const ThinFeature* const> told,
+// A line for each kind and origin, or for each feature where origins are not
+// known; the thinnest first.
+std::vector<Line> lines_of(std::span<const ThinFeature* const> tall,
                            const ThinFeature* first,
                            std::span<const std::string> origins) {
   std::vector<Line> lines;
   std::map<std::tuple<ThinKind, bool, std::string_view>, std::size_t> known;
-  for (const ThinFeature* const feature : told) {
+  for (const ThinFeature* const feature : tall) {
     if (origins.empty()) {
       lines.push_back({feature, 1});
       continue;
@@ -86,27 +87,27 @@ std::string_view name_of(ThinKind kind) {
 
 std::string feature_table(std::span<const ThinFeature> features, double width,
                           std::span<const std::string> origins) {
-  std::vector<const ThinFeature*> told;
+  std::vector<const ThinFeature*> tall;
   std::vector<const ThinFeature*> low;
   for (const ThinFeature& feature : features) {
-    (is_low(feature, width) ? low : told).push_back(&feature);
+    (is_low(feature, width) ? low : tall).push_back(&feature);
   }
   std::string text =
-      fmt::format("thinner than {} mm: {}\n", width, counts_text(told));
+      fmt::format("thinner than {} mm: {}\n", width, counts_text(tall));
   const auto out = std::back_inserter(text);
-  const std::vector<Line> lines = lines_of(told, features.data(), origins);
+  const std::vector<Line> lines = lines_of(tall, features.data(), origins);
   if (!lines.empty()) {
     fmt::format_to(out, "{:>9} {:>8} {:>11} {:>10} {:>10} {:>10}{}\n",
                    "width mm", "", "layers", "at z", "x", "y",
                    origins.empty() ? "" : "  surface of");
   }
   const std::size_t listed = std::min(lines.size(), kMostLines);
-  for (std::size_t i = 0; i < listed; ++i) {
-    const ThinFeature& feature = *lines[i].thinnest;
+  for (const Line& line : std::span(lines).first(listed)) {
+    const ThinFeature& feature = *line.thinnest;
     fmt::format_to(
         out, "{:>9} {:>8} {:>11} {:>10.4f} {:>10.4f} {:>10.4f}",
         is_edge(feature) ? "edge" : fmt::format("{:.4f}", feature.width),
-        plural(lines[i].count, name_of(feature.kind)), layers_text(feature),
+        plural(line.count, name_of(feature.kind)), layers_text(feature),
         feature.section_z, feature.place.x, feature.place.y);
     if (!origins.empty()) {
       fmt::format_to(

@@ -9,24 +9,22 @@
 
 namespace lamina::slicer {
 
-// Whether the thin place goes on for fewer layers than make the width that was
-// asked for.
-// Such are the tops of domes, the lines where surfaces meet at a slant, and
-// wires that lie flat.
+// Whether its thin place is lower than it may be wide. Such are the tops of
+// domes, the lines where surfaces meet at a slant, and wires that lie flat.
 bool is_low(const ThinFeature& feature, double width);
 
-// Whether two sides meet there in an edge: it has no width.
+// Whether its sides meet in an edge: it has no width.
 bool is_edge(const ThinFeature& feature);
 
 // "wall" or "gap".
 std::string_view name_of(ThinKind kind);
 
-// How many there are and where, the thinnest first and edges, which have no
-// width, last; features of one origin in one line, which shows the thinnest.
-// Low ones are only counted. Each line is ended by '\n'.
+// How many features there are and where, the thinnest first and edges last.
+// Features of one origin share a line, which shows the thinnest; low ones are
+// only counted. Each line ends with '\n'.
 //
 // width    that they are thinner than [mm]
-// origins  what made each, one text a feature; empty if that is not known
+// origins  what made each, one text for a feature; empty if not known
 std::string feature_table(std::span<const ThinFeature> features, double width,
                           std::span<const std::string> origins);
 

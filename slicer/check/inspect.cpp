@@ -7,27 +7,11 @@
 #include <glm/common.hpp>
 
 #include "slicer/check/defects.h"
-#include "slicer/formats/layer_reader.h"
-#include "slicer/formats/output_format.h"
 
 namespace lamina::slicer {
 namespace {
 
-constexpr std::size_t kToldDefects = 20;
-
-// As an SLC file holds it: the first point again at the end of each loop.
-SlcLayer close_loops(const Layer& layer) {
-  SlcLayer closed;
-  closed.z = layer.bottom;
-  closed.thickness = layer.top - layer.bottom;
-  for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
-    const auto loop = layer.contours.loop(i);
-    SlcBoundary& boundary = closed.boundaries.emplace_back();
-    boundary.points.assign(loop.begin(), loop.end());
-    if (!loop.empty()) boundary.points.push_back(loop.front());
-  }
-  return closed;
-}
+constexpr std::size_t kReportedDefects = 20;
 
 }  // namespace
 
@@ -40,22 +24,24 @@ Inspector::Inspector(double min_feature) {
 }
 
 void Inspector::add_defect(std::string words) {
-  if (++found_.defects <= kToldDefects) {
-    found_.told_defects.push_back(std::move(words));
+  if (++found_.defects <= kReportedDefects) {
+    found_.reported_defects.push_back(std::move(words));
   }
 }
 
-void Inspector::take(const Layer& layer) { take(layer, close_loops(layer)); }
+void Inspector::take(const Layer& layer) {
+  take(layer, closed_loops(layer.contours));
+}
 
-void Inspector::take(const Layer& layer, const SlcLayer& boundaries) {
+void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
   const std::size_t number = found_.layers.size() + 1;
   if (number > 1 && !(layer.bottom > found_.layers.back().bottom)) {
     add_defect(fmt::format("layer {} at z {}: not higher than the layer before",
                            number, layer.bottom));
   }
-  for (const Defect& defect : find_defects(boundaries)) {
+  for (const Defect& defect : find_defects(loops)) {
     add_defect(fmt::format("layer {} at z {}: loop {} {}, near x {} y {}",
-                           number, layer.bottom, defect.boundary + 1,
+                           number, layer.bottom, defect.loop + 1,
                            describe(defect.kind), defect.place.x,
                            defect.place.y));
   }
@@ -76,56 +62,18 @@ void Inspector::take(const Layer& layer, const SlcLayer& boundaries) {
   collector_->take(layer, stretches_);
 }
 
-Inspection Inspector::finish() {
+Inspection Inspector::finish(std::string name, LayerFileFacts file) {
+  found_.name = std::move(name);
+  found_.file = std::move(file);
+  if (found_.file.top) {
+    found_.top = *found_.file.top;
+    if (!found_.layers.empty() && found_.top < found_.layers.back().bottom) {
+      add_defect(fmt::format(
+          "the end record's top, z {}, lies below the last layer", found_.top));
+    }
+  }
   if (collector_) found_.features = collector_->finish();
   return std::move(found_);
-}
-
-namespace {
-
-void describe_header(const SlcReader& reader, Inspection& found) {
-  const SlcHeader& header = reader.header();
-  found.format = "SLC " + header.version;
-  found.writer = header.package;
-  found.header = fmt::format("{}, unit {}", header.type, header.unit);
-  found.extents = header.extents;
-  found.sampling = reader.sampling();
-  found.deviation = header.deviation;
-}
-
-}  // namespace
-
-Inspection inspect_file(const std::string& path, double min_feature,
-                        const FileAccess& access) {
-  Inspector inspector(min_feature);
-  Inspection& found = inspector.found_;
-  found.name = path;
-  if (is_named(path, ".slc")) {
-    // Its boundaries as they are: they may be open.
-    SlcReader reader(path, access);
-    describe_header(reader, found);
-    SlcLayer slc_layer;
-    while (reader.read_layer(slc_layer)) {
-      const Layer layer = to_layer(slc_layer);
-      require_within_reach(path, layer, found.layers.size() + 1);
-      inspector.take(layer, slc_layer);
-    }
-    found.top = reader.top();
-    if (!found.layers.empty() && found.top < found.layers.back().bottom) {
-      inspector.add_defect(fmt::format(
-          "the end record's top, z {}, lies below the last layer", found.top));
-    }
-    return inspector.finish();
-  }
-  const LayerFileFacts facts = read_layers(
-      path, [&](Layer& layer) { inspector.take(layer); }, access);
-  found.format = facts.format;
-  found.writer = facts.writer;
-  found.deviation = facts.deviation;
-  found.is_float32 = facts.is_float32;
-  found.has_sides = facts.has_sides;
-  found.lines_left_out = facts.lines_left_out;
-  return inspector.finish();
 }
 
 }  // namespace lamina::slicer

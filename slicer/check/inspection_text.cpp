@@ -36,7 +36,7 @@ Totals totals_of(const Inspection& found) {
   return totals;
 }
 
-// What would be shown as "-0.0000" is 0.
+// Turns what would read "-0.0000" into 0.
 Vec3 without_minus_zero(Vec3 place) {
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(place[axis]) < 0.00005) place[axis] = 0;
@@ -64,34 +64,35 @@ class Text : PrintedText {
 
  private:
   void print_header() {
-    print("{}: {}", found_.name,
-          found_.format.empty() ? "layers of a design" : found_.format);
-    if (!found_.header.empty()) print(", {}", found_.header);
-    if (!found_.format.empty()) {
-      print(", written by {}",
-            found_.writer.empty() ? "an unnamed program" : found_.writer);
+    print(
+        "{}: {}", found_.name,
+        found_.file.format.empty() ? "layers of a design" : found_.file.format);
+    if (!found_.file.header.empty()) print(", {}", found_.file.header);
+    if (!found_.file.format.empty()) {
+      print(", written by {}", found_.file.writer.empty() ? "an unnamed program"
+                                                          : found_.file.writer);
     }
     text_ += '\n';
-    if (found_.extents) {
-      const auto& [x, y, z] = *found_.extents;
+    if (found_.file.extents) {
+      const auto& [x, y, z] = *found_.file.extents;
       print(
           "extents   x {:.4f} … {:.4f}   y {:.4f} … {:.4f}   z {:.4f} … "
           "{:.4f}\n",
           x.x, x.y, y.x, y.y, z.x, z.y);
     }
-    for (const SlcSampling& row : found_.sampling) {
+    for (const SamplingRow& row : found_.file.sampling) {
       print("sampling  from z {}: layers of {}", row.min_z, row.thickness);
       if (row.line_width_compensation != 0) {
         print(", lines compensated by {}", row.line_width_compensation);
       }
       text_ += '\n';
     }
-    if (!found_.has_sides) {
+    if (!found_.file.has_sides) {
       print(
           "sides     not told: taken halfway between the sections of layers\n");
     }
-    if (found_.lines_left_out > 0) {
-      print("left out  {} open lines\n", found_.lines_left_out);
+    if (found_.file.lines_left_out > 0) {
+      print("left out  {} open lines\n", found_.file.lines_left_out);
     }
   }
 
@@ -144,14 +145,14 @@ class Text : PrintedText {
   }
 
   void print_exactness() {
-    if (found_.deviation) {
+    if (found_.file.deviation) {
       print("deviation at most {:.6g} mm from the design's sections\n",
-            *found_.deviation);
+            *found_.file.deviation);
     }
-    if (found_.is_float32) {
+    if (found_.file.is_float32) {
       print("rounding  at most {:.2g} mm{}, by 32-bit numbers\n",
             float32_rounding(found_.greatest_coordinate),
-            found_.deviation ? " of that" : "");
+            found_.file.deviation ? " of that" : "");
     }
   }
 
@@ -161,9 +162,11 @@ class Text : PrintedText {
       return;
     }
     print("defects   {}\n", found_.defects);
-    for (const std::string& words : found_.told_defects) print("  {}\n", words);
-    if (found_.defects > found_.told_defects.size()) {
-      print("  … and {} more\n", found_.defects - found_.told_defects.size());
+    for (const std::string& words : found_.reported_defects)
+      print("  {}\n", words);
+    if (found_.defects > found_.reported_defects.size()) {
+      print("  … and {} more\n",
+            found_.defects - found_.reported_defects.size());
     }
   }
 
@@ -217,10 +220,10 @@ std::string inspection_json(const Inspection& found) {
   const Totals totals = totals_of(found);
   ordered_json json;
   json["name"] = found.name;
-  json["format"] = found.format;
-  json["writer"] = found.writer;
+  json["format"] = found.file.format;
+  json["writer"] = found.file.writer;
   json["sampling"] = ordered_json::array();
-  for (const SlcSampling& row : found.sampling) {
+  for (const SamplingRow& row : found.file.sampling) {
     json["sampling"].push_back({{"z", row.min_z},
                                 {"thickness", row.thickness},
                                 {"compensation", row.line_width_compensation}});
@@ -236,9 +239,9 @@ std::string inspection_json(const Inspection& found) {
   json["holes"] = totals.holes;
   json["vertices"] = totals.vertices;
   json["empty_layers"] = totals.empty;
-  json["deviation_mm"] = number_or_null(found.deviation);
+  json["deviation_mm"] = number_or_null(found.file.deviation);
   json["defects"] = found.defects;
-  json["told_defects"] = found.told_defects;
+  json["told_defects"] = found.reported_defects;
   if (found.min_feature > 0) json["features"] = features_json(found);
   json["layers"] = layers_json(found);
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) +

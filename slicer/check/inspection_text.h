@@ -9,10 +9,10 @@ namespace lamina::slicer {
 
 enum class LayerList { kSummary, kAll };
 
-// For the user, ended by '\n'.
+// For the user; ends with '\n'.
 std::string inspection_text(const Inspection& found, LayerList list);
 
-// For programs: all of it as JSON, ended by '\n'.
+// For programs: all findings as JSON; ends with '\n'.
 std::string inspection_json(const Inspection& found);
 
 }  // namespace lamina::slicer

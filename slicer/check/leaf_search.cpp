@@ -9,10 +9,10 @@
 namespace lamina::slicer {
 namespace {
 
-// Boundary is where a chain is, or where one was that ties with it [mm].
+// Boundary lies where a chain does, or one that ties with it [mm].
 constexpr double kSearchDistance = 2 * kTieDistance;
 
-// Of chains as near but for this [mm], that of the first leaf is told.
+// Of chains as near but for this [mm], that of the first leaf counts.
 constexpr double kSameDistance = 1e-9;
 
 }  // namespace
@@ -33,33 +33,34 @@ void LeafSearch::find(const ldni::ChainBlock& block, std::uint32_t layer,
   // Chains come instance by instance, the first one first.
   std::uint32_t instance = kNoInstance;
   for (const ldni::Chain& chain : block.layer(layer)) {
-    if (chain.instance != instance) look_between_turns(instance);
+    if (chain.instance != instance) look_between_endpoints(instance);
     instance = chain.instance;
     const std::span<const Vec2> points = chain.points_in(block.points);
     for (std::size_t i = 1; i < points.size(); ++i) {
       look_along(points[i - 1], points[i], instance);
     }
-    turns_.push_back(points.front());
-    turns_.push_back(points.back());
+    endpoints_.push_back(points.front());
+    endpoints_.push_back(points.back());
   }
-  look_between_turns(instance);
+  look_between_endpoints(instance);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     stretches[i / 2].instances[i % 2] = instances_[i];
   }
 }
 
-// Upright edges belong to no chain: they stand between the ends of chains at
-// one x, of which, from below, two and two are a pair.
-void LeafSearch::look_between_turns(std::uint32_t instance) {
-  std::sort(turns_.begin(), turns_.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
-  });
-  for (std::size_t i = 1; i < turns_.size(); i += 2) {
-    if (turns_[i].y > turns_[i - 1].y) {
-      look_along(turns_[i - 1], turns_[i], instance);
+// Upright edges belong to no chain: they stand between endpoints of chains at
+// one x, which pair up from below.
+void LeafSearch::look_between_endpoints(std::uint32_t instance) {
+  std::sort(endpoints_.begin(), endpoints_.end(),
+            [](const Vec2& a, const Vec2& b) {
+              return a.x < b.x || (a.x == b.x && a.y < b.y);
+            });
+  for (std::size_t i = 1; i < endpoints_.size(); i += 2) {
+    if (endpoints_[i].y > endpoints_[i - 1].y) {
+      look_along(endpoints_[i - 1], endpoints_[i], instance);
     }
   }
-  turns_.clear();
+  endpoints_.clear();
 }
 
 void LeafSearch::look_along(Vec2 from, Vec2 to, std::uint32_t instance) {

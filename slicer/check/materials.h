@@ -1,5 +1,5 @@
 #pragma once
-// What prints and casts are made of, and what it weighs.
+// Materials of prints and casts, and their weight.
 
 #include <array>
 #include <string_view>
@@ -27,7 +27,7 @@ inline constexpr std::array<Material, 11> kMaterials = {{
     {"casting wax", 0.95},
 }};
 
-// Of so much of it [g].
+// The weight of a volume [g].
 inline double weight(const Material& material, double volume_mm3) {
   return material.density * volume_mm3 / 1000;
 }

@@ -1,6 +1,5 @@
 #pragma once
-// Texts that are put together line by line, such as those of inspect and
-// compare.
+// Texts that grow line by line, such as those of inspect and compare.
 
 #include <iterator>
 #include <string>

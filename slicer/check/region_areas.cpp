@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
 namespace {
 
-// Steps of the slow way, through crossings, for a layer.
+// Steps through crossings, at most, for a layer.
 constexpr std::uint64_t kMostSteps = 3'000'000'000;
 
 struct Edge {
@@ -30,8 +31,8 @@ struct Edge {
   }
 };
 
-// An edge in the strip in hand.
-struct Piece {
+// An edge across the strip in hand.
+struct Crossed {
   std::uint32_t edge = 0;
   double left_y = 0;
   double right_y = 0;
@@ -40,16 +41,16 @@ struct Piece {
   double middle_y() const { return (left_y + right_y) / 2; }
 };
 
-bool is_below_at_left(const Piece& p, const Piece& q) {
+bool is_below_at_left(const Crossed& p, const Crossed& q) {
   return p.left_y != q.left_y ? p.left_y < q.left_y : p.right_y < q.right_y;
 }
 
-bool is_below_at_right(const Piece& p, const Piece& q) {
+bool is_below_at_right(const Crossed& p, const Crossed& q) {
   return p.right_y != q.right_y ? p.right_y < q.right_y : p.left_y < q.left_y;
 }
 
-// Sorts what is nearly sorted; calls passed(p, q) where p, above q so far,
-// comes below it.
+// Sorts what is nearly sorted; calls passed(p, q) where p comes below q, which
+// was below p so far.
 template <typename Value, typename IsBelow, typename Passed>
 void sort_by_insertion(std::span<Value> values, const IsBelow& is_below,
                        const Passed& passed) {
@@ -103,23 +104,24 @@ class Sweep {
     std::sort(edges_.begin(), edges_.end(),
               [](const Edge& p, const Edge& q) { return p.left.x < q.left.x; });
     for (const Edge& edge : edges_) {
-      stops_.push_back(edge.left.x);
-      stops_.push_back(edge.right.x);
+      event_points_.push_back(edge.left.x);
+      event_points_.push_back(edge.right.x);
     }
-    std::sort(stops_.begin(), stops_.end());
-    stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
+    std::sort(event_points_.begin(), event_points_.end());
+    event_points_.erase(std::unique(event_points_.begin(), event_points_.end()),
+                        event_points_.end());
   }
 
   RegionAreas run() {
     std::size_t next = 0;  // of edges_
-    for (std::size_t i = 0; i + 1 < stops_.size(); ++i) {
-      const double left = stops_[i];
-      const double right = stops_[i + 1];
-      std::erase_if(pieces_, [&](const Piece& piece) {
-        return edges_[piece.edge].right.x <= left;
+    for (std::size_t i = 0; i + 1 < event_points_.size(); ++i) {
+      const double left = event_points_[i];
+      const double right = event_points_[i + 1];
+      std::erase_if(crossed_, [&](const Crossed& crossed) {
+        return edges_[crossed.edge].right.x <= left;
       });
       for (; next < edges_.size() && edges_[next].left.x <= left; ++next) {
-        pieces_.push_back({static_cast<std::uint32_t>(next)});
+        crossed_.push_back({static_cast<std::uint32_t>(next)});
       }
       sweep_strip(left, right);
     }
@@ -128,18 +130,13 @@ class Sweep {
 
  private:
   void add(const ldni::Contours& contours, bool is_of_b) {
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      const auto loop = contours.loop(i);
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Vec2 from = loop[k];
-        const Vec2 to = loop[k + 1 < loop.size() ? k + 1 : 0];
-        if (from.x == to.x) continue;
-        const bool runs_right = from.x < to.x;
-        edges_.push_back({runs_right ? from : to, runs_right ? to : from,
-                          (to.y - from.y) / (to.x - from.x),
-                          runs_right ? 1 : -1, is_of_b});
-      }
-    }
+    visit_edges(contours, [&](Vec2 from, Vec2 to) {
+      if (from.x == to.x) return;
+      const bool runs_right = from.x < to.x;
+      edges_.push_back({runs_right ? from : to, runs_right ? to : from,
+                        (to.y - from.y) / (to.x - from.x), runs_right ? 1 : -1,
+                        is_of_b});
+    });
   }
 
   void shift_to_middle() {
@@ -157,47 +154,47 @@ class Sweep {
   }
 
   void sweep_strip(double left, double right) {
-    for (Piece& piece : pieces_) {
-      piece.left_y = edges_[piece.edge].y_at(left);
-      piece.right_y = edges_[piece.edge].y_at(right);
+    for (Crossed& crossed : crossed_) {
+      crossed.left_y = edges_[crossed.edge].y_at(left);
+      crossed.right_y = edges_[crossed.edge].y_at(right);
     }
-    sort_by_insertion(std::span(pieces_), is_below_at_left,
-                      [](const Piece&, const Piece&) {});
+    sort_by_insertion(std::span(crossed_), is_below_at_left,
+                      [](const Crossed&, const Crossed&) {});
     areas_.set_winding({0, 0});
     const double width = right - left;
-    if (std::is_sorted(pieces_.begin(), pieces_.end(), is_below_at_right)) {
-      for (const Piece& piece : pieces_) {
-        areas_.pass(edges_[piece.edge], piece.middle_y(), width);
+    if (std::is_sorted(crossed_.begin(), crossed_.end(), is_below_at_right)) {
+      for (const Crossed& crossed : crossed_) {
+        areas_.pass(edges_[crossed.edge], crossed.middle_y(), width);
       }
       return;
     }
     rank_at_right();
-    // Edges that only change places with each other are a cluster.
+    // Edges that change places with each other alone are a cluster.
     std::size_t begin = 0;
     std::uint32_t greatest = 0;
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      greatest = std::max(greatest, pieces_[i].rank);
+    for (std::size_t i = 0; i < crossed_.size(); ++i) {
+      greatest = std::max(greatest, crossed_[i].rank);
       if (greatest != i) continue;
-      sweep_cluster(std::span(pieces_).subspan(begin, i + 1 - begin), width);
+      sweep_cluster(std::span(crossed_).subspan(begin, i + 1 - begin), width);
       begin = i + 1;
     }
   }
 
   void rank_at_right() {
     order_.clear();
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) order_.push_back(i);
+    for (std::uint32_t i = 0; i < crossed_.size(); ++i) order_.push_back(i);
     std::sort(order_.begin(), order_.end(),
               [this](std::uint32_t p, std::uint32_t q) {
-                if (is_below_at_right(pieces_[p], pieces_[q])) return true;
-                if (is_below_at_right(pieces_[q], pieces_[p])) return false;
+                if (is_below_at_right(crossed_[p], crossed_[q])) return true;
+                if (is_below_at_right(crossed_[q], crossed_[p])) return false;
                 return p < q;
               });
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
-      pieces_[order_[i]].rank = i;
+      crossed_[order_[i]].rank = i;
     }
   }
 
-  void sweep_cluster(std::span<const Piece> cluster, double width) {
+  void sweep_cluster(std::span<const Crossed> cluster, double width) {
     if (cluster.size() == 1) {
       areas_.pass(edges_[cluster[0].edge], cluster[0].middle_y(), width);
       return;
@@ -212,12 +209,12 @@ class Sweep {
     }
   }
 
-  // As shares of the strip, ascending, with its end.
-  void find_crossings(std::span<const Piece> cluster) {
+  // Finds crossings as shares of the strip, ascending, its end among them.
+  void find_crossings(std::span<const Crossed> cluster) {
     crossings_.assign(1, 1.0);
     sorted_.assign(cluster.begin(), cluster.end());
     sort_by_insertion(std::span(sorted_), is_below_at_right,
-                      [this](const Piece& p, const Piece& q) {
+                      [this](const Crossed& p, const Crossed& q) {
                         const double at_left = p.left_y - q.left_y;
                         const double at_right = q.right_y - p.right_y;
                         if (at_left <= 0 || at_right <= 0)
@@ -234,13 +231,14 @@ class Sweep {
     std::sort(crossings_.begin(), crossings_.end());
   }
 
-  void sweep_between_crossings(std::span<const Piece> cluster, double from,
+  void sweep_between_crossings(std::span<const Crossed> cluster, double from,
                                double to, double width) {
     const double middle = (from + to) / 2;
     heights_.clear();
-    for (const Piece& piece : cluster) {
+    for (const Crossed& crossed : cluster) {
       heights_.emplace_back(
-          piece.left_y + middle * (piece.right_y - piece.left_y), piece.edge);
+          crossed.left_y + middle * (crossed.right_y - crossed.left_y),
+          crossed.edge);
     }
     std::sort(heights_.begin(), heights_.end());
     for (const auto& [y, edge] : heights_) {
@@ -248,14 +246,14 @@ class Sweep {
     }
   }
 
-  std::vector<Edge> edges_;    // by their left ends
-  std::vector<double> stops_;  // x of all ends, ascending
-  std::vector<Piece> pieces_;  // in the strip, from below at its left side
+  std::vector<Edge> edges_;           // by their left ends
+  std::vector<double> event_points_;  // x of all ends, ascending
+  std::vector<Crossed> crossed_;  // in the strip, from below at its left side
   Areas areas_;
   std::uint64_t steps_ = 0;
   // Scratch.
   std::vector<std::uint32_t> order_;
-  std::vector<Piece> sorted_;
+  std::vector<Crossed> sorted_;
   std::vector<double> crossings_;
   std::vector<std::pair<double, std::uint32_t>> heights_;
 };

@@ -2,10 +2,10 @@
 // What two sets of contours have in common, as areas.
 //
 // A line sweeps from left to right over both at once. Between two neighbouring
-// ends of edges every edge is straight and reaches from side to side, so in
-// such a strip an edge bounds from above or below what lies beside it, and the
-// area is a sum over edges: the integral of y, times what changes there. Where
-// edges cross inside a strip, it is cut at the crossings, for those edges
+// event points, the ends of edges, every edge is straight and reaches from side
+// to side. So in such a strip an edge bounds what lies above or below it, and
+// the area is a sum over edges: the integral of y, times what changes there.
+// Where edges cross inside a strip, it is cut at the crossings, for those edges
 // alone. No region is built and nothing is rounded to a grid, so contours may
 // cross, touch and coincide; areas are exact but for the rounding of doubles,
 // 1e-15 of the part's size squared for each edge.
@@ -14,7 +14,7 @@
 
 namespace lamina::slicer {
 
-// Inside is where a set's contours wind other than 0 times [mm²].
+// Areas [mm²] of a and b: where the winding number of their contours is not 0.
 struct RegionAreas {
   double both = 0;
   double only_a = 0;
@@ -24,9 +24,9 @@ struct RegionAreas {
   double b() const { return both + only_b; }
 };
 
-// Time grows with edges times edges that a vertical line meets, and with
-// crossings. Throws GeometryError where contours cross so often that it would
-// take minutes: 10⁵ edges at random.
+// The time grows with the number of edges times that of edges on a vertical
+// line, and with crossings. Throws GeometryError where contours cross so often
+// that it would take minutes: 10⁵ edges at random.
 RegionAreas measure_regions(const ldni::Contours& a, const ldni::Contours& b);
 
 }  // namespace lamina::slicer

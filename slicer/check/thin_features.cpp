@@ -17,19 +17,19 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// A feature is told where it is thinnest. Of places as thin but for this [mm],
-// which rounding decides, the lowest is taken.
+// A feature is reported where it is thinnest; of points as thin but for this
+// [mm], which rounding decides, at the lowest.
 constexpr double kSameWidth = 1e-7;
 
-// Cells are no smaller than this share of the width, so that a search for the
-// largest disk visits no more than some hundred.
+// Cells are no smaller than this share of the width, so that a search around
+// the largest disk visits some hundred at most.
 constexpr double kLeastCell = 0.125;
 
-// Cells are no smaller than that lines, on the average, reach over so many: a
-// line may be as long as a file says.
+// Lines reach over so many cells at most, on the average: in a file a line may
+// be of any length.
 constexpr double kMostCellsPerLine = 1024;
 
-// Disks that touch overlap, whatever rounding says [mm].
+// Disks that miss each other by less overlap: rounding may part them [mm].
 constexpr double kOverlapSlack = 1e-7;
 
 bool lie_on_two_sides(Vec2 from, Vec2 to, Vec2 a, Vec2 b) {
@@ -45,8 +45,8 @@ bool are_farther(Vec2 a, Vec2 b, Vec2 c, Vec2 d, double distance) {
          std::min(a.y, b.y) - std::max(c.y, d.y) > distance;
 }
 
-// Lines shorter than rounding have no sides; they do not cross what is not
-// there.
+// Lines shorter than rounding have no sides: lines that are far apart do not
+// cross.
 bool cross_each_other(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return !are_farther(a, b, c, d, 0) && lie_on_two_sides(a, b, c, d) &&
          lie_on_two_sides(c, d, a, b);
@@ -60,27 +60,27 @@ double distance_of_lines(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 }  // namespace
 
-// --- Places ----------------------------------------------------------------
-// Lines are listed in the cells of points on them, a cell apart at most.
+// --- Stretches by place ------------------------------------------------------
+// A line is listed in the cells of points on it, a cell apart at most.
 
-void FeatureCollector::Places::clear(double cell, std::size_t count) {
+void FeatureCollector::StretchGrid::clear(double cell, std::size_t count) {
   cell_ = cell;
   greatest_reach_ = 0;
-  placed_.clear();
+  members_.clear();
   items_.clear();
   heads_.assign(std::bit_ceil(2 * count + 1), kNone);
 }
 
-std::size_t FeatureCollector::Places::bucket_of(std::int64_t column,
-                                                std::int64_t row) const {
+std::size_t FeatureCollector::StretchGrid::bucket_of(std::int64_t column,
+                                                     std::int64_t row) const {
   const auto mixed = static_cast<std::uint64_t>(column) * 0x9e3779b97f4a7c15U ^
                      static_cast<std::uint64_t>(row) * 0xc2b2ae3d27d4eb4fU;
   return (mixed ^ mixed >> 29) & (heads_.size() - 1);
 }
 
 template <typename Visit>
-void FeatureCollector::Places::visit_samples(Vec2 from, Vec2 to,
-                                             const Visit& visit) const {
+void FeatureCollector::StretchGrid::visit_samples(Vec2 from, Vec2 to,
+                                                  const Visit& visit) const {
   const Vec2 along = to - from;
   const int steps =
       static_cast<int>(std::ceil(std::sqrt(dot(along, along)) / cell_));
@@ -91,13 +91,13 @@ void FeatureCollector::Places::visit_samples(Vec2 from, Vec2 to,
   }
 }
 
-void FeatureCollector::Places::add(const Placed& placed) {
-  const auto number = static_cast<std::uint32_t>(placed_.size());
-  placed_.push_back(placed);
-  greatest_reach_ = std::max(greatest_reach_, placed.reach);
+void FeatureCollector::StretchGrid::add(const Member& member) {
+  const auto number = static_cast<std::uint32_t>(members_.size());
+  members_.push_back(member);
+  greatest_reach_ = std::max(greatest_reach_, member.reach);
   std::size_t last = heads_.size();
   visit_samples(
-      placed.from, placed.to, [&](std::int64_t column, std::int64_t row) {
+      member.from, member.to, [&](std::int64_t column, std::int64_t row) {
         const std::size_t bucket = bucket_of(column, row);
         if (bucket == last) return;
         last = bucket;
@@ -107,16 +107,18 @@ void FeatureCollector::Places::add(const Placed& placed) {
 }
 
 template <typename Visit>
-void FeatureCollector::Places::visit_near(Vec2 from, Vec2 to, double distance,
-                                          const Visit& visit) const {
-  if (placed_.empty()) return;
-  // Of two lines within the distance, listed points are within a cell more.
+void FeatureCollector::StretchGrid::visit_near(Vec2 from, Vec2 to,
+                                               double distance,
+                                               const Visit& visit) const {
+  if (members_.empty()) return;
+  // Listed points of lines within the distance are at most a cell farther
+  // apart.
   const auto cells = 1 + static_cast<std::int64_t>(
                              std::ceil((distance + greatest_reach_) / cell_));
   const double samples = 1 + glm::distance(from, to) / cell_;
   const auto side = static_cast<double>(2 * cells + 1);
-  if (samples * side * side >= static_cast<double>(placed_.size())) {
-    for (const Placed& placed : placed_) visit(placed);
+  if (samples * side * side >= static_cast<double>(members_.size())) {
+    for (const Member& member : members_) visit(member);
     return;
   }
   visit_samples(from, to, [&](std::int64_t column, std::int64_t row) {
@@ -124,7 +126,7 @@ void FeatureCollector::Places::visit_near(Vec2 from, Vec2 to, double distance,
       for (std::int64_t k = row - cells; k <= row + cells; ++k) {
         for (std::uint32_t item = heads_[bucket_of(i, k)]; item != kNone;
              item = items_[item].next) {
-          visit(placed_[items_[item].placed]);
+          visit(members_[items_[item].member]);
         }
       }
     }
@@ -135,7 +137,7 @@ void FeatureCollector::Places::visit_near(Vec2 from, Vec2 to, double distance,
 
 namespace {
 
-// Whether a feature is told by `by` rather than by what it is told by.
+// Whether a feature is to be reported at `by` rather than where it is so far.
 bool is_better(const ThinFeature& by, const ThinFeature& feature) {
   if (std::abs(by.width - feature.width) > kSameWidth) {
     return by.width < feature.width;
@@ -157,7 +159,7 @@ void extend(ThinFeature& feature, const ThinFeature& by) {
 
 }  // namespace
 
-std::vector<std::uint32_t> number_makers(const csg::Scene& scene) {
+std::vector<std::uint32_t> source_ids(const csg::Scene& scene) {
   std::map<std::tuple<const Source*, std::uint32_t, std::uint32_t>,
            std::uint32_t>
       known;
@@ -190,33 +192,34 @@ std::uint32_t FeatureCollector::Union::join(std::uint32_t a, std::uint32_t b) {
 }
 
 FeatureCollector::FeatureCollector(double width,
-                                   std::vector<std::uint32_t> makers)
-    : width_(width), makers_(std::move(makers)) {}
+                                   std::vector<std::uint32_t> source_ids)
+    : width_(width), source_ids_(std::move(source_ids)) {}
 
 std::uint32_t FeatureCollector::join_features(std::uint32_t a,
                                               std::uint32_t b) {
   if (a == kNone || a == b) return b;
-  const std::uint32_t kept = features_union_.join(a, b);
+  const std::uint32_t kept = feature_union_.join(a, b);
   extend(features_[kept], features_[std::max(a, b)]);
   return kept;
 }
 
-std::uint32_t FeatureCollector::join_wholes(std::uint32_t a, std::uint32_t b) {
+std::uint32_t FeatureCollector::join_thin_places(std::uint32_t a,
+                                                 std::uint32_t b) {
   if (a == kNone || a == b) return b;
-  const std::uint32_t kept = wholes_union_.join(a, b);
-  const Span gone = wholes_[std::max(a, b)];
-  wholes_[kept] = {std::min(wholes_[kept].bottom, gone.bottom),
-                   std::max(wholes_[kept].top, gone.top)};
+  const std::uint32_t kept = thin_place_union_.join(a, b);
+  const Span gone = thin_places_[std::max(a, b)];
+  thin_places_[kept] = {std::min(thin_places_[kept].bottom, gone.bottom),
+                        std::max(thin_places_[kept].top, gone.top)};
   return kept;
 }
 
-FeatureCollector::Placed FeatureCollector::place(
+FeatureCollector::Member FeatureCollector::member_of(
     const ThinStretch& stretch) const {
-  const auto maker = [this](std::uint32_t instance) {
-    return instance < makers_.size() ? makers_[instance] : kNone;
+  const auto source = [this](std::uint32_t instance) {
+    return instance < source_ids_.size() ? source_ids_[instance] : kNone;
   };
   const auto [low, high] =
-      std::minmax({maker(stretch.instances[0]), maker(stretch.instances[1])});
+      std::minmax({source(stretch.instances[0]), source(stretch.instances[1])});
   return {stretch.from,
           stretch.to,
           stretch.reach,
@@ -226,21 +229,24 @@ FeatureCollector::Placed FeatureCollector::place(
           kNone};
 }
 
-// Joins what the stretch overlaps, and the stretch to it.
+// Joins the stretch with all that it overlaps.
 //
-// gap  by which its disks may miss those of the layer below
-void FeatureCollector::find_neighbours(Placed& stretch, double gap) {
-  const auto look = [&](const Places& places, double slack) {
+// gap  by which its disks may miss those of the layer below [mm]
+void FeatureCollector::join_neighbours(Member& stretch, double gap) {
+  const auto look = [&](const StretchGrid& grid, double slack) {
     const double distance = stretch.reach + slack;
-    places.visit_near(
-        stretch.from, stretch.to, distance, [&](const Placed& other) {
+    grid.visit_near(
+        stretch.from, stretch.to, distance, [&](const Member& other) {
           if (other.kind != stretch.kind) return;
-          const std::uint32_t whole = wholes_union_.root_of(other.whole);
-          const bool is_alike = other.makers == stretch.makers;
+          const std::uint32_t place =
+              thin_place_union_.root_of(other.thin_place);
+          const bool is_alike = other.sources == stretch.sources;
           const std::uint32_t feature =
-              is_alike ? features_union_.root_of(other.feature)
+              is_alike ? feature_union_.root_of(other.feature)
                        : stretch.feature;
-          if (whole == stretch.whole && feature == stretch.feature) return;
+          if (place == stretch.thin_place && feature == stretch.feature) {
+            return;
+          }
           const double most = distance + other.reach;
           if (are_farther(stretch.from, stretch.to, other.from, other.to,
                           most) ||
@@ -248,7 +254,7 @@ void FeatureCollector::find_neighbours(Placed& stretch, double gap) {
                                 other.to) > most) {
             return;
           }
-          stretch.whole = join_wholes(stretch.whole, whole);
+          stretch.thin_place = join_thin_places(stretch.thin_place, place);
           if (is_alike)
             stretch.feature = join_features(stretch.feature, feature);
         });
@@ -257,21 +263,22 @@ void FeatureCollector::find_neighbours(Placed& stretch, double gap) {
   look(below_, gap);
 }
 
-// Counts the stretch to its feature and its thin place, new ones if it has
+// Adds the stretch to its feature and its thin place, or to new ones if it has
 // none.
-void FeatureCollector::count(const ThinFeature& one, Placed& placed) {
-  if (placed.whole == kNone) {
-    placed.whole = wholes_union_.add();
-    wholes_.push_back({one.bottom, one.top});
+void FeatureCollector::count(const ThinFeature& one, Member& member) {
+  if (member.thin_place == kNone) {
+    member.thin_place = thin_place_union_.add();
+    thin_places_.push_back({one.bottom, one.top});
   } else {
-    wholes_[placed.whole].top = std::max(wholes_[placed.whole].top, one.top);
+    thin_places_[member.thin_place].top =
+        std::max(thin_places_[member.thin_place].top, one.top);
   }
-  if (placed.feature == kNone) {
-    placed.feature = features_union_.add();
+  if (member.feature == kNone) {
+    member.feature = feature_union_.add();
     features_.push_back(one);
-    whole_of_.push_back(placed.whole);
+    thin_place_of_.push_back(member.thin_place);
   } else {
-    extend(features_[placed.feature], one);
+    extend(features_[member.feature], one);
   }
 }
 
@@ -307,20 +314,21 @@ void FeatureCollector::take(const Layer& layer,
                           stretch.place,
                           stretch.instances,
                           0};
-    Placed placed = place(stretch);
-    find_neighbours(placed, gap);
-    count(one, placed);
-    here_.add(placed);
+    Member member = member_of(stretch);
+    join_neighbours(member, gap);
+    count(one, member);
+    here_.add(member);
   }
 }
 
 std::vector<ThinFeature> FeatureCollector::finish() {
   std::vector<ThinFeature> features;
   for (std::uint32_t i = 0; i < features_.size(); ++i) {
-    if (features_union_.root_of(i) != i) continue;
-    const Span& whole = wholes_[wholes_union_.root_of(whole_of_[i])];
+    if (feature_union_.root_of(i) != i) continue;
+    const Span& place =
+        thin_places_[thin_place_union_.root_of(thin_place_of_[i])];
     features.push_back(features_[i]);
-    features.back().height = whole.top - whole.bottom;
+    features.back().height = place.top - place.bottom;
   }
   const auto rank = [](const ThinFeature& feature) {
     return std::tuple(feature.first_layer, feature.kind, feature.place.x,

@@ -1,14 +1,15 @@
 #pragma once
 // Features: thin walls and gaps that go on through neighbouring layers.
 //
-// What is thin in one layer is a piece of middle line with a disk at every
-// point. Pieces whose disks overlap belong together, in one layer and from one
-// layer to the next; there disks may also miss each other by a layer's
-// thickness, so that a wall that leans by 45° is one feature however thin.
+// A layer is thin along stretches of its medial axis, with a disk at every
+// point (thin_finder.h). Stretches whose disks overlap belong to one thin
+// place, in a layer and from one layer to the next; there disks may also miss
+// each other by a layer's thickness, so that a wall that leans by 45° is one
+// place however thin.
 //
-// Pieces that belong together make a thin place. Where it is made by different
-// lines of the design, as a prong on a thin collet is, it is as many features:
-// a fault is told by the line that it can be mended in.
+// A thin place that several lines of the design make, as a prong on a thin
+// collet is, has as many features: each fault is reported with the line that
+// can repair it.
 
 #include <array>
 #include <cstdint>
@@ -28,67 +29,66 @@ struct ThinFeature {
   std::uint32_t last_layer = 0;
   double bottom = 0;   // of the first layer [mm]
   double top = 0;      // of the last one
-  Vec2 low = Vec2(0);  // bounds of the middle line
+  Vec2 low = Vec2(0);  // bounds of its stretches
   Vec2 high = Vec2(0);
-  // Where it is thinnest, and of such places the one on the longest stretch.
+  // At its thinnest point; of several, the one on the longest stretch.
   double width = 0;
   double length = 0;  // of the stretch
   std::uint32_t layer = 0;
   double section_z = 0;
   Vec2 place = Vec2(0);
   std::array<std::uint32_t, 2> instances = {kNoInstance, kNoInstance};
-  // From the lowest layer to the highest of the thin place that this is a
-  // feature of [mm].
+  // From the bottom to the top of its thin place [mm].
   double height = 0;
 };
 
-// Numbers for the lines of a design, by instance: equal where instances were
-// made by the same text.
-std::vector<std::uint32_t> number_makers(const csg::Scene& scene);
+// For each instance, a number for the text that made it: equal texts of the
+// design have equal numbers.
+std::vector<std::uint32_t> source_ids(const csg::Scene& scene);
 
 class FeatureCollector {
  public:
-  // width   that the stretches were found with [mm]
-  // makers  as of number_makers(); empty where nothing is known of leaves
-  FeatureCollector(double width, std::vector<std::uint32_t> makers);
+  // width       that the stretches were found with [mm]
+  // source_ids  of source_ids(); empty where leaves are not known
+  FeatureCollector(double width, std::vector<std::uint32_t> source_ids);
 
-  // Takes the stretches of the next layer, none included; it counts layers
-  // itself. The layer's contours are not looked at.
+  // Takes the stretches of the next layer, also where there are none: it counts
+  // the layers. It does not look at the layer's contours.
   void take(const Layer& layer, std::span<const ThinStretch> stretches);
 
   // All features, from the bottom to the top.
   std::vector<ThinFeature> finish();
 
  private:
-  // Things that turn out to be one: a forest.
+  // Numbers that turn out to be one: a forest (union-find).
   class Union {
    public:
     std::uint32_t add();
     std::uint32_t root_of(std::uint32_t i);
-    // Makes one of two; returns the root, which is the first of them.
+    // Joins two roots; returns the lesser, which is the root of both.
     std::uint32_t join(std::uint32_t a, std::uint32_t b);
 
    private:
     std::vector<std::uint32_t> parents_;
   };
-  // A stretch, and what it was counted to.
-  struct Placed {
+  // A stretch, its feature and its thin place.
+  struct Member {
     Vec2 from;
     Vec2 to;
     double reach;
     ThinKind kind;
-    std::uint64_t makers;  // both, whatever their order
+    std::uint64_t sources;  // ids of both sides, whatever their order
     std::uint32_t feature;
-    std::uint32_t whole;  // the thin place
+    std::uint32_t thin_place;
   };
-  // The stretches of a layer by where they are.
-  class Places {
+  // The stretches of a layer by place.
+  class StretchGrid {
    public:
-    // cell   size of the grid: about the distance that will be asked for
-    // count  of stretches to come
+    // cell   size of the grid's cells: about the distance of the queries [mm]
+    // count  stretches to come
     void clear(double cell, std::size_t count);
-    void add(const Placed& placed);
-    // Calls visit(placed) for all whose disks are within the distance of the
+    void add(const Member& member);
+    // Calls visit(member) for all whose disks are within the distance of the
     // line, and for some beyond; for some more than once.
     template <typename Visit>
     void visit_near(Vec2 from, Vec2 to, double distance,
@@ -96,7 +96,7 @@ class FeatureCollector {
 
    private:
     struct Item {
-      std::uint32_t placed;
+      std::uint32_t member;
       std::uint32_t next;
     };
     template <typename Visit>
@@ -105,7 +105,7 @@ class FeatureCollector {
 
     double cell_ = 1;
     double greatest_reach_ = 0;
-    std::vector<Placed> placed_;
+    std::vector<Member> members_;
     std::vector<std::uint32_t> heads_;
     std::vector<Item> items_;
   };
@@ -114,26 +114,26 @@ class FeatureCollector {
     double top = 0;
   };
 
-  Placed place(const ThinStretch& stretch) const;
-  void find_neighbours(Placed& stretch, double gap);
+  Member member_of(const ThinStretch& stretch) const;
+  void join_neighbours(Member& member, double gap);
   std::uint32_t join_features(std::uint32_t a, std::uint32_t b);
-  std::uint32_t join_wholes(std::uint32_t a, std::uint32_t b);
-  void count(const ThinFeature& one, Placed& placed);
+  std::uint32_t join_thin_places(std::uint32_t a, std::uint32_t b);
+  void count(const ThinFeature& one, Member& member);
 
   const double width_;
-  const std::vector<std::uint32_t> makers_;
+  const std::vector<std::uint32_t> source_ids_;
   std::uint32_t layers_ = 0;
   double last_z_ = 0;
-  Places here_;
-  Places below_;
-  Union features_union_;
+  StretchGrid here_;
+  StretchGrid below_;
+  Union feature_union_;
   std::vector<ThinFeature> features_;
-  std::vector<std::uint32_t> whole_of_;  // a feature
-  Union wholes_union_;
-  std::vector<Span> wholes_;
+  std::vector<std::uint32_t> thin_place_of_;  // each feature
+  Union thin_place_union_;
+  std::vector<Span> thin_places_;
 };
 
-// Features of a layer by itself.
+// The features of a single layer.
 std::vector<ThinFeature> find_thin_features(const Layer& layer, double width);
 
 }  // namespace lamina::slicer

@@ -9,16 +9,16 @@
 namespace lamina::slicer {
 namespace {
 
-// Boundary may reach into a disk by this much [mm]: the rounding of a disk that
-// touches three sides at once. The kinetic ray moves no point by more.
+// The boundary may reach into a disk by this much [mm]: the rounding of a disk
+// that touches three sides at once. The kinetic ray moves no point by more.
 constexpr double kTouchDistance = 1e-8;
 
-// Widths less than this below the limit are none [mm]: a wall that was designed
-// as thick as the limit is not thin.
+// A wall is thin only where it falls short of the limit by more than this [mm]:
+// one that was designed as thick as the limit is not.
 constexpr double kSlack = 1e-6;
 
-// Cuts that clear a range of what blocks it. Each is final but for rounding,
-// so that few are ever needed.
+// Cuts that clear a range of what blocks it, at most. Each is final but for
+// rounding, so that few are needed.
 constexpr int kMostCuts = 1000;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -74,8 +74,8 @@ void ThinFinder::find(const ldni::Contours& contours,
 }
 
 // --- The frame of the edge in hand -------------------------------------------
-// Seen from its other side a void is a solid: in either frame what the disk
-// rolls in lies to the left of all edges.
+// Seen from the other side a void is a solid: in either frame the disk rolls to
+// the left of all edges.
 
 void ThinFinder::take_in_hand(std::uint32_t number, ThinKind kind) {
   number_ = number;
@@ -125,8 +125,8 @@ void ThinFinder::face_edge(const Seen& seen) {
   range.keep_where_positive(t0, t1);
   range.keep_where_positive(seen.length - t0, -t1);
   if (range.is_empty()) return;
-  // Where two edges meet there is a disk of no width on either side; only in
-  // the sharp one it grows.
+  // Where two edges meet, a disk of no width lies on either side; it grows on
+  // the sharp side only.
   const Polynomial radius{c0, c1, 0};
   if (std::max(radius(range.low), radius(range.high)) < kTouchDistance) return;
   roll({seen.edge, false, 0, radius, range});
@@ -161,7 +161,7 @@ void ThinFinder::face_corner(const Seen& seen) {
 
 // --- The disk that rolls -----------------------------------------------------
 
-// Clears the range of what blocks the disk and keeps the rest.
+// Cuts what blocks the disk out of the range and keeps the rest.
 void ThinFinder::roll(const Facing& facing) {
   ranges_.assign(1, facing.range);
   for (int cuts = 0; !ranges_.empty() && cuts < kMostCuts;) {
@@ -187,7 +187,7 @@ void ThinFinder::roll(const Facing& facing) {
   }
 }
 
-// Place of the least radius; the middle where it is the same everywhere.
+// The place of the least radius; the middle where it is the same everywhere.
 double ThinFinder::least(const Polynomial& radius, const Range& range) {
   if (radius.c2 > 0) {
     return std::clamp(-radius.c1 / (2 * radius.c2), range.low, range.high);
@@ -207,7 +207,7 @@ const LayerEdge* ThinFinder::find_blocker(Vec2 centre, double radius) const {
 }
 
 // The range about x in which the same part of the edge, its interior or an end,
-// lies within the disk. The disk's centre is at (s, r).
+// lies in the disk, whose centre is at (s, r).
 ThinFinder::Range ThinFinder::blocked_range(const LayerEdge& blocker,
                                             const Facing& facing,
                                             double x) const {
@@ -282,8 +282,8 @@ void ThinFinder::add_stretch(const Facing& facing, const Range& range) {
 
 // --- Corners -----------------------------------------------------------------
 
-// Necks between two corners that point at each other. Beside the neck the disk
-// grows, and touches edges as soon as it leaves the corners.
+// Finds necks between two corners that point at each other. Beside a neck the
+// disk grows, and touches edges as soon as it leaves the corners.
 void ThinFinder::face_corners(std::uint32_t number) {
   const Vec2 here = edges_[number].from;
   const double turn =
@@ -322,8 +322,8 @@ bool ThinFinder::points_to(std::uint32_t number, Vec2 direction) const {
          dot(direction, edge.along) <= 0;
 }
 
-// Loops that are thin as a whole. One that encloses nothing is neither wall nor
-// gap.
+// Adds loops that are thin as a whole. One that encloses nothing is neither
+// wall nor gap.
 void ThinFinder::add_small_loops() {
   for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
     const std::uint32_t loop = edges_[begin].loop;
@@ -346,7 +346,7 @@ void ThinFinder::add_small_loops() {
     }
     const double width = 2 * std::abs(doubled_area) / length;
     if (is_thin_[loop] || !(width < width_) || doubled_area == 0) continue;
-    // That of a loop that crosses itself may lie anywhere.
+    // The centroid of a loop that crosses itself may lie anywhere.
     const Vec2 centre =
         glm::clamp(origin + moment / (3 * doubled_area), low, high);
     const Vec2 side = edges_[longest].from +

@@ -3,26 +3,27 @@
 //
 // The width at a place is the diameter of the largest disk that fits in there:
 // in the solid a wall, in the void a gap. Such disks have their centres on the
-// middle line between the sides, and most of that line is of no interest: a
-// branch of it runs into every corner, where disks become as small as one likes
-// in the soundest part. So a place counts as thin if the disk
+// medial axis (Blum 1967), and most of that is of no interest: a branch of it
+// runs into every corner, where disks become as small as one likes in the
+// soundest part. So a place counts as thin if the disk
 //
 //   - is thinner than the width,
 //   - is empty: no boundary runs through it,
-//   - and touches two sides that face each other: at the places where it
-//     touches, the boundary runs in opposite directions, but for kFacingAngle.
+//   - and touches two sides that face each other: where it touches them, they
+//     run in opposite directions, but for kFacingAngle.
 //
 // A corner of 90° is not thin, nor is the foot of a fillet; a plate, a slit, a
-// prong, a neck, the end of a taper or of a knife's edge is. Where a disk that
-// touches three sides faces none (a prong of three or five sides), the loop
-// counts as a whole: one with 4 · area / perimeter below the width, which is
-// the inscribed circle's diameter in every triangle and regular polygon.
+// prong, a neck, the end of a taper or of a knife's edge is. Where a disk
+// touches three sides of which none face each other (a prong of three or five
+// sides), the loop counts as a whole: one with 4 · area / perimeter below the
+// width, which is the inscribed circle's diameter in every triangle and regular
+// polygon.
 //
-// Nothing is sampled. Between an edge and what faces it, another edge or a
-// corner that points at it, the radius of the disk that rolls along the edge is
-// a polynomial of its place, of first or second degree. What blocks the disk
-// does so on an interval whose ends are roots of such polynomials. So widths
-// and places are exact up to rounding.
+// Nothing is sampled. A disk rolls along an edge and touches what faces it:
+// another edge, or a corner that points at it. Its radius is a polynomial of
+// its place, of first or second degree. What blocks the disk does so on an
+// interval whose ends are roots of such polynomials. So widths and places are
+// exact up to rounding.
 //
 // The cost is about 0.1 µs for an edge that nothing faces, and 1 to 7 µs for an
 // edge of a thin place, by how many edges there are within the width.
@@ -44,24 +45,23 @@ enum class ThinKind : std::uint8_t { kWall, kGap };
 inline constexpr std::uint32_t kNoInstance =
     std::numeric_limits<std::uint32_t>::max();
 
-// A piece of the middle line of a thin place.
+// A stretch of the medial axis that is thin.
 struct ThinStretch {
   ThinKind kind = ThinKind::kWall;
   double width = 0;                                // least on the stretch [mm]
   Vec2 place = Vec2(0);                            // centre of the disk there
   std::array<Vec2, 2> sides = {Vec2(0), Vec2(0)};  // where it touches
-  // The ends of the stretch; a curved one is taken for straight.
+  // The ends of the stretch, which is taken for straight.
   Vec2 from = Vec2(0);
   Vec2 to = Vec2(0);
   double reach = 0;  // radius of the larger disk at the ends [mm]
-  // Of the leaves whose surfaces the sides are, where they are known
-  // (slicer/check/leaf_search.h): indices into Scene::instances, or
-  // kNoInstance.
+  // The leaves whose surfaces the sides are, where they are known
+  // (leaf_search.h): indices into Scene::instances, or kNoInstance.
   std::array<std::uint32_t, 2> instances = {kNoInstance, kNoInstance};
 };
 
-// Widths to be asked for [mm]: finer ones are no matter of printing, and
-// the cost of much larger ones grows with their square.
+// Least and greatest width of a search [mm]: no printer knows finer ones, and
+// the cost grows with the square of the width.
 inline constexpr double kLeastThinWidth = 1e-3;
 inline constexpr double kGreatestThinWidth = 10;
 
@@ -94,8 +94,8 @@ class ThinFinder {
     void keep_below(double limit) { high = limit < high ? limit : high; }
     void keep_where_positive(double c0, double c1);  // c0 + c1 x >= 0
   };
-  // An edge in the frame of the edge in hand: s along that edge, from its
-  // beginning, and h away from it, to the side that is looked at.
+  // An edge in the frame of the edge in hand: s along that edge from its
+  // beginning, h away from it on the searched side.
   struct Seen {
     std::uint32_t edge = 0;
     double s = 0;  // its beginning
@@ -104,8 +104,8 @@ class ThinFinder {
     double v = 0;  // and h
     double length = 0;
   };
-  // What faces the edge in hand, and the radius of the disk that touches both,
-  // by its place x = s - origin on the edge in hand.
+  // What faces the edge in hand, and the radius of the disk that touches both
+  // as a polynomial of its place x = s - origin on the edge in hand.
   struct Facing {
     std::uint32_t edge = 0;
     bool is_corner = false;  // where that edge begins; else its interior
@@ -134,16 +134,16 @@ class ThinFinder {
   const double width_;
   std::vector<LayerEdge> edges_;
   FacingCells cells_;
-  std::vector<bool> is_thin_;  // a loop
+  std::vector<bool> is_thin_;  // each loop
   std::vector<ThinStretch>* stretches_ = nullptr;
 
-  // The edge in hand, and the side that is looked at.
+  // The edge in hand and the searched side.
   std::uint32_t number_ = 0;
   LayerEdge edge_;
   ThinKind kind_ = ThinKind::kWall;
   double side_ = 1;  // +1: left
   std::vector<std::uint32_t> neighbours_;
-  std::vector<Range> ranges_;  // still to be looked at
+  std::vector<Range> ranges_;  // still to be searched
 };
 
 }  // namespace lamina::slicer

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "csg/plane/clip.h"
 #include "csg/tie_distance.h"
+#include "slicer/contour/regions.h"
 
 namespace lamina::slicer {
 namespace {
@@ -15,27 +15,9 @@ namespace {
 using planar::Contour;
 using planar::Region;
 
-// The clipper rounds the number of sides of an arc: one where 1.5 were asked
-// for is 1.5² times as far from it.
+// The clipper rounds the number of sides of an arc: one side where 1.5 were
+// asked for is 1.5² times as far from the circle.
 constexpr double kArcExcess = 2.25;
-
-Region to_region(const ldni::Contours& contours) {
-  Region region;
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const std::span<const Vec2> loop = contours.loop(i);
-    region.contours.emplace_back(loop.begin(), loop.end());
-  }
-  return region;
-}
-
-void copy_to(const Region& region, ldni::Contours& contours) {
-  contours.clear();
-  for (const Contour& contour : region.contours) {
-    contours.points.insert(contours.points.end(), contour.begin(),
-                           contour.end());
-    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
-  }
-}
 
 bool encloses(const Contour& contour, Vec2 point) {
   bool is_inside = false;
@@ -66,7 +48,7 @@ class Nesting {
     }
   }
 
-  // Of loops other than `skipped`; kNone outside of all.
+  // The innermost loop but `skipped`; kNone outside all loops.
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::size_t innermost(Vec2 point, std::size_t skipped = kNone) const {
     std::size_t result = kNone;
@@ -92,14 +74,15 @@ class Nesting {
   std::vector<Box> boxes_;
 };
 
-// Of regions, or of holes and the outside: what shrank.
+// What happened to the components that shrink: regions, or holes and the
+// outside.
 struct Losses {
   std::uint64_t vanished = 0;
-  std::uint64_t parted = 0;  // pieces more than before, for each that is left,
-                             // and pieces of the others that met
+  std::uint64_t parted = 0;  // components that came apart from one that is
+                             // left, and growing ones that met
 };
 
-// Loops of a sign (+1 regions, -1 holes) bound the components that shrink;
+// Loops of one sign (+1 regions, -1 holes) bound the components that shrink;
 // those of the other sign bound components that grow and can meet.
 Losses find_losses(const Region& before, const Region& after, int sign) {
   const auto shrinks = [sign](const Contour& contour) {
@@ -128,7 +111,7 @@ Losses find_losses(const Region& before, const Region& after, int sign) {
       }
       continue;
     }
-    // What lay in a component that vanished is no piece of its own any more.
+    // What lay in a component that vanished is no component any more.
     const std::size_t home =
         nesting.innermost((contour[0] + contour[1]) / 2.0, i);
     if (home == Nesting::kNone || is_left[home] != 0) ++parted;
@@ -153,9 +136,9 @@ CompensationCounts compensate(ldni::Contours& contours, double amount) {
   const Region before = to_region(contours);
   Region after = planar::offset(before, -amount, planar::Join::kRound,
                                 kArcTolerance / kArcExcess);
-  // What rounding left of walls exactly as thick as the beam.
+  // Drop what rounding left of walls exactly as thick as the beam.
   planar::drop_hairlines(after, kTieDistance);
-  copy_to(after, contours);
+  contours = to_contours(after);
   CompensationCounts counts;
   if (amount > 0) {
     const Losses losses = find_losses(before, after, +1);

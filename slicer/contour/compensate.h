@@ -17,25 +17,24 @@
 
 namespace lamina::slicer {
 
-// Of a layer, or of many.
+// What compensation lost, in one layer or in several.
 struct CompensationCounts {
-  std::uint64_t vanished_regions = 0;  // inwards: outer loops, nothing is left
-  std::uint64_t vanished_holes = 0;    // outwards: the same of holes
+  std::uint64_t vanished_regions = 0;  // inwards: nothing is left of them
+  std::uint64_t vanished_holes = 0;    // outwards: nothing is left of them
   std::uint64_t broken_walls = 0;      // inwards: regions came apart, or holes
                                        // met each other or the outside
-  std::uint64_t closed_gaps = 0;       // outwards: the same of gaps
+  std::uint64_t closed_gaps = 0;       // outwards: the same for gaps
 
   CompensationCounts& operator+=(const CompensationCounts& other);
 };
 
-// Of arcs: a tenth of the default tolerance, which simplification then uses up
-// [mm].
+// Greatest distance of arcs from the circle that they stand for [mm]: a tenth
+// of the default tolerance.
 inline constexpr double kArcTolerance = 1e-4;
 
-// Moves contours into the solid by `amount` [mm], out of it where that is
-// negative. Returns what is lost. Simple, disjoint loops stay so. Arcs are
-// exact within kArcTolerance. Throws std::range_error for coordinates beyond
-// 1e9 mm.
+// Moves contours into the solid by `amount` [mm], or out of it where that is
+// negative. Returns what is lost. Simple, disjoint loops stay so. Throws
+// std::range_error for coordinates beyond 1e9 mm.
 CompensationCounts compensate(ldni::Contours& contours, double amount);
 
 }  // namespace lamina::slicer

@@ -8,16 +8,15 @@
 
 namespace lamina::slicer {
 
-// Bounds [mm] on how far any point of a written contour is from the boundary
-// of the Boolean of the leaves in the plane of the section, by cause. Of walls
-// and gaps thinner than a tie nothing is promised. The section is the one moved
-// by --compensate where that is asked for.
+// Bounds [mm], by cause, on how far any point of a written contour is from the
+// boundary of the Boolean of the leaves in the plane of the section, which
+// --compensate may have moved. Walls and gaps thinner than a tie have no bound.
 struct Deviation {
-  double ties = kTieDistance;           // faces this near are one
-  double columns = ldni::kColumnWidth;  // what the ray takes for one x
-  double compensation = 0;              // arcs of moved contours
-  double simplification = 0;            // vertices left out
-  double rounding = 0;                  // of the format's coordinates
+  double ties = kTieDistance;            // faces this near are one
+  double columns = ldni::kClusterWidth;  // what the ray takes for one x
+  double compensation = 0;               // arcs of moved contours
+  double simplification = 0;             // vertices left out
+  double rounding = 0;                   // of the format's coordinates
   std::optional<double> facets = {};  // of leaves, from their curves, if known
 
   // From the exact section of the facetted leaves.
@@ -31,8 +30,8 @@ struct Deviation {
   }
 };
 
-// What rounding to 32-bit numbers moves a point by at most, of coordinates up
-// to `greatest` in magnitude [mm].
+// The most that rounding to 32-bit numbers moves a point whose coordinates are
+// up to `greatest` in magnitude [mm].
 double float32_rounding(double greatest);
 
 }  // namespace lamina::slicer

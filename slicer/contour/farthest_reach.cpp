@@ -9,8 +9,8 @@
 namespace lamina::slicer {
 namespace {
 
-// A search for the next vertex goes on for so many vertices, and twice as many
-// as it has reached, after the last one that a line reaches.
+// A search goes on past the last vertex that a line reaches for this many
+// vertices, and twice as many as that line spans.
 constexpr std::uint32_t kPatience = 16;
 
 // Directions of the lines from the anchor that pass all vertices so far within
@@ -24,8 +24,8 @@ class Cone {
   Cone(Vec2 along, double tolerance)
       : along_(along), tolerance_(tolerance * std::sqrt(dot(along, along))) {}
 
-  // Takes another vertex, seen from the anchor. Whether the cone held it
-  // before.
+  // Takes another vertex, seen from the anchor. Returns whether the cone held
+  // it before.
   bool narrow(Vec2 to) {
     const double x = dot(along_, to);
     const double y = cross(along_, to);

@@ -9,14 +9,13 @@
 
 namespace lamina::slicer {
 
-// Appends the vertices of the chain [begin, end] of `points` that are enough
-// for a line within the tolerance [mm]: from each the next is the last one for
-// which the line to it passes all vertices between within the tolerance and
-// leaves none of them behind or before itself. Nearly always the last: a search
-// ends where the chain has led away for long. Both ends are among them.
+// Appends the vertices of the chain [begin, end] of `points` that a line within
+// the tolerance [mm] needs, both ends among them. From each, the next is the
+// last one for which the line to it passes all vertices between within the
+// tolerance and leaves none behind or before itself. (Nearly always the last: a
+// search ends where the chain has led away for long.)
 //
-// By a cone of directions that narrows with every vertex (Imai and Iri 1988),
-// O(1) each.
+// A cone of directions narrows with every vertex (Imai and Iri 1988), in O(1).
 void choose_farthest(std::span<const Vec2> points, std::uint32_t begin,
                      std::uint32_t end, double tolerance,
                      std::vector<std::uint32_t>& chosen);

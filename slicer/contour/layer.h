@@ -13,28 +13,28 @@ struct Layer {
   double bottom = 0;     // the layer's lower side [mm]
   double top = 0;        // its upper side; = bottom = section_z for --heights
   double compensation = 0;  // contours have been moved inwards by this [mm]
-  // No vertex is known to be nearer to a foreign edge than this, in x and in y
-  // [mm]; 0: not known.
+  // Every vertex is known to keep this far from foreign edges, in x or in y
+  // [mm]; 0: nothing is known.
   double clearance = 0;
   ldni::Contours contours;
-  // What the sink's encode() made of the layer; empty where it was not asked.
+  // The sink's encode() of the layer; empty where it was not asked.
   std::string encoded;
 };
 
 // Takes the layers of a job in ascending order: a writer, a comparison, a test.
-// Empty layers below the first and above the last non-empty one have been left
-// out already (not under --heights: there each height gives a layer).
+// Empty layers below the first and above the last non-empty one are left out
+// (not under --heights: there each height gives a layer).
 class LayerSink {
  public:
   virtual ~LayerSink() = default;
-  // Once, before the first layer. box: no contour reaches beyond it but by
+  // Called once, before the first layer. No contour reaches beyond `box` but by
   // what --compensate adds.
   virtual void begin(const Box3& /*box*/) {}
-  // Once, after begin(): no more layers than these will come.
+  // Called once, after begin(): no more layers than these will come.
   virtual void expect(std::uint32_t /*layers*/) {}
-  // The part of the work on a layer that needs neither another layer nor its
-  // heights: layers with the same contours share what it makes. Called by
-  // several threads at once, between begin() and the layer's take(), for layers
+  // Does the part of the work on a layer that needs neither another layer nor
+  // its heights: layers with the same contours share the result. Several
+  // threads call it at once, between begin() and the layer's take(), for layers
   // with contours.
   virtual std::string encode(const Layer& /*layer*/) const { return {}; }
   virtual void take(const Layer& layer) = 0;

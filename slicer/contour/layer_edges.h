@@ -1,7 +1,9 @@
 #pragma once
-// The edges of a layer, one by one, with what lies beside them.
+// The edges of a layer.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/plane.h"
@@ -24,9 +26,20 @@ struct LayerEdge {
 
 inline Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
 
-// Distance of the point from the straight line between two points, which may
-// be the same.
+// Distance of the point from the segment between two points, which may be the
+// same.
 double distance_to_line(Vec2 point, Vec2 from, Vec2 to);
+
+// Calls visit(from, to) for every edge, loop by loop.
+template <typename Visit>
+void visit_edges(const ldni::Contours& contours, const Visit& visit) {
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const std::span<const Vec2> loop = contours.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      visit(loop[k], loop[k + 1 < loop.size() ? k + 1 : 0]);
+    }
+  }
+}
 
 // Replaces `edges` by those of all loops, loop by loop. Points that repeat
 // their predecessor give none.

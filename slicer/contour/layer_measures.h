@@ -1,5 +1,5 @@
 #pragma once
-// What can be counted and measured of one layer.
+// Counts and measures of one layer.
 
 #include <cstddef>
 

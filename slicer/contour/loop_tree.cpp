@@ -11,7 +11,7 @@ void LoopTree::Node::add(const Node& other) {
     least_step = least(least_step, other.least_step);
     greatest_step = greatest(greatest_step, other.greatest_step);
   } else {
-    // Not one stretch: it advances nowhere.
+    // The edges do not follow each other: they advance nowhere.
     least_step = both_lanes(-1e300);
     greatest_step = both_lanes(1e300);
     loop = kNone;
@@ -25,7 +25,7 @@ bool LoopTree::follow_apart(const Node& a, const Node& b, double reach) const {
   return both.advances(reach);
 }
 
-// The node's box against the strip: apart in x, in y, or across the segment.
+// False where the node's box is apart from it in x, in y or across the segment.
 bool LoopTree::Strip::meets(const Node& node) const {
   if (holds_for_any((node.low > high) | (node.high < low))) return false;
   const Lanes centre = (node.low + node.high) * 0.5 - middle;
@@ -41,15 +41,15 @@ void LoopTree::fill(std::span<const Vec2> points,
   points_ = points;
   vertices_ = vertices;
   ends_ = ends;
-  leaves_.clear();
+  bundles_.clear();
   nodes_.clear();
-  leaf_of_.resize(vertices.size());
+  bundle_of_.resize(vertices.size());
   sort_loops();
-  for (const auto& [place, loop] : order_) add_leaves(loop);
+  for (const auto& [place, loop] : order_) add_bundles(loop);
   build_levels();
 }
 
-// Loops of a layer by place: strips in x, and in a strip by y, so that loops
+// Sorts loops by place: into strips in x, and in a strip by y, so that loops
 // near each other are mostly neighbours.
 void LoopTree::sort_loops() {
   order_.clear();
@@ -72,22 +72,22 @@ void LoopTree::sort_loops() {
   std::sort(order_.begin(), order_.end());
 }
 
-void LoopTree::add_leaves(std::uint32_t loop) {
+void LoopTree::add_bundles(std::uint32_t loop) {
   const std::uint32_t last = ends_[loop] - 1;  // the copy of the first vertex
-  for (std::uint32_t k = loop_begin(loop); k < last; k += kEdgesPerLeaf) {
-    const std::uint32_t end = std::min(k + kEdgesPerLeaf, last);
-    std::fill(leaf_of_.begin() + k, leaf_of_.begin() + end,
-              static_cast<std::uint32_t>(leaves_.size()));
-    leaves_.push_back({k, end, loop});
-    nodes_.push_back(measure(leaves_.back()));
+  for (std::uint32_t k = loop_begin(loop); k < last; k += kEdgesPerBundle) {
+    const std::uint32_t end = std::min(k + kEdgesPerBundle, last);
+    std::fill(bundle_of_.begin() + k, bundle_of_.begin() + end,
+              static_cast<std::uint32_t>(bundles_.size()));
+    bundles_.push_back({k, end, loop});
+    nodes_.push_back(measure(bundles_.back()));
   }
 }
 
-LoopTree::Node LoopTree::measure(const Leaf& leaf) const {
+LoopTree::Node LoopTree::measure(const Bundle& bundle) const {
   Node node;
-  node.loop = leaf.loop;
-  const Vec2* point = &points_[vertices_[leaf.begin]];
-  const Vec2* last = &points_[vertices_[leaf.end]];
+  node.loop = bundle.loop;
+  const Vec2* point = &points_[vertices_[bundle.begin]];
+  const Vec2* last = &points_[vertices_[bundle.end]];
   Lanes before = lanes_of(*point);
   node.low = node.high = before;
   while (point != last) {

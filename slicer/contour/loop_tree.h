@@ -1,17 +1,16 @@
 #pragma once
-// Loops of a layer as a tree of boxes, for the question what lies near what.
+// Loops of a layer as a tree of boxes, to find what lies near what.
 //
-// A few successive edges make a leaf, two neighbours on a level the node above
-// them; the loops themselves stand in order of place. So a box holds a stretch
-// of contour, and nearly all of a layer is told apart in few looks:
+// A few successive edges make a bundle, two neighbours on a level the node
+// above them; loops near each other are neighbours too. So a box holds
+// successive edges, and two tests separate nearly all of a layer from the rest:
 //
-// - stretches whose boxes are apart, at any level;
-// - stretches that follow each other, or are one, where all edges advance along
-//   an axis, to the same side: then vertices lie one behind the other.
+// - the boxes of two nodes are apart, at any level;
+// - two nodes follow each other, or are one, and all their edges advance along
+//   an axis to the same side: then their vertices lie one behind the other.
 //
-// What neither tells is handed to the caller, leaf by leaf. On sections of
-// rings that takes a third of the instructions that a grid of the vertices
-// does.
+// The caller gets what neither test separates, bundle by bundle. On sections of
+// rings this takes a third of the instructions of a grid of the vertices.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +30,7 @@ namespace lamina::slicer {
 inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
   const Vec2 low = middle - Vec2(half_width);
   const Vec2 high = middle + Vec2(half_width);
-  // Without a branch for each side: which one it is nobody could predict.
+  // One branch for all sides: which one it is could not be predicted.
   const int sides_beyond = static_cast<int>(std::max(from.x, to.x) < low.x) +
                            static_cast<int>(std::min(from.x, to.x) > high.x) +
                            static_cast<int>(std::max(from.y, to.y) < low.y) +
@@ -47,18 +46,18 @@ inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
 class LoopTree {
  public:
   // Edges [begin, end): edge k runs from vertex k to vertex k + 1.
-  struct Leaf {
+  struct Bundle {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
     std::uint32_t loop = 0;
   };
 
-  // Forgets what it held.
+  // Replaces what the tree holds.
   //
   // points    of closed loops one after another
-  // vertices  indices of those that count, loop by loop; the last of a loop is
-  //           a copy of its first. An edge stands for all points from its
-  //           first vertex to its second.
+  // vertices  indices into points, loop by loop; the last of a loop is a copy
+  //           of its first. An edge stands for all points from its first vertex
+  //           to its second.
   // ends      loop l: vertices [ends[l-1], ends[l])
   //
   // Points and vertices must outlive the queries.
@@ -66,40 +65,39 @@ class LoopTree {
             std::span<const std::uint32_t> vertices,
             std::span<const std::uint32_t> ends);
 
-  // Calls take(leaf, leaf), a leaf with itself too, for all that may hold an
-  // edge and a foreign vertex within `reach` [mm] in x and in y; returns true
-  // at the first that it returns true for. Gives up, true as well, where so
-  // many stretches run beside each other, hundreds of rings in rings, that a
-  // grid of the vertices is faster.
+  // Calls take(bundle, bundle), a bundle with itself too, for all pairs that
+  // may hold an edge and a foreign vertex within `reach` [mm] in x and in y.
+  // Stops and returns true where take() does, and also where so many bundles
+  // run beside each other, hundreds of rings in rings, that a grid of the
+  // vertices is faster.
   template <typename Take>
   bool visit_near(double reach, const Take& take) const;
 
-  std::size_t leaf_count() const { return leaves_.size(); }
-  std::uint32_t index_of(const Leaf& leaf) const {
-    return static_cast<std::uint32_t>(&leaf - leaves_.data());
+  std::size_t bundle_count() const { return bundles_.size(); }
+  std::uint32_t index_of(const Bundle& bundle) const {
+    return static_cast<std::uint32_t>(&bundle - bundles_.data());
   }
-  const Leaf& leaf(std::uint32_t index) const { return leaves_[index]; }
-  // The leaf whose edge begins at vertex k; none begins at a loop's last.
-  std::uint32_t leaf_of(std::uint32_t k) const { return leaf_of_[k]; }
+  const Bundle& bundle(std::uint32_t index) const { return bundles_[index]; }
+  // The bundle of the edge that begins at vertex k, not a loop's last.
+  std::uint32_t bundle_of(std::uint32_t k) const { return bundle_of_[k]; }
 
   // Calls take(vertex, edge) for each vertex of `vertices`, but those that
-  // close a loop, and each edge of `edges` that is not its own and comes within
-  // `reach` [mm] of it in x and in y; returns true at the first that it returns
-  // true for.
+  // close a loop, and each foreign edge of `edges` within `reach` [mm] of it in
+  // x and in y. Stops and returns true where take() does.
   template <typename Take>
-  bool visit_meetings(const Leaf& vertices, const Leaf& edges, double reach,
+  bool visit_meetings(const Bundle& vertices, const Bundle& edges, double reach,
                       const Take& take) const;
 
   // Calls is_hit(point) for all vertices within `reach` [mm] of the segment,
-  // and for some beyond; returns true at the first that is one. A vertex that
-  // closes a loop is left out.
+  // but those that close a loop, and for some beyond. Stops and returns true
+  // where is_hit() does.
   template <typename IsHit>
   bool has_near(Vec2 a, Vec2 b, double reach, const IsHit& is_hit) const;
 
  private:
-  static constexpr std::uint32_t kEdgesPerLeaf = 3;
+  static constexpr std::uint32_t kEdgesPerBundle = 3;
   static constexpr std::uint32_t kNone = 0xffffffff;
-  // Looks at pairs, for each leaf, before visit_near() gives up; 14 are usual.
+  // Pairs to look at for each bundle before visit_near() stops; 14 are usual.
   static constexpr std::size_t kMostLooks = 32;
 
   struct Node {
@@ -107,7 +105,7 @@ class LoopTree {
     Lanes high = both_lanes(-1e300);
     Lanes least_step = both_lanes(1e300);  // of the edges between points
     Lanes greatest_step = both_lanes(-1e300);
-    std::uint32_t loop = kNone;  // if all of it is of one
+    std::uint32_t loop = kNone;  // kNone where it is of several
 
     void add(const Node& other);
     bool is_near(Vec2 point, double reach) const {
@@ -124,8 +122,8 @@ class LoopTree {
   };
 
   void sort_loops();
-  void add_leaves(std::uint32_t loop);
-  Node measure(const Leaf& leaf) const;
+  void add_bundles(std::uint32_t loop);
+  Node measure(const Bundle& bundle) const;
   void build_levels();
 
   std::uint32_t loop_begin(std::uint32_t loop) const {
@@ -145,7 +143,7 @@ class LoopTree {
   }
   bool follow_apart(const Node& a, const Node& b, double reach) const;
 
-  // What a visit is about.
+  // The state of a visit.
   template <typename Take>
   struct Visit {
     double reach;
@@ -159,7 +157,7 @@ class LoopTree {
   bool visit_between(std::size_t level, std::uint32_t i, std::uint32_t j,
                      Visit<Take>& visit) const;
 
-  // A segment with all that is within reach of it.
+  // A segment and all within reach of it.
   struct Strip {
     Lanes low;
     Lanes high;
@@ -176,17 +174,17 @@ class LoopTree {
   std::span<const Vec2> points_;
   std::span<const std::uint32_t> vertices_;
   std::span<const std::uint32_t> ends_;
-  std::vector<Leaf> leaves_;
-  std::vector<std::uint32_t> leaf_of_;  // of each vertex
-  std::vector<Node> nodes_;             // level by level, the leaves first
+  std::vector<Bundle> bundles_;
+  std::vector<std::uint32_t> bundle_of_;  // of each vertex
+  std::vector<Node> nodes_;               // level by level, the bundles first
   std::vector<std::uint32_t> level_begins_;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  // of loops
 };
 
 template <typename Take>
 bool LoopTree::visit_near(double reach, const Take& take) const {
-  if (leaves_.empty()) return false;
-  Visit<Take> visit{reach, take, kMostLooks * (leaves_.size() + kMostLooks)};
+  if (bundles_.empty()) return false;
+  Visit<Take> visit{reach, take, kMostLooks * (bundles_.size() + kMostLooks)};
   return visit_within(top(), 0, visit);
 }
 
@@ -194,7 +192,7 @@ template <typename Take>
 bool LoopTree::visit_within(std::size_t level, std::uint32_t i,
                             Visit<Take>& visit) const {
   if (node(level, i).advances(visit.reach)) return false;
-  if (level == 0) return visit.take(leaves_[i], leaves_[i]);
+  if (level == 0) return visit.take(bundles_[i], bundles_[i]);
   const std::uint32_t first = 2 * i;
   if (visit_within(level - 1, first, visit)) return true;
   if (first + 1 == node_count(level - 1)) return false;
@@ -210,7 +208,7 @@ bool LoopTree::visit_between(std::size_t level, std::uint32_t i,
   const Node& b = node(level, j);
   if (are_apart(a, b, visit.reach)) return false;
   if (i + 1 == j && follow_apart(a, b, visit.reach)) return false;
-  if (level == 0) return visit.take(leaves_[i], leaves_[j]);
+  if (level == 0) return visit.take(bundles_[i], bundles_[j]);
   const std::uint32_t count = node_count(level - 1);
   for (std::uint32_t k = 2 * i; k < std::min(2 * i + 2, count); ++k) {
     for (std::uint32_t l = 2 * j; l < std::min(2 * j + 2, count); ++l) {
@@ -221,7 +219,7 @@ bool LoopTree::visit_between(std::size_t level, std::uint32_t i,
 }
 
 template <typename Take>
-bool LoopTree::visit_meetings(const Leaf& vertices, const Leaf& edges,
+bool LoopTree::visit_meetings(const Bundle& vertices, const Bundle& edges,
                               double reach, const Take& take) const {
   const Node& box = nodes_[index_of(edges)];
   const std::uint32_t last = ends_[edges.loop] - 1;
@@ -245,7 +243,7 @@ bool LoopTree::visit_meetings(const Leaf& vertices, const Leaf& edges,
 template <typename IsHit>
 bool LoopTree::has_near(Vec2 a, Vec2 b, double reach,
                         const IsHit& is_hit) const {
-  if (leaves_.empty()) return false;
+  if (bundles_.empty()) return false;
   Strip strip;
   strip.low = least(lanes_of(a), lanes_of(b)) - both_lanes(reach);
   strip.high = greatest(lanes_of(a), lanes_of(b)) + both_lanes(reach);
@@ -266,7 +264,7 @@ bool LoopTree::has_hit(std::size_t level, std::uint32_t i, const Strip& strip,
     }
     return false;
   }
-  for (std::uint32_t k = leaves_[i].begin; k < leaves_[i].end; ++k) {
+  for (std::uint32_t k = bundles_[i].begin; k < bundles_[i].end; ++k) {
     if (is_hit(vertices_[k])) return true;
   }
   return false;

@@ -14,8 +14,8 @@ struct Outer {
   std::span<const Vec2> loop;
   Vec2 low = Vec2(std::numeric_limits<double>::infinity());
   Vec2 high = -low;
-  double whole = 0;  // area with its holes
-  double area = 0;   // and without
+  double whole = 0;  // area [mm²], holes included
+  double area = 0;   // the same without the holes
 };
 
 Outer measure(std::span<const Vec2> loop, double area) {
@@ -34,7 +34,7 @@ bool may_hold(const Outer& outer, Vec2 place) {
          place.y >= outer.low.y && place.y <= outer.high.y;
 }
 
-// By the edges to the right of the place.
+// Counts the edges to the right of the place.
 bool holds(const Outer& outer, Vec2 place) {
   bool is_inside = false;
   Vec2 a = outer.loop.back();
@@ -48,7 +48,8 @@ bool holds(const Outer& outer, Vec2 place) {
   return is_inside;
 }
 
-// The innermost one around a hole that begins at `place`; null if none is.
+// The innermost outer loop around a hole that begins at `place`; null if there
+// is none.
 Outer* find_around(std::vector<Outer>& outers, Vec2 place) {
   std::vector<Outer*> candidates;
   for (Outer& outer : outers) {
@@ -84,6 +85,23 @@ std::vector<double> areas_of_regions(const ldni::Contours& contours) {
   std::transform(outers.begin(), outers.end(), areas.begin(),
                  [](const Outer& outer) { return outer.area; });
   return areas;
+}
+
+planar::Region to_region(const ldni::Contours& contours) {
+  planar::Region region;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const std::span<const Vec2> loop = contours.loop(i);
+    region.contours.emplace_back(loop.begin(), loop.end());
+  }
+  return region;
+}
+
+ldni::Contours to_contours(const planar::Region& region) {
+  ldni::Contours contours;
+  for (const planar::Contour& contour : region.contours) {
+    contours.add_loop(contour);
+  }
+  return contours;
 }
 
 }  // namespace lamina::slicer

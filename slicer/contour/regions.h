@@ -1,16 +1,21 @@
 #pragma once
-// The separate pieces of a layer.
+// The regions of a layer: its outer loops, each with the holes in it.
 
 #include <vector>
 
+#include "csg/plane/region.h"
 #include "ldni/section/contours.h"
 
 namespace lamina::slicer {
 
-// The area of each outer loop less that of the holes in it [mm²], in the order
-// of the outer loops.
+// The area of each outer loop less its holes [mm²], in the order of the outer
+// loops.
 //
 // contours  disjoint loops, outer ones counter-clockwise, holes clockwise
 std::vector<double> areas_of_regions(const ldni::Contours& contours);
+
+// The same loops in the types of layers and of plane Booleans.
+planar::Region to_region(const ldni::Contours& contours);
+ldni::Contours to_contours(const planar::Region& region);
 
 }  // namespace lamina::slicer

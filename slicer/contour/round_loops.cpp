@@ -14,7 +14,7 @@ namespace {
 constexpr int kFloatDigits = 24;  // of a float32's binary fraction
 
 // Snapped coordinates are integers up to 2^24 times this: small numbers, among
-// which the ray's columns of 1e-9 are narrow.
+// which the ray's event points of 1e-9 are narrow.
 constexpr double kUnit = 0x1p-14;
 
 // Points nearer than this [mm] are one vertex to the moving ray.
@@ -24,7 +24,7 @@ constexpr double kMergeDistance = 2e-9;
 // hides nothing.
 constexpr double kTreeReach = 1.001;
 
-// Rounds of snapping before it counts as endless; two do as a rule.
+// Rounds of snapping before it counts as endless; two are usual.
 constexpr int kMostRounds = 64;
 
 double to_float(double value) {
@@ -74,12 +74,12 @@ bool LoopRounder::is_safe(const ldni::Contours& contours) {
   const double reach = kTreeReach * spacing_;
   near_pairs_.clear();
   const bool is_crowded = tree_.visit_near(
-      reach, [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+      reach, [this](const LoopTree::Bundle& a, const LoopTree::Bundle& b) {
         near_pairs_.push_back({&a, &b});
         return false;
       });
   if (is_crowded) return is_safe_by_grid();
-  const auto meet = [&](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+  const auto meet = [&](const LoopTree::Bundle& a, const LoopTree::Bundle& b) {
     return tree_.visit_meetings(
         a, b, reach, [&](std::uint32_t vertex, std::uint32_t edge) {
           return a.loop == b.loop || !touch(vertex, edge);
@@ -92,7 +92,7 @@ bool LoopRounder::is_safe(const ldni::Contours& contours) {
                       });
 }
 
-// The same for loops that are too many beside each other for the tree.
+// The same where too many loops run beside each other for the tree.
 bool LoopRounder::is_safe_by_grid() {
   members_.clear();
   std::uint32_t begin = 0;
@@ -122,8 +122,8 @@ bool LoopRounder::is_safe_by_grid() {
   return true;
 }
 
-// Whether two loops touch in a vertex of both: they go on doing so, if it is
-// rounded to one.
+// Whether two loops touch in a vertex of both and go on doing so: it is rounded
+// to one point.
 bool LoopRounder::touch(std::uint32_t vertex, std::uint32_t edge) const {
   const Vec2& point = points_[vertex];
   for (const std::uint32_t end : {edge, edge + 1}) {
@@ -144,7 +144,7 @@ void LoopRounder::snap(ldni::Contours& contours) {
   const double scale = kUnit / spacing_;
   for (Vec2& point : contours.points) point *= scale;
   int rounds = 0;
-  while (lead_through_cells(contours)) {
+  while (route_through_hot_pixels(contours)) {
     // Snapped for the first time, or edges met foreign cells.
     LAMINA_CHECK_EQ(++rounds < kMostRounds, true);
     most_moves_ = std::max(most_moves_, rounds);
@@ -153,54 +153,56 @@ void LoopRounder::snap(ldni::Contours& contours) {
   for (Vec2& point : contours.points) point = to_float(point / scale);
 }
 
-// Leads every edge through the cells of vertices that it meets. False where
-// all points are middles of cells and no edge had to bend: then edges meet in
-// vertices only, or in a vertex that lies on an edge exactly.
-bool LoopRounder::lead_through_cells(ldni::Contours& contours) {
-  // Find the cells.
-  cells_.clear();
+// Routes every edge through the hot pixels that it meets. Returns false where
+// all points are middles of hot pixels and no edge had to bend: then edges meet
+// in vertices only, or in a vertex that lies on an edge exactly.
+bool LoopRounder::route_through_hot_pixels(ldni::Contours& contours) {
+  // Find the hot pixels.
+  hot_pixels_.clear();
   bool is_changed = false;
   for (const Vec2& point : contours.points) {
-    const Vec2 cell(std::nearbyint(point.x / kUnit) * kUnit + 0.0,
-                    std::nearbyint(point.y / kUnit) * kUnit + 0.0);
-    is_changed |= cell != point;
-    cells_.push_back(cell);
+    const Vec2 middle(std::nearbyint(point.x / kUnit) * kUnit + 0.0,
+                      std::nearbyint(point.y / kUnit) * kUnit + 0.0);
+    is_changed |= middle != point;
+    hot_pixels_.push_back(middle);
   }
-  const std::vector<Vec2> cell_of = cells_;
-  std::sort(cells_.begin(), cells_.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
-  });
-  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
-  members_.resize(cells_.size());
+  const std::vector<Vec2> snapped = hot_pixels_;
+  std::sort(hot_pixels_.begin(), hot_pixels_.end(),
+            [](const Vec2& a, const Vec2& b) {
+              return a.x < b.x || (a.x == b.x && a.y < b.y);
+            });
+  hot_pixels_.erase(std::unique(hot_pixels_.begin(), hot_pixels_.end()),
+                    hot_pixels_.end());
+  members_.resize(hot_pixels_.size());
   std::iota(members_.begin(), members_.end(), 0U);
-  grid_.fill(cells_, members_);
+  grid_.fill(hot_pixels_, members_);
 
-  led_.clear();
+  routed_.clear();
   std::uint32_t begin = 0;
   for (const std::uint32_t end : contours.ends) {
     for (std::uint32_t from = begin; from < end; ++from) {
       const std::uint32_t to = from + 1 == end ? begin : from + 1;
-      led_.points.push_back(cell_of[from]);
+      routed_.points.push_back(snapped[from]);
       is_changed |= bends_edge(contours.points[from], contours.points[to]);
     }
-    led_.ends.push_back(static_cast<std::uint32_t>(led_.points.size()));
+    routed_.ends.push_back(static_cast<std::uint32_t>(routed_.points.size()));
     begin = end;
   }
-  std::swap(contours, led_);
+  std::swap(contours, routed_);
   return is_changed;
 }
 
-// Adds the cells between the ends of an edge, in its order. Whether one is off
-// the edge.
+// Adds the hot pixels between the ends of an edge, in its order. Returns
+// whether one is off the edge.
 bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
   passages_.clear();
   const Vec2 along = to - from;
   grid_.has_near(from, to, kUnit, [&](std::uint32_t i) {
-    const Vec2& cell = cells_[i];
-    const bool is_end = meets_square(from, from, cell, kUnit / 2) ||
-                        meets_square(to, to, cell, kUnit / 2);
-    if (!is_end && meets_square(from, to, cell, kUnit / 2)) {
-      passages_.push_back({dot(along, cell), cell});
+    const Vec2& middle = hot_pixels_[i];
+    const bool is_end = meets_square(from, from, middle, kUnit / 2) ||
+                        meets_square(to, to, middle, kUnit / 2);
+    if (!is_end && meets_square(from, to, middle, kUnit / 2)) {
+      passages_.push_back({dot(along, middle), middle});
     }
     return false;
   });
@@ -209,8 +211,8 @@ bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
       [](const Passage& a, const Passage& b) { return a.place < b.place; });
   bool bends = false;
   for (const Passage& passage : passages_) {
-    led_.points.push_back(passage.cell);
-    bends |= cross(along, passage.cell - from) != 0;
+    routed_.points.push_back(passage.hot_pixel);
+    bends |= cross(along, passage.hot_pixel - from) != 0;
   }
   return bends;
 }

@@ -7,18 +7,19 @@
 //
 // 1. Proof. A point moves by half that spacing, in x and in y. Loops that are
 //    apart can only meet on the way if some vertex is nearer than two such
-//    moves to an edge that is not its own. A tree of boxes tells (loop_tree.h);
-//    hardly ever there is one, and each point goes to its nearest float32.
-//    Where loops were simplified that is known already.
+//    moves to an edge that is not its own. A tree of boxes looks for one
+//    (loop_tree.h); hardly ever there is one, and each point goes to its
+//    nearest float32. Simplified loops are known to have none.
 // 2. Else the layer's loops are snap-rounded (Greene and Yao 1986; Guibas and
-//    Marimont 1998) on a grid of equal spacing, the float32 one at the largest
-//    coordinate: an edge is led through the middle of every cell that holds a
-//    vertex and that it meets, so it never gets to the wrong side of one. Once
-//    more as long as an edge still meets a foreign vertex's cell (Halperin and
-//    Packer 2002), so that in the end edges meet in vertices only. What has
-//    fallen together then is left out by the moving ray: walls and gaps
-//    thinner than the grid vanish, what meets in a point is parted there.
-//    All that is on integers below 2^24, hence exact.
+//    Marimont 1998; Hobby 1999) on a grid of equal spacing, the float32 one at
+//    the largest coordinate. A cell of it that holds a vertex is a hot pixel;
+//    an edge is routed through the middle of every hot pixel that it meets, so
+//    it never gets to the wrong side of a vertex. This is repeated as long as
+//    an edge meets a foreign hot pixel (iterated snap rounding, Halperin and
+//    Packer 2002), so that in the end edges meet in vertices only. The moving
+//    ray then leaves out what has fallen together: walls and gaps thinner than
+//    the grid vanish, and loops that meet in a point part there. All that is on
+//    integers below 2^24, hence exact.
 
 #include <cstdint>
 #include <utility>
@@ -39,15 +40,14 @@ class LoopRounder {
   // Simple, disjoint loops stay so; coordinates become float32 numbers. Loops
   // narrower than their spacing may vanish or be parted.
   //
-  // clearance  no vertex is known to be nearer to a foreign edge than this, in
-  //            x and in y [mm]; 0: not known
+  // clearance  as of Layer
   void round(ldni::Contours& contours, double clearance = 0);
 
-  // Layers that needed more than rounding each point, since construction.
+  // Layers that were snap-rounded since construction.
   std::uint64_t snapped_layers() const { return snapped_layers_; }
 
-  // Most moves that any edge made, one after another, since construction. Each
-  // is by half a step at most, in x and in y.
+  // The most moves that an edge made, one after another, since construction,
+  // each of half a step at most in x and in y.
   int most_moves() const { return most_moves_; }
 
  private:
@@ -56,7 +56,7 @@ class LoopRounder {
   bool is_safe_by_grid();
   bool touch(std::uint32_t vertex, std::uint32_t edge) const;
   void snap(ldni::Contours& contours);
-  bool lead_through_cells(ldni::Contours& contours);
+  bool route_through_hot_pixels(ldni::Contours& contours);
   bool bends_edge(Vec2 from, Vec2 to);
 
   double spacing_ = 0;  // of float32 at the layer's largest coordinate [mm]
@@ -65,15 +65,15 @@ class LoopRounder {
   std::vector<std::uint32_t> vertices_;  // all of them
   std::vector<std::uint32_t> ends_;
   LoopTree tree_;
-  std::vector<std::pair<const LoopTree::Leaf*, const LoopTree::Leaf*>>
+  std::vector<std::pair<const LoopTree::Bundle*, const LoopTree::Bundle*>>
       near_pairs_;  // of the tree
   std::vector<std::uint32_t> members_;
   PointGrid grid_;
-  std::vector<Vec2> cells_;  // middles of those that hold a vertex
-  ldni::Contours led_;
+  std::vector<Vec2> hot_pixels_;  // their middles
+  ldni::Contours routed_;
   struct Passage {
     double place = 0;  // along the edge
-    Vec2 cell = Vec2(0);
+    Vec2 hot_pixel = Vec2(0);
   };
   std::vector<Passage> passages_;
   ldni::LoopResolver resolver_;

@@ -5,18 +5,19 @@
 #include <span>
 
 #include "base/plane.h"
-#include "ldni/section/loop_sums.h"
+#include "ldni/section/loop_area_and_box.h"
 #include "slicer/contour/farthest_reach.h"
 
 namespace lamina::slicer {
 namespace {
 
-// Strips are widened across by this share of the greatest coordinate: as far as
-// rounding to the 32-bit numbers of a file can move a vertex and an edge
-// towards each other, 2 · √2 · 2⁻²⁴, and a little more.
+// Strips are widened across by this share of the greatest coordinate: a little
+// more than rounding to the 32-bit numbers of a file can move a vertex and an
+// edge towards each other, 2 · √2 · 2⁻²⁴.
 constexpr double kClearance = 2e-7;
 
-// And by this [mm] along, so that rounding hides nothing at their ends.
+// They are widened along by this [mm], so that rounding hides nothing at their
+// ends.
 constexpr double kEndMargin = 1e-9;
 
 // Loops change their area by at most this factor, or its inverse.
@@ -28,7 +29,7 @@ bool keeps_area(double before, double after) {
 
 }  // namespace
 
-// A straight way past a run of vertices, and the run as it is seen from there.
+// A straight way past a run of vertices, and the run seen in its frame.
 struct Simplifier::Shortcut {
   std::uint32_t first;
   std::uint32_t last;
@@ -57,8 +58,8 @@ void Simplifier::simplify(ldni::Contours& contours) {
   kept_.assign(points_.size(), 0);
   for (const std::uint32_t i : vertices_) kept_[i] = 1;
   find_neighbours();
-  // A vertex that mending brings back can lie in another strip: look again.
-  while (mend()) {
+  // A vertex that a repair brings back can lie in another strip: look again.
+  while (repair()) {
     list_kept();
     find_neighbours();
   }
@@ -75,7 +76,7 @@ void Simplifier::simplify(ldni::Contours& contours) {
 void Simplifier::copy_loops(const ldni::Contours& contours) {
   points_.clear();
   loops_.clear();
-  ldni::Reach reach;
+  ldni::LoopBox box;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);
     const Vec2* first = loop.data();
@@ -84,7 +85,7 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
       if (point.x <= first->x && (point.x < first->x || point.y < first->y)) {
         first = &point;
       }
-      reach.add(point);
+      box.add(point);
       doubled_area.add(point);
     }
     const auto begin = static_cast<std::uint32_t>(points_.size());
@@ -93,10 +94,10 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
     loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
                       doubled_area.value()});
   }
-  clearance_ = kClearance * reach.value();
+  clearance_ = kClearance * box.greatest_coordinate();
 }
 
-// Chooses vertices as if the loop were alone.
+// Chooses the vertices of a loop as if it were alone.
 void Simplifier::choose(Loop& loop) {
   const std::size_t begin = vertices_.size();
   bool is_chosen = false;
@@ -117,7 +118,7 @@ void Simplifier::choose(Loop& loop) {
   ends_.push_back(static_cast<std::uint32_t>(vertices_.size()));
 }
 
-// Writes down the vertices that are kept.
+// Lists the vertices that are kept.
 void Simplifier::list_kept() {
   vertices_.clear();
   ends_.clear();
@@ -129,15 +130,15 @@ void Simplifier::list_kept() {
   }
 }
 
-// Fills the tree, and finds the leaves whose strips and vertices may meet: a
-// strip lies within the box of its run, widened by the clearance; and where
-// runs follow each other and advance along an axis, so do their strips.
+// Fills the tree and finds the bundles whose strips and vertices may meet. A
+// strip lies within the box of its run, widened by the clearance; where runs
+// follow each other and advance along an axis, so do their strips.
 void Simplifier::find_neighbours() {
   tree_.fill(points_, vertices_, ends_);
   near_pairs_.clear();
   is_crowded_ = tree_.visit_near(
       clearance_ + 2 * kEndMargin,
-      [this](const LoopTree::Leaf& a, const LoopTree::Leaf& b) {
+      [this](const LoopTree::Bundle& a, const LoopTree::Bundle& b) {
         const std::uint32_t i = tree_.index_of(a);
         const std::uint32_t k = tree_.index_of(b);
         near_pairs_.push_back({i, k});
@@ -148,46 +149,48 @@ void Simplifier::find_neighbours() {
     grid_.fill(points_, vertices_);
     return;
   }
-  // Sort by the first leaf: count, sum up, and deal out from the back.
-  near_begins_.assign(tree_.leaf_count() + 1, 0);
-  for (const auto& [leaf, other] : near_pairs_) ++near_begins_[leaf];
+  // Sort by the first bundle: count, sum up, and deal out from the back.
+  near_begins_.assign(tree_.bundle_count() + 1, 0);
+  for (const auto& [bundle, other] : near_pairs_) ++near_begins_[bundle];
   std::uint32_t sum = 0;
   for (std::uint32_t& begin : near_begins_) begin = sum += begin;
-  near_leaves_.resize(near_pairs_.size());
-  for (const auto& [leaf, other] : near_pairs_) {
-    near_leaves_[--near_begins_[leaf]] = other;
+  near_bundles_.resize(near_pairs_.size());
+  for (const auto& [bundle, other] : near_pairs_) {
+    near_bundles_[--near_begins_[bundle]] = other;
   }
 }
 
 // Whether a vertex is within the clearance of a foreign edge.
 bool Simplifier::has_meetings() const {
   const auto take = [](std::uint32_t, std::uint32_t) { return true; };
-  return std::any_of(
-      near_pairs_.begin(), near_pairs_.end(), [&](const auto& pair) {
-        return tree_.visit_meetings(tree_.leaf(pair.first),
-                                    tree_.leaf(pair.second), clearance_, take);
-      });
+  return std::any_of(near_pairs_.begin(), near_pairs_.end(),
+                     [&](const auto& pair) {
+                       return tree_.visit_meetings(tree_.bundle(pair.first),
+                                                   tree_.bundle(pair.second),
+                                                   clearance_, take);
+                     });
 }
 
-// Splits runs until each is safe. Returns whether a vertex was brought back.
-// All runs are close to their shortcuts, by the choice or by an earlier call;
-// what has no neighbour is clear as well.
-bool Simplifier::mend() {
+// Splits runs until each is safe. Returns whether it brought a vertex back. All
+// runs are close to their shortcuts, by the choice or by an earlier call; a run
+// without neighbours is clear as well.
+bool Simplifier::repair() {
   bool is_changed = false;
   for (std::uint32_t k = 0; k + 1 < vertices_.size(); ++k) {
     // The last vertex of a loop is followed by the first one of the next.
     if (vertices_[k + 1] <= vertices_[k] + 1) continue;
-    const std::uint32_t leaf = tree_.leaf_of(k);
-    if (!is_crowded_ && near_begins_[leaf] == near_begins_[leaf + 1]) continue;
-    if (mend_run(k)) {
+    const std::uint32_t bundle = tree_.bundle_of(k);
+    if (!is_crowded_ && near_begins_[bundle] == near_begins_[bundle + 1])
+      continue;
+    if (split_run(k)) {
       is_changed = true;
-      loops_[tree_.leaf(leaf).loop].has_spare = true;
+      loops_[tree_.bundle(bundle).loop].has_spare = true;
     }
   }
   return is_changed;
 }
 
-bool Simplifier::mend_run(std::uint32_t k) {
+bool Simplifier::split_run(std::uint32_t k) {
   bool is_changed = false;
   std::uint32_t first = vertices_[k];
   pending_.assign(1, vertices_[k + 1]);
@@ -209,7 +212,7 @@ bool Simplifier::mend_run(std::uint32_t k) {
 }
 
 // Leaves out every vertex of the loop that can be spared, one after another.
-// It stands at [k, end) in vertices_.
+// The loop stands at [k, end) in vertices_.
 void Simplifier::thin_out(const Loop& loop, std::uint32_t k,
                           std::uint32_t end) {
   double area = doubled_area_kept(k, end);
@@ -252,7 +255,7 @@ void Simplifier::write_kept(ldni::Contours& contours) const {
   contours.points.resize(contours.ends.back());
 }
 
-// Of the loop that stands at [begin, end) in vertices_.
+// Twice the area of the loop that stands at [begin, end) in vertices_.
 double Simplifier::doubled_area_kept(std::size_t begin, std::size_t end) const {
   const Vec2 origin = points_[vertices_[begin]];
   double sum = 0;
@@ -283,14 +286,14 @@ Simplifier::Shortcut Simplifier::measure(std::uint32_t first,
   return shortcut;
 }
 
-// Whether the run keeps within the tolerance.
+// Whether the run stays within the tolerance.
 bool Simplifier::is_close(const Shortcut& shortcut) const {
   return shortcut.is_ahead && shortcut.highest <= tolerance_ &&
          -shortcut.lowest <= tolerance_;
 }
 
-// Whether no vertex of the tree that is still kept lies in the strip of a
-// shortcut from its vertex `k` to `last_k`.
+// Whether no vertex that is kept lies in the strip of a shortcut from the
+// tree's vertex `k` to `last_k`.
 bool Simplifier::is_clear(const Shortcut& shortcut, std::uint32_t k,
                           std::uint32_t last_k) const {
   const Vec2 a = points_[shortcut.first];
@@ -301,8 +304,8 @@ bool Simplifier::is_clear(const Shortcut& shortcut, std::uint32_t k,
     if (kept_[i] == 0 || (i >= shortcut.first && i <= shortcut.last)) {
       return false;
     }
-    // Another loop may touch this one in a vertex, but not in both: the same
-    // shortcut could be its own.
+    // Another loop may touch this one in one end, but not in both: the shortcut
+    // could be its own as well.
     const Vec2& point = points_[i];
     touches_a |= point == a;
     touches_b |= point == b;
@@ -312,12 +315,13 @@ bool Simplifier::is_clear(const Shortcut& shortcut, std::uint32_t k,
   const double reach =
       std::max(shortcut.highest, -shortcut.lowest) + clearance_;
   if (is_crowded_) return !grid_.has_near(a, b, reach, is_hit);
-  const std::uint32_t leaf = tree_.leaf_of(k);
-  if (last_k > tree_.leaf(leaf).end) {
+  const std::uint32_t bundle = tree_.bundle_of(k);
+  if (last_k > tree_.bundle(bundle).end) {
     return !tree_.has_near(a, b, reach, is_hit);
   }
-  for (std::uint32_t i = near_begins_[leaf]; i < near_begins_[leaf + 1]; ++i) {
-    const LoopTree::Leaf& near = tree_.leaf(near_leaves_[i]);
+  for (std::uint32_t i = near_begins_[bundle]; i < near_begins_[bundle + 1];
+       ++i) {
+    const LoopTree::Bundle& near = tree_.bundle(near_bundles_[i]);
     for (std::uint32_t n = near.begin; n < near.end; ++n) {
       if (is_hit(vertices_[n])) return false;
     }
@@ -334,7 +338,7 @@ bool Simplifier::is_in_strip(const Shortcut& shortcut, Vec2 place) const {
   Vec2 from{0, 0};
   for (std::uint32_t i = shortcut.first + 1; i <= shortcut.last; ++i) {
     const Vec2 to = shortcut.place_of(points_[i]);
-    // The part of this edge that stands above or below the place.
+    // Take the part of this edge that is above or below the place.
     const Vec2 left = from.x <= to.x ? from : to;
     const Vec2 right = from.x <= to.x ? to : from;
     const double begin = std::max(left.x, place.x - kEndMargin);

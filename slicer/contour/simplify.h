@@ -2,8 +2,8 @@
 // Leaves out the vertices of a layer that do not matter.
 //
 // A section of a fine tessellation has a vertex every few micrometres; a wax
-// printer's beam is ten times wider. Dropping vertices is easy; keeping walls
-// and gaps thinner than the tolerance open is what needs thought, and sections
+// printer's beam is ten times wider. Dropping vertices is easy. Keeping walls
+// and gaps open that are thinner than the tolerance needs thought, and sections
 // of real jewelry have them. The vertices that stay are the loops' own, so
 // corners keep their digits.
 //
@@ -16,11 +16,14 @@
 //    of the shortcut, so each of the two is within the tolerance of the other.
 //    Moving every point of the run straight down to the shortcut sweeps the
 //    strip between them; no vertex that stays may lie in a strip. The first is
-//    so by the choice. A tree of boxes tells nearly all strips apart at once
-//    (loop_tree.h); only the others are looked at.
-// 3. Mend. A run that fails is split at its farthest vertex, until none fails.
-// 4. Thin out. A vertex whose run and the next pass the proof as one is left
-//    out: what the splits, or a choice within less, no longer need.
+//    so by the choice. A tree of boxes separates nearly all strips at once
+//    (loop_tree.h); the others are looked at one by one.
+// 3. Repair. A run that fails is split at its farthest vertex, until none
+// fails.
+// 4. Thin out. A vertex is left out where the runs before and behind it pass
+// the
+//    proof as one: a split, or a choice within less than the tolerance, kept
+//    it.
 //
 // Why the topology stays. Prick the plane at all vertices that stay. Runs can
 // be moved to their shortcuts without crossing a prick, and runs are disjoint.
@@ -58,9 +61,9 @@ class Simplifier {
   // begins at its lowest of the leftmost points.
   void simplify(ldni::Contours& contours);
 
-  // No vertex that simplify() left is nearer to a foreign edge than this, in x
-  // and in y [mm]: more than rounding to 32-bit numbers can move them towards
-  // each other. 0: not known.
+  // Vertices that simplify() left keep this far from foreign edges, in x or in
+  // y [mm]: more than rounding to 32-bit numbers can move them towards each
+  // other. 0: not known.
   double clearance() const { return is_apart_ ? clearance_ : 0; }
 
  private:
@@ -78,8 +81,8 @@ class Simplifier {
   void list_kept();
   void find_neighbours();
   bool has_meetings() const;
-  bool mend();
-  bool mend_run(std::uint32_t k);
+  bool repair();
+  bool split_run(std::uint32_t k);
   void thin_out(const Loop& loop, std::uint32_t k, std::uint32_t end);
   void write_kept(ldni::Contours& contours) const;
 
@@ -97,16 +100,16 @@ class Simplifier {
   std::vector<Loop> loops_;
   std::vector<std::uint8_t> kept_;      // of points_
   std::vector<std::uint32_t> pending_;  // of a run, the ends that split it
-  // What was kept, of points_, as the tree takes it.
+  // The points that are kept, as the tree takes them.
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> ends_;
   LoopTree tree_;
-  bool is_crowded_ = false;  // too much so for the tree: ask the grid
+  bool is_crowded_ = false;  // too many for the tree: the grid serves instead
   PointGrid grid_;
-  // Leaves of the tree that come near to leaf i: near_leaves_ from
-  // near_begins_[i] to near_begins_[i + 1].
+  // Bundles near bundle i: near_bundles_ from near_begins_[i] to
+  // near_begins_[i + 1].
   std::vector<std::uint32_t> near_begins_;
-  std::vector<std::uint32_t> near_leaves_;
+  std::vector<std::uint32_t> near_bundles_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs_;
 };
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lamina::slicer {
 namespace {
 
-// Corners of a stroke's round ends.
-constexpr int kRoundCorners = 6;  // of a half circle
-constexpr double kPi = 3.14159265358979323846;
+// A stroke ends in half circles of this many edges.
+constexpr int kRoundCorners = 6;
 
 }  // namespace
 
@@ -19,7 +19,8 @@ Coverage::Coverage(unsigned width, unsigned height)
 
 void Coverage::add_edge(Vec2 from, Vec2 to) {
   if (std::max(from.y, to.y) <= 0 || std::min(from.y, to.y) >= height_) return;
-  // Cut at the left and the right side; what lies outside runs along the side.
+  // Cut the edge at the image's left and right side, and move what lies outside
+  // onto the side.
   const auto clamped = [this](Vec2 p) {
     return Vec2(std::clamp(p.x, 0.0, static_cast<double>(width_)), p.y);
   };
@@ -66,7 +67,7 @@ void Coverage::add_inside(Vec2 from, Vec2 to) {
   }
 }
 
-// An edge within a row: dy rows high (signed), from x0 to x1.
+// Adds an edge within a row, dy rows high (signed), from x0 to x1.
 void Coverage::add_in_row(double* row, double dy, double x0, double x1) {
   const double left = std::min(x0, x1);
   const double right = std::max(x0, x1);
@@ -92,15 +93,15 @@ void Coverage::add_in_row(double* row, double dy, double x0, double x1) {
 }
 
 void Coverage::add_stroke(Vec2 from, Vec2 to, double thickness) {
-  // Around the stroke, always turning the same way.
+  // Go around the stroke, always in the same sense.
   const Vec2 step = to - from;
-  const double start = std::atan2(step.y, step.x) + kPi / 2;
+  const double start = std::atan2(step.y, step.x) + std::numbers::pi / 2;
   Vec2 corners[2 * (kRoundCorners + 1)];
   int count = 0;
   for (const Vec2 end : {from, to}) {
-    const double turn = count == 0 ? start : start + kPi;
+    const double turn = count == 0 ? start : start + std::numbers::pi;
     for (int i = 0; i <= kRoundCorners; ++i) {
-      const double angle = turn + kPi * i / kRoundCorners;
+      const double angle = turn + std::numbers::pi * i / kRoundCorners;
       corners[count++] =
           end + thickness / 2 * Vec2(std::cos(angle), std::sin(angle));
     }
@@ -126,7 +127,7 @@ void Coverage::resolve_row(unsigned y, std::vector<GreyRun>& runs) const {
   double sum = 0;
   GreyRun run;
   for (unsigned x = 0; x < width_; ++x) {
-    // Only where an edge passes does anything change.
+    // The share changes only where an edge passes.
     if (row[x] != 0) {
       sum += row[x];
       // Never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)

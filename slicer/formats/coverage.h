@@ -1,11 +1,11 @@
 #pragma once
-// Which share of each pixel a polygon covers, exactly.
+// The share of each pixel that a polygon covers, exactly.
 //
-// Each edge adds to every pixel that it crosses the signed area between itself
-// and the pixel's right side; a running sum along the row then gives the
-// covered share (the accumulation of stb_truetype and font-rs). No samples are
-// drawn, so no share is ever wrong by more than rounding. Edges left of the
-// image count for its first column, edges right of it for nothing.
+// Each edge adds the signed area between itself and the pixel's right side to
+// every pixel that it crosses; a running sum along the row then gives the
+// covered share (the accumulation buffer of stb_truetype and font-rs). No
+// samples are drawn, so a share is wrong by rounding only. Edges left of the
+// image count in its first column, edges right of it do not count.
 
 #include <cstdint>
 #include <vector>
@@ -15,9 +15,9 @@
 
 namespace lamina::slicer {
 
-// Neighbouring pixels of a row that are covered alike.
+// Neighbouring pixels of a row that are equally covered.
 struct GreyRun {
-  std::uint8_t grey = 0;  // 255: wholly
+  std::uint8_t grey = 0;  // 255: wholly covered
   unsigned count = 0;
 };
 
@@ -35,10 +35,11 @@ class Coverage {
   // Adds a line of round ends and joins, `thickness` pixels wide.
   void add_stroke(Vec2 from, Vec2 to, double thickness);
 
-  // The covered share of the pixels of row y, 0 … 1, width() of them.
+  // Replaces `shares` by the covered shares of the pixels of row y: width() of
+  // them, 0 … 1.
   void resolve_row(unsigned y, std::vector<float>& shares) const;
 
-  // The same as stretches of equal pixels from the left, shares as 0 … 255.
+  // The same as runs of equal pixels from the left, shares as 0 … 255.
   void resolve_row(unsigned y, std::vector<GreyRun>& runs) const;
 
  private:
@@ -50,9 +51,9 @@ class Coverage {
   std::vector<double> sums_;  // rows of width_ + 2
 };
 
-// Where millimetres go in an image, whose y runs down.
+// Maps millimetres to the pixels of an image, whose y runs down.
 struct PixelMap {
-  Vec2 origin = Vec2(0);     // the pixel place of (0, 0) mm
+  Vec2 origin = Vec2(0);     // where (0, 0) mm is [pixels]
   Vec2 per_x = Vec2(1, 0);   // pixels per mm of x
   Vec2 per_y = Vec2(0, -1);  // and of y
 

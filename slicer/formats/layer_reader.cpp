@@ -6,18 +6,16 @@
 
 #include <fmt/format.h>
 
-#include "slicer/formats/cli_reader.h"
-#include "slicer/formats/layers_json_reader.h"
+#include "slicer/formats/detail/readers.h"
+#include "slicer/formats/detail/reading.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/formats/reading.h"
 #include "slicer/formats/slc_reader.h"
-#include "slicer/formats/svg_reader.h"
 
 namespace lamina::slicer {
 namespace {
 
-// What lies farther from the origin is no part of a print but a broken file,
-// and would break what counts in integers [mm].
+// A file with a coordinate farther from the origin than this [mm] is broken,
+// and would overflow what counts in integers.
 constexpr double kGreatestCoordinate = 1e9;
 
 LayerFileFacts read_slc(const std::string& path, const TakeLayer& take,
@@ -28,18 +26,12 @@ LayerFileFacts read_slc(const std::string& path, const TakeLayer& take,
     Layer layer = to_layer(slc_layer);
     take(layer);
   }
-  LayerFileFacts facts;
-  facts.format = "SLC " + reader.header().version;
-  facts.writer = reader.header().package;
-  facts.deviation = reader.header().deviation;
-  return facts;
+  return reader.facts();
 }
 
-using Read = LayerFileFacts (*)(const std::string& path, const TakeLayer& take,
-                                const FileAccess& access);
 struct Format {
   std::string_view ending;
-  Read read;
+  ReadLayers* read;
 };
 constexpr std::array<Format, 4> kFormats = {{
     {".slc", read_slc},
@@ -48,7 +40,7 @@ constexpr std::array<Format, 4> kFormats = {{
     {".layers.json", read_layers_json},
 }};
 
-Read reader_for(std::string_view path) {
+ReadLayers* reader_for(std::string_view path) {
   for (const Format& format : kFormats) {
     if (is_named(path, format.ending)) return format.read;
   }
@@ -85,7 +77,7 @@ bool is_readable_layer_file(std::string_view path) {
 
 LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
                            const FileAccess& access) {
-  const Read read = reader_for(path);
+  ReadLayers* const read = reader_for(path);
   if (read == nullptr) {
     fail_to_read(path,
                  "layers are read from .slc, .cli, .svg and .layers.json only");

@@ -1,38 +1,38 @@
 #include "slicer/formats/layer_writer.h"
 
 #include "base/check.h"
-#include "slicer/formats/cli_writer.h"
-#include "slicer/formats/image_stack_writer.h"
-#include "slicer/formats/layers_json_writer.h"
-#include "slicer/formats/slc_writer.h"
-#include "slicer/formats/svg_writer.h"
-#include "slicer/formats/threemf_writer.h"
+#include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
+namespace {
+
+MakeLayerWriter* writer_for(OutputFormat format) {
+  switch (format) {
+    case OutputFormat::kSlc:
+      return make_slc_writer;
+    case OutputFormat::kCli:
+      return make_cli_writer;
+    case OutputFormat::kSvg:
+      return make_svg_writer;
+    case OutputFormat::kThreemf:
+      return make_threemf_writer;
+    case OutputFormat::kPng:
+    case OutputFormat::kSl1:
+    case OutputFormat::kNanoDlp:
+      return make_image_stack_writer;
+    default:
+      LAMINA_CHECK_EQ(static_cast<int>(format),
+                      static_cast<int>(OutputFormat::kLayersJson));
+      return make_layers_json_writer;
+  }
+}
+
+}  // namespace
 
 std::unique_ptr<LayerWriter> make_layer_writer(const WriterOptions& options,
                                                const std::string& path,
                                                TemporaryFiles& files) {
-  switch (options.format) {
-    case OutputFormat::kSlc:
-      return std::make_unique<SlcWriter>(path, files, options.deviation);
-    case OutputFormat::kCli:
-      return std::make_unique<CliWriter>(path, files, options.cli);
-    case OutputFormat::kSvg:
-      return std::make_unique<SvgWriter>(path, files);
-    case OutputFormat::kThreemf:
-      return std::make_unique<ThreemfWriter>(path, files, options.deviation);
-    case OutputFormat::kPng:
-    case OutputFormat::kSl1:
-    case OutputFormat::kNanoDlp:
-      return std::make_unique<ImageStackWriter>(options.format, options.panel,
-                                                path, files);
-    default:
-      break;
-  }
-  LAMINA_CHECK_EQ(static_cast<int>(options.format),
-                  static_cast<int>(OutputFormat::kLayersJson));
-  return std::make_unique<LayersJsonWriter>(path, files);
+  return writer_for(options.format)(options, path, files);
 }
 
 }  // namespace lamina::slicer

@@ -1,5 +1,7 @@
 #pragma once
-// What all writers of layer files have in common.
+// Layers into files, whatever their format (docs/formats.md).
+//
+// All who write layers use this one way in. detail/writers.h lists the formats.
 
 #include <cstdint>
 #include <memory>
@@ -7,17 +9,19 @@
 #include <string>
 
 #include "base/diagnostic.h"
-#include "base/file/output_file.h"
+#include "base/file/temporary_files.h"
 #include "slicer/contour/layer.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/formats/panel.h"
 
 namespace lamina::slicer {
 
+// take() throws FileError or GeometryError for a layer that the format cannot
+// hold.
 class LayerWriter : public LayerSink {
  public:
   // To be called once, after the last layer. Warns of what the format cannot
-  // tell.
+  // express.
   virtual void finish(Diagnostics& diagnostics) = 0;
 
   // Makes the output visible under its name; to be called after finish().
@@ -30,31 +34,17 @@ class LayerWriter : public LayerSink {
   // numbers, so that no two loops fell together.
   virtual std::uint64_t snapped_layers() const { return 0; }
 
-  // What the format's numbers moved a point by, at most, so far [mm].
+  // Greatest distance that the format's numbers moved a point by, so far [mm].
   virtual double greatest_rounding() const { return 0; }
-};
-
-// A writer of one file.
-class FileWriter : public LayerWriter {
- public:
-  void commit() final { output_.commit(); }
-  std::uint64_t size() const final { return output_.size(); }
-
- protected:
-  // Throws FileError if the file cannot be made.
-  FileWriter(const std::string& path, TemporaryFiles& temporary_files)
-      : output_(path, temporary_files) {}
-
-  OutputFile output_;
 };
 
 struct WriterOptions {
   OutputFormat format = OutputFormat::kSlc;  // one of layers
   CliEncoding cli = CliEncoding::kBinary;
-  Panel panel;  // of formats of images
-  // Bound on what the contours that the writer takes deviate by [mm], if there
-  // is one; noted where the format has a place for it.
-  std::optional<double> deviation;
+  Panel panel = {};  // of formats of images
+  // Bound on the deviation of the contours that the writer takes [mm], if
+  // known; noted where the format has a place for it.
+  std::optional<double> deviation = {};
 };
 
 // path  "-": standard output

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -29,7 +30,8 @@ constexpr std::array<Written, 12> kWritten = {{
     {"csg", OutputFormat::kCsg},
 }};
 
-// What openscad writes and lamina has no mesh for, with what comes nearest.
+// Formats of openscad that need a mesh, which lamina does not make, with the
+// nearest that it writes.
 struct Refused {
   std::string_view extension;
   std::string_view nearest;
@@ -57,6 +59,11 @@ bool is_of_layers(OutputFormat format) {
 bool is_of_images(OutputFormat format) {
   using enum OutputFormat;
   return format == kPng || format == kSl1 || format == kNanoDlp;
+}
+
+std::size_t most_thickness_runs(OutputFormat format) {
+  return format == OutputFormat::kSlc ? 255
+                                      : std::numeric_limits<std::size_t>::max();
 }
 
 FormatChoice choose_output_format(std::string_view name) {

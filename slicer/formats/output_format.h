@@ -1,6 +1,7 @@
 #pragma once
-// Which output a file name's extension asks for, the same for every command.
+// The output that a file name's extension asks for, the same in every command.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,23 +19,27 @@ enum class OutputFormat {
   kThreemf,
   kLayersJson,
   kAst,   // the parser's product
-  kEcho,  // what the design says
+  kEcho,  // what the design prints
   kCsg,   // the evaluator's product
 };
 
 enum class CliEncoding { kBinary, kAscii };
 
-// Whether it holds layers, not one of the stages on the way to them.
+// Whether the format holds layers, not the product of a stage before them.
 bool is_of_layers(OutputFormat format);
 
 // Whether its layers are images for a panel.
 bool is_of_images(OutputFormat format);
 
-// A file name or an `--export-format` as far as it could be understood.
+// Runs of layers of equal thickness that a file of the format can hold, at
+// most. Each is a row of SLC's table, which counts its rows in one byte.
+std::size_t most_thickness_runs(OutputFormat format);
+
+// What a file name or an `--export-format` asks for.
 struct FormatChoice {
   std::optional<OutputFormat> format;
-  // Without a format: why, for the user. `is_known` then tells a format that
-  // lamina knows but does not write from one that it never heard of.
+  // Without a format: the reason, for the user. `is_known` is then true for a
+  // format that lamina knows but does not write.
   std::string complaint;
   bool is_known = false;
 };
@@ -43,14 +48,14 @@ struct FormatChoice {
 //       not matter
 FormatChoice choose_output_format(std::string_view name);
 
-// What may stand for a format, "slc" to "csg".
+// The extensions that ask for a format, "slc" to "csg".
 std::vector<std::string> written_extensions();
 
 // Whether a path ends with an extension such as ".layers.json", in any letter
 // case; `extension` is in small letters.
 bool is_named(std::string_view path, std::string_view extension);
 
-// Whether a path is named as a file of layers, and so as no design.
+// Whether a path has the name of a file of layers, not of a design.
 bool is_named_as_layers(std::string_view path);
 
 }  // namespace lamina::slicer

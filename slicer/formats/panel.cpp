@@ -3,14 +3,13 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/diagnostic.h"
-#include "slicer/formats/known_panels.h"
+#include "slicer/formats/detail/known_panels.h"
 
 namespace lamina::slicer {
 namespace {

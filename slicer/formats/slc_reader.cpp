@@ -1,8 +1,6 @@
 #include "slicer/formats/slc_reader.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -11,8 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "base/diagnostic.h"
-#include "slicer/formats/reading.h"
+#include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
 namespace {
@@ -20,13 +17,12 @@ namespace {
 constexpr std::size_t kLongestHeader = 2048;
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
-constexpr double kMillimetresPerInch = 25.4;
 
-// Vertices are read in pieces, so that a lying count meets the end of the file
-// before it has cost memory.
+// Vertices are read this many at a time, so that a wrong count meets the end of
+// the file before it has cost memory.
 constexpr std::uint32_t kPointsAtOnce = 4096;
 
-// The words after `key` up to the next " -" that begins a keyword.
+// Returns the words after `key` up to the next " -" that begins a keyword.
 std::string value_of(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(key);
   if (at == std::string_view::npos) return {};
@@ -51,7 +47,7 @@ std::optional<std::array<Vec2, 3>> parse_extents(std::string_view text) {
   std::array<Vec2, 3> extents{};
   for (Vec2& axis : extents) {
     for (double* value : {&axis.x, &axis.y}) {
-      text.remove_prefix(std::min(text.size(), text.find_first_not_of(" ,")));
+      skip(text, " ,");
       if (!take_number(text, *value)) return std::nullopt;
     }
   }
@@ -65,7 +61,7 @@ std::optional<double> split_deviation(std::string& package) {
   constexpr std::string_view kAfter = " mm";
   const std::size_t at = package.find(kBefore);
   if (at == std::string::npos || !package.ends_with(kAfter)) return {};
-  // "within mm": one blank is not both.
+  // In "within mm" one blank would be both.
   if (at + kBefore.size() + kAfter.size() > package.size()) return {};
   const char* const begin = package.data() + at + kBefore.size();
   const char* const end = package.data() + package.size() - kAfter.size();
@@ -93,8 +89,7 @@ SlcReader::SlcReader(std::string path, const FileAccess& access)
 }
 
 void SlcReader::fail(std::string_view message) const {
-  throw FileError(
-      {Severity::kError, {}, fmt::format("{}: {}", path_, message), {}});
+  fail_to_read(path_, message);
 }
 
 void SlcReader::read(char* bytes, std::size_t count, std::string_view what) {
@@ -114,7 +109,7 @@ Value SlcReader::read_value(std::string_view what) {
 
 void SlcReader::require_finite(float value) const {
   if (std::isfinite(value)) return;
-  fail(fmt::format("a number before byte {} is infinite or none", offset_));
+  fail(fmt::format("a number before byte {} is not finite", offset_));
 }
 
 void SlcReader::read_header() {
@@ -173,6 +168,18 @@ void SlcReader::read_sampling() {
   }
 }
 
+LayerFileFacts SlcReader::facts() const {
+  LayerFileFacts facts;
+  facts.format = "SLC " + header_.version;
+  facts.writer = header_.package;
+  facts.deviation = header_.deviation;
+  facts.header = fmt::format("{}, unit {}", header_.type, header_.unit);
+  facts.sampling = sampling_;
+  facts.extents = header_.extents;
+  facts.top = top_;
+  return facts;
+}
+
 bool SlcReader::read_layer(SlcLayer& layer) {
   const auto z = read_value<float>("the height of a layer");
   const auto boundaries = read_value<std::uint32_t>("the head of a layer");
@@ -184,8 +191,8 @@ bool SlcReader::read_layer(SlcLayer& layer) {
     return false;
   }
   // The row in force is the last one that begins at or below z.
-  const SlcSampling* row = &sampling_.front();
-  for (const SlcSampling& candidate : sampling_) {
+  const SamplingRow* row = &sampling_.front();
+  for (const SamplingRow& candidate : sampling_) {
     if (candidate.min_z <= z) row = &candidate;
   }
   layer.thickness = static_cast<double>(row->thickness) * mm_per_unit_;
@@ -194,9 +201,9 @@ bool SlcReader::read_layer(SlcLayer& layer) {
   for (std::uint32_t i = 0; i < boundaries; ++i) {
     const auto vertices = read_value<std::uint32_t>("the head of a boundary");
     const auto gaps = read_value<std::uint32_t>("the head of a boundary");
-    // Boundaries of the layer before lend their memory.
+    // Reuse the memory of the boundaries of the layer before.
     if (layer.boundaries.size() == count) layer.boundaries.emplace_back();
-    SlcBoundary& boundary = layer.boundaries[count++];
+    WrittenLoop& boundary = layer.boundaries[count++];
     boundary.gaps = gaps;
     read_points(vertices, boundary.points);
   }
@@ -226,7 +233,7 @@ Layer to_layer(const SlcLayer& layer) {
   result.bottom = layer.z;
   result.top = layer.z + layer.thickness;
   result.section_z = layer.z + layer.thickness / 2;
-  for (const SlcBoundary& boundary : layer.boundaries) {
+  for (const WrittenLoop& boundary : layer.boundaries) {
     std::size_t count = boundary.points.size();
     if (count > 1 && boundary.points.front() == boundary.points.back()) {
       --count;

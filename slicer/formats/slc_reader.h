@@ -4,15 +4,14 @@
 // Files come from anywhere, so nothing in them is trusted: every count is
 // checked against the bytes that really follow before memory is asked for, and
 // whatever breaks the format's frame throws FileError with the byte offset.
-// What merely breaks a rule (an open loop, a repeat) is handed over as it is:
-// `lamina inspect` wants to see it.
+// What merely breaks a rule (an open loop, a repeat) is handed over as it is,
+// so that `lamina inspect` can report it.
 
 #include <array>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "base/file/file_access.h"
 #include "base/vec.h"
 #include "slicer/contour/layer.h"
+#include "slicer/contour/layer_file.h"
 
 namespace lamina::slicer {
 
@@ -31,44 +31,33 @@ struct SlcHeader {
   std::string package;
   // Bound on what contours deviate by, where lamina noted it [mm].
   std::optional<double> deviation;
-  // x, y, z as {low, high}, in the file's unit, where the header tells them.
+  // x, y, z as {low, high} [file's unit], where the header has them.
   std::optional<std::array<Vec2, 3>> extents;
-};
-
-// One row of the sampling table: layers from `min_z` upward [file's unit].
-struct SlcSampling {
-  float min_z = 0;
-  float thickness = 0;
-  float line_width_compensation = 0;
-};
-
-// A boundary as written: the closing vertex is kept.
-struct SlcBoundary {
-  std::uint32_t gaps = 0;
-  std::vector<Vec2> points;  // [mm]
 };
 
 struct SlcLayer {
   double z = 0;          // lower side [mm]
   double thickness = 0;  // of the row in force [mm]
-  std::vector<SlcBoundary> boundaries;
+  std::vector<WrittenLoop> boundaries;
 };
 
 class SlcReader {
  public:
   // Reads up to the first layer. Throws FileError, also for the two other
-  // formats that bear the suffix.
+  // formats with this suffix.
   explicit SlcReader(std::string path, const FileAccess& access = kAllFiles);
 
   const SlcHeader& header() const { return header_; }
-  const std::vector<SlcSampling>& sampling() const { return sampling_; }
-  double mm_per_unit() const { return mm_per_unit_; }
+  const std::vector<SamplingRow>& sampling() const { return sampling_; }
+  // All that the file says; known when read_layer() has returned false.
+  LayerFileFacts facts() const;
 
   // Replaces `layer` by the next one; false at the end of the layers. Throws
   // FileError.
   bool read_layer(SlcLayer& layer);
 
-  // Of the end record [mm]; known when read_layer has returned false.
+  // Top of the part [mm], from the end record; known when read_layer() has
+  // returned false.
   double top() const { return top_; }
 
  private:
@@ -89,12 +78,13 @@ class SlcReader {
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::uint64_t offset_ = 0;
   SlcHeader header_;
-  std::vector<SlcSampling> sampling_;
+  std::vector<SamplingRow> sampling_;
   double mm_per_unit_ = 1;
   double top_ = 0;
 };
 
-// The layer as the rest of lamina knows it: loops without the closing vertex.
+// Returns the layer as the rest of lamina has it: loops without the closing
+// vertex.
 Layer to_layer(const SlcLayer& layer);
 
 }  // namespace lamina::slicer

@@ -12,7 +12,7 @@
 namespace lamina::slicer {
 namespace {
 
-// What is nearer than this share of the distance is not drawn.
+// The near plane is no nearer than this share of the distance.
 constexpr double kNearest = 0.1;
 
 double radius_of(const Box3& box) {
@@ -52,7 +52,7 @@ void Camera::show_all(const Box3& box) {
 }
 
 Mat4 Camera::view_from_world() const {
-  // Right, up and towards the viewer of one who looks along +y.
+  // A viewer who looks along +y.
   const Mat4 view_from_front(Vec4(1, 0, 0, 0), Vec4(0, 0, -1, 0),
                              Vec4(0, 1, 0, 0), Vec4(0, 0, 0, 1));
   Mat4 turned = glm::translate(view_from_front, Vec3(0, distance, 0));

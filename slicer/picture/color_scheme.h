@@ -15,10 +15,10 @@ struct ColorScheme {
   Rgb background_top;  // of the picture
   Rgb background_bottom;
   Rgb solid;
-  double shine;  // how much of the light is mirrored, 0 … 1
+  double shine;  // share of the light that is mirrored, 0 … 1
 };
 
-// Null where there is none of that name.
+// Null where no scheme has that name.
 const ColorScheme* find_color_scheme(std::string_view name);
 
 std::vector<std::string> color_scheme_names();

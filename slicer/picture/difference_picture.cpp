@@ -8,8 +8,9 @@
 
 #include "csg/plane/clip.h"
 #include "csg/plane/region.h"
-#include "slicer/picture/drawing.h"
-#include "slicer/picture/lettering.h"
+#include "slicer/contour/regions.h"
+#include "slicer/picture/detail/drawing.h"
+#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {
@@ -30,27 +31,14 @@ constexpr Rgb kOnlyA = {0.13F, 0.39F, 0.78F};
 constexpr Rgb kOnlyB = {0.87F, 0.33F, 0.08F};
 constexpr Rgb kMark = {0.25F, 0.24F, 0.22F};
 
-// The magnified field shows this many times the greatest distance, but no less
-// than the grid of the clipper lets see [mm].
+// The magnified field shows this many times the greatest distance, but at least
+// the step of the clipper's grid [mm].
 constexpr double kDistancesShown = 6;
 constexpr double kLeastShown = 1e-6;
 
 planar::Region region_of(const ldni::Contours& contours) {
-  std::vector<planar::Contour> loops;
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    loops.emplace_back(loop.begin(), loop.end());
-  }
-  return planar::from_contours(loops, planar::FillRule::kNonZero);
-}
-
-ldni::Contours contours_of(const planar::Region& region) {
-  ldni::Contours contours;
-  for (const planar::Contour& loop : region.contours) {
-    contours.points.insert(contours.points.end(), loop.begin(), loop.end());
-    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
-  }
-  return contours;
+  return planar::from_contours(to_region(contours).contours,
+                               planar::FillRule::kNonZero);
 }
 
 class DifferencePicture {
@@ -62,9 +50,9 @@ class DifferencePicture {
                kTopStrip + kFieldSize + kFootStrip, kPaper) {
     const std::array regions = {region_of(a), region_of(b)};
     const std::array turned = {regions[1], regions[0]};
-    both_ = contours_of(planar::intersect(regions));
-    only_a_ = contours_of(planar::subtract(regions));
-    only_b_ = contours_of(planar::subtract(turned));
+    both_ = to_contours(planar::intersect(regions));
+    only_a_ = to_contours(planar::subtract(regions));
+    only_b_ = to_contours(planar::subtract(turned));
     bounds_.add(a);
     bounds_.add(b);
     if (a.points.empty() && b.points.empty()) bounds_ = around({0, 0}, 1);
@@ -119,14 +107,14 @@ class DifferencePicture {
               fitting_size(words, kTextSize, room));
   }
 
-  // With its scale below it.
+  // Draws a field with its scale below it.
   void draw_field(const Rectangle& field, const PixelMap& map) {
     draw_tile(image_, field);
     solid(field, map, both_, kBoth);
     outline(field, map, both_, kMark, 0);
     solid(field, map, only_a_, kOnlyA);
     solid(field, map, only_b_, kOnlyB);
-    // Else what is thinner than a pixel would hardly be seen.
+    // Outline them too: what is thinner than a pixel would hardly be seen.
     outline(field, map, only_a_, kOnlyA, kLeastSeen);
     outline(field, map, only_b_, kOnlyB, kLeastSeen);
     draw_scale(image_, {field.x + 2.0, field.y + field.height + 24.0},
@@ -140,7 +128,7 @@ class DifferencePicture {
     blend(image_, coverage, field.x, field.y, color);
   }
 
-  // Of loops that are at least `least` pixels wide on the whole.
+  // Outlines loops whose mean width is at least `least` pixels.
   void outline(const Rectangle& field, const PixelMap& map,
                const ldni::Contours& contours, Rgb color, double least) {
     Coverage lines(field.width, field.height);
@@ -156,7 +144,8 @@ class DifferencePicture {
     blend(image_, lines, field.x, field.y, color);
   }
 
-  // What of a line the field shows: magnified, ends can be kilometres away.
+  // Draws the part of a line within the field: magnified, ends can be
+  // kilometres away.
   static void stroke_inside(Coverage& lines, Vec2 from, Vec2 to) {
     const Vec2 low(-10);
     const Vec2 high(lines.width() + 10, lines.height() + 10);
@@ -178,7 +167,7 @@ class DifferencePicture {
                      kOutlineWidth);
   }
 
-  // A frame around what the other field shows.
+  // Draws a frame around what the other field shows.
   void mark(const Rectangle& field, const PixelMap& map, const Bounds& window) {
     constexpr double kLeastFrame = 16;  // pixels
     const Vec2 middle = map(window.center());

@@ -1,7 +1,7 @@
 #pragma once
-// A layer of two stacks in one picture: what both cover, and what only one of
-// them does, in colour. Differences are often too small to be seen, so a second
-// field shows the place of the greatest distance magnified.
+// A layer of two stacks in one picture: what both cover, and in colour what
+// only one of them covers. Differences are often too small to be seen, so a
+// second field magnifies the place of the greatest distance.
 
 #include <array>
 #include <string>

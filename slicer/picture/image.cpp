@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include <png.h>
 
@@ -21,8 +20,8 @@ void append_bytes(png_structp png, png_bytep bytes, png_size_t count) {
 
 void keep_bytes(png_structp /*png*/) {}  // the OutputFile flushes itself
 
-// libpng's own way is longjmp; an exception passes through its C frames as
-// well, since Debian builds it with unwind tables.
+// libpng would use longjmp; an exception passes through its C frames as well,
+// since Debian builds it with unwind tables.
 [[noreturn]] void throw_png_error(png_structp /*png*/, png_const_charp words) {
   throw FileError({Severity::kError, {}, std::string("PNG: ") + words});
 }

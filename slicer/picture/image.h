@@ -1,5 +1,5 @@
 #pragma once
-// Pixels, and how they become a PNG file.
+// An image in memory, and how it becomes a PNG file.
 
 #include <array>
 #include <cstddef>

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
-#include "slicer/picture/drawing.h"
-#include "slicer/picture/lettering.h"
+#include "slicer/picture/detail/drawing.h"
+#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {
@@ -34,8 +33,9 @@ constexpr Rgb kGap = {0.10F, 0.32F, 0.75F};
 // Labels of thin places, the thinnest first: more would hide the layer.
 constexpr std::size_t kMostLabels = 12;
 
-// Multiples of `step` within `reach` of `middle`. They are counted first: where
-// numbers lie farther apart than steps, step by step one would never get on.
+// Returns the multiples of `step` within `reach` of `middle`. They are counted
+// first: where numbers lie farther apart than steps, adding steps would never
+// get anywhere.
 std::vector<double> multiples(double step, double middle, double reach) {
   const double first = std::ceil((middle - reach) / step) * step;
   const int most = static_cast<int>(2 * reach / step) + 1;
@@ -74,10 +74,9 @@ class LayerPicture {
 
  private:
   Bounds choose_bounds() const {
+    if (layer_.contours.is_empty()) return bounds_of(layers_);
     Bounds bounds;
     bounds.add(layer_.contours);
-    if (!layer_.contours.is_empty()) return bounds;
-    for (const Layer& layer : layers_) bounds.add(layer.contours);
     return bounds;
   }
 
@@ -119,7 +118,7 @@ class LayerPicture {
               fitting_size(words, kTextSize, room));
   }
 
-  // Lines at round distances, so that sizes can be judged at a glance.
+  // Draws lines at round distances, so that sizes can be judged at a glance.
   void draw_grid() {
     const double step = round_length(0.2 * field_.width / pixels_per_mm());
     Coverage lines(field_.width, field_.height);
@@ -137,7 +136,7 @@ class LayerPicture {
     blend(image_, lines, field_.x, field_.y, kGridLine);
   }
 
-  // from  where the words about them may begin [pixels]
+  // from  where the summary may begin [pixels]
   void mark_thin_places(double from) {
     const double width = options_.min_feature;
     std::vector<ThinStretch> stretches;
@@ -165,7 +164,7 @@ class LayerPicture {
               size, features.empty() ? kInk : kWall);
   }
 
-  // The middle lines.
+  // Draws the middle lines.
   void stroke(const std::vector<ThinStretch>& stretches, ThinKind kind,
               Rgb color) {
     Coverage lines(field_.width, field_.height);
@@ -176,13 +175,13 @@ class LayerPicture {
     blend(image_, lines, field_.x, field_.y, color);
   }
 
-  // A ring around where it is thinnest, and the width beside it.
+  // Draws a ring around the thinnest place, and the width beside it.
   void label(const ThinFeature& feature) {
     const Rgb color = feature.kind == ThinKind::kWall ? kWall : kGap;
     const Vec2 place = map_(feature.place);
     const std::string words = fmt::format("{:.3f}", feature.width);
     const Vec2 size(text_width(words, kTextSize) + 6, kTextSize + 8);
-    const Box box = find_room(place, size);
+    const Bounds box = find_room(place, size);
     taken_.push_back(box);
 
     Coverage lines(field_.width, field_.height);
@@ -191,7 +190,7 @@ class LayerPicture {
       lines.add_stroke(place + kRingRadius * direction(i, kCorners),
                        place + kRingRadius * direction(i + 1, kCorners), 2);
     }
-    const Vec2 middle = (box.low + box.high) / 2.0;
+    const Vec2 middle = box.center();
     const Vec2 way = middle - place;
     const double length = std::sqrt(way.x * way.x + way.y * way.y);
     if (length > kRingRadius) {
@@ -207,36 +206,27 @@ class LayerPicture {
     draw_text(image_, words, corner + Vec2(3, kTextSize + 4), kTextSize, color);
   }
 
-  struct Box {
-    Vec2 low = Vec2(0);
-    Vec2 high = Vec2(0);
-
-    bool meets(const Box& other) const {
-      return low.x < other.high.x && other.low.x < high.x &&
-             low.y < other.high.y && other.low.y < high.y;
-    }
-  };
-
   static Vec2 direction(int i, int count) {
     const double angle = 2 * std::numbers::pi * i / count;
     return {std::cos(angle), -std::sin(angle)};
   }
 
-  // The nearest free room for a label around a place; the first one tried where
-  // all is taken.
-  Box find_room(Vec2 place, Vec2 size) const {
+  // Returns the nearest free room for a label around a place, or the first one
+  // tried where all is taken.
+  Bounds find_room(Vec2 place, Vec2 size) const {
     const Vec2 most = Vec2(field_.width, field_.height) - size;
     const auto box_at = [&](int way, double distance) {
       const Vec2 at = place + distance * direction(way, 16) - size / 2.0;
       const Vec2 low(std::clamp(at.x, 0.0, most.x),
                      std::clamp(at.y, 0.0, most.y));
-      return Box{low, low + size};
+      return Bounds{low, low + size};
     };
     for (int ring = 0; ring < 12; ++ring) {
       for (int way = 0; way < 16; ++way) {
-        const Box box = box_at(way, 44 + 18 * ring);
-        if (std::none_of(taken_.begin(), taken_.end(),
-                         [&](const Box& other) { return box.meets(other); })) {
+        const Bounds box = box_at(way, 44 + 18 * ring);
+        if (std::none_of(
+                taken_.begin(), taken_.end(),
+                [&](const Bounds& other) { return box.meets(other); })) {
           return box;
         }
       }
@@ -264,7 +254,7 @@ class LayerPicture {
   const Rectangle field_;
   const PixelMap map_;
   Image image_;
-  std::vector<Box> taken_;  // by rings and labels; in the field [pixels]
+  std::vector<Bounds> taken_;  // by rings and labels; in the field [pixels]
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// One layer as large as the picture: its measures, a scale, its thin places.
+// A picture of one layer: its measures, a scale, its thin places.
 
 #include <cstddef>
 #include <string>
@@ -12,7 +12,7 @@ namespace lamina::slicer {
 
 struct LayerPictureOptions {
   unsigned width = 1200;   // of the picture [pixels]
-  double min_feature = 0;  // marks what is thinner [mm]; 0: nothing
+  double min_feature = 0;  // what is thinner is marked [mm]; 0: nothing
 };
 
 // index  of the layer drawn; the picture shows its own bounds, or those of all

@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "slicer/picture/drawing.h"
-#include "slicer/picture/lettering.h"
+#include "slicer/picture/detail/drawing.h"
 
 namespace lamina::slicer {
 namespace {
@@ -22,14 +21,15 @@ constexpr double kOutlineWidth = 1.3;  // [pixels]
 constexpr double kTallest = 0.78;
 constexpr unsigned kNarrowestTile = 120;  // where there is a choice [pixels]
 
-// How a sheet is divided: all tiles alike, all layers to one scale.
-struct Grid {
+// How a sheet is divided into equal tiles.
+struct SheetGrid {
   unsigned columns = 1;
   unsigned rows = 1;
   unsigned tile_width = 1;
   unsigned tile_height = 1;  // without its label
 
-  Grid(unsigned width, unsigned count, double aspect, unsigned column_count)
+  SheetGrid(unsigned width, unsigned count, double aspect,
+            unsigned column_count)
       : columns(column_count), rows((count + column_count - 1) / column_count) {
     tile_width = (width - kMargin) / columns - kMargin;
     tile_height = static_cast<unsigned>(
@@ -46,17 +46,19 @@ struct Grid {
   }
 };
 
-// The fewest columns (the largest tiles) that keep the sheet low enough.
-Grid choose_grid(unsigned width, unsigned count, double aspect) {
+// Chooses the fewest columns (the largest tiles) that keep the sheet low
+// enough.
+SheetGrid choose_grid(unsigned width, unsigned count, double aspect) {
   for (unsigned columns = 1; columns < count; ++columns) {
-    const Grid grid(width, count, aspect, columns);
+    const SheetGrid grid(width, count, aspect, columns);
     if (grid.height() <= kTallest * width) return grid;
     if (grid.tile_width < kNarrowestTile) return grid;
   }
   return {width, count, aspect, count};
 }
 
-// `count` layers evenly spread over the part, the first and the last included.
+// Returns `count` layers evenly spread over the part, with the first and the
+// last.
 std::vector<std::size_t> choose_layers(std::size_t available,
                                        std::size_t count) {
   std::vector<std::size_t> chosen;
@@ -74,7 +76,7 @@ std::string short_label(const Layer& layer, std::size_t number) {
   return fmt::format("{}  z {:.3f}", number, layer.section_z);
 }
 
-// What stands under the tiles: all in one form and size, none wider than its
+// The texts under the tiles, all in one form and size, and no wider than a
 // tile.
 class Labels {
  public:
@@ -120,14 +122,13 @@ void draw_title(Image& image, const std::string& title,
 
 Image draw_sheet(const std::vector<Layer>& layers, const std::string& title,
                  const SheetOptions& options) {
-  Bounds bounds;
-  for (const Layer& layer : layers) bounds.add(layer.contours);
+  const Bounds bounds = bounds_of(layers);
   const auto available = static_cast<unsigned>(layers.size());
   const Vec2 size = bounds.size();
   const double aspect = std::clamp(size.x / std::max(size.y, 1e-9), 0.3, 4.0);
-  const Grid grid = choose_grid(
+  const SheetGrid grid = choose_grid(
       options.width, std::min(available, options.layer_count), aspect);
-  // A row begun is a row filled.
+  // Fill the last row, too.
   const std::vector<std::size_t> chosen =
       choose_layers(available, std::min(available, grid.columns * grid.rows));
   const Labels labels(layers, chosen, grid.tile_width);

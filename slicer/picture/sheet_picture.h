@@ -1,5 +1,5 @@
 #pragma once
-// A contact sheet: layers side by side, all to one scale.
+// A contact sheet: pictures of layers side by side, all to one scale.
 
 #include <string>
 #include <vector>

@@ -6,25 +6,24 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "base/parallel.h"
-#include "slicer/picture/layer_distance.h"
-#include "slicer/picture/stack_points.h"
+#include "slicer/picture/detail/layer_distance.h"
+#include "slicer/picture/detail/stack_points.h"
 
 namespace lamina::slicer {
 namespace {
 
 constexpr unsigned kOversampling = 2;  // in x and in y
 
-// Slopes are taken over at least this share of the part's size: of finer ones,
-// the rounding of contours is a part.
+// Slopes are taken over at least this share of the part's size: finer ones
+// would show the rounding of contours.
 constexpr double kSlopeLength = 0.0018;
 // Tops that are level for this many such lengths are level.
 constexpr double kSlopeReach = 20;
 
-// How far walls take light from each other: shares of the part's size and of
-// the picture's.
+// How far walls shade each other: shares of the part's size and of the
+// picture's.
 constexpr double kShadeReach = 0.045;
 constexpr double kMostShadePixels = 0.08;
 
@@ -47,7 +46,7 @@ class Normals {
     });
   }
 
-  // At a place on a plate; out of the solid, a unit vector.
+  // Returns the unit normal, out of the solid, at a place on a plate.
   Vec3 at(int layer, Vec3 place) const {
     const Plate& plate = plates_[static_cast<std::size_t>(layer)];
     const double t = std::clamp(
@@ -55,10 +54,10 @@ class Normals {
         0.0, 1.0);
     const Vec2 xy(place);
     // How depth changes upwards, around the place's height.
-    const Level above = mix(level(layer + half_step_, xy),
-                            level(layer + half_step_ + 1, xy), t);
-    const Level below = mix(level(layer - half_step_ - 1, xy),
-                            level(layer - half_step_, xy), t);
+    const SectionDepth above = mix(level(layer + half_step_, xy),
+                                   level(layer + half_step_ + 1, xy), t);
+    const SectionDepth below = mix(level(layer - half_step_ - 1, xy),
+                                   level(layer - half_step_, xy), t);
     const double up =
         (above.depth - below.depth) / std::max(above.z - below.z, 1e-12);
     // How it changes along the layer: between the sections above and below.
@@ -72,14 +71,14 @@ class Normals {
   }
 
  private:
-  struct Level {
+  struct SectionDepth {
     double z;
     double depth;
     Vec2 inward;
   };
 
-  // In a section; those beyond the stack are empty.
-  Level level(int index, Vec2 place) const {
+  // Returns the depth in a section; those beyond the stack are empty.
+  SectionDepth level(int index, Vec2 place) const {
     const int last = static_cast<int>(plates_.size()) - 1;
     const int inside = std::clamp(index, 0, last);
     const Plate& plate = plates_[static_cast<std::size_t>(inside)];
@@ -92,7 +91,8 @@ class Normals {
     return {plate.section_z, depth, inward};
   }
 
-  static Level mix(const Level& a, const Level& b, double share) {
+  static SectionDepth mix(const SectionDepth& a, const SectionDepth& b,
+                          double share) {
     return {glm::mix(a.z, b.z, share), glm::mix(a.depth, b.depth, share),
             glm::mix(a.inward, b.inward, share)};
   }
@@ -128,7 +128,7 @@ class Studio {
                to_linear(colors.solid[2])),
         shine_(colors.shine) {}
 
-  // In linear light.
+  // Returns the colour that the viewer sees, in linear light.
   //
   // normal  right, up, towards the viewer
   // open    share of the sky that is seen, 0 … 1
@@ -155,8 +155,8 @@ class Studio {
  private:
   static constexpr double kElevation = 0.62;  // of the viewer [rad]
 
-  // What is seen in a direction: a bright ceiling over a dark floor, a large
-  // lamp and a small one.
+  // Returns the light from a direction: a bright ceiling over a dark floor, a
+  // large lamp and a small one.
   double room(Vec3 to) const {
     return 0.08 + 0.44 * smooth_step(-0.35, 1.0, to.z) +
            0.10 * smooth_step(0.2, 1.0, -to.z) +
@@ -199,8 +199,8 @@ class LitStack {
     choose_places();
   }
 
-  // The mean of the points in a pixel. The sky changes slowly: it is looked at
-  // once.
+  // Returns the mean of the points in a pixel. The sky changes slowly: its
+  // share is computed once.
   Rgb pixel(unsigned x, unsigned y, Rgb background) const {
     Rgb sum{};
     double open = -1;
@@ -238,7 +238,7 @@ class LitStack {
                    static_cast<std::size_t>(x)];
   }
 
-  // Where to look for what takes the sky: near places more often.
+  // Chooses where to look for what hides the sky: near places more often.
   void choose_places() {
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
@@ -251,7 +251,8 @@ class LitStack {
     }
   }
 
-  // The share of the sky that is seen: in each direction up to the horizon.
+  // Returns the share of the sky that is seen: in each direction, what is above
+  // the horizon.
   double openness(int x, int y, Vec3 normal) const {
     const Vec3 place = place_of(at(x, y));
     double open = 0;
@@ -267,7 +268,7 @@ class LitStack {
           continue;
         }
         const Vec3 way = place_of(at(qx, qy)) - place;
-        // Steps of layers take no light.
+        // The steps between layers hide no sky.
         const double rise = glm::dot(way, normal) - thickness_;
         if (rise <= 0) continue;
         const double distance = glm::length(way);

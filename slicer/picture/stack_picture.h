@@ -2,20 +2,18 @@
 // All layers of a part stacked up and lit: the solid that the printer makes.
 //
 // No surface is reconstructed. OpenGL draws the layers as they are, plates with
-// upright sides, and tells for each pixel the place that it shows. Light needs
-// a normal there, and the plates have none that is of use: all their sides are
-// upright and all their tops are level. It is taken from the surface that the
-// plates stand for instead. Between two sections the solid is where the depth
-// in the one and the depth in the other, mixed by height, are more than 0 (the
+// upright sides, and returns for each pixel the place that it shows. Light
+// needs a normal there. Those of the plates are of no use, since all sides are
+// upright and all tops are level: the normal is that of the surface which the
+// plates approximate. Between two sections the solid is where the depth in the
+// one and the depth in the other, mixed by height, are more than 0 (the
 // shape-based interpolation of Raya and Udupa 1990); how those depths change
 // from layer to layer and along a layer is the gradient of that solid, and its
 // direction the normal. So slopes of layers look as smooth as they are,
 // whatever the layers' thickness, while facets, edges and gaps stay.
 //
-// What a place sees of the sky, it sees past the points around it in the
-// picture.
+// How much sky a place sees follows from the points around it in the picture.
 
-#include <optional>
 #include <vector>
 
 #include "slicer/contour/layer.h"
@@ -30,8 +28,8 @@ struct StackOptions {
   unsigned width = 512;
   unsigned height = 512;
   Camera camera;
-  bool centers = true;    // looks at the middle of the part
-  bool shows_all = true;  // from where all of it is seen
+  bool centers = true;    // the camera looks at the middle of the part
+  bool shows_all = true;  // and from where all of it is seen
   const ColorScheme* colors = find_color_scheme("gold");
 };
 

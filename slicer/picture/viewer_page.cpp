@@ -1,7 +1,6 @@
 #include "slicer/picture/viewer_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -10,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "base/diagnostic.h"
+#include "base/check.h"
 #include "slicer/check/feature_table.h"
-#include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
-#include "slicer/picture/viewer_template.h"
+#include "slicer/picture/detail/drawing.h"
+#include "slicer/picture/detail/viewer_template.h"
 
 namespace lamina::slicer {
 namespace {
@@ -25,8 +24,8 @@ using Json = nlohmann::json;
 constexpr double kFinestStep = 1e-4;    // of coordinates [mm]
 constexpr double kMostSteps = 1 << 30;  // across the part
 
-// Integers as bytes.
-class Numbers {
+// Integers as bytes: 7 bits a byte, low ones first.
+class IntegerStream {
  public:
   void add_count(std::uint64_t value) {
     for (; value >= 0x80; value >>= 7) {
@@ -44,12 +43,12 @@ class Numbers {
   std::string bytes_;
 };
 
-// Places as steps from the one before.
-class Places {
+// Writes points as steps from the point before.
+class PointEncoder {
  public:
-  Places(Vec2 origin, double step) : origin_(origin), step_(step) {}
+  PointEncoder(Vec2 origin, double step) : origin_(origin), step_(step) {}
 
-  void add(Numbers& numbers, Vec2 place) {
+  void add(IntegerStream& numbers, Vec2 place) {
     const std::int64_t x = std::llround((place.x - origin_.x) / step_);
     const std::int64_t y = std::llround((place.y - origin_.y) / step_);
     numbers.add(x - x_);
@@ -95,37 +94,32 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-// What the page needs to read of digits.
+// Leaves out digits that the page does not show.
 double rounded(double value, double step) {
   return std::round(value / step) * step;
 }
 
-// JSON within a <script>: no end tag may show.
-std::string script_text(const Json& json) {
-  std::string text;
-  for (const char c :
-       json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      text += "\\u003c";
+std::string replaced(std::string_view text, char letter,
+                     std::string_view replacement) {
+  std::string result;
+  for (const char c : text) {
+    if (c == letter) {
+      result += replacement;
     } else {
-      text += c;
+      result += c;
     }
   }
-  return text;
+  return result;
+}
+
+// JSON within a <script>, where no end tag may stand.
+std::string script_text(const Json& json) {
+  return replaced(json.dump(-1, ' ', false, Json::error_handler_t::replace),
+                  '<', "\\u003c");
 }
 
 std::string escape_html(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '&') {
-      escaped += "&amp;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
+  return replaced(replaced(text, '&', "&amp;"), '<', "&lt;");
 }
 
 class PageMaker {
@@ -133,16 +127,17 @@ class PageMaker {
   PageMaker(const std::vector<Layer>& layers, const ViewerOptions& options)
       : layers_(layers),
         options_(options),
-        step_(choose_step()),
-        corners_(low_, step_),
-        marks_(low_, step_) {}
+        bounds_(bounds_of(layers)),
+        step_(step_for(bounds_.size())),
+        corners_(bounds_.low, step_),
+        marks_(bounds_.low, step_) {}
 
   std::string make() {
     Json facts = describe();
     facts["title"] = options_.title;
     for (const Layer& layer : layers_) add_contours(layer);
     if (options_.min_feature > 0) facts["thin"] = find_thin_places();
-    // Every piece of the template ends where the next begins.
+    // Copy the template, with a text in the place of each mark.
     std::string page;
     std::string_view rest = kViewerPage;
     const auto put = [&](std::string_view mark, std::string_view text) {
@@ -160,16 +155,9 @@ class PageMaker {
   }
 
  private:
-  double choose_step() {
-    for (const Layer& layer : layers_) {
-      for (const Vec2& p : layer.contours.points) {
-        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-      }
-    }
-    const double size = std::max(high_.x - low_.x, high_.y - low_.y);
+  static double step_for(Vec2 size) {
     double step = kFinestStep;
-    while (size / step > kMostSteps) step *= 10;
+    while (std::max(size.x, size.y) / step > kMostSteps) step *= 10;
     return step;
   }
 
@@ -187,8 +175,8 @@ class PageMaker {
     return {{"layers", std::move(rows)},
             {"volume", volume},
             {"step", step_},
-            {"low", {low_.x, low_.y}},
-            {"high", {high_.x, high_.y}},
+            {"low", {bounds_.low.x, bounds_.low.y}},
+            {"high", {bounds_.high.x, bounds_.high.y}},
             {"minFeature", options_.min_feature}};
   }
 
@@ -221,19 +209,20 @@ class PageMaker {
                                           : options_.features);
   }
 
-  // What feature_table() would list, in its order; low ones are counted.
+  // Returns what feature_table() would list, in its order; low ones are
+  // counted.
   Json list(const std::vector<ThinFeature>& features) const {
-    std::vector<std::size_t> told;
+    std::vector<std::size_t> listed;
     for (std::size_t i = 0; i < features.size(); ++i) {
-      if (!is_low(features[i], options_.min_feature)) told.push_back(i);
+      if (!is_low(features[i], options_.min_feature)) listed.push_back(i);
     }
     std::stable_sort(
-        told.begin(), told.end(), [&](std::size_t a, std::size_t b) {
+        listed.begin(), listed.end(), [&](std::size_t a, std::size_t b) {
           return std::pair(is_edge(features[a]), features[a].width) <
                  std::pair(is_edge(features[b]), features[b].width);
         });
     Json rows = Json::array();
-    for (const std::size_t i : told) {
+    for (const std::size_t i : listed) {
       const ThinFeature& feature = features[i];
       rows.push_back({feature.kind == ThinKind::kGap ? 1 : 0,
                       feature.first_layer, feature.last_layer, feature.layer,
@@ -244,18 +233,17 @@ class PageMaker {
         rows.back().push_back(options_.origins[i]);
       }
     }
-    return {{"low", features.size() - told.size()},
+    return {{"low", features.size() - listed.size()},
             {"features", std::move(rows)}};
   }
 
   const std::vector<Layer>& layers_;
   const ViewerOptions& options_;
-  Vec2 low_ = Vec2(1e300);
-  Vec2 high_ = Vec2(-1e300);
+  const Bounds bounds_;
   const double step_;
-  Places corners_;
-  Places marks_;
-  Numbers numbers_;
+  PointEncoder corners_;
+  PointEncoder marks_;
+  IntegerStream numbers_;
 };
 
 }  // namespace

@@ -2,12 +2,13 @@
 // All layers as one page for a browser: a file that needs no network and no
 // other file.
 //
-// The page is a template (slicer/viewer) with two things put in. A JSON object
-// tells what is known of the part and of each layer, so that the page shows the
-// numbers of `lamina inspect`, not sums of its own. The contours are a stream
+// The page is a template (slicer/picture/viewer) with two things put in. A JSON
+// object holds the measures of the part and of each layer, so that the page shows
+// the numbers of `lamina inspect`, not sums of its own. The contours are a stream
 // of integers: steps from one corner to the next in units of 1e-4 mm, in zigzag
-// form and 7 bits a byte, small numbers one byte; deflated and in base64. That
-// is some 3 bytes a corner, and every browser since 2023 inflates it by itself.
+// form and 7 bits a byte, so that small numbers take one byte; deflated and in
+// base64. That is some 3 bytes a corner, and every browser since 2023 inflates it
+// by itself.
 
 #include <string>
 #include <vector>
@@ -20,8 +21,8 @@ namespace lamina::slicer {
 struct ViewerOptions {
   std::string title;       // the part's name
   double min_feature = 0;  // marks walls and gaps that are thinner [mm]
-  // Thin features that were found before, and what made each. Where there is
-  // none, they are looked for in the layers.
+  // Thin features that were found before, and what made each. Without them,
+  // thin features are searched for in the layers.
   std::vector<ThinFeature> features;
   std::vector<std::string> origins;
 };

@@ -22,13 +22,10 @@
 namespace lamina::slicer {
 namespace {
 
-// What comes into a cell by no more than this does not count [mm].
+// A face that comes into a ply by no more than this does not count [mm].
 constexpr double kReach = kTieDistance;
 
-// Rows of SLC's sampling table.
-constexpr std::size_t kMostRuns = 255;
-
-// Cells times cells of the thickest layer: 300 MB and a minute.
+// Plies times plies of the thickest layer: 300 MB and a minute.
 constexpr double kMostStates = 3e7;
 
 // Whether a face goes on from a corner upwards, and downwards.
@@ -55,12 +52,11 @@ Ways ways_from(const Vec3& corner, const Vec3& previous, const Vec3& next,
           std::min(before, after) < -kReach || !is_convex};
 }
 
-// The corners of faces, to find those where no face goes on upwards (peaks) or
-// downwards (pits).
+// Finds the corners where no face goes on upwards (peaks) or downwards (pits).
 //
-// Faces are not joined, so corners that are one may differ by a clipper's
-// grid. Space is cut into cubes; a corner counts in its own and in those that
-// it nearly touches, so that corners that are one count in the same ones.
+// Faces are not joined, so corners that are one may differ by a clipper's grid.
+// Space is cut into cubes; a corner counts in its own cube and in those that it
+// nearly touches, so that corners that are one count in the same cubes.
 class Corners {
  public:
   void add(const Vec3& corner, Ways ways) {
@@ -106,29 +102,29 @@ class Corners {
   std::vector<std::uint8_t> bits_;  // by name
 };
 
-// Learns from the faces of the surface what cells allow.
-class CellLimits {
+// Learns from the faces of the surface how thick layers may be at each ply.
+class PlyLimits {
  public:
-  CellLimits(const SurfaceHeights& heights, double unit, double cusp,
-             std::uint16_t greatest, std::uint32_t count)
+  PlyLimits(const SurfaceHeights& heights, double unit, double cusp,
+            std::uint16_t greatest, std::uint32_t count)
       : bottom_(heights.low),
         unit_(unit),
         cusp_(cusp),
         greatest_(greatest),
-        free_cells_(greatest > 1 ? count : 0) {
-    cells_.limits.assign(count, greatest);
-    cells_.must_part.assign(count + 1, false);
+        free_plies_(greatest > 1 ? count : 0) {
+    plies_.limits.assign(count, greatest);
+    plies_.must_part.assign(count + 1, false);
   }
 
-  // Whether a face in the box can have a say.
+  // Whether a face in the box can change a limit.
   bool is_wanted(const Box3& box) const {
-    if (free_cells_ == 0) return false;
-    const Cellspan cells = cells_near(box.low.z, box.high.z);
-    if (box.high.z - box.low.z <= kReach && cells.end - cells.begin == 2 &&
-        cells_.must_part[cells.begin + 1]) {
+    if (free_plies_ == 0) return false;
+    const PlySpan plies = plies_near(box.low.z, box.high.z);
+    if (box.high.z - box.low.z <= kReach && plies.end - plies.begin == 2 &&
+        plies_.must_part[plies.begin + 1]) {
       return false;
     }
-    return is_free(cells);
+    return is_free(plies);
   }
 
   void take(const csg::BoundaryFace& face) {
@@ -142,17 +138,17 @@ class CellLimits {
     for (const auto& contour : face.contours) {
       add_corners(contour, face.normal);
     }
-    limit(cells_near(low + 2 * kReach, high - 2 * kReach),
-          cells_for(std::abs(face.normal.z)));
+    limit(plies_near(low + 2 * kReach, high - 2 * kReach),
+          plies_for(std::abs(face.normal.z)));
   }
 
-  Cells finish() {
+  Plies finish() {
     for (const double z : corners_.take_ends()) take_end(z, Corners::kCube);
-    return std::move(cells_);
+    return std::move(plies_);
   }
 
  private:
-  struct Cellspan {
+  struct PlySpan {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
   };
@@ -161,7 +157,7 @@ class CellLimits {
     const std::size_t count = contour.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3& corner = contour[i];
-      if (!is_free(cells_near(corner.z, corner.z))) continue;
+      if (!is_free(plies_near(corner.z, corner.z))) continue;
       // The clipper leaves edges that are too short to have a direction.
       const auto is_apart = [&](std::size_t other) {
         return glm::distance(contour[other % count], corner) > 4 * kReach;
@@ -175,36 +171,36 @@ class CellLimits {
     }
   }
 
-  // Cells that the stretch, made longer by kReach at both ends, comes into.
-  Cellspan cells_near(double low, double high) const {
-    const auto count = static_cast<double>(cells_.limits.size());
+  // Plies that these heights, extended by kReach at both ends, come into.
+  PlySpan plies_near(double low, double high) const {
+    const auto count = static_cast<double>(plies_.limits.size());
     const double begin = std::floor((low - kReach - bottom_) / unit_);
     const double end = std::ceil((high + kReach - bottom_) / unit_);
     return {static_cast<std::uint32_t>(std::clamp(begin, 0.0, count)),
             static_cast<std::uint32_t>(std::clamp(end, 0.0, count))};
   }
 
-  bool is_free(Cellspan cells) const {
-    return std::any_of(cells_.limits.begin() + cells.begin,
-                       cells_.limits.begin() + cells.end,
+  bool is_free(PlySpan plies) const {
+    return std::any_of(plies_.limits.begin() + plies.begin,
+                       plies_.limits.begin() + plies.end,
                        [](std::uint16_t limit) { return limit > 1; });
   }
 
-  // Of a layer that a facet with this |n_z| comes into.
-  std::uint16_t cells_for(double steepness) const {
+  // The most plies of a layer that a facet with this |n_z| comes into.
+  std::uint16_t plies_for(double steepness) const {
     // A cusp that is met but for rounding is met.
     constexpr double kRounding = 1e-9;
-    const double cells = cusp_ / (steepness * unit_) + kRounding;
-    if (!(cells < greatest_)) return greatest_;
-    return static_cast<std::uint16_t>(std::max(cells, 1.0));
+    const double plies = cusp_ / (steepness * unit_) + kRounding;
+    if (!(plies < greatest_)) return greatest_;
+    return static_cast<std::uint16_t>(std::max(plies, 1.0));
   }
 
-  void limit(Cellspan cells, std::uint16_t most) {
-    for (std::uint32_t i = cells.begin; i < cells.end; ++i) {
-      std::uint16_t& limit = cells_.limits[i];
+  void limit(PlySpan plies, std::uint16_t most) {
+    for (std::uint32_t i = plies.begin; i < plies.end; ++i) {
+      std::uint16_t& limit = plies_.limits[i];
       if (limit <= most) continue;
       limit = most;
-      free_cells_ -= most == 1 ? 1 : 0;
+      free_plies_ -= most == 1 ? 1 : 0;
     }
   }
 
@@ -212,27 +208,27 @@ class CellLimits {
   void take_end(double z, double tolerance) {
     const double place = (z - bottom_) / unit_;
     const double border = std::round(place);
-    if (border < 0 || border >= static_cast<double>(cells_.must_part.size())) {
+    if (border < 0 || border >= static_cast<double>(plies_.must_part.size())) {
       return;
     }
     if (std::abs(place - border) * unit_ <= tolerance) {
-      cells_.must_part[static_cast<std::uint32_t>(border)] = true;
+      plies_.must_part[static_cast<std::uint32_t>(border)] = true;
       return;
     }
-    const auto cell = static_cast<std::uint32_t>(std::max(place, 0.0));
-    if (cell < cells_.limits.size()) limit({cell, cell + 1}, 1);
+    const auto ply = static_cast<std::uint32_t>(std::max(place, 0.0));
+    if (ply < plies_.limits.size()) limit({ply, ply + 1}, 1);
   }
 
   const double bottom_;
   const double unit_;
   const double cusp_;
   const std::uint16_t greatest_;
-  std::uint32_t free_cells_;  // that allow more than themselves
-  Cells cells_;
+  std::uint32_t free_plies_;  // those whose layers may have more plies
+  Plies plies_;
   Corners corners_;
 };
 
-// Cells of the thickest layer.
+// The number of plies of the thickest layer.
 std::uint16_t greatest_multiple(const AdaptiveThickness& thickness) {
   constexpr double kUsual = 4;
   constexpr double kRounding = 1e-9;
@@ -264,13 +260,14 @@ ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
   const double count =
       std::max(0.0, std::ceil((heights.high - heights.low) / unit - 0.5));
   if (count * greatest > kMostStates) refuse(heights, unit);
-  CellLimits limits(heights, unit, thickness.cusp, greatest,
-                    static_cast<std::uint32_t>(count));
+  PlyLimits limits(heights, unit, thickness.cusp, greatest,
+                   static_cast<std::uint32_t>(count));
   csg::visit_boundary_faces(
       scene, [&](const Box3& box) { return limits.is_wanted(box); },
       [&](const csg::BoundaryFace& face) { limits.take(face); });
   return ldni::LayerGrid::stacked(
-      heights.low, unit, stack_layers(limits.finish(), greatest, kMostRuns));
+      heights.low, unit,
+      stack_layers(limits.finish(), greatest, thickness.most_runs));
 }
 
 }  // namespace lamina::slicer

@@ -6,18 +6,22 @@
 //   cusp = t · |n_z|                          (t: thickness of the layer)
 // after Dolenc and Mäkelä, Slicing procedures for layered manufacturing
 // techniques, CAD 26 (1994). So a layer may be as thick as the most demanding
-// normal that it meets allows: t = cusp / |n_z|.
+// normal in it allows: t = cusp / |n_z|.
 //
 // Departures. They take the normal of the surface where it passes the layer's
-// lower side; here every facet counts that comes into the layer anywhere, so
+// lower side; here every facet that comes into the layer anywhere counts, so
 // that the bound holds in all of it. Since sections stand in the middle of
 // layers, the surface is never farther than half a cusp from the steps.
 //
-// Thicknesses are multiples of the thinnest one: its cells, counted from the
-// lowest point, tell which normals come into them (BoundaryFace, so that what
-// the Boolean hides has no say), and layers are put together from cells
-// (stacking.h). Flat faces, peaks and pits make no steps: where one lies on a
-// border of cells a layer ends there, else its cell is a layer of its own.
+// A ply is as high as the thinnest layer; plies are counted from the lowest
+// point. The normals that come into a ply limit the layers with it (normals of
+// boundary faces, so that what the Boolean hides has no say), and layers are
+// stacked from plies (stacking.h). Flat faces, peaks and pits make no steps:
+// where one lies on a border of plies a layer ends there, else its ply is a
+// layer of its own.
+
+#include <cstddef>
+#include <limits>
 
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
@@ -29,12 +33,14 @@ struct AdaptiveThickness {
   double thinnest = 0;  // layers are multiples of it
   double thickest = 0;  // 0: four times the thinnest
   double cusp = 0;      // greatest distance of a step's corner from the surface
+  // Runs of layers of equal thickness, at most (stacking.h).
+  std::size_t most_runs = std::numeric_limits<std::size_t>::max();
 };
 
-// Layers for a cusp. In each of them t · |n_z| <= cusp for every facet
-// of the surface that comes into it by more than kTieDistance, or it
-// is as thin as layers can be. Throws GeometryError where the thinnest layers
-// would be too many to plan with.
+// Returns layers for a cusp. In each of them t · |n_z| <= cusp for every facet
+// of the surface that comes into it by more than kTieDistance, or it is as thin
+// as layers can be. Throws GeometryError where there are too many plies to plan
+// with.
 ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
                               const AdaptiveThickness& thickness);
 

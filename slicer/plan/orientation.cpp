@@ -15,16 +15,15 @@
 namespace lamina::slicer {
 namespace {
 
-// Faces and directions that differ by less are equal: rounding, and the grid of
-// the clipper that cut the faces. Of a length [mm], and of sums as a share of
-// the whole surface.
+// Lengths [mm], and sums as a share of the whole surface, that differ by less
+// are equal: so far rounding and the grid of the clipper may move them.
 constexpr double kSame = kTieDistance;
 
-// What looks down steeper than this wants supports: 45°, and what is 45° but
-// for rounding does not.
+// What looks down by more than 45° wants supports; 45° but for rounding does
+// not.
 constexpr double kOverhang = std::numbers::sqrt2 / 2 + 1e-6;
 
-// Of a plane polygon with holes [mm²].
+// The area of a plane polygon with holes [mm²].
 double area_of(const csg::BoundaryFace& face) {
   Vec3 twice(0);
   for (const auto& contour : face.contours) {
@@ -38,13 +37,13 @@ double area_of(const csg::BoundaryFace& face) {
   return glm::dot(twice, face.normal) / 2;
 }
 
-// Half a direction: the sums along a coordinate, both ways.
+// Sums over the surface for both directions along a coordinate.
 struct Sums {
-  double steps = 0;  // area · |n|, but of flat faces
+  double steps = 0;  // area · |n| of all faces but flat ones
   double low = 1e300;
   double high = -1e300;
-  // Surface that looks down, or up, by more than 45°; and how much of it is
-  // flat and lies as low, or as high, as anything.
+  // Surface that looks down, or up, by more than 45°; and how much is flat and
+  // lies as low, or as high, as anything.
   double looks_down = 0;
   double looks_up = 0;
   double lies_low = 0;

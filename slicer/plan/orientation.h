@@ -4,14 +4,14 @@
 // After Byun and Lee, Determination of the optimal build direction for
 // different rapid prototyping processes using multi-criterion decision making,
 // Robotics and Computer-Integrated Manufacturing 22 (2006): the direction whose
-// steps deviate least from the surface, then the one that is built soonest.
-// What deviates is the sum over the surface of area times cusp (adaptive.h);
-// facets square to the direction make no step. The time is the height, for
-// layers take the same time whatever is in them.
+// steps deviate least from the surface, then the one that is built soonest. The
+// deviation is the sum over the surface of area times cusp (adaptive.h); facets
+// square to the direction make no step. The time is the height, for layers take
+// the same time whatever is in them.
 //
-// Both are the same upside down. What decides between those is, theirs too, the
-// least surface that hangs over and wants supports, and then the most that lies
-// on the bed.
+// Both are the same upside down. The least surface that hangs over and wants
+// supports, as theirs too, decides between those, and then the most surface
+// that lies on the bed.
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 6> kAxes = {"z",  "x",  "y",
 // direction.
 Affine turn_to_axis(std::string_view axis);
 
-// What a direction is like.
+// The merits of a direction.
 struct Orientation {
   std::string_view axis;
   double cusp_error = 0;  // area · cusp [mm³]
@@ -43,14 +43,14 @@ struct Orientation {
 struct OrientationChoice {
   std::array<Orientation, 6> all;  // as kAxes
   std::size_t best = 0;            // into `all`
-  std::string reason;              // for the user: what it is best in
+  std::string reason;              // for the user: where it is best
 };
 
 // thickness  of layers [mm]
 OrientationChoice choose_orientation(const csg::Scene& scene, double thickness);
 
-// For the user: which and why, and a line for each direction. Without the last
-// '\n'.
+// For the user: the choice, its reason, and a line for each direction, without
+// the last '\n'.
 std::string orientation_table(const OrientationChoice& choice);
 
 }  // namespace lamina::slicer

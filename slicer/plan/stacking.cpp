@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kImpossible = std::numeric_limits<double>::infinity();
 
-// The cheapest stack below each border, by the size of its last layer.
+// Finds the cheapest stack below each border, by the size of its last layer.
 class Stacker {
  public:
-  Stacker(const Cells& cells, std::uint16_t greatest)
-      : cells_(cells), greatest_(greatest) {
-    const std::size_t borders = cells.limits.size() + 1;
+  Stacker(const Plies& plies, std::uint16_t greatest)
+      : plies_(plies), greatest_(greatest) {
+    const std::size_t borders = plies.limits.size() + 1;
     costs_.resize(borders * greatest);
     goes_on_.resize(borders * greatest);
     best_sizes_.resize(borders);
@@ -21,7 +21,7 @@ class Stacker {
 
   // price  of a run, in layers
   std::vector<std::uint32_t> stack(double price) {
-    const auto count = static_cast<std::uint32_t>(cells_.limits.size());
+    const auto count = static_cast<std::uint32_t>(plies_.limits.size());
     for (std::uint32_t border = 1; border <= count; ++border) {
       fill(border, price);
     }
@@ -37,7 +37,7 @@ class Stacker {
     return border == 0 ? 0 : costs_[state(border, best_sizes_[border])];
   }
 
-  // All layers that end at the border.
+  // Prices all layers that end at the border.
   void fill(std::uint32_t border, double price) {
     std::uint16_t limit = greatest_;
     double best = kImpossible;
@@ -46,9 +46,9 @@ class Stacker {
       costs_[here] = kImpossible;
       if (size > border) continue;
       const std::uint32_t below = border - size;
-      limit = std::min(limit, cells_.limits[below]);
-      // What parts a layer parts all larger ones.
-      if (size > 1 && cells_.must_part[below + 1]) limit = 0;
+      limit = std::min(limit, plies_.limits[below]);
+      // A border that parts a layer parts all larger ones.
+      if (size > 1 && plies_.must_part[below + 1]) limit = 0;
       if (size > limit) continue;
       const double after_change = best_cost(below) + price;
       const double after_equal =
@@ -74,7 +74,7 @@ class Stacker {
     return borders;
   }
 
-  const Cells& cells_;
+  const Plies& plies_;
   const std::uint16_t greatest_;
   std::vector<double> costs_;
   std::vector<bool> goes_on_;  // the layer below is of the same size
@@ -93,16 +93,16 @@ std::size_t count_runs(const std::vector<std::uint32_t>& borders) {
 
 }  // namespace
 
-std::vector<std::uint32_t> stack_layers(const Cells& cells,
+std::vector<std::uint32_t> stack_layers(const Plies& plies,
                                         std::uint16_t greatest,
                                         std::size_t most_runs) {
-  if (cells.limits.empty()) return {0};
-  Stacker stacker(cells, greatest);
-  // At less than a layer for all runs together, layers alone count.
-  double low = 0.5 / static_cast<double>(cells.limits.size() + 1);
+  if (plies.limits.empty()) return {0};
+  Stacker stacker(plies, greatest);
+  // Where all runs together cost less than a layer, layers alone count.
+  double low = 0.5 / static_cast<double>(plies.limits.size() + 1);
   std::vector<std::uint32_t> best = stacker.stack(low);
   if (count_runs(best) <= most_runs) return best;
-  // At more than all layers, there is but one run.
+  // A run that costs more than all layers is the only one.
   double high = 1;
   for (best = stacker.stack(high); count_runs(best) > most_runs;) {
     low = high;

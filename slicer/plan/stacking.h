@@ -1,12 +1,12 @@
 #pragma once
-// Cells of equal height put together into layers of several cells each.
+// Stacks plies of equal height into layers of several plies each.
 //
-// A formats' table tells the thickness of layers run by run, and has an end
-// (SLC: 255 rows). So both count: layers and runs. The search is for the least
-// of layers + price · runs, by dynamic programming over the borders; where the
-// cheapest stack has too many runs, the price of a run rises until it has not.
-// Thinner layers are always allowed, so that a single run of the thinnest is
-// the last resort.
+// A format may list the thickness of layers run by run, in a table that has an
+// end (SLC: 255 rows). So both count: layers and runs. Dynamic programming over
+// the borders finds the least of layers + price · runs; where the cheapest
+// stack has too many runs, the price of a run rises until it has not. Thinner
+// layers are always allowed, so that a single run of the thinnest is the last
+// resort.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,21 +15,21 @@
 namespace lamina::slicer {
 
 // From the lowest up.
-struct Cells {
-  // Of each cell: how many cells a layer that it is part of may have, at least
-  // 1.
+struct Plies {
+  // For each ply: the most plies of a layer with it, at least 1.
   std::vector<std::uint16_t> limits;
-  // Of each border, one more than cells: whether a layer must end there.
+  // For each border, one more than plies: whether a layer must end there.
   std::vector<bool> must_part;
 };
 
-// Borders of the layers, in cells: 0 first, then each layer's upper one. Of all
-// stacks with so few runs the one of the fewest layers, or close to it.
+// Returns the borders of the layers, in plies: 0 first, then each layer's upper
+// one. Of all stacks with so few runs it has the fewest layers, or nearly so.
 //
-// greatest   cells of a layer, at most; at least 1. Time and memory are that
-//            many times the cells.
+// greatest   the most plies of a layer, at least 1; time and memory grow with
+// it
+//            times the plies
 // most_runs  at least 1
-std::vector<std::uint32_t> stack_layers(const Cells& cells,
+std::vector<std::uint32_t> stack_layers(const Plies& plies,
                                         std::uint16_t greatest,
                                         std::size_t most_runs);
 

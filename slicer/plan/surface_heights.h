@@ -1,5 +1,5 @@
 #pragma once
-// How far a solid reaches up and down: its surface, not its leaves.
+// How far the surface of a solid, not its leaves, reaches up and down.
 
 #include "csg/scene.h"
 
@@ -13,8 +13,7 @@ struct SurfaceHeights {
   bool is_empty() const { return low > high; }
 };
 
-// Only faces beyond those found so far are looked at, leaf by leaf from the
-// outermost.
+// Looks at faces beyond those found so far only.
 SurfaceHeights surface_heights(const csg::Scene& scene);
 
 // Shifts the scene upwards or downwards until its lowest point is at height 0;

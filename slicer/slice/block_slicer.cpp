@@ -14,7 +14,7 @@ constexpr BlockSizes kFaithfulBlocks = {8, 32, 32};
 constexpr BlockSizes kPaperBlocks = {16, 64, 4};
 constexpr BlockSizes kDrawnBlocks = {64, 256, 4};  // each draws leaves anew
 
-// Leaf sections and the kinetic ray.
+// Cuts leaves into chains and sweeps them with the kinetic ray.
 class FaithfulSlicer : public BlockSlicer {
  public:
   FaithfulSlicer(const csg::Scene& scene, const ldni::LeafSectioner& sectioner,
@@ -48,7 +48,7 @@ class FaithfulSlicer : public BlockSlicer {
   std::uint64_t open_paths_ = 0;
 };
 
-// Depth images and links.
+// Draws depth images and links their samples.
 class PaperBlockSlicer : public BlockSlicer {
  public:
   explicit PaperBlockSlicer(const ldni::PaperPlan& plan) : slicer_(plan) {}
@@ -81,11 +81,11 @@ Plan plan_faithful(const csg::Scene& scene, const Settings& settings,
 
 Plan plan_paper(const csg::Scene& scene, const Settings& settings,
                 const ldni::LayerGrid& grid) {
-  // As in the paper where the settings leave it open.
+  // The paper's rays are as far apart as its layers.
   const double pitch =
       settings.ray_pitch > 0 ? settings.ray_pitch : settings.layer_thickness;
-  auto plan =
-      std::make_shared<ldni::PaperPlan>(scene, grid, pitch, settings.paper);
+  const auto plan = std::make_shared<const ldni::PaperPlan>(
+      ldni::make_paper_plan(scene, grid, pitch, settings.paper));
   BlockSizes blocks = settings.paper.sampler == ldni::SamplerKind::kScanline
                           ? kPaperBlocks
                           : kDrawnBlocks;

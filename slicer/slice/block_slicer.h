@@ -1,5 +1,5 @@
 #pragma once
-// From a block of layers to contours, in either of the contour modes.
+// From a block of layers to contours, in either contour mode.
 
 #include <cstdint>
 #include <functional>
@@ -21,17 +21,17 @@ namespace lamina::slicer {
 class BlockSlicer {
  public:
   virtual ~BlockSlicer() = default;
-  // Cuts all leaves in those layers; forgets the block before.
+  // Cuts all leaves in these layers; forgets the block before.
   virtual void section(std::uint32_t first_layer,
                        std::uint32_t layer_count) = 0;
   // Whether layer `index` of the block has the loops of the one before it.
   virtual bool repeats(std::uint32_t /*index*/) const { return false; }
   // Replaces `contours` by the loops of layer `index` of the block.
   virtual void make_contours(std::uint32_t index, ldni::Contours& contours) = 0;
-  // Finds the leaves of thin places of that layer, if it can.
+  // Finds the leaves beside the layer's thin places, if the mode knows them.
   virtual void find_leaves(std::uint32_t /*index*/,
                            std::span<ThinStretch> /*stretches*/) {}
-  // Adds what was counted.
+  // Adds its counts.
   virtual void report_to(SliceReport& report) const = 0;
 };
 
@@ -50,11 +50,11 @@ struct BlockSizes {
   }
 };
 
-// What a job's threads share, and how they get what is their own.
+// What a job's threads share, and how each gets a slicer of its own.
 struct Plan {
   BlockSizes blocks;
   std::function<std::unique_ptr<BlockSlicer>()> make_slicer;
-  std::string renderer;  // SliceReport
+  std::string renderer;  // as of SliceReport
 };
 
 // scene and grid must outlive the plan.

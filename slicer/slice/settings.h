@@ -1,7 +1,9 @@
 #pragma once
-// What a slicing job is asked for, from the command line or a library's user.
+// The settings of a slicing job, from the command line or a library's user.
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,9 +14,9 @@ namespace lamina::slicer {
 
 enum class ContourMode { kFaithful, kPaper };
 
-// Layers by number, from 1 as `lamina inspect` counts them; both ends belong to
-// it.
-struct LayerRange {
+// Layers by number, counted from 1 as `lamina inspect` does; the last belongs
+// to them.
+struct LayerNumbers {
   std::uint32_t first = 1;
   std::uint32_t last = 0xffffffff;
 
@@ -25,25 +27,26 @@ struct LayerRange {
 
 struct Settings {
   double layer_thickness = 0.05;  // [mm]
-  // Not 0: layers of several thicknesses, multiples of layer_thickness, so that
-  // steps on the surface are no larger than this [mm] (adaptive.h).
+  // Not 0: adaptive layers, multiples of layer_thickness, whose steps on the
+  // surface have no greater cusp than this [mm] (adaptive.h).
   double cusp = 0;
   double greatest_thickness = 0;  // of these [mm]; 0: 4 · layer_thickness
-  std::vector<double> heights;    // not empty: sections at exactly these
-  LayerRange written;             // of the layers that there are
-  double ray_pitch = 0;           // [mm]; 0 = auto
-  double tolerance = 0.001;       // [mm]; 0 writes all vertices
-  double compensation = 0;        // [mm] inwards; negative: outwards
-  // Walls and gaps thinner than this are looked for, in faithful contours only
-  // [mm]; 0: they are not.
+  // Runs of layers of equal thickness that the output can hold, at most.
+  std::size_t most_thickness_runs = std::numeric_limits<std::size_t>::max();
+  std::vector<double> heights;  // not empty: sections at exactly these
+  LayerNumbers written;         // which of the layers
+  double ray_pitch = 0;         // [mm]; 0 = auto
+  double tolerance = 0.001;     // [mm]; 0 writes all vertices
+  double compensation = 0;      // [mm] inwards; negative: outwards
+  // Walls and gaps thinner than this are searched for, in faithful contours
+  // only [mm]; 0: there is no search.
   double min_feature = 0;
   ContourMode contour = ContourMode::kFaithful;
   ldni::PaperOptions paper;  // for ContourMode::kPaper
   unsigned threads = 0;      // 0: as many as the machine has
 };
 
-// What the settings promise of the contours, before they are written; nothing
-// of the paper's.
+// Bounds that the contours keep before they are written; none for the paper's.
 std::optional<Deviation> promised_deviation(const Settings& settings);
 
 }  // namespace lamina::slicer

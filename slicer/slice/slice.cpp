@@ -10,6 +10,7 @@
 #include "base/thread_clock.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/compensate.h"
+#include "slicer/contour/regions.h"
 #include "slicer/plan/adaptive.h"
 #include "slicer/slice/block_slicer.h"
 #include "slicer/slice/slice_job.h"
@@ -17,8 +18,8 @@
 namespace lamina::slicer {
 namespace {
 
-// No machine builds so many: 500 m of the usual ones. Formats have tables of
-// them, and adaptive layers a cell for each.
+// No machine builds so many layers: 500 m of the usual ones. Formats keep a
+// table of them, and the planner of adaptive layers a ply for each.
 constexpr double kMostLayers = 1e7;
 
 void require_layers(const csg::Scene& scene, double thickness) {
@@ -32,7 +33,7 @@ void require_layers(const csg::Scene& scene, double thickness) {
                    count, thickness, kMostLayers)});
 }
 
-// What must not happen, and would be a fault of ours, is never silent.
+// Reports faults of our own, which should never happen.
 void warn_of_broken_promises(const SliceReport& report,
                              Diagnostics& diagnostics) {
   const auto warn = [&](std::uint64_t count, const char* what) {
@@ -42,12 +43,13 @@ void warn_of_broken_promises(const SliceReport& report,
                                         count, what));
   };
   warn(report.open_paths, "open paths in the sections of leaves were closed");
-  warn(report.sweep.unbalanced_columns, "stops of the ray left a leaf open");
-  warn(report.sweep.repaired_columns, "ends of boundary found no partner");
-  warn(report.sweep.capped_columns, "stops of the ray did not settle");
+  warn(report.sweep.unbalanced_clusters,
+       "event points of the ray left a leaf open");
+  warn(report.sweep.repaired_clusters, "ends of boundary found no partner");
+  warn(report.sweep.capped_clusters, "event points of the ray did not settle");
 }
 
-// No fault of the layers either, but of what drew them.
+// Reports faults of what drew the leaves, which the layers do not have.
 void warn_of_repairs(const SliceReport& report, Diagnostics& diagnostics) {
   if (report.paper.repaired_pixels == 0) return;
   diagnostics.warning(
@@ -57,7 +59,8 @@ void warn_of_repairs(const SliceReport& report, Diagnostics& diagnostics) {
                   report.paper.repaired_pixels, report.renderer));
 }
 
-// Too thin for the beam is no fault of the layers, but no part of the print.
+// Reports what is too thin for the beam: the layers are right, the print will
+// lack it.
 void warn_of_losses(const CompensationCounts& losses, double compensation,
                     Diagnostics& diagnostics) {
   const auto warn = [&](std::uint64_t loops, const char* loop,
@@ -82,7 +85,7 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 }
 
 [[noreturn]] void throw_out_of_range(const SliceReport& report,
-                                     const LayerRange& wanted) {
+                                     const LayerNumbers& wanted) {
   throw GeometryError({Severity::kError,
                        {},
                        fmt::format("There is no layer {}: the layers are 1 to "
@@ -99,11 +102,21 @@ ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings) {
   }
   require_layers(scene, settings.layer_thickness);
   if (settings.cusp > 0) {
-    return adaptive_grid(scene, {settings.layer_thickness,
-                                 settings.greatest_thickness, settings.cusp});
+    return adaptive_grid(scene,
+                         {settings.layer_thickness, settings.greatest_thickness,
+                          settings.cusp, settings.most_thickness_runs});
   }
   return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
                                   settings.layer_thickness);
+}
+
+void SliceReport::add(const LayerMeasures& layer, double thickness) {
+  ++layers;
+  loops += layer.loops;
+  holes += layer.holes;
+  points += layer.vertices;
+  greatest_area = std::max(greatest_area, layer.area);
+  volume += layer.area * thickness;
 }
 
 SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
@@ -116,7 +129,7 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   report.renderer = plan.renderer;
   std::optional<FeatureCollector> features;
   if (settings.min_feature > 0) {
-    features.emplace(settings.min_feature, number_makers(scene));
+    features.emplace(settings.min_feature, source_ids(scene));
   }
   sink.begin(scene.box);
   sink.expect(grid.layer_count());
@@ -153,22 +166,17 @@ SliceReport slice_outline(const planar::Region& outline,
                           Diagnostics& diagnostics) {
   Layer layer;
   layer.compensation = settings.compensation;
-  for (const planar::Contour& contour : outline.contours) {
-    auto& [points, ends] = layer.contours;
-    points.insert(points.end(), contour.begin(), contour.end());
-    ends.push_back(static_cast<std::uint32_t>(points.size()));
-  }
+  layer.contours = to_contours(outline);
   SliceReport report;
   if (settings.min_feature > 0) {
     report.features = find_thin_features(layer, settings.min_feature);
   }
   report.losses = compensate(layer.contours, settings.compensation);
-  report.layers = report.layers_there = 1;
+  report.layers_there = 1;
   if (!settings.written.contains(1)) {
     throw_out_of_range(report, settings.written);
   }
-  report.loops = layer.contours.loop_count();
-  report.points = layer.contours.points.size();
+  report.add(measure(layer.contours), 0);
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (layer.contours.is_empty()) throw_empty(report);
   sink.begin(box_of(layer.contours));

@@ -1,6 +1,6 @@
 #pragma once
-// From a scene to layers: blocks of layers stream through a pipeline (cut the
-// leaves, move the ray, build loops), in parallel, and leave it in order.
+// From a scene to layers: blocks of layers pass through a pipeline (cut the
+// leaves, move the ray, build loops) in parallel and leave it in order.
 
 #include <cstdint>
 #include <string>
@@ -15,6 +15,7 @@
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/layer.h"
+#include "slicer/contour/layer_measures.h"
 #include "slicer/slice/settings.h"
 
 namespace lamina::slicer {
@@ -25,14 +26,14 @@ struct SliceReport {
   ldni::SweepCounts sweep;
   ldni::PaperCounts paper;  // all 0 but for the paper's contours
   std::string renderer;     // what drew, if OpenGL did
-  std::uint64_t open_paths =
-      0;                       // of leaves' sections, closed: 0 if all is well
-  double section_seconds = 0;  // leaves to chains, or to samples
-  double sweep_seconds = 0;    // Boolean and contours
-  double feature_seconds = 0;  // search for thin places
-  double output_seconds = 0;   // compensation, simplification and writing
-  std::uint32_t layers = 0;    // written
-  std::uint32_t layers_there = 0;  // with those that were not wanted
+  // Gaps in sections of leaves that had to be closed: 0 if all is well.
+  std::uint64_t open_paths = 0;
+  double section_seconds = 0;      // leaves to chains, or to samples
+  double sweep_seconds = 0;        // Boolean and contours
+  double feature_seconds = 0;      // search for thin places
+  double output_seconds = 0;       // compensation, simplification and writing
+  std::uint32_t layers = 0;        // written
+  std::uint32_t layers_there = 0;  // written or not
   std::uint64_t loops = 0;
   std::uint64_t holes = 0;   // of the loops
   std::uint64_t points = 0;  // written
@@ -40,14 +41,17 @@ struct SliceReport {
   double greatest_area = 0;  // of a layer [mm²]
   CompensationCounts losses;
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
+
+  // Counts a layer that is written.
+  void add(const LayerMeasures& layer, double thickness);
 };
 
 // Where the layers of a scene stand. Throws GeometryError where the scene is
 // empty (unless heights were given) or would have too many layers.
 ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings);
 
-// Same layers for any number of threads. Throws GeometryError if no layer that
-// is wanted has a contour (unless heights were given). Warns of what
+// Gives the same layers for any number of threads. Throws GeometryError if no
+// wanted layer has a contour (unless heights were given). Warns of what
 // compensation lost.
 //
 // grid  of plan_layers()

@@ -19,6 +19,7 @@
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/layer.h"
+#include "slicer/contour/layer_measures.h"
 #include "slicer/contour/simplify.h"
 
 namespace lamina::slicer {
@@ -26,33 +27,20 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-// Blocks in flight, for each thread: one in work, one waiting for its turn to
-// be written.
+// Blocks in flight for each thread: one in work, one that waits to be written.
 constexpr std::size_t kBlocksPerThread = 2;
 
-// A layer on its way, and what was found out about it.
+// A layer on its way through the pipeline, with what was found in it. It gets
+// its heights last: layers with equal contours share the rest.
 struct Draft {
-  ldni::Contours contours;
+  Layer layer;
+  LayerMeasures measures;
   std::vector<ThinStretch> thin;
-  std::uint64_t holes = 0;
-  double area = 0;       // [mm²]
-  double clearance = 0;  // as of Layer
   CompensationCounts losses;
-  std::string encoded;  // as of Layer
-
-  void measure() {
-    holes = 0;
-    area = 0;
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      const double loop_area = ldni::signed_area(contours.loop(i));
-      area += loop_area;
-      holes += loop_area < 0 ? 1 : 0;
-    }
-  }
 };
 
-// Consecutive layers on their way through the pipeline. Blocks are used again
-// and again, so that the steady state allocates nothing.
+// Consecutive layers on their way through the pipeline. Blocks are reused, so
+// that the steady state allocates nothing.
 struct Block {
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
@@ -63,28 +51,16 @@ struct Block {
   double finish_seconds = 0;  // compensation, simplification, encoding
 };
 
-// Where a layer lies.
-void place(Layer& layer, const ldni::LayerGrid& grid, std::uint32_t index) {
-  layer.section_z = grid.section_z(index);
-  layer.bottom = grid.layer_bottom(index);
-  layer.top = grid.layer_top(index);
-}
-
-// What a draft has of the layer. Twice: as it was.
-void exchange(Layer& layer, Draft& draft) {
-  std::swap(layer.contours, draft.contours);
-  std::swap(layer.clearance, draft.clearance);
-  std::swap(layer.encoded, draft.encoded);
-}
-
 // What one thread keeps from block to block.
 class Worker {
  public:
-  // sink  only asked to encode
+  // sink  encodes layers, and takes none
   Worker(const Plan& plan, const Settings& settings, const LayerSink& sink)
-      : plan_(plan), sink_(sink), simplifier_(settings.tolerance) {
+      : plan_(plan),
+        sink_(sink),
+        compensation_(settings.compensation),
+        simplifier_(settings.tolerance) {
     if (settings.min_feature > 0) thin_finder_.emplace(settings.min_feature);
-    layer_.compensation = settings.compensation;
   }
 
   void make_contours(Block& block) {
@@ -101,31 +77,29 @@ class Worker {
     block.sweep_seconds = measure_seconds([&] {
       for (std::uint32_t i = 0; i < block.layer_count; ++i) {
         repeats_[i] = slicer_->repeats(i) ? 1 : 0;
-        if (repeats_[i] == 0) slicer_->make_contours(i, layers[i].contours);
+        if (repeats_[i] == 0) {
+          slicer_->make_contours(i, layers[i].layer.contours);
+        }
       }
     });
-    // In the exact contours, before anything is moved or left out.
+    // Search the exact contours, before anything is moved or left out.
     if (thin_finder_) {
       block.feature_seconds = measure_seconds([&] {
         for (std::uint32_t i = 0; i < block.layer_count; ++i) {
           if (repeats_[i] != 0) continue;
-          thin_finder_->find(layers[i].contours, layers[i].thin);
+          thin_finder_->find(layers[i].layer.contours, layers[i].thin);
           slicer_->find_leaves(i, layers[i].thin);
         }
       });
     }
-    // Simplification comes last, so that it thins out the arcs too.
+    // Simplify last, so that arcs lose their vertices too.
     block.finish_seconds = measure_seconds([&] {
       for (std::uint32_t i = 0; i < block.layer_count; ++i) {
         if (repeats_[i] != 0) {
           layers[i] = layers[i - 1];
-          continue;
+        } else {
+          finish(layers[i]);
         }
-        layers[i].losses = compensate(layers[i].contours, layer_.compensation);
-        simplifier_.simplify(layers[i].contours);
-        layers[i].clearance = simplifier_.clearance();
-        layers[i].measure();
-        encode(layers[i]);
       }
     });
   }
@@ -135,22 +109,24 @@ class Worker {
   }
 
  private:
-  void encode(Draft& draft) {
-    draft.encoded.clear();
-    if (draft.contours.is_empty()) return;
-    exchange(layer_, draft);
-    std::string encoded = sink_.encode(layer_);
-    exchange(layer_, draft);
-    draft.encoded = std::move(encoded);
+  void finish(Draft& draft) {
+    Layer& layer = draft.layer;
+    draft.losses = compensate(layer.contours, compensation_);
+    layer.compensation = compensation_;
+    simplifier_.simplify(layer.contours);
+    layer.clearance = simplifier_.clearance();
+    draft.measures = measure(layer.contours);
+    layer.encoded.clear();
+    if (!layer.contours.is_empty()) layer.encoded = sink_.encode(layer);
   }
 
   const Plan& plan_;
   const LayerSink& sink_;
+  const double compensation_;
   std::unique_ptr<BlockSlicer> slicer_;
-  std::optional<ThinFinder> thin_finder_;  // if thin places are looked for
+  std::optional<ThinFinder> thin_finder_;  // if thin places are searched for
   Simplifier simplifier_;
   std::vector<std::uint8_t> repeats_;  // of the block's layers
-  Layer layer_;                        // without heights
 };
 
 // Hands layers on in order.
@@ -166,12 +142,12 @@ class OrderedOutput {
         sink_(sink),
         features_(features),
         report_(report) {
-    layer_.compensation = settings.compensation;
+    empty_.layer.compensation = settings.compensation;
   }
 
   void take(std::uint32_t index, Draft& draft) {
     report_.losses += draft.losses;
-    if (draft.contours.is_empty() && !keeps_empty_) {
+    if (draft.layer.contours.is_empty() && !keeps_empty_) {
       if (report_.layers_there > 0) ++held_back_;
       return;
     }
@@ -182,34 +158,29 @@ class OrderedOutput {
  private:
   void emit(std::uint32_t index, Draft& draft) {
     if (!wanted_.contains(++report_.layers_there)) return;
-    ++report_.layers;
-    report_.loops += draft.contours.loop_count();
-    report_.holes += draft.holes;
-    report_.points += draft.contours.points.size();
-    report_.greatest_area = std::max(report_.greatest_area, draft.area);
-    place(layer_, grid_, index);
-    report_.volume += draft.area * (layer_.top - layer_.bottom);
-    exchange(layer_, draft);
-    sink_.take(layer_);
-    exchange(layer_, draft);
+    Layer& layer = draft.layer;
+    layer.section_z = grid_.section_z(index);
+    layer.bottom = grid_.layer_bottom(index);
+    layer.top = grid_.layer_top(index);
+    report_.add(draft.measures, layer.top - layer.bottom);
+    sink_.take(layer);
     if (features_ != nullptr) {
       report_.feature_seconds +=
-          measure_seconds([&] { features_->take(layer_, draft.thin); });
+          measure_seconds([&] { features_->take(layer, draft.thin); });
     }
   }
 
   const ldni::LayerGrid& grid_;
   bool keeps_empty_;
-  LayerRange wanted_;
+  LayerNumbers wanted_;
   LayerSink& sink_;
   FeatureCollector* features_;
   SliceReport& report_;
   std::uint32_t held_back_ = 0;
   Draft empty_;
-  Layer layer_;
 };
 
-// The blocks of a job, first to last.
+// Deals out the blocks of a job, first to last, and takes them back.
 class Job {
  public:
   Job(const Plan& plan, std::uint32_t layer_count, OrderedOutput& output,
@@ -221,8 +192,8 @@ class Job {
 
   std::uint32_t block_count() const { return block_count_; }
 
-  // False after the last one. Blocks are as equal as can be; their borders
-  // depend on the job alone.
+  // Begins the next block; false after the last one. Blocks are as equal as can
+  // be, and their borders depend on the job alone.
   bool start(Block& block) {
     if (started_ == block_count_) return false;
     block.first_layer = border(started_);
@@ -261,7 +232,8 @@ class Job {
 
 using MakeWorker = std::function<Worker()>;
 
-// Without the library of tasks, whose start takes as long as a small design.
+// Does without the library of tasks, whose start takes as long as a small
+// design.
 void run_alone(Job& job, const MakeWorker& make_worker, SliceReport& report) {
   Worker worker = make_worker();
   Block block;
@@ -303,7 +275,7 @@ void run_together(Job& job, unsigned threads, const MakeWorker& make_worker,
   for (const Worker& worker : workers) worker.report_to(report);
 }
 
-// None that would have no block.
+// No thread is without a block.
 unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
   const unsigned wanted = settings.threads != 0
                               ? settings.threads

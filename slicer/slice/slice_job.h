@@ -1,6 +1,6 @@
 #pragma once
-// The pipeline of a job: blocks of layers are made into contours, by one thread
-// or by several, and handed on in order.
+// The pipeline of a job: one thread or several turn blocks of layers into
+// contours, which leave in order.
 
 #include "ldni/section/grid.h"
 #include "slicer/check/thin_features.h"
@@ -10,9 +10,9 @@
 
 namespace lamina::slicer {
 
-// Hands the layers of `grid` to `sink`. Holds back empty ones until it is known
-// that another layer with a contour follows, unless the settings give heights,
-// of which each is wanted.
+// Hands the layers of `grid` to `sink`. Empty layers wait until another layer
+// with a contour follows, unless the settings give heights: each of those is
+// wanted.
 //
 // features  gets the thin places of the layers; may be null
 // report    gets times and counts

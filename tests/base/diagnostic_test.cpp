@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parsed.h"
+#include "tests/parser/parsed.h"
 
 namespace lamina {
 namespace {

@@ -102,8 +102,8 @@ TEST(Certificate, AReportWithoutMinFeatureHasNoFeatures) {
   EXPECT_NEAR(report.at("volume_mm3").get<double>(), 40, 1e-9);
   EXPECT_NEAR(report.at("greatest_area_mm2").get<double>(), 20, 1e-9);
   EXPECT_EQ(report.at("holes"), 0);
-  for (const char* const key :
-       {"open_paths", "capped_columns", "repaired_columns", "snapped_layers"}) {
+  for (const char* const key : {"open_paths", "capped_clusters",
+                                "repaired_clusters", "snapped_layers"}) {
     EXPECT_EQ(report.at(key), 0);
   }
 }

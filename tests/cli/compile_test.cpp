@@ -306,7 +306,7 @@ TEST(Compile, ReportHoldsTimesAndCounts) {
   }
   EXPECT_EQ(json.at("layers"), read_slc(folder.file("a.slc")).size());
   EXPECT_GT(json.at("peak_memory_bytes").get<double>(), 1e6);
-  EXPECT_EQ(json.at("repaired_columns"), 0);
+  EXPECT_EQ(json.at("repaired_clusters"), 0);
 }
 
 TEST(Compile, PeakMemoryOfAReportIsNotThatOfTheCaller) {

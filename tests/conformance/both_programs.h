@@ -1,5 +1,5 @@
 #pragma once
-// Both programs on the same designs: they must write the same, byte for byte.
+// Runs both programs on the same designs: they must write the same bytes.
 
 #include <filesystem>
 #include <string>

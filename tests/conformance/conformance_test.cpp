@@ -1,6 +1,6 @@
-// Conformance with OpenSCAD 2021.01: what lamina writes for every text test of
-// OpenSCAD's suite, and for every design that comes with OpenSCAD, against the
-// suite's expected files and the installed program.
+// Conformance with OpenSCAD 2021.01: compares what lamina writes for every text
+// test of OpenSCAD's suite, and for every design that comes with OpenSCAD, with
+// the suite's expected files and the installed program.
 //
 // Where an expected file has drifted from the program of its own distribution,
 // that program decides. docs/conformance.md holds the table that this test

@@ -1,5 +1,5 @@
-// dxf_dim() and dxf_cross(), values and warnings, on drawings that are right,
-// unusual or broken.
+// dxf_dim() and dxf_cross() give OpenSCAD's values and warnings on drawings
+// that are right, unusual or broken.
 
 #include <string>
 #include <vector>

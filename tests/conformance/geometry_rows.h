@@ -1,6 +1,6 @@
 #pragma once
-// The designs whose geometry is compared, and what came of each: a file that
-// its case leaves for the table.
+// The designs whose geometry is compared. The case of each leaves its outcome
+// in a file, for the table.
 
 #include <filesystem>
 #include <string>

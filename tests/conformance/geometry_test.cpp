@@ -1,9 +1,9 @@
 // Geometry of the designs that come with OpenSCAD: its tests and examples.
 //
-// Each is rendered by openscad and by lamina; sections of openscad's mesh at
-// seven generic heights, or the outline of a 2D design, judge lamina's layers:
-// regions and holes equal, the symmetric difference within openscad's own
-// rounding times the perimeter. A mesh that is open or overlaps itself in a
+// openscad and lamina render each. Sections of openscad's mesh at seven generic
+// heights, or the outline of a 2D design, judge lamina's layers: regions and
+// holes must be equal, the symmetric difference within openscad's own rounding
+// times the perimeter. A mesh that is open or overlaps itself in a
 // section, or that openscad left a part out of, is no judge of that design.
 // Every case leaves a row for the table that geometry_table_test checks;
 // docs/conformance.md lists the exceptions.

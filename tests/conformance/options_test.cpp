@@ -1,5 +1,5 @@
-// The options that lamina shares with openscad 2021.01, each on designs that
-// show it: both programs must write the same, byte for byte.
+// Tries each option that lamina shares with openscad 2021.01 on designs that
+// show it: both programs must write the same bytes.
 
 #include <string>
 

@@ -1,5 +1,6 @@
 #pragma once
-// docs/conformance.md, whose figures and exceptions the tests hold it to.
+// What docs/conformance.md says; the tests hold it to its figures and
+// exceptions.
 
 #include <string>
 

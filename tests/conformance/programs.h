@@ -1,5 +1,5 @@
 #pragma once
-// The two programs that are compared, run on one case.
+// Runs the two programs that are compared on one case.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What conformance is measured on: the text tests of OpenSCAD's own suite as
+// The cases that measure conformance: the text tests of OpenSCAD's own suite as
 // the package openscad-testing-data ships them, and all designs that come with
 // OpenSCAD and its library MCAD.
 

@@ -153,12 +153,16 @@ TEST_P(Examples, CompileToSlcWithoutWarningAndPassInspection) {
   EXPECT_EQ(inspected.status, 0) << inspected.output << inspected.errors;
 }
 
-TEST_P(Examples, StandOnTheirPlateAndHaveTheVolumeThatOpenScadGives) {
-  const Layers layers =
-      slice(GetParam().name, {"--layer", "0.02", "--tolerance", "0"});
+TEST_P(Examples, StandOnTheirPlateAsHighAsOpenScadGives) {
+  const Layers layers = slice(GetParam().name, {"--layer", "0.02"});
   ASSERT_FALSE(layers.empty());
   EXPECT_NEAR(layers.front().bottom, 0, 1e-6);
   EXPECT_NEAR(layers.back().top, GetParam().height, 0.02);
+}
+
+TEST_P(Examples, HaveTheVolumeThatOpenScadGives) {
+  const Layers layers =
+      slice(GetParam().name, {"--layer", "0.02", "--tolerance", "0"});
   EXPECT_NEAR(volume(layers) / GetParam().volume, 1, 0.003);
 }
 
@@ -293,18 +297,27 @@ TEST(Brilliant, WeighsWhatItsDiameterSays) {
   }
 }
 
-TEST(Hoop, HasTwoPartsAndAPinThroughTheirKnuckles) {
-  // In the lowest knuckle: front with the pin's hole, and the back.
+TEST(Hoop, HasTwoPartsInItsLowestKnuckle) {
+  // The front with the pin's hole, and the back.
+  EXPECT_EQ(support::count_loops(slice_at("hoop", 0.6).contours),
+            (LoopCounts{2, 1}));
+}
+
+TEST(Hoop, HasAPinsHoleThroughAllKnuckles) {
+  // It is 0.9 mm wide and stands at (0, -7.9); in the back half, which lies
+  // beside the front, at (-4, -7.9).
   const SlicedLayer low = slice_at("hoop", 0.6);
-  EXPECT_EQ(support::count_loops(low.contours), (LoopCounts{2, 1}));
-  // The pin's hole, 0.9 mm wide, stands at (0, -7.9) through all three.
   EXPECT_FALSE(support::contains(low.contours, Vec2(0, -7.9)));
   EXPECT_NEAR(support::distance_to_edges(low.contours, Vec2(0, -7.9)), 0.45,
               0.03);
   const SlicedLayer middle = slice_at("hoop", 1.8);
   EXPECT_NEAR(support::distance_to_edges(middle.contours, Vec2(-4, -7.9)), 0.45,
               0.03);
-  // The ear post is 0.8 mm thick where it crosses the opening.
+}
+
+TEST(Hoop, HasAnEarPostThatCrossesTheOpening) {
+  // It is 0.8 mm thick there.
+  const SlicedLayer middle = slice_at("hoop", 1.8);
   EXPECT_TRUE(support::contains(middle.contours, Vec2(0, 7.9)));
   EXPECT_NEAR(support::distance_to_edges(middle.contours, Vec2(0, 7.9)), 0.4,
               0.03);

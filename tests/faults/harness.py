@@ -247,6 +247,8 @@ class Harness:
     def case(self, name, runs):
         """runs: (words that tell which it is, arguments of run())."""
         begin = time.monotonic()
+        if not runs:
+            self.broken.append(f"{name}: no place where the fault can strike")
         for _, arguments in runs:
             self.learn(arguments["job"])
         futures = [(words, self.pool.submit(self.run, **arguments))

@@ -10,7 +10,7 @@
 
 #include "base/diagnostic.h"
 #include "base/source.h"
-#include "csg/eval/csg_printer.h"
+#include "csg/csg_printer.h"
 #include "csg/eval/evaluator.h"
 #include "parser/loader.h"
 #include "tests/fuzz/input.h"

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "csg/eval/json.h"
-#include "csg/eval/text.h"
+#include "csg/eval/builtin/json.h"
+#include "csg/eval/value/text.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;

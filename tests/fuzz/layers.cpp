@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "compiler/inspect_file.h"
 #include "slicer/check/compare.h"
-#include "slicer/check/inspect.h"
 #include "slicer/check/inspection_text.h"
-#include "slicer/contour/trapezoids.h"
 #include "slicer/formats/layer_reader.h"
+#include "slicer/picture/detail/trapezoids.h"
 #include "slicer/picture/layer_picture.h"
 #include "slicer/picture/sheet_picture.h"
 #include "slicer/picture/viewer_page.h"
@@ -54,7 +54,7 @@ std::vector<slicer::Layer> read_layers(const std::string& path) {
   });
   try_to([&] {
     const slicer::Inspection found =
-        slicer::inspect_file(path, kMinFeature, FileAccess());
+        compiler::inspect_file(path, kMinFeature, FileAccess());
     slicer::inspection_text(found, slicer::LayerList::kAll);
     slicer::inspection_json(found);
   });

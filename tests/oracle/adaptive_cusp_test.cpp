@@ -1,5 +1,5 @@
-// Adaptive layers judged by openscad: of each facet of the mesh that it
-// renders, whatever lamina takes for visible.
+// openscad judges adaptive layers: each facet of the mesh that it renders must
+// keep the cusp, whatever lamina takes for visible.
 
 #include <algorithm>
 #include <array>
@@ -110,15 +110,12 @@ TEST_P(AdaptiveCusp, HoldsForEveryFacetThatOpenscadRenders) {
   const fs::path path = fs::path(LAMINA_ORACLE_SCENES) / (GetParam() + ".scad");
   const csg::Mesh mesh = render_with_openscad(path);
   const auto design = support::Design::from_file(path);
-  slicer::Settings settings;
-  settings.cusp = kCusp;
-  settings.layer_thickness = kThinnest;
-  settings.greatest_thickness = kThickest;
   const ldni::LayerGrid grid =
       slicer::adaptive_grid(design.scene(), {kThinnest, kThickest, kCusp});
   EXPECT_EQ(faults_of(grid, mesh), "");
 
-  // Where openscad has walls and nothing else, layers are thicker than that.
+  // Layers are thicker where openscad's facets allow it, so there are never
+  // more than of one thickness.
   double low = 1e300;
   double high = -1e300;
   for (const Vec3& vertex : mesh.vertices) {

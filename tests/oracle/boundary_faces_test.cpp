@@ -1,5 +1,5 @@
-// The boundary faces of small Booleans, against CGAL's Nef polyhedra: volume
-// and area of the same solid, found in a way that shares nothing.
+// CGAL's Nef polyhedra judge the boundary faces of small Booleans: they find
+// volume and area of the same solid in a way that shares nothing.
 
 #include "csg/boundary/boundary_faces.h"
 

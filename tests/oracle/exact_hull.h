@@ -1,5 +1,5 @@
 #pragma once
-// Convex hulls by CGAL, with exact predicates.
+// CGAL computes convex hulls, with exact predicates.
 
 #include <span>
 
@@ -8,8 +8,8 @@
 
 namespace lamina::oracle {
 
-// The hull of points that span a volume, its corners some of them. Throws
-// std::runtime_error where they span none.
+// Returns the hull of points that span a volume; its corners are some of them.
+// Throws std::runtime_error where they span none.
 csg::Mesh exact_hull(std::span<const Vec3> points);
 
 }  // namespace lamina::oracle

@@ -4,7 +4,7 @@
 // A region is a set of directed edges between exact points (CGAL's exact
 // constructions), the region on their left. All questions are answered the
 // same way: put the edges of everything in question into one arrangement, walk
-// over its cells from the outermost one, keeping count of the winding numbers,
+// over its cells from the outermost one, keep count of the winding numbers,
 // and ask for each cell what it is. No polygon is ever clipped by another, so
 // there are no special cases of polygons that touch or coincide.
 //

@@ -1,5 +1,6 @@
-// hull() of designs large and small, against CGAL's convex hulls of points that
-// are known otherwise: by the formula, or as the corners of a Nef polyhedron.
+// CGAL judges hull() of designs large and small: it makes convex hulls of
+// points that are known otherwise, by the formula or as the corners of a Nef
+// polyhedron.
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 #pragma once
-// The verdict on a layer.
+// Judges one layer against an exact section.
 
 #include <string>
 

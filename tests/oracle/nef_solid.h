@@ -1,7 +1,7 @@
 #pragma once
-// The Boolean of small scenes as a solid, by CGAL's Nef polyhedra: the whole
-// way that lamina saves. Minutes for what takes lamina milliseconds, so only
-// for few and small scenes.
+// CGAL's Nef polyhedra make the Boolean of a small scene as a solid: the whole
+// way that lamina saves. It takes minutes where lamina takes milliseconds, so
+// tests use it for few and small scenes.
 
 #include "csg/scene.h"
 #include "tests/oracle/world_scene.h"

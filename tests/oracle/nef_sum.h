@@ -1,7 +1,7 @@
 #pragma once
-// Minkowski sums by CGAL: solids cut into convex pieces, all pairs of pieces
-// summed and united. Seconds for what takes lamina milliseconds, so only for
-// few and small scenes.
+// CGAL makes Minkowski sums: it cuts solids into convex pieces, sums all pairs
+// of pieces and unites the sums. It takes seconds where lamina takes
+// milliseconds, so tests use it for few and small scenes.
 
 #include <span>
 

@@ -7,8 +7,8 @@
 
 namespace lamina::oracle {
 
-// The mesh that `openscad` makes of `design`, corners that agree joined. The
-// design may not read other files: what was rendered is kept.
+// Returns the mesh that `openscad` makes of `design`; corners that agree are
+// joined. The design may not read other files, for the mesh is kept.
 //
 // throws  std::runtime_error where the program is missing or fails
 csg::Mesh render_with_openscad(const std::filesystem::path& design);

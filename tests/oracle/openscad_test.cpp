@@ -1,38 +1,26 @@
 #include "tests/oracle/openscad.h"
 
-#include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "csg/boundary/leaf_mesh.h"
 #include "tests/oracle/exact_region.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lamina::oracle {
 namespace {
 
-namespace fs = std::filesystem;
-
 class OpenScad : public ::testing::Test {
  protected:
-  OpenScad() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    ::setenv("LAMINA_TEST_CACHE", folder_.c_str(), 1);
-  }
-  ~OpenScad() override { fs::remove_all(folder_); }
+  OpenScad() { ::setenv("LAMINA_TEST_CACHE", folder_.path().c_str(), 1); }
 
-  fs::path write(const std::string& text) {
-    fs::path path = folder_ / "design.scad";
-    std::ofstream(path) << text;
-    return path;
+  std::string write(const std::string& text) const {
+    return folder_.write("design.scad", text);
   }
 
-  fs::path folder_ =
-      fs::path(::testing::TempDir()) /
-      ("lamina_openscad_" +
-       std::string(
-           ::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const support::TemporaryFolder folder_;
 };
 
 TEST_F(OpenScad, RendersABooleanWhoseSectionsAreRight) {
@@ -55,10 +43,10 @@ TEST_F(OpenScad, FailsLoudly) {
 }
 
 TEST(ReadBinaryStl, RefusesATruncatedFile) {
-  const fs::path path = fs::path(::testing::TempDir()) / "truncated.stl";
-  std::ofstream(path, std::ios::binary) << std::string(100, '\1');
-  EXPECT_THROW(read_binary_stl(path), std::runtime_error);
-  fs::remove(path);
+  const support::TemporaryFolder folder;
+  EXPECT_THROW(
+      read_binary_stl(folder.write("truncated.stl", std::string(100, '\1'))),
+      std::runtime_error);
 }
 
 TEST(Float32Spacing, IsThatOfTheLargestCoordinate) {

@@ -1,9 +1,8 @@
-// Every design in tests/oracle/scenes, at ten generic heights, against exact
-// sections and against openscad. Each case leaves one row for the table that
-// `oracle_table` prints.
+// Exact sections and openscad judge every design in tests/oracle/scenes, at ten
+// generic heights. Each case leaves one row for the table that `oracle_table`
+// prints.
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>

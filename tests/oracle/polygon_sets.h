@@ -1,9 +1,10 @@
 #pragma once
 // A second opinion on exact sections: CGAL's 2D Boolean sets.
 //
-// The same exact leaf sections as `exact_section`, but united, intersected and
-// subtracted as polygons along the tree of operators, instead of one
-// arrangement whose cells are classified. Slower; so it judges the judge.
+// They unite, intersect and subtract the exact leaf sections of
+// `exact_section` as polygons along the tree of operators, where that one
+// classifies the cells of one arrangement. They are slower; so they judge the
+// judge.
 
 #include <string>
 

@@ -1,6 +1,5 @@
 #include "tests/oracle/random_suite.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -8,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "ldni/image/sample.h"
+#include "csg/tie_distance.h"
 #include "slicer/contour/layer.h"
 #include "tests/ldni/sweep/section_reference.h"
 #include "tests/oracle/exact_region.h"

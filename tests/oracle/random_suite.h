@@ -1,6 +1,6 @@
 #pragma once
-// Random designs against exact sections: what a test tries a little of and
-// bench/random_suite much.
+// Judges random designs against exact sections: a test tries a few designs,
+// bench/random_suite many.
 //
 // A design is judged at several pitches in 20 to 60 layers, of which every
 // other design on a grid has some right at its faces. Of each layer:

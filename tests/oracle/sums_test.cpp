@@ -1,5 +1,5 @@
-// minkowski() of small designs, against CGAL's sums of Nef polyhedra, which cut
-// both operands into convex pieces: nothing of lamina's way is shared.
+// CGAL judges minkowski() of small designs: its sums of Nef polyhedra cut both
+// operands into convex pieces and share nothing with lamina's way.
 
 #include <filesystem>
 #include <fstream>

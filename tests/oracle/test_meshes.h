@@ -1,5 +1,5 @@
 #pragma once
-// Meshes by hand for the judges' own tests.
+// Meshes made by hand, for the judges' own tests.
 
 #include <cmath>
 #include <utility>

@@ -1,5 +1,5 @@
-// Texts against openscad's, with the same fonts: what its own test designs
-// (conformance/) leave out.
+// Compares texts with openscad's, in the same fonts, where its own test designs
+// (tests/conformance) leave a gap.
 
 #include <filesystem>
 #include <string>

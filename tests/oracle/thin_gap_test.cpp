@@ -1,5 +1,6 @@
 // Gaps and walls far thinner than the pitch, along x, along y and turned by
-// 37 degrees: what rows of rays lose. Every layer equals its exact section.
+// 37 degrees, are what rows of rays lose. Here every layer must equal its exact
+// section.
 
 #include <fstream>
 #include <sstream>

@@ -1,5 +1,5 @@
 #pragma once
-// The verdict on all layers of a solid whose boundary is known.
+// Judges all layers of a solid whose boundary is known.
 
 #include <string>
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parsed.h"
+#include "tests/parser/parsed.h"
 
 namespace lamina {
 namespace {

@@ -17,10 +17,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "parsed.h"
 #include "parser/ast_printer.h"
 #include "parser/loader.h"
 #include "random_programs.h"
+#include "tests/parser/parsed.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina {

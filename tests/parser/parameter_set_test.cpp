@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "parsed.h"
 #include "parser/ast_printer.h"
+#include "tests/parser/parsed.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina {

@@ -1,4 +1,4 @@
-#include "parsed.h"
+#include "tests/parser/parsed.h"
 
 #include <cstddef>
 #include <stdexcept>

@@ -52,7 +52,7 @@ struct Strip {
   double steepness;  // |n_z|
 };
 
-// Fewest layers from cell limits: taking the thickest that is allowed is best,
+// Fewest layers from ply limits: taking the thickest that is allowed is best,
 // since what is allowed stays so when it is made smaller.
 std::size_t fewest_layers(const std::vector<Strip>& strips, double cusp,
                           double unit, int greatest) {
@@ -62,13 +62,13 @@ std::size_t fewest_layers(const std::vector<Strip>& strips, double cusp,
     bottom = std::min(bottom, strip.low);
     top = std::max(top, strip.high);
   }
-  const auto is_allowed = [&](int from, int cells) {
-    if (cells == 1) return true;
+  const auto is_allowed = [&](int from, int plies) {
+    if (plies == 1) return true;
     const double low = bottom + from * unit;
-    const double high = low + cells * unit;
+    const double high = low + plies * unit;
     for (const Strip& strip : strips) {
       if (strip.low >= high - 1e-6 || strip.high <= low + 1e-6) continue;
-      if (cells * unit * strip.steepness > cusp + 1e-9) return false;
+      if (plies * unit * strip.steepness > cusp + 1e-9) return false;
       if (strip.high == strip.low) return false;  // flat
     }
     return true;
@@ -76,12 +76,12 @@ std::size_t fewest_layers(const std::vector<Strip>& strips, double cusp,
   const int count = static_cast<int>(std::ceil((top - bottom) / unit - 0.5));
   std::size_t layers = 0;
   for (int from = 0; from < count; ++layers) {
-    int cells = 1;
-    while (cells < greatest && from + cells < count &&
-           is_allowed(from, cells + 1)) {
-      ++cells;
+    int plies = 1;
+    while (plies < greatest && from + plies < count &&
+           is_allowed(from, plies + 1)) {
+      ++plies;
     }
-    from += cells;
+    from += plies;
   }
   return layers;
 }
@@ -128,20 +128,20 @@ TEST(AdaptiveGrid, OfAConeHasOneThickness) {
   const std::string cone = "cylinder(r1 = 4, r2 = 0, h = 4, $fn = 4);";
   // Four sides: their slope is that of the apothem, 4/√2 to 4.
   const double steepness = 1 / std::sqrt(1 + 2.0);
-  for (unsigned cells = 1; cells <= 5; ++cells) {
-    const double cusp = cells * 0.05 * steepness;
+  for (unsigned plies = 1; plies <= 5; ++plies) {
+    const double cusp = plies * 0.05 * steepness;
     const auto layers =
         multiples(grid_of(cone, settings_for(cusp, 0.05, 1)), 0.05);
-    // But for what is left over of 80 cells, all are as thick.
-    EXPECT_EQ(layers.size(), (80U + cells - 1) / cells);
+    // All are as thick but the one that takes what is left of 80 plies.
+    EXPECT_EQ(layers.size(), (80U + plies - 1) / plies);
     EXPECT_LE(std::count_if(layers.begin(), layers.end(),
-                            [&](unsigned layer) { return layer != cells; }),
+                            [&](unsigned layer) { return layer != plies; }),
               1);
   }
 }
 
 TEST(AdaptiveGrid, FlatFacesLieOnBordersOrInTheThinnestLayers) {
-  // 0.55 is a border of cells of 0.05, 0.77 is none.
+  // 0.55 is a border of plies of 0.05, 0.77 is none.
   const ldni::LayerGrid grid =
       grid_of("cube([2, 2, 2]); cube([3, 2, 0.55]); cube([2, 3, 0.77]);",
               settings_for(0.01, 0.05, 0.4));
@@ -199,6 +199,25 @@ TEST(AdaptiveGrid, BeginsAtTheLowestPointOfTheSurface) {
 
 TEST(AdaptiveGrid, RefusesMoreThinLayersThanItCanPlan) {
   EXPECT_THROW(grid_of("cube([1, 1, 1e6]);", settings_for(0.05, 1e-4)), Error);
+}
+
+std::size_t count_runs(const std::vector<unsigned>& sizes) {
+  std::size_t runs = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    runs += i == 0 || sizes[i] != sizes[i - 1] ? 1 : 0;
+  }
+  return runs;
+}
+
+TEST(AdaptiveGrid, HasMoreLayersWhereAFormatTellsOfFewRuns) {
+  const Design ball = Design::from_text("sphere(3, $fn = 100);");
+  slicer::AdaptiveThickness thickness{0.02, 0.16, 0.02};
+  const auto free = multiples(adaptive_grid(ball.scene(), thickness), 0.02);
+  thickness.most_runs = 4;
+  const auto kept = multiples(adaptive_grid(ball.scene(), thickness), 0.02);
+  EXPECT_GT(count_runs(free), 4U);
+  EXPECT_LE(count_runs(kept), 4U);
+  EXPECT_GT(kept.size(), free.size());
 }
 
 TEST(AdaptiveLayers, HoldTheVolumeOfTheSolid) {

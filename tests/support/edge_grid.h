@@ -1,6 +1,6 @@
 #pragma once
-// Edges of a layer sorted into the cells of a uniform grid, for questions that
-// only near edges can answer.
+// Sorts the edges of a layer into the cells of a uniform grid, for questions
+// that only near edges can answer.
 
 #include <cstddef>
 #include <cstdint>

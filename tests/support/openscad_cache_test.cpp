@@ -1,4 +1,4 @@
-// The cache of answers, before programs that stand in for openscad.
+// Tests the cache of answers with programs that stand in for openscad.
 
 #include "tests/support/openscad_cache.h"
 

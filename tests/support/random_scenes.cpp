@@ -74,17 +74,16 @@ class SceneMaker {
     return points;
   }
 
-  static csg::Sweep make_sweep(Outline outline, std::vector<Vec2> profile,
-                               bool is_closed_profile = false) {
+  static csg::Loft make_loft(Outline outline, std::vector<Vec2> profile,
+                             bool is_closed_profile = false) {
     return {std::make_shared<const Outline>(std::move(outline)),
             std::move(profile), is_closed_profile};
   }
-  void add_sweep(Outline outline, std::vector<Vec2> profile,
-                 bool is_closed_profile = false) {
+  void add_loft(Outline outline, std::vector<Vec2> profile,
+                bool is_closed_profile = false) {
     csg::Leaf leaf;
-    leaf.sweeps = {
-        make_sweep(std::move(outline), std::move(profile), is_closed_profile)};
-    leaf.sweep_is_cavity = {false};
+    leaf.lofts = {
+        make_loft(std::move(outline), std::move(profile), is_closed_profile)};
     add_leaf(std::move(leaf));
   }
   void add_leaf(csg::Leaf leaf) {
@@ -99,11 +98,11 @@ class SceneMaker {
   // outside.
   csg::Leaf frame_leaf() {
     csg::Leaf leaf;
-    leaf.sweeps = {
-        make_sweep({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {{1, 0}, {1, 1}}),
-        make_sweep({{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}},
-                   {{1, 0}, {1, 1}})};
-    leaf.sweep_is_cavity = {false, true};
+    leaf.lofts = {
+        make_loft({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {{1, 0}, {1, 1}}),
+        make_loft({{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}},
+                  {{1, 0}, {1, 1}})};
+    leaf.lofts[1].is_cavity = true;
     return leaf;
   }
   // Boxes in one mesh: two overlap, a third one, inside out, takes a bite.
@@ -130,17 +129,17 @@ class SceneMaker {
   void add_leaves() {
     const Outline square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const Outline bracket = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-    add_sweep(square, {{1, 0}, {1, 1}});
+    add_loft(square, {{1, 0}, {1, 1}});
     scene_.leaves.push_back(mesh_leaf(box_mesh(Vec3(0), Vec3(1))));
-    add_sweep(bracket, {{1, 0}, {1, 1}});
-    add_sweep(square, {{1, 0}, {0.5, 1}});
+    add_loft(bracket, {{1, 0}, {1, 1}});
+    add_loft(square, {{1, 0}, {0.5, 1}});
     scene_.leaves.push_back(mesh_leaf(prism_mesh(8, 1, 0, 1)));
     add_leaf(frame_leaf());
     scene_.leaves.push_back(overlapping_leaf());
 
-    add_sweep(circle(7), {{1, 0}, {0.3, 1}});
-    add_sweep(circle(16), {{0, -1}, {1, 0}, {0, 1}});
-    add_sweep(circle(12), {{1.4, -0.4}, {1.8, 0}, {1.4, 0.4}, {1, 0}}, true);
+    add_loft(circle(7), {{1, 0}, {0.3, 1}});
+    add_loft(circle(16), {{0, -1}, {1, 0}, {0, 1}});
+    add_loft(circle(12), {{1.4, -0.4}, {1.8, 0}, {1.4, 0.4}, {1, 0}}, true);
     scene_.leaves.push_back(mesh_leaf(sphere_mesh(10, 1)));
     scene_.leaves.push_back(mesh_leaf(torus_mesh(9, 1.5, 0.4)));
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Random designs under the laws of sets and of space: no oracle is asked, so
-// that thousands are tried a minute.
+// Tries the laws of sets and of space on random designs. They need no oracle,
+// so a minute tries thousands.
 
 #include <cstddef>
 #include <cstdint>

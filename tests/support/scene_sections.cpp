@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "csg/boundary/leaf_mesh.h"
-#include "ldni/image/sample.h"
+#include "csg/tie_distance.h"
 #include "slicer/slice/slice.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
@@ -54,14 +54,14 @@ void expect_within(const Box3& box, const slicer::Layer& layer,
 void expect_no_repairs(const slicer::SliceReport& report,
                        const std::string& design) {
   const auto& sweep = report.sweep;
-  if (sweep.unbalanced_columns + sweep.repaired_columns + sweep.capped_columns +
-          report.open_paths ==
+  if (sweep.unbalanced_clusters + sweep.repaired_clusters +
+          sweep.capped_clusters + report.open_paths ==
       0) {
     return;
   }
   throw BrokenLaw{fmt::format(
-      "{} unbalanced, {} repaired, {} capped columns, {} open paths\n{}",
-      sweep.unbalanced_columns, sweep.repaired_columns, sweep.capped_columns,
+      "{} unbalanced, {} repaired, {} capped clusters, {} open paths\n{}",
+      sweep.unbalanced_clusters, sweep.repaired_clusters, sweep.capped_clusters,
       report.open_paths, design)};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Sections of a design that is given as text, judged as they are made, and what
-// laws say of them.
+// Makes sections of a design that is given as text, judges each as it is made,
+// and asks laws of them.
 //
 // Nothing here knows the right layers. A law compares sections of designs that
 // depend on each other: wherever a point is well away from the boundaries of
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "csg/tie_distance.h"
 #include "ldni/section/contours.h"
 #include "slicer/slice/settings.h"
 

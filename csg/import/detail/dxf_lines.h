@@ -1,5 +1,5 @@
 #pragma once
-// Lines whose ends stand on a grid, and how they join.
+// Joins lines whose ends stand on a grid.
 
 #include <array>
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace lamina::csg {
 // The points of the grid where lines end, by number.
 class DxfGrid {
  public:
-  // The point that stands for `point`: of its cell of the grid, or of the
-  // nearest of the eight around it, if there is one already.
+  // The point that stands for `point`: that of its cell of the grid, or else of
+  // the nearest of the eight cells around it; a new one where none has any.
   //
   // point  no further than kFarthest from the origin
   std::uint32_t snap(Vec2 point);
@@ -43,9 +43,9 @@ class DxfGrid {
 
 using DxfLine = std::array<std::uint32_t, 2>;  // points of the grid
 
-// Joins lines to paths as OpenSCAD does: first those that begin at an open end,
-// then the others; where several lines go on, the first of the file does. The
-// cost is that of sorting.
+// Joins lines to paths as OpenSCAD does: first paths that begin at an open end,
+// then the others; where several lines could go on, the first of the file does.
+// Cost: n log n.
 std::vector<DxfPath> join_lines(const std::vector<DxfLine>& lines,
                                 const DxfGrid& grid);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Numbers in SVG attributes, which stand together without need of blanks:
-// "1-.5.5e3" are three.
+// Numbers in SVG attributes, which need no blanks between them: "1-.5.5e3" are
+// three.
 
 #include <cctype>
 #include <cstddef>
@@ -15,7 +15,7 @@ class SvgNumbers {
  public:
   explicit SvgNumbers(std::string_view text) : rest_(text) {}
 
-  // Passes over blanks and commas; then the next character, 0 at the end.
+  // Passes over blanks and commas; returns the next character, 0 at the end.
   char peek() {
     while (!rest_.empty() &&
            (is_blank(rest_.front()) || rest_.front() == ',')) {
@@ -26,7 +26,7 @@ class SvgNumbers {
   void skip(std::size_t count) { rest_.remove_prefix(count); }
   std::string_view rest() const { return rest_; }
 
-  // The number that comes next; nothing where none does.
+  // Takes the next number; nothing where something else comes next.
   std::optional<double> next() {
     peek();
     const std::size_t length = number_length();
@@ -35,7 +35,7 @@ class SvgNumbers {
     return number;
   }
 
-  // A flag is one character: "00.5" are a flag, and another, and .5.
+  // Takes a flag. It is one character: "00.5" are two flags and .5.
   std::optional<bool> next_flag() {
     const char c = peek();
     if (c != '0' && c != '1') return std::nullopt;

@@ -14,7 +14,7 @@ struct SvgPage {
   Vec2 view_low = Vec2(0);  // of the viewBox
 };
 
-// By width, height, viewBox and preserveAspectRatio of an <svg> element.
+// Reads width, height, viewBox and preserveAspectRatio of an <svg> element.
 SvgPage read_svg_page(const pugi::xml_node& svg, double dpi);
 
 }  // namespace lamina::csg

@@ -10,10 +10,10 @@ namespace lamina::csg {
 
 struct SvgSubpath {
   std::vector<Vec2> points;
-  bool is_drawn = false;  // open: as a stroke
+  bool is_drawn = false;  // open, so drawn as a stroke
 };
 
-// Curves become 20 lines each, arcs one for each 18° and four more.
+// A curve becomes 20 lines, an arc one for each 18° and four more.
 std::vector<SvgSubpath> parse_svg_path(std::string_view data);
 
 }  // namespace lamina::csg

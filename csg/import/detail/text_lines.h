@@ -1,5 +1,5 @@
 #pragma once
-// Text formats, line by line and word by word, without copies.
+// Reads text formats line by line and word by word, without copies.
 
 #include <charconv>
 #include <cstddef>
@@ -59,10 +59,10 @@ class TextLines {
     return trim(line);
   }
 
-  // No line comes after the one that next() gave.
+  // Whether next() gave the last line.
   bool is_done() const { return is_done_; }
 
-  // Of the line that next() gave, from 1.
+  // Number of the line that next() gave, from 1.
   std::size_t number() const { return number_; }
 
  private:

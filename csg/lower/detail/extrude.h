@@ -1,5 +1,5 @@
 #pragma once
-// linear_extrude and rotate_extrude; beyond kMostTriangles they throw.
+// linear_extrude and rotate_extrude. Both throw LimitExceeded.
 
 #include "csg/plane/region.h"
 #include "csg/scene.h"
@@ -7,10 +7,10 @@
 
 namespace lamina::csg {
 
-// Straight and evenly scaled extrusions are Sweeps, one for each contour;
+// Straight and evenly scaled extrusions are lofts, one for each contour;
 // twisted and unevenly scaled ones are meshes with OpenSCAD's vertices and
-// diagonals, because their sides are not planar. No sweep and no mesh where
-// the height or the region is nothing.
+// diagonals, because their sides are not planar. The leaf is empty where the
+// height is 0 or the region is empty.
 //
 // chordal_error  of sides that are not planar, where neither $fn nor slices
 //                decide [mm]; 0: $fa and $fs decide
@@ -26,8 +26,8 @@ struct ProfileRange {
 };
 ProfileRange profile_range(const planar::Region& region);
 
-// The region turned about the y axis, which becomes z. A full turn gives
-// Sweeps, less gives a mesh. The region must not cross the axis.
+// Turns the region about the y axis, which becomes z. A full turn gives lofts,
+// a part of one a mesh. The region must not cross the axis.
 //
 // angle_deg  in (-360, 360]
 // fragments  over the whole angle

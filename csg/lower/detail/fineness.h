@@ -1,5 +1,5 @@
 #pragma once
-// Into how many facets round things fall.
+// How many facets stand for what is round.
 //
 // $fn decides where it is given. Else $fa and $fs do, by OpenSCAD's rules, or,
 // where a chordal error is asked for, it does: as few facets as keep their

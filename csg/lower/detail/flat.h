@@ -1,7 +1,7 @@
 #pragma once
 // The 2D modules of the tree, as regions.
 //
-// What is wrong with their parameters is reported with OpenSCAD's words. All of
+// They report faulty parameters in OpenSCAD's words. All of
 // them throw std::range_error for coordinates beyond 1e9 mm.
 
 #include <span>
@@ -26,15 +26,15 @@ planar::Region make_text(const TextParams& params, const Fineness& fineness,
 planar::Region combine_regions(BooleanOp op,
                                std::span<const planar::Region> regions);
 
-// minkowski(): the sum of all regions that are not empty. Empty where the first
-// is, or where all others are.
+// minkowski(): the sum of all regions that are not empty; empty where the first
+// one is, or all others are.
 planar::Region add_regions(std::span<const planar::Region> regions);
 
 planar::Region offset_region(const Offset& offset, const Fineness& fineness,
                              const planar::Region& region);
 
-// Each shape is where its contours enclose a point an odd number of times; the
-// region is the union of all.
+// Fills each shape where its contours enclose a point an odd number of times,
+// and unites all shapes.
 planar::Region fill_shapes(
     std::span<const std::vector<planar::Contour>> shapes);
 

@@ -3,7 +3,7 @@
 //
 // A design repeats few shapes very often, so primitives are kept in unit size
 // by their number of facets (the size goes into the instance's matrix), and
-// anything else is compared with those there. Beyond kMostTriangles it throws.
+// any other leaf is compared with those there. Throws LimitExceeded.
 
 #include <cstdint>
 #include <map>
@@ -28,7 +28,7 @@ class LeafStore {
   // Height 1 from 0, or from -1/2 if centred; bottom and top radius.
   std::uint32_t unit_height_cone(double r1, double r2, bool center,
                                  int fragments);
-  // Any other leaf; box and sharing of equal leaves are seen to here.
+  // Adds any other leaf and computes its box, unless an equal one is there.
   std::uint32_t add(Leaf leaf);
 
   // (cos, sin) of a circle in n fragments.

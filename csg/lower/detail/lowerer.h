@@ -9,6 +9,7 @@
 // lower_minkowski.cpp the sum.
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -28,18 +29,24 @@
 
 namespace lamina::csg {
 
-// What a subtree is. A solid's parts stand on the program builder's stack, and
-// there may be none: an empty solid still is three-dimensional.
+// What a subtree is. A solid's parts stand on the program builder's stack.
+// There may be none: an empty solid is three-dimensional all the same.
 enum class Dimension { kNone, kFlat, kSolid };
 struct Shape {
   Dimension dimension = Dimension::kNone;
   planar::Region region = {};
-  // Of a solid: OpenSCAD would have evaluated a Boolean for it, and not hold it
-  // as one list of faces. Scaled by 0 the former is removed, the latter flat.
+  // Of a solid: whether OpenSCAD would have evaluated a Boolean for it, where
+  // else it holds one list of faces. Scaled by 0, the result of a Boolean is
+  // removed, and a list of faces becomes flat.
   bool is_boolean = false;
 };
 
 struct Operand;
+
+// What only unites its children.
+template <typename Op>
+concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
+    std::same_as<Op, Render> || std::same_as<Op, Color>;
 
 class Lowerer {
  public:
@@ -53,21 +60,21 @@ class Lowerer {
   Shape lower(const Node& node, const Affine& world);
 
   Scene take_scene();
-  // Without what is flat.
+  // The same without flat parts.
   Scene take_solids();
 
  private:
   // --- lower_operators.cpp --------------------------------------------------
-  Shape lower_op(const Group&, const Node& node, const Affine& world);
-  Shape lower_op(const Union&, const Node& node, const Affine& world);
-  Shape lower_op(const Render&, const Node& node, const Affine& world);
-  Shape lower_op(const Color&, const Node& node, const Affine& world);
+  template <Grouping Op>
+  Shape lower_op(const Op&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kUnion);
+  }
   Shape lower_op(const Difference&, const Node& node, const Affine& world);
   Shape lower_op(const Intersection&, const Node& node, const Affine& world);
   Shape lower_op(const Transform& op, const Node& node, const Affine& world);
 
-  // The parts above the mark, of this shape, were put in the world by a
-  // singular matrix.
+  // Treats the parts above the mark, of this shape, as a singular matrix that
+  // placed them asks for.
   void flatten(std::size_t mark, const Shape& shape, SourceRange range);
 
   // The operands of an operator: those of the first child's dimension.
@@ -129,7 +136,7 @@ class Lowerer {
   Shape lower_op(const Import& op, const Node& node, const Affine& world);
   Shape lower_op(const Surface& op, const Node& node, const Affine& world);
 
-  // What a file holds: read once, however often the design names it.
+  // What a file holds. It is read once, however often the design names it.
   struct FileShape {
     Dimension dimension = Dimension::kNone;
     planar::Region region = {};
@@ -174,8 +181,8 @@ class Lowerer {
 
   LowerOptions options_;
   Diagnostics& diagnostics_;
-  // All that becomes of the next leaf are its corners: it is below a hull, and
-  // alone all the way. So it may be any heap of faces.
+  // Of the next leaf only the corners count: it stands below a hull, without
+  // siblings all the way. So its faces need not be closed.
   bool takes_corners_ = false;
   LeafStore leaves_;
   ProgramBuilder builder_;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -12,7 +11,7 @@
 
 namespace lamina::csg {
 
-// Reports the first point that is none, if there is one.
+// Reports the first malformed point; returns whether there is none.
 //
 // type  "vec2" or "vec3"
 inline bool check_points(std::string_view wrong_point, std::string_view type,

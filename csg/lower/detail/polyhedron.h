@@ -1,8 +1,6 @@
 #pragma once
 // polyhedron(): faces as the user wrote them become a closed mesh.
 
-#include <vector>
-
 #include "base/diagnostic.h"
 #include "csg/scene.h"
 #include "csg/tree.h"
@@ -10,13 +8,13 @@
 namespace lamina::csg {
 
 // Faces are clockwise from outside, as OpenSCAD has them; the mesh is
-// counter-clockwise. Defects are mended and reported, one warning for each
+// counter-clockwise. Defects are repaired and reported, one warning for each
 // kind, with what was done as notes.
 Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
                      Diagnostics& diagnostics);
 
-// For those who look at the corners of the faces only, a triangle of no area
-// for each. What is wrong with the faces does not matter.
+// The corners of the faces alone, each as a triangle of no area. Faults of the
+// faces do not matter.
 Mesh make_corners(const PolyhedronParams& polyhedron, SourceRange range,
                   Diagnostics& diagnostics);
 

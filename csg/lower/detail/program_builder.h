@@ -4,8 +4,8 @@
 // Parts (instances and operators) stand on a stack; "the parts above a mark"
 // always means their union, so unions need no work at all and nested ones are
 // flat from the start. Difference and intersection pop their operands and push
-// at most one part. Emptiness is decided by boxes, conservatively: a part is
-// left out only where it cannot matter.
+// at most one part. Boxes decide what is empty, conservatively: a part is left
+// out only where it cannot matter.
 
 #include <cstdint>
 #include <span>

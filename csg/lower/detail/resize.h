@@ -8,13 +8,10 @@
 namespace lamina::csg {
 
 // A size of 0 keeps that direction, or with `auto` scales it as the direction
-// of the greatest new size. Negative sizes keep it, too; only the result of a
-// Boolean they mirror (there OpenSCAD 2021.01 has another code for it). What
-// has no extent in a direction keeps that.
+// of the greatest new size. So does a negative size, except that it mirrors the
+// result of a Boolean (OpenSCAD 2021.01 has other code for that). A direction
+// without extent is kept.
 Vec2 resize_factor(const Resize& op, const planar::Region& region);
 Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean);
-
-// The box of the solid itself, however its leaves are combined.
-Box3 box_of_result(const Scene& scene);
 
 }  // namespace lamina::csg

@@ -1,5 +1,5 @@
 #pragma once
-// Where a row of glyphs stands and how large it is: halign, valign, metrics.
+// Where a row of glyphs stands, and how large it is: halign, valign, metrics.
 
 #include <vector>
 
@@ -14,15 +14,15 @@ namespace lamina::text {
 
 // Where text() of OpenSCAD 2021.01 puts the first glyph's origin.
 //
-// messages  gets alignments that are none
+// messages  gets unknown alignments
 Vec2 align(const csg::TextParams& params, const GlyphRow& row,
            std::vector<Message>& messages);
 
-// textmetrics(): of what text() draws.
+// textmetrics(): the measures of what text() draws.
 csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,
                          std::vector<Message>& messages);
 
-// fontmetrics() for a size.
+// fontmetrics() at a size.
 csg::FontMetrics measure(double size, const Font& font);
 
 }  // namespace lamina::text

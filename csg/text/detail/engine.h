@@ -4,7 +4,7 @@
 // FreeType, HarfBuzz and Fontconfig come with eight more shared libraries, and
 // few designs have text. So they stand behind a module that is opened on first
 // use. It offers one C function, which makes an Engine. Nothing is thrown
-// across: what fails says so by its result.
+// across the border: results report failures.
 
 #include <cstdint>
 #include <span>
@@ -24,7 +24,7 @@ struct Message {
   std::string words;
 };
 
-// What came of a text: its polygons, or its measures.
+// What a text gave: its polygons, or its measures.
 struct Typeset {
   bool has_font = false;
   std::span<const Message> messages;
@@ -36,7 +36,7 @@ struct Typeset {
   csg::FontMetrics font_metrics;
 };
 
-// The way to the files of fonts. What fails there is kept, and told where the
+// The way to the files of fonts. It keeps a failure, and throws it once the
 // module has returned.
 class FontFiles {
  public:
@@ -51,7 +51,7 @@ class FontFiles {
   virtual std::string read(const std::string& path) const noexcept = 0;
 };
 
-// What became of a font that a design brings along.
+// What add_font() came to.
 enum class AddedFont { kAdded, kNone, kNoMemory };
 
 class Engine {
@@ -70,7 +70,7 @@ class Engine {
       const csg::TextParams& params) noexcept = 0;
 };
 
-// Changes whenever something above does.
+// Grows with every change above.
 constexpr int kEngineVersion = 4;
 
 // The module's function: a new engine; null if it has another version, or

@@ -6,13 +6,13 @@
 // OPENSCAD_FONT_PATH, the fonts that come with OpenSCAD, those that the
 // design uses.
 //
-// Fonts that a design brings along are given to Fontconfig as bytes of our own.
-// Where a run may not read all files, so are all that it may read, one by one,
-// and Fontconfig keeps to its rules of matching. It looks into no folder then,
+// Fontconfig gets fonts that a design brings along as bytes, not as files.
+// Where a run may not read all files, it gets each font that the run may read
+// this way, and only matches them by its rules: it looks into no folder then,
 // and neither reads nor writes its caches.
 //
-// FreeType, too, gets bytes and no path: it would map the file, and pages that
-// are gone because somebody shortens it end the process.
+// FreeType, too, gets bytes and no path: it would map the file, and the process
+// would end where somebody shortens the file meanwhile.
 
 #include <map>
 #include <memory>
@@ -46,20 +46,20 @@ struct Font {
   Owned<hb_font_t> shaper;
   // Webdings and its like: characters stand at U+F000 and above.
   bool is_symbol = false;
-  std::string complaint;  // what to tell about it, if anything
+  std::string complaint;  // a warning to report; "" if none
 
-  // Outlines are read at this size [1/64 pixel], so fine that the
-  // hinting of fonts does not show. One em is 100/72 of it.
+  // Outlines are read at this size [1/64 pixel], so large that hinting does not
+  // show. One em is 100/72 of it.
   static constexpr int kSize = 100000;
 };
 
-// Caches share what Fontconfig finds.
+// All caches share what Fontconfig finds.
 class FontCache {
  public:
   // files  outlives the cache
   explicit FontCache(const FontFiles& files);
 
-  // Before the first find(). False if there is no font in the file.
+  // To be called before the first find(). False if the file holds no font.
   bool add_font(const char* path);
 
   // The best match for a Fontconfig name ("Liberation Sans:style=Bold").

@@ -21,7 +21,7 @@ class Pen {
   // size  scales everything [mm]
   Pen(double size, const Chords& chords) : size_(size), chords_(chords) {}
 
-  // `origin` is the outline's own; where it lies before scaling.
+  // origin  where the outline's origin lies, before scaling
   void draw(FT_Outline& outline, Vec2 origin);
 
   // Of all polygons, one after another, and the end of each.
@@ -35,7 +35,8 @@ class Pen {
   void line_to(Vec2 to);
   void curve_to(Vec2 control, Vec2 to);
   void curve_to(Vec2 control1, Vec2 control2, Vec2 to);
-  // For a curve whose second derivative is at most `bend`, before scaling.
+  // Chords of a curve whose second derivative is at most `bend`, before
+  // scaling.
   int chord_count(double bend) const;
   void add(Vec2 point);
   void close();

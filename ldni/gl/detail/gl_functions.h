@@ -1,7 +1,7 @@
 #pragma once
 // OpenGL's functions, found through a context, and its objects as values.
 //
-// An object deletes itself, so its context must be current where it dies.
+// An object deletes itself, so its context must be current at that time.
 
 #include <functional>
 #include <string>
@@ -67,7 +67,7 @@ struct GlFunctions {
 #define LAMINA_GL_MEMBER(type, name) type name = nullptr;
   LAMINA_GL_FUNCTIONS(LAMINA_GL_MEMBER)
 #undef LAMINA_GL_MEMBER
-  // Not to be called before OpenGL 4.3.
+  // Null before OpenGL 4.3.
   PFNGLFRAMEBUFFERPARAMETERIPROC FramebufferParameteri = nullptr;
   PFNGLMEMORYBARRIERPROC MemoryBarrier = nullptr;
 };
@@ -78,7 +78,8 @@ struct GlFunctions {
 GlFunctions load_functions(
     const std::function<GlSymbol(const char* name)>& find);
 
-// What an object of OpenGL's is known by. Empty after being moved from.
+// The owner of an object of OpenGL, known by its name. Empty after being moved
+// from.
 class GlObject {
  public:
   using Deleter = void (*)(const GlFunctions& gl, GLuint name);
@@ -117,8 +118,8 @@ GlObject make_vertex_array(const GlFunctions& gl);
 GlObject make_program(const GlFunctions& gl, const std::string& vertex_shader,
                       const std::string& fragment_shader);
 
-// Throws std::bad_alloc where memory ran out, InternalError for what else
-// OpenGL has to complain of.
+// Throws std::bad_alloc where memory ran out, InternalError for any other error
+// of OpenGL.
 void check_gl(const GlFunctions& gl);
 
 }  // namespace lamina::ldni

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::int64_t kSteps = 1 << kSubPixelBits;
 
-// What a corner may be left or right of a picture: less than the margin by the
+// Pixels that a corner may lie outside a picture: less than the margin by the
 // pixel that it may be moved.
 constexpr double kReach = kPictureMargin - 1;
 
-// `pixels` in whole steps, on the side of the middles that is given.
+// Returns `pixels` in whole steps, on the given side of the pixels' middles.
 //
-// middles_below  of `count` pixels, those before the corner
+// middles_below  how many of the `count` middles are before the corner
 std::int64_t snap(double pixels, std::uint32_t middles_below,
                   std::uint32_t count) {
   std::int64_t steps = std::llround(pixels * kSteps);
@@ -35,8 +35,8 @@ float picture_coordinate(std::int64_t steps, std::uint32_t start) {
 
 enum class Keep { kAbove, kBelow };
 
-// Cuts a convex polygon by one coordinate. Where an edge is cut is computed
-// from its inner end to its outer one: the same for both faces beside it.
+// Cuts a convex polygon at a bound of one coordinate. Where it cuts an edge is
+// computed from the inner end to the outer one, alike for both faces beside it.
 void cut(std::vector<Vec3>& polygon, int axis, double bound, Keep keep) {
   const auto is_inside = [&](const Vec3& p) {
     return keep == Keep::kAbove ? p[axis] >= bound : p[axis] <= bound;
@@ -85,7 +85,7 @@ void FaceProjector::project(const GridBox& picture) {
   }
 }
 
-// Most faces of a fine mesh pass between rays, or between layers.
+// Whether a face can meet a ray in a layer: most faces of a fine mesh cannot.
 bool FaceProjector::can_meet(
     const std::array<std::uint32_t, 3>& triangle) const {
   const Vertex& a = vertices_[triangle[0]];

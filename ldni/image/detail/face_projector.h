@@ -8,10 +8,10 @@
 // round: the triangles of a closed leaf are closed in the picture, and any
 // rasteriser that is exact on its own grid, as OpenGL's are in practice, draws
 // every pixel as often from the front as from the back. A corner is moved by at
-// most a step, and never across a ray or a section nor onto one: on which side
-// it is say RayGrid::rays_below and LayerGrid::layers_below alone, as for the
-// exact sampler. So a pixel can have other faces than an exact ray only where
-// an edge passes within a step of its middle.
+// most a step, and never across a ray or a section nor onto one: as in the
+// exact sampler, RayGrid::rays_below and LayerGrid::layers_below alone decide
+// on which side it is. So a pixel can have other faces than an exact ray only
+// where an edge passes within a step of its middle.
 
 #include <array>
 #include <cstdint>
@@ -30,7 +30,7 @@ class FaceProjector {
   FaceProjector(const RayGrid& rays, const LayerGrid& layers)
       : rays_(rays), layers_(layers) {}
 
-  // Takes the leaf at hand; `mesh` must stay as it is.
+  // Begins a leaf; `mesh` must stay as it is until the next.
   void place(const csg::Mesh& mesh, const Affine& world_from_leaf);
 
   // Replaces the triangles by those that can cover the middle of a pixel of
@@ -38,13 +38,13 @@ class FaceProjector {
   // cut off.
   void project(const GridBox& picture);
 
-  // Three for each triangle.
+  // The corners of the triangles, three for each.
   std::span<const RasterCorner> corners() const { return corners_; }
-  // The face that a triangle is, or is a part of: its number in the mesh.
+  // The number in the mesh of the face that a triangle is, or is a part of.
   std::uint32_t face_of(std::uint32_t triangle) const {
     return faces_[triangle];
   }
-  // In the world, counter-clockwise from outside.
+  // The corners of a face in the world, counter-clockwise from outside.
   std::array<Vec3, 3> corners_of(std::uint32_t face) const;
 
  private:

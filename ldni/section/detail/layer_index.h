@@ -13,20 +13,20 @@
 namespace lamina::ldni::detail {
 
 // Layers [first, last).
-struct LayerRange {
+struct LayerSpan {
   std::uint32_t first = 0;
   std::uint32_t last = 0;
 };
 
 class LayerIndex {
  public:
-  // ranges  one an instance; an empty one is never reported
-  LayerIndex(std::vector<LayerRange> ranges, std::uint32_t layer_count);
+  // spans  one an instance; an empty one is never reported
+  LayerIndex(std::vector<LayerSpan> spans, std::uint32_t layer_count);
 
-  // Calls visit(instance) for each instance whose range meets `block`, always
+  // Calls visit(instance) for each instance whose span meets `block`, always
   // in the same order whatever the block.
   template <typename Visit>
-  void visit(LayerRange block, const Visit& visit_instance) const {
+  void visit(LayerSpan block, const Visit& visit_instance) const {
     if (block.first >= block.last) return;
     for (std::uint32_t level = 0; level < level_begins_.size(); ++level) {
       const std::uint32_t last_cell = (block.last - 1) >> level;
@@ -36,8 +36,8 @@ class LayerIndex {
       const std::uint32_t begin = cell_begins_[base + cell];
       const std::uint32_t end = cell_begins_[base + last_cell + 1];
       for (std::uint32_t i = begin; i < end; ++i) {
-        const LayerRange& range = ranges_[instances_[i]];
-        if (range.first < block.last && range.last > block.first) {
+        const LayerSpan& span = spans_[instances_[i]];
+        if (span.first < block.last && span.last > block.first) {
           visit_instance(instances_[i]);
         }
       }
@@ -45,12 +45,12 @@ class LayerIndex {
   }
 
  private:
-  static std::uint32_t level_of(const LayerRange& range) {
+  static std::uint32_t level_of(const LayerSpan& span) {
     return static_cast<std::uint32_t>(
-        std::bit_width(range.last - range.first - 1));
+        std::bit_width(span.last - span.first - 1));
   }
 
-  std::vector<LayerRange> ranges_;
+  std::vector<LayerSpan> spans_;
   std::vector<std::uint32_t> level_begins_;  // of each level, in cell_begins_
   std::vector<std::uint32_t> cell_begins_;   // of each cell, in instances_
   std::vector<std::uint32_t> instances_;     // by level, cell, number

@@ -24,116 +24,117 @@ std::uint32_t BlockLayers::layers_below(double z) const {
   return static_cast<std::uint32_t>(layers);
 }
 
-void SweepSectioner::cut(const csg::Sweep& sweep, const Affine& world_from_leaf,
-                         std::uint32_t instance, std::int32_t orientation,
-                         const BlockLayers& layers, ChainBuilder& builder) {
-  spoke_count_ = static_cast<std::uint32_t>(sweep.outline->size());
-  ring_count_ = static_cast<std::uint32_t>(sweep.profile.size());
-  if (spoke_count_ < 3 || ring_count_ < 2) return;
-  is_closed_ = sweep.is_closed_profile;
+void LoftSectioner::cut(const csg::Loft& loft, const Affine& world_from_leaf,
+                        std::uint32_t instance, std::int32_t orientation,
+                        const BlockLayers& layers, ChainBuilder& builder) {
+  outline_size_ = static_cast<std::uint32_t>(loft.outline->size());
+  ring_count_ = static_cast<std::uint32_t>(loft.profile.size());
+  if (outline_size_ < 3 || ring_count_ < 2) return;
+  is_closed_ = loft.is_closed_profile;
   instance_ = instance;
   orientation_ = orientation;
   layers_ = &layers;
   builder_ = &builder;
-  place(sweep, world_from_leaf);
+  place(loft, world_from_leaf);
   find_ranges();
   cut_strips();
-  if (rises_and_falls_once()) {
+  if (is_outline_monotone()) {
     cut_runs();
   } else {
     cut_all_crossings();
   }
 }
 
-void SweepSectioner::place(const csg::Sweep& sweep,
-                           const Affine& world_from_leaf) {
+void LoftSectioner::place(const csg::Loft& loft,
+                          const Affine& world_from_leaf) {
   const Affine& m = world_from_leaf;
   rings_.resize(ring_count_);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
-    const Vec3 centre = m[2] * sweep.profile[i].y + m[3];
-    rings_[i] = {sweep.profile[i].x, {Lanes{centre.x, centre.y}, centre.z}};
+    const Vec3 centre = m[2] * loft.profile[i].y + m[3];
+    rings_[i] = {loft.profile[i].x, {Lanes{centre.x, centre.y}, centre.z}};
   }
-  // Spokes, the lowest first; behind the last one all of them again.
+  // Place the outline twice round, from its lowest corner on.
   const Lanes x_axis{m[0].x, m[0].y};
   const Lanes y_axis{m[1].x, m[1].y};
   const double x_rise = m[0].z;
   const double y_rise = m[1].z;
-  const Vec2* outline = sweep.outline->data();
+  const Vec2* outline = loft.outline->data();
   std::uint32_t lowest = 0;
   double least = 1e300;
-  for (std::uint32_t j = 0; j < spoke_count_; ++j) {
+  for (std::uint32_t j = 0; j < outline_size_; ++j) {
     const double z = x_rise * outline[j].x + y_rise * outline[j].y;
     if (z < least) {
       least = z;
       lowest = j;
     }
   }
-  spokes_.resize(2 * std::size_t{spoke_count_});
+  outline_.resize(2 * std::size_t{outline_size_});
   double greatest = least;
   highest_ = 0;
-  for (std::uint32_t j = 0; j < spoke_count_; ++j) {
+  for (std::uint32_t j = 0; j < outline_size_; ++j) {
     const std::uint32_t from = j + lowest;
     const Vec2& point =
-        outline[from < spoke_count_ ? from : from - spoke_count_];
-    const Vertex spoke = {
+        outline[from < outline_size_ ? from : from - outline_size_];
+    const Vertex corner = {
         both_lanes(point.x) * x_axis + both_lanes(point.y) * y_axis,
         x_rise * point.x + y_rise * point.y};
-    spokes_[j] = spokes_[j + spoke_count_] = spoke;
-    if (spoke.z >= greatest) {
-      greatest = spoke.z;
+    outline_[j] = outline_[j + outline_size_] = corner;
+    if (corner.z >= greatest) {
+      greatest = corner.z;
       highest_ = j;
     }
   }
 }
 
-bool SweepSectioner::rises_and_falls_once() const {
+bool LoftSectioner::is_outline_monotone() const {
   for (std::uint32_t j = 0; j < highest_; ++j) {
-    if (spokes_[j + 1].z < spokes_[j].z) return false;
+    if (outline_[j + 1].z < outline_[j].z) return false;
   }
-  for (std::uint32_t j = highest_; j < spoke_count_; ++j) {
-    if (spokes_[j + 1].z > spokes_[j].z) return false;
+  for (std::uint32_t j = highest_; j < outline_size_; ++j) {
+    if (outline_[j + 1].z > outline_[j].z) return false;
   }
   return true;
 }
 
-void SweepSectioner::find_ranges() {
+void LoftSectioner::find_ranges() {
   ranges_.resize(ring_count_);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
     const Ring& ring = rings_[i];
-    ranges_[i].low = layers_->layers_below(ring.vertex(spokes_[0]).z);
-    ranges_[i].high = layers_->layers_below(ring.vertex(spokes_[highest_]).z);
+    ranges_[i].low = layers_->layers_below(ring.vertex(outline_[0]).z);
+    ranges_[i].high = layers_->layers_below(ring.vertex(outline_[highest_]).z);
   }
 }
 
-void SweepSectioner::begin(std::uint32_t layer) {
+void LoftSectioner::begin(std::uint32_t layer) {
   height_ = layers_->heights[layer];
   threshold_ = layers_->thresholds[layer];
 }
 
-void SweepSectioner::close(std::uint32_t layer) {
+void LoftSectioner::close(std::uint32_t layer) {
   builder_->close_loop(layer, instance_, orientation_);
 }
 
 // --- Loops round a strip ----------------------------------------------------
 
-void SweepSectioner::cut_strips() {
+void LoftSectioner::cut_strips() {
   for (std::uint32_t i = 0; i + 1 < ring_count_; ++i) cut_strip(i, i + 1);
   if (is_closed_) cut_strip(ring_count_ - 1, 0);
 }
 
-void SweepSectioner::cut_strip(std::uint32_t ring, std::uint32_t upper) {
-  // The profile rises through the layer: the loop runs with the outline.
+void LoftSectioner::cut_strip(std::uint32_t ring, std::uint32_t upper) {
+  // Through an ascending strip the loop runs with the outline,
   cut_strip_layers(ring, upper, {ranges_[ring].high, ranges_[upper].low}, 0,
-                   spoke_count_);
-  // It falls through the layer: against the outline.
+                   outline_size_);
+  // through a descending one against it.
   cut_strip_layers(ring, upper, {ranges_[upper].high, ranges_[ring].low},
-                   spoke_count_, 0);
+                   outline_size_, 0);
 }
 
-// Loops from spoke `from` to spoke `to`. Through upright walls all are one.
-void SweepSectioner::cut_strip_layers(std::uint32_t ring, std::uint32_t upper,
-                                      RingRange layers, std::uint32_t from,
-                                      std::uint32_t to) {
+// Adds the loops of one strip, from corner `from` to corner `to`. Through
+// upright walls they are one loop, repeated.
+void LoftSectioner::cut_strip_layers(std::uint32_t ring, std::uint32_t upper,
+                                     RingRange layers, std::uint32_t from,
+                                     std::uint32_t to) {
   const bool is_upright = rings_[ring].is_upright_to(rings_[upper]);
   for (std::uint32_t l = layers.low; l < layers.high; ++l) {
     if (is_upright && l > layers.low) {
@@ -141,15 +142,15 @@ void SweepSectioner::cut_strip_layers(std::uint32_t ring, std::uint32_t upper,
       continue;
     }
     begin(l);
-    add_spoke_points(ring, from, to);
+    add_strip_points(ring, from, to);
     close(l);
   }
 }
 
-// Where the section crosses the spokes of a strip, on the way from edge `from`
-// to edge `to`: edge j lies between spokes j and j + 1.
-void SweepSectioner::add_spoke_points(std::uint32_t strip, std::uint32_t from,
-                                      std::uint32_t to) {
+// Adds the points where the section crosses the side edges of a strip, on the
+// way from outline edge `from` to `to`: edge j joins corners j and j + 1.
+void LoftSectioner::add_strip_points(std::uint32_t strip, std::uint32_t from,
+                                     std::uint32_t to) {
   std::vector<Vec2>& loop = builder_->loop();
   const std::size_t begin = loop.size();
   loop.resize(begin + (from < to ? to - from : from - to));
@@ -158,20 +159,20 @@ void SweepSectioner::add_spoke_points(std::uint32_t strip, std::uint32_t from,
   const Ring lower = rings_[strip];
   const Ring upper = rings_[next_ring(strip)];
   const double height = height_;
-  const Vertex* spoke = &spokes_[from];
-  const Vertex* const last = &spokes_[to];
-  while (spoke < last) {
-    ++spoke;
-    *point++ = crossing(lower.vertex(*spoke), upper.vertex(*spoke), height);
+  const Vertex* corner = &outline_[from];
+  const Vertex* const last = &outline_[to];
+  while (corner < last) {
+    ++corner;
+    *point++ = crossing(lower.vertex(*corner), upper.vertex(*corner), height);
   }
-  for (; spoke > last; --spoke) {
-    *point++ = crossing(lower.vertex(*spoke), upper.vertex(*spoke), height);
+  for (; corner > last; --corner) {
+    *point++ = crossing(lower.vertex(*corner), upper.vertex(*corner), height);
   }
 }
 
-// --- Loops that cross rings, of outlines that rise and fall once ------------
+// --- Loops that cross rings, of monotone outlines ---------------------------
 
-void SweepSectioner::cut_runs() {
+void LoftSectioner::cut_runs() {
   RingRange all = ranges_[0];
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
     const RingRange& range = ranges_[i];
@@ -191,79 +192,89 @@ void SweepSectioner::cut_runs() {
 }
 
 // The loop over the rings from `first` on that the layer crosses: along the
-// falls to the last of them, and back along the rises.
-void SweepSectioner::cut_run(std::uint32_t first, std::uint32_t layer) {
-  std::uint32_t rise = find_rise(first);
-  std::uint32_t fall = find_fall(first);
+// descending edges to the last of them, and back along the ascending ones.
+void LoftSectioner::cut_run(std::uint32_t first, std::uint32_t layer) {
+  std::uint32_t ascending = find_ascending_edge(first);
+  std::uint32_t descending = find_descending_edge(first);
   if (has_previous(first)) {
     const std::uint32_t before = previous_ring(first);
     const bool is_above = layer < ranges_[before].low;
-    add_spoke_points(before, rise + (is_above ? spoke_count_ : 0), fall);
+    add_strip_points(before, ascending + (is_above ? outline_size_ : 0),
+                     descending);
   }
-  add_ring_point({first, fall});
+  add_ring_point({first, descending});
   std::uint32_t ring = first;
   for (; has_next(ring) && ranges_[next_ring(ring)].holds(layer);
        ring = next_ring(ring)) {
-    fall = pass_falls(ring, fall);
+    descending = pass_descending(ring, descending);
   }
-  if (ring != first) rise = find_rise(ring);
+  if (ring != first) ascending = find_ascending_edge(ring);
   if (has_next(ring)) {
     const bool is_above = layer < ranges_[next_ring(ring)].low;
-    add_spoke_points(ring, fall, rise + (is_above ? spoke_count_ : 0));
+    add_strip_points(ring, descending,
+                     ascending + (is_above ? outline_size_ : 0));
   }
-  add_ring_point({ring, rise});
+  add_ring_point({ring, ascending});
   for (; ring != first; ring = previous_ring(ring)) {
-    rise = pass_rises(ring, rise);
+    ascending = pass_ascending(ring, ascending);
   }
   close(layer);
 }
 
 // A closed profile crossed all the way round gives two loops.
-void SweepSectioner::cut_round(std::uint32_t layer) {
-  std::uint32_t fall = find_fall(0);
+void LoftSectioner::cut_round(std::uint32_t layer) {
+  std::uint32_t descending = find_descending_edge(0);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
-    fall = pass_falls(i, fall);
+    descending = pass_descending(i, descending);
   }
   close(layer);
-  std::uint32_t rise = find_rise(0);
+  std::uint32_t ascending = find_ascending_edge(0);
   for (std::uint32_t i = ring_count_; i-- > 0;) {
-    rise = pass_rises(next_ring(i), rise);
+    ascending = pass_ascending(next_ring(i), ascending);
   }
   close(layer);
 }
 
-// From the fall of a ring to that of the next one, which it returns.
-std::uint32_t SweepSectioner::pass_falls(std::uint32_t ring,
-                                         std::uint32_t from) {
+// Leads the loop from the descending edge of a ring to that of the next ring
+// and returns the latter.
+std::uint32_t LoftSectioner::pass_descending(std::uint32_t ring,
+                                             std::uint32_t from) {
   const std::uint32_t next = next_ring(ring);
-  std::uint32_t fall = from;
-  if (is_above(next, fall)) {
-    while (is_above(next, fall + 1)) add_spoke_point(ring, next, ++fall);
+  std::uint32_t descending = from;
+  if (is_above(next, descending)) {
+    while (is_above(next, descending + 1)) {
+      add_side_point(ring, next, ++descending);
+    }
   } else {
-    while (!is_above(next, fall)) add_spoke_point(ring, next, fall--);
-  }
-  add_ring_point({next, fall});
-  return fall;
-}
-
-// From the rise of a ring to that of the previous one, which it returns.
-std::uint32_t SweepSectioner::pass_rises(std::uint32_t ring,
-                                         std::uint32_t from) {
-  const std::uint32_t previous = previous_ring(ring);
-  std::uint32_t rise = from;
-  if (is_above(previous, rise)) {
-    while (is_above(previous, rise)) add_spoke_point(previous, ring, rise--);
-  } else {
-    while (!is_above(previous, rise + 1)) {
-      add_spoke_point(previous, ring, ++rise);
+    while (!is_above(next, descending)) {
+      add_side_point(ring, next, descending--);
     }
   }
-  add_ring_point({previous, rise});
-  return rise;
+  add_ring_point({next, descending});
+  return descending;
 }
 
-// The edge where a ring rises above the layer: its first spoke is below.
-std::uint32_t SweepSectioner::find_rise(std::uint32_t ring) const {
+// Leads the loop from the ascending edge of a ring to that of the previous
+// ring and returns the latter.
+std::uint32_t LoftSectioner::pass_ascending(std::uint32_t ring,
+                                            std::uint32_t from) {
+  const std::uint32_t previous = previous_ring(ring);
+  std::uint32_t ascending = from;
+  if (is_above(previous, ascending)) {
+    while (is_above(previous, ascending)) {
+      add_side_point(previous, ring, ascending--);
+    }
+  } else {
+    while (!is_above(previous, ascending + 1)) {
+      add_side_point(previous, ring, ++ascending);
+    }
+  }
+  add_ring_point({previous, ascending});
+  return ascending;
+}
+
+// The edge where a ring ascends through the layer: its first corner is below.
+std::uint32_t LoftSectioner::find_ascending_edge(std::uint32_t ring) const {
   std::uint32_t below = 0;
   std::uint32_t above = highest_;
   while (above - below > 1) {
@@ -273,10 +284,10 @@ std::uint32_t SweepSectioner::find_rise(std::uint32_t ring) const {
   return below;
 }
 
-// The edge where a ring falls below the layer: its first spoke is above.
-std::uint32_t SweepSectioner::find_fall(std::uint32_t ring) const {
+// The edge where a ring descends through the layer: its first corner is above.
+std::uint32_t LoftSectioner::find_descending_edge(std::uint32_t ring) const {
   std::uint32_t above = highest_;
-  std::uint32_t below = spoke_count_;
+  std::uint32_t below = outline_size_;
   while (below - above > 1) {
     const std::uint32_t middle = (above + below) / 2;
     (is_above(ring, middle) ? above : below) = middle;

@@ -41,7 +41,7 @@ class LayerRuns {
   LayerRuns(std::size_t count, const LayerGrid& grid,
             const HeightsOf& heights_of)
       : count_(count) {
-    ranges_.reserve(count / kLength + 1);
+    spans_.reserve(count / kLength + 1);
     for (std::size_t begin = 0; begin < count; begin += kLength) {
       HeightRange whole = heights_of(begin);
       for (std::size_t i = begin + 1; i < end_of(begin); ++i) {
@@ -49,7 +49,7 @@ class LayerRuns {
         whole.low = std::min(whole.low, heights.low);
         whole.high = std::max(whole.high, heights.high);
       }
-      ranges_.push_back(
+      spans_.push_back(
           {grid.layers_below(whole.low), grid.layers_below(whole.high)});
     }
   }
@@ -58,8 +58,8 @@ class LayerRuns {
   // the layers of the job that pass between its lowest and highest point.
   template <typename Visit>
   void for_each(const Visit& visit) const {
-    for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      visit(ranges_[i], i * kLength, end_of(i * kLength));
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+      visit(spans_[i], i * kLength, end_of(i * kLength));
     }
   }
 
@@ -71,7 +71,7 @@ class LayerRuns {
   }
 
   std::size_t count_;
-  std::vector<LayerRange> ranges_;
+  std::vector<LayerSpan> spans_;
 };
 
 // Of one mesh of one instance.

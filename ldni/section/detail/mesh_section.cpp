@@ -24,7 +24,7 @@ void MeshSectioner::cut(const csg::Mesh& mesh, const MeshIndex& index,
   trace_all(mesh, false);
 }
 
-bool MeshSectioner::meets_block(LayerRange layers) const {
+bool MeshSectioner::meets_block(LayerSpan layers) const {
   const auto count = static_cast<std::uint32_t>(layers_->heights.size());
   return layers.first < layers.last && layers.last > layers_->first &&
          layers.first < layers_->first + count;
@@ -35,7 +35,7 @@ void MeshSectioner::count_layers_below(const csg::Mesh& mesh,
   layers_below_.resize(mesh.vertices.size());
   const std::uint32_t end_layer =
       layers_->first + static_cast<std::uint32_t>(layers_->heights.size());
-  index.vertices.for_each([&](LayerRange layers, std::size_t begin,
+  index.vertices.for_each([&](LayerSpan layers, std::size_t begin,
                               std::size_t end) {
     if (!meets_block(layers)) {
       const std::uint32_t below =
@@ -56,7 +56,7 @@ void MeshSectioner::find_crossed(const csg::Mesh& mesh,
   crossed_.clear();
   flag_count_ = 0;
   index.triangles.for_each(
-      [&](LayerRange layers, std::size_t begin, std::size_t end) {
+      [&](LayerSpan layers, std::size_t begin, std::size_t end) {
         if (!meets_block(layers)) return;
         for (std::size_t i = begin; i < end; ++i) {
           const auto& corners = mesh.triangles[i];
@@ -64,7 +64,7 @@ void MeshSectioner::find_crossed(const csg::Mesh& mesh,
           const std::uint32_t b = layers_below_[corners[1]];
           const std::uint32_t c = layers_below_[corners[2]];
           if (a == b && b == c) continue;
-          const LayerRange crossing{std::min({a, b, c}), std::max({a, b, c})};
+          const LayerSpan crossing{std::min({a, b, c}), std::max({a, b, c})};
           crossed_.push_back(
               {static_cast<std::uint32_t>(i), crossing, flag_count_});
           flag_count_ += crossing.last - crossing.first;

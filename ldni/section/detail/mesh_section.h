@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "csg/scene.h"
-#include "ldni/section/detail/chain_builder.h"
+#include "ldni/section/chain_builder.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
 
@@ -35,7 +35,7 @@ class MeshSectioner {
   // A triangle that layers cross, and where its flags begin.
   struct CrossedTriangle {
     std::uint32_t triangle = 0;
-    LayerRange layers;
+    LayerSpan layers;
     std::uint32_t first_flag = 0;
   };
   // One hash slot an undirected edge; half-edges (3 · crossed + corner) that
@@ -49,7 +49,7 @@ class MeshSectioner {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   // Whether a layer of the block passes there.
-  bool meets_block(LayerRange layers) const;
+  bool meets_block(LayerSpan layers) const;
   void count_layers_below(const csg::Mesh& mesh, const MeshIndex& index);
   void find_crossed(const csg::Mesh& mesh, const MeshIndex& index);
   bool pair_edges(const csg::Mesh& mesh);

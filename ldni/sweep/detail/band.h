@@ -58,7 +58,7 @@ struct Band {
 };
 
 // A stretch of x [mm], empty unless begin < end.
-struct Stretch {
+struct XRange {
   double begin = 0;
   double end = 0;
 };
@@ -69,8 +69,8 @@ inline constexpr double kBandRounding = 1e-9;
 
 // Where, from x on as far as both reach, the upper band is known to be more
 // than `distance` above the lower one.
-inline Stretch apart_stretch(const Band& lower, const Band& upper, double x,
-                             double distance) {
+inline XRange range_apart(const Band& lower, const Band& upper, double x,
+                          double distance) {
   const double end = std::min(lower.right, upper.right);
   const auto gap_at = [&](double place) {
     return upper.lowest_at(place) - lower.highest_at(place) -
@@ -82,7 +82,7 @@ inline Stretch apart_stretch(const Band& lower, const Band& upper, double x,
   if (std::max(gap, gap_at_end) <= 0) return {};
   // The gap of two lines changes evenly.
   const double zero = x + (end - x) * (gap / (gap - gap_at_end));
-  return gap > 0 ? Stretch{x, zero} : Stretch{zero, end};
+  return gap > 0 ? XRange{x, zero} : XRange{zero, end};
 }
 
 }  // namespace lamina::ldni::detail

@@ -45,13 +45,13 @@ double area_below(std::span<const Vec2> chain) {
 }  // namespace
 
 void LoneLoops::find(const ChainBlock& block, std::uint32_t layer,
-                     const LeafSets& sets) {
+                     const ProgramStates& states) {
   points_ = block.points;
   chains_ = block.layer(layer);
   sides_.assign(chains_.size(), kNoSide);
   const std::span<const ChainLoop> loops = block.loops_of(layer);
   if (!is_worthwhile(loops)) return;
-  list_candidates(loops, sets);
+  list_candidates(loops, states);
   if (candidates_.size() < kLeastCandidates) return;
   lay_grid();
   claim_boxes();
@@ -76,13 +76,14 @@ bool LoneLoops::is_worthwhile(std::span<const ChainLoop> loops) const {
 }
 
 void LoneLoops::list_candidates(std::span<const ChainLoop> loops,
-                                const LeafSets& sets) {
+                                const ProgramStates& states) {
   candidates_.clear();
   std::uint32_t first = 0;
   for (std::uint32_t i = 0; i < loops.size(); ++i) {
     const std::uint32_t chain = first;
     first += loops[i].chain_count;
-    if (loops[i].chain_count != 2 || sets.is_counted(chains_[chain].instance) ||
+    if (loops[i].chain_count != 2 ||
+        states.may_overlap_itself(chains_[chain].instance) ||
         chains_[chain].point_count + chains_[chain + 1].point_count >
             kMostPoints) {
       continue;

@@ -15,15 +15,16 @@
 #include <span>
 #include <vector>
 
-#include "ldni/section/leaf_section.h"
-#include "ldni/sweep/detail/leaf_sets.h"
+#include "ldni/section/chains.h"
+#include "ldni/sweep/detail/program_states.h"
 
 namespace lamina::ldni::detail {
 
 class LoneLoops {
  public:
   // Replaces what is known by the lone loops of a layer.
-  void find(const ChainBlock& block, std::uint32_t layer, const LeafSets& sets);
+  void find(const ChainBlock& block, std::uint32_t layer,
+            const ProgramStates& states);
 
   // Of a chain of the layer, by its number there.
   bool is_lone(std::uint32_t chain) const { return sides_[chain] != kNoSide; }
@@ -47,7 +48,8 @@ class LoneLoops {
   };
 
   bool is_worthwhile(std::span<const ChainLoop> loops) const;
-  void list_candidates(std::span<const ChainLoop> loops, const LeafSets& sets);
+  void list_candidates(std::span<const ChainLoop> loops,
+                       const ProgramStates& states);
   void find_box(Candidate& candidate) const;
   void lay_grid();
   void claim_boxes();

@@ -68,6 +68,19 @@ std::uint32_t Status::find_near(double y, double x) {
   return best;
 }
 
+std::uint32_t Status::find_below(double y, double x) {
+  std::uint32_t below = find_near(y, x);
+  while (below != sentinel_ && y_at(below, x) > y) {
+    below = entries_[below].below;
+  }
+  for (std::uint32_t above = entries_[below].above;
+       above != sentinel_ && y_at(above, x) <= y;
+       above = entries_[below].above) {
+    below = above;
+  }
+  return below;
+}
+
 void Status::renew_order() {
   order_.clear();
   for (std::uint32_t e = first(); e != sentinel_; e = entries_[e].above) {

@@ -1,99 +1,53 @@
 #pragma once
-// The status of the moving ray: its samples, one of each chain that it
-// crosses, in the order of y.
+// The status of the moving ray (Bentley and Ottmann 1979): one entry for each
+// chain that the ray crosses, in the order of y.
 //
 // A list linked both ways holds the order, so that a swap or an insertion
-// costs nothing however many samples the ray carries. To find the place of a
-// new chain, an array of the entries in an earlier order is searched by
-// halves, then the list from there; the array is renewed when it is too old.
+// costs O(1) however many entries the ray carries. To find the place of a new
+// chain, binary search runs over an array of the entries in an earlier order,
+// and the list leads on from there; the array is renewed when it is too old.
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/leaf_section.h"
 #include "ldni/sweep/detail/band.h"
-#include "ldni/sweep/detail/leaf_sets.h"
+#include "ldni/sweep/detail/chain_cursor.h"
+#include "ldni/sweep/detail/program_states.h"
 
 namespace lamina::ldni::detail {
 
 inline constexpr std::uint32_t kNone = 0xffffffff;
 
-// A segment of a chain, and how to go on along the chain.
-class ChainCursor {
- public:
-  ChainCursor() = default;
-  ChainCursor(const Vec2* first, const Vec2* last) : left_(first), last_(last) {
-    set_slope();
-  }
-
-  const Vec2* left() const { return left_; }
-  const Vec2* last() const { return last_; }  // the chain's last point
-  double left_x() const { return left_->x; }
-  double right_x() const { return left_[1].x; }
-  double slope() const { return slope_; }
-  bool is_last_segment() const { return left_ + 1 == last_; }
-
-  void step() {
-    ++left_;
-    set_slope();
-  }
-  // Moves on until the segment holds x or what lies right of it; stays on the
-  // last segment.
-  void advance(double x) {
-    if (left_[1].x > x || is_last_segment()) return;
-    do {
-      ++left_;
-    } while (left_[1].x <= x && !is_last_segment());
-    set_slope();
-  }
-
-  // y of the segment's line at x; vertices give their own y exactly.
-  double y_at(double x) const {
-    if (x == left_[1].x) return left_[1].y;
-    return left_->y + (x - left_->x) * slope_;
-  }
-
- private:
-  void set_slope() {
-    slope_ = (left_[1].y - left_->y) / (left_[1].x - left_->x);
-  }
-
-  const Vec2* left_ = nullptr;
-  const Vec2* last_ = nullptr;
-  double slope_ = 0;
-};
-
-// A sample of the moving ray, numbered as the layer's chains are. What it says
-// of an interval is said of the one above it, up to the next entry.
+// Where a chain crosses the ray. Entries have the numbers of the layer's
+// chains. An entry also stands for the gap above it, up to the next entry.
 //
-// What every stop looks at stands in front, in one line of the cache.
+// The fields that every event point reads come first, in one cache line.
 struct alignas(64) Entry {
   ChainCursor cursor;
   std::uint32_t below = 0;
   std::uint32_t above = 0;
-  LeafSets::Id set = LeafSets::kEmpty;  // leaves that contain the interval
-  LeafSets::Step step = 0;              // of passing the chain upwards
-  std::uint32_t outlook = 0;      // stamp of the present look at the pair above
-  std::uint32_t settled = kNone;  // the stamp of a look that put it in order
-  std::uint32_t column = 0;       // the last one that judged its tie group
-  std::uint32_t touch_column = 0;  // the last one that looked for touches
-  std::uint32_t piece = kNone;     // of the contour, where it survives
-  bool is_tied = false;            // with the entry above: the interval is none
-  bool is_fresh = false;           // `set` is to be computed anew
-  std::int8_t survival = 0;  // +1: the solid's boundary, solid above; -1: below
+  ProgramStates::State state = ProgramStates::kOutside;  // of the gap above
+  ProgramStates::Crossing crossing = 0;  // of the chain, upwards
+  std::uint32_t stamp = 0;               // of the certificate of the pair above
+  std::uint32_t settled = kNone;         // the stamp that put the pair in order
+  std::uint32_t side_cluster = 0;   // the last one that judged its tie group
+  std::uint32_t touch_cluster = 0;  // the last one that looked for touches
+  std::uint32_t arc = kNone;        // of the boundary, where side is not 0
+  bool is_tied = false;             // with the entry above: there is no gap
+  bool is_stale = false;            // `state` has to be found anew
+  std::int8_t side = 0;  // of the boundary: +1 solid above, -1 below, 0 none
 
-  Band band;  // that the chain keeps to, as seen in slab band_slab
+  Band band;  // around the chain, as seen in slab band_slab
   std::uint32_t band_slab = kNone;
 
-  const Vec2* first = nullptr;     // the chain's first point
-  std::uint32_t split_column = 0;  // the last one that ended or began a piece
-  std::uint32_t near_column = 0;   // the last one that cut all near near_y
+  const Vec2* first = nullptr;      // the chain's first point
+  std::uint32_t split_cluster = 0;  // the last one that ended or began an arc
+  std::uint32_t near_cluster = 0;   // the last one that split all near near_y
   double near_y = 0;
-  double crossing_y = 0;  // where it crosses a flatter chain in that column
-  std::uint32_t crossing_column = 0;
+  double crossing_y = 0;  // where it crosses a flatter chain in that cluster
+  std::uint32_t crossing_cluster = 0;
 };
 
 class Status {
@@ -101,7 +55,7 @@ class Status {
   // Empties the ray for a layer with this many chains.
   void begin(std::size_t chain_count);
 
-  // Stands below the first and above the last entry: set empty.
+  // Stands below the first and above the last entry, with state kOutside.
   std::uint32_t sentinel() const { return sentinel_; }
   Entry& operator[](std::uint32_t entry) { return entries_[entry]; }
   const Entry& operator[](std::uint32_t entry) const { return entries_[entry]; }
@@ -109,7 +63,7 @@ class Status {
   bool is_alive(std::uint32_t entry) const { return is_alive_[entry] != 0; }
   std::uint32_t first() const { return entries_[sentinel_].above; }
 
-  // Puts the chain, which starts at the ray's present x, above `below`.
+  // Puts an entry, whose other fields are set, above `below`.
   void insert_above(std::uint32_t below, std::uint32_t entry);
   void remove(std::uint32_t entry);
   // Exchanges an entry with the one above it.
@@ -118,6 +72,9 @@ class Status {
   // An entry not far from y at x, to begin a search with; the sentinel where
   // the ray is empty. Cursors are moved to x.
   std::uint32_t find_near(double y, double x);
+  // The entry of the gap that (x, y) lies in: the highest one that is not
+  // above it.
+  std::uint32_t find_below(double y, double x);
 
   double y_at(std::uint32_t entry, double x) {
     entries_[entry].cursor.advance(x);

@@ -8,7 +8,7 @@
 #include <pthread.h>
 
 #include "base/diagnostic.h"
-#include "csg/eval/csg_printer.h"
+#include "csg/csg_printer.h"
 #include "csg/eval/evaluator.h"
 #include "parser/loader.h"
 

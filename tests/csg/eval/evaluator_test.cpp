@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/source.h"
-#include "csg/eval/csg_printer.h"
+#include "csg/csg_printer.h"
 #include "parser/loader.h"
 #include "tests/csg/eval/evaluate_text.h"
 

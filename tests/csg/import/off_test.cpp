@@ -1,10 +1,9 @@
-#include "csg/import/off.h"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "csg/import/mesh_readers.h"
 #include "tests/csg/import/byte_changes.h"
 
 namespace lamina::csg {

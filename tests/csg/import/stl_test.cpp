@@ -1,5 +1,3 @@
-#include "csg/import/stl.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "csg/import/mesh_readers.h"
 #include "tests/csg/import/byte_changes.h"
 
 namespace lamina::csg {

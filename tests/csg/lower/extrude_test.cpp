@@ -27,10 +27,10 @@ class RotateExtrudeTest : public LowerFixture {
   }
 };
 
-TEST_F(LinearExtrudeTest, StraightOnesAreSweeps) {
+TEST_F(LinearExtrudeTest, StraightOnesAreLofts) {
   const Scene scene = run_solid({b.linear_extrude({.height = 3}, {frame()})});
   ASSERT_EQ(scene.leaves.size(), 1u);
-  EXPECT_EQ(scene.leaves[0].sweeps.size(), 2u);
+  EXPECT_EQ(scene.leaves[0].lofts.size(), 2u);
   EXPECT_TRUE(scene.leaves[0].meshes.empty());
   EXPECT_FALSE(scene.leaves[0].may_overlap_itself);
 }
@@ -90,12 +90,12 @@ TEST_F(LinearExtrudeTest, WithoutHeightItIsEmpty) {
   EXPECT_TRUE(run({b.linear_extrude({.height = 0}, {frame()})}).is_empty());
 }
 
-TEST_F(RotateExtrudeTest, ATorusIsOneSweepWithAClosedProfile) {
+TEST_F(RotateExtrudeTest, ATorusIsOneLoftWithAClosedProfile) {
   const Scene scene =
       run_solid({b.node(RotateExtrude{360, 2, {16}},
                         {b.translate({5, 0, 0}, {b.node(Circle{1, {8}})})})});
-  ASSERT_EQ(scene.leaves[0].sweeps.size(), 1u);
-  EXPECT_TRUE(scene.leaves[0].sweeps[0].is_closed_profile);
+  ASSERT_EQ(scene.leaves[0].lofts.size(), 1u);
+  EXPECT_TRUE(scene.leaves[0].lofts[0].is_closed_profile);
 }
 
 TEST_F(RotateExtrudeTest, FollowsPappus) {
@@ -115,10 +115,10 @@ TEST_F(RotateExtrudeTest, ProfilesOnTheNegativeSideDoToo) {
 TEST_F(RotateExtrudeTest, AProfileOnTheAxisHasApexes) {
   const auto scene = run_solid(
       {b.node(RotateExtrude{360, 2, {16}}, {b.node(Square{{2, 3}, false})})});
-  const Sweep& sweep = scene.leaves[0].sweeps.at(0);
-  EXPECT_FALSE(sweep.is_closed_profile);
-  EXPECT_EQ(sweep.profile.front().x, 0);
-  EXPECT_EQ(sweep.profile.back().x, 0);
+  const Loft& loft = scene.leaves[0].lofts.at(0);
+  EXPECT_FALSE(loft.is_closed_profile);
+  EXPECT_EQ(loft.profile.front().x, 0);
+  EXPECT_EQ(loft.profile.back().x, 0);
   EXPECT_NEAR(run_volume({b.node(RotateExtrude{360, 2, {16}},
                                  {b.node(Square{{2, 3}, false})})}),
               swept(16, 6, 1), 1e-9);
@@ -130,9 +130,9 @@ TEST_F(RotateExtrudeTest, AShellOnTheAxisHasACavity) {
       {{0, 0}, {3, 0}, {3, 6}, {0, 6}, {0, 5}, {2, 5}, {2, 1}, {0, 1}});
   const Scene scene =
       run_solid({b.node(RotateExtrude{360, 2, {16}}, {profile})});
-  ASSERT_EQ(scene.leaves[0].sweeps.size(), 2u);
-  EXPECT_NE(scene.leaves[0].sweep_is_cavity[0],
-            scene.leaves[0].sweep_is_cavity[1]);
+  ASSERT_EQ(scene.leaves[0].lofts.size(), 2u);
+  EXPECT_NE(scene.leaves[0].lofts[0].is_cavity,
+            scene.leaves[0].lofts[1].is_cavity);
   EXPECT_NEAR(run_volume({b.node(RotateExtrude{360, 2, {16}}, {profile})}),
               swept(16, 18, 1.5) - swept(16, 8, 1), 1e-6);
 }

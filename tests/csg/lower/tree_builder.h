@@ -77,21 +77,16 @@ class TreeBuilder {
 
   template <typename T>
   std::span<const T> copy(std::span<const T> from) {
-    std::pmr::polymorphic_allocator<T> allocator(arena_.get());
-    T* to = allocator.allocate(from.size());
-    std::uninitialized_copy(from.begin(), from.end(), to);
-    return {to, from.size()};
+    return arena_->copy(from);
   }
 
  private:
   template <typename T, typename... Arguments>
   T* make(Arguments&&... arguments) {
-    void* place = arena_->allocate(sizeof(T), alignof(T));
-    return new (place) T{std::forward<Arguments>(arguments)...};
+    return arena_->make(T{std::forward<Arguments>(arguments)...});
   }
 
-  std::shared_ptr<std::pmr::monotonic_buffer_resource> arena_ =
-      std::make_shared<std::pmr::monotonic_buffer_resource>();
+  std::shared_ptr<Arena> arena_ = std::make_shared<Arena>();
 };
 
 }  // namespace lamina::csg

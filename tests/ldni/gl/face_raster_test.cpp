@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "base/diagnostic.h"
-#include "tests/ldni/image/samplers.h"
+#include "tests/ldni/gl/shared_raster.h"
 
 namespace lamina::ldni {
 namespace {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/diagnostic.h"
+#include "csg/tie_distance.h"
 #include "tests/support/leaf_scenes.h"
 
 namespace lamina::ldni {

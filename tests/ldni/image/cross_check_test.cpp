@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "csg/tie_distance.h"
 #include "ldni/image/sample.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
@@ -135,9 +136,9 @@ void check_kinetic_ray(std::uint64_t seed, SceneStyle style) {
         << "seed " << seed << " style " << static_cast<int>(style) << " layer "
         << layer;
   }
-  EXPECT_EQ(ray.counts().unbalanced_columns, 0U);
-  EXPECT_EQ(ray.counts().capped_columns, 0U);
-  EXPECT_EQ(ray.counts().repaired_columns, 0U);
+  EXPECT_EQ(ray.counts().unbalanced_clusters, 0U);
+  EXPECT_EQ(ray.counts().capped_clusters, 0U);
+  EXPECT_EQ(ray.counts().repaired_clusters, 0U);
   for (int rays = 0; rays < 12; ++rays) {
     double x = at.random_x();
     const std::vector<Ranges> expected =

@@ -13,7 +13,7 @@
 
 #include "csg/boundary/leaf_mesh.h"
 #include "ldni/image/scanline_sampler.h"
-#include "tests/ldni/image/samplers.h"
+#include "tests/ldni/gl/shared_raster.h"
 #include "tests/support/design.h"
 #include "tests/support/leaf_scenes.h"
 #include "tests/support/random_scenes.h"
@@ -129,11 +129,12 @@ Agreement compare_with_exact(const Scene& scene, double pitch, double thickness,
   const RayGrid rays(scene.box.low.x, scene.box.high.x, pitch);
   const LayerGrid layers =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, thickness);
-  ScanlineSampler exact(scene, rays, layers);
-  GlSampler drawn(scene, rays, layers, shared_raster(method));
-  const LeafImages expected = sample_all(exact, scene, rays, layers);
-  const LeafImages found = sample_all(drawn, scene, rays, layers);
-  EXPECT_EQ(drawn.repaired_pixels(), 0U);
+  const auto exact = make_scanline_sampler(scene, rays, layers);
+  const auto drawn =
+      make_gl_sampler(scene, rays, layers, shared_raster(method));
+  const LeafImages expected = sample_all(*exact, scene, rays, layers);
+  const LeafImages found = sample_all(*drawn, scene, rays, layers);
+  EXPECT_EQ(drawn->repaired_pixels(), 0U);
   EXPECT_EQ(expected.ends.size(), found.ends.size());
 
   Agreement agreement;
@@ -144,8 +145,8 @@ Agreement compare_with_exact(const Scene& scene, double pitch, double thickness,
     const csg::Mesh mesh = csg::explicit_mesh(scene.leaves[instance.leaf]);
     for (std::uint32_t layer = 0; layer < image.box.layer_count; ++layer) {
       for (std::uint32_t ray = 0; ray < image.box.ray_count; ++ray) {
-        const auto a = sorted(found.rays(image, layer, ray));
-        const auto b = sorted(expected.rays(expected.images[i], layer, ray));
+        const auto a = sorted(found.ray(image, layer, ray));
+        const auto b = sorted(expected.ray(expected.images[i], layer, ray));
         const bool has_same_count = a.size() == b.size();
         double distance = 0;
         for (std::size_t k = 0; has_same_count && k < a.size(); ++k) {
@@ -257,13 +258,14 @@ TEST_P(GlSamplers, FindEachOfSeveralFacesInOnePlace) {
   const Scene scene = scene_of_mesh(std::move(mesh), Affine(1.0));
   const RayGrid rays(0, 2, 0.3);
   const LayerGrid layers = LayerGrid::uniform(0, 2, 0.3);
-  GlSampler sampler(scene, rays, layers, shared_raster(GetParam()));
-  const LeafImages images = sample_all(sampler, scene, rays, layers);
+  const auto sampler =
+      make_gl_sampler(scene, rays, layers, shared_raster(GetParam()));
+  const LeafImages images = sample_all(*sampler, scene, rays, layers);
   const GridBox& box = images.images[0].box;
   ASSERT_GT(box.pixel_count(), 20U);
   for (std::uint32_t layer = 0; layer < box.layer_count; ++layer) {
     for (std::uint32_t ray = 0; ray < box.ray_count; ++ray) {
-      const auto found = sorted(images.rays(images.images[0], layer, ray));
+      const auto found = sorted(images.ray(images.images[0], layer, ray));
       ASSERT_EQ(found.size(), 6U);
       for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(found[i].depth, i < 3 ? 0 : 2);
@@ -280,9 +282,10 @@ TEST(GlSampler, BothMethodsGiveTheSameSamples) {
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.09);
   LeafImages images[2];
   for (const GlMethod method : {GlMethod::kList, GlMethod::kPeeling}) {
-    GlSampler sampler(scene, rays, layers, shared_raster(method));
+    const auto sampler =
+        make_gl_sampler(scene, rays, layers, shared_raster(method));
     images[method == GlMethod::kPeeling] =
-        sample_all(sampler, scene, rays, layers);
+        sample_all(*sampler, scene, rays, layers);
   }
   ASSERT_EQ(images[0].ends, images[1].ends);
   for (std::size_t i = 0; i < images[0].samples.size(); ++i) {
@@ -321,15 +324,16 @@ TEST(GlSampler, SamplesExactlyWhatWasNotDrawnAsOftenFromBothSides) {
   const RayGrid rays(scene.box.low.x, scene.box.high.x, 0.1);
   const LayerGrid layers =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.1);
-  GlSampler sampler(scene, rays, layers,
-                    std::make_unique<FaultyRaster>(40, kPictureSize));
-  ScanlineSampler exact_sampler(scene, rays, layers);
-  GlSampler sound_sampler(scene, rays, layers, shared_raster(GlMethod::kList));
-  const LeafImages images = sample_all(sampler, scene, rays, layers);
-  const LeafImages sound = sample_all(sound_sampler, scene, rays, layers);
+  const auto sampler = make_gl_sampler(
+      scene, rays, layers, std::make_unique<FaultyRaster>(40, kPictureSize));
+  const auto exact_sampler = make_scanline_sampler(scene, rays, layers);
+  const auto sound_sampler =
+      make_gl_sampler(scene, rays, layers, shared_raster(GlMethod::kList));
+  const LeafImages images = sample_all(*sampler, scene, rays, layers);
+  const LeafImages sound = sample_all(*sound_sampler, scene, rays, layers);
   // One pixel of each leaf that has so many fragments.
-  EXPECT_GT(sampler.repaired_pixels(), 3U);
-  EXPECT_LE(sampler.repaired_pixels(), images.images.size());
+  EXPECT_GT(sampler->repaired_pixels(), 3U);
+  EXPECT_LE(sampler->repaired_pixels(), images.images.size());
   EXPECT_EQ(images.ends, sound.ends);
   std::size_t entries = 0;
   for (const Sample& sample : images.samples) entries += sample.is_entry();
@@ -342,10 +346,12 @@ TEST(GlSampler, DrawsInPartsWhatIsTooMuchForOnePicture) {
   const RayGrid rays(scene.box.low.x, scene.box.high.x, 0.1);
   const LayerGrid layers =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.1);
-  GlSampler whole(scene, rays, layers, shared_raster(GlMethod::kList));
-  GlSampler parts(scene, rays, layers, std::make_unique<FaultyRaster>(0, 7));
-  const LeafImages expected = sample_all(whole, scene, rays, layers);
-  const LeafImages found = sample_all(parts, scene, rays, layers);
+  const auto whole =
+      make_gl_sampler(scene, rays, layers, shared_raster(GlMethod::kList));
+  const auto parts = make_gl_sampler(scene, rays, layers,
+                                     std::make_unique<FaultyRaster>(0, 7));
+  const LeafImages expected = sample_all(*whole, scene, rays, layers);
+  const LeafImages found = sample_all(*parts, scene, rays, layers);
   ASSERT_EQ(expected.ends, found.ends);
   for (std::size_t i = 0; i < found.samples.size(); ++i) {
     EXPECT_EQ(expected.samples[i].depth, found.samples[i].depth);

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "csg/tie_distance.h"
 #include "ldni/image/boolean.h"
 #include "tests/support/leaf_scenes.h"
 

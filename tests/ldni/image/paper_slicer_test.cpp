@@ -27,7 +27,7 @@ struct Settings {
 
 PaperPlan plan_of(const Scene& scene, const LayerGrid& layers,
                   const Settings& settings) {
-  return {scene, layers, settings.ray_pitch, settings.paper};
+  return make_paper_plan(scene, layers, settings.ray_pitch, settings.paper);
 }
 
 std::vector<Contours> slice_all(const Scene& scene, const LayerGrid& layers,

@@ -50,10 +50,10 @@ std::vector<Ranges> evaluate_layers(const csg::Scene& scene,
   const RayGrid rays(x - share, x + 0.5, 1);
   x = rays.ray_x(0);
   LeafImages images;
-  ScanlineSampler sampler(scene, rays, layers);
+  const auto sampler = make_scanline_sampler(scene, rays, layers);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const GridBox box = local_box(scene.instances[i].box, rays, layers);
-    if (!box.is_empty()) sampler.sample(i, box, images);
+    if (!box.is_empty()) sampler->sample(i, box, images);
   }
   RayBoolean boolean(scene);
   std::vector<Ranges> result(layers.layer_count());
@@ -62,7 +62,7 @@ std::vector<Ranges> evaluate_layers(const csg::Scene& scene,
     for (const LeafImage& image : images.images) {
       const GridBox& box = image.box;
       if (layer < box.layer_start || layer >= box.layer_end()) continue;
-      const auto found = images.rays(image, layer - box.layer_start, 0);
+      const auto found = images.ray(image, layer - box.layer_start, 0);
       samples.insert(samples.end(), found.begin(), found.end());
     }
     std::vector<Interval> intervals;

@@ -61,7 +61,7 @@ struct Sampled {
       return {};
     }
     const auto found =
-        images.rays(image, layer - box.layer_start, ray_index - box.ray_start);
+        images.ray(image, layer - box.layer_start, ray_index - box.ray_start);
     std::vector<Sample> sorted(found.begin(), found.end());
     std::sort(sorted.begin(), sorted.end(),
               [](const Sample& a, const Sample& b) {
@@ -109,7 +109,7 @@ class Samplers : public ::testing::TestWithParam<SamplerKind> {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Samplers,
                          ::testing::Values(SamplerKind::kScanline,
-                                           SamplerKind::kGlList,
+                                           SamplerKind::kGl,
                                            SamplerKind::kGlPeeling),
                          [](const auto& kind) {
                            return ::testing::PrintToString(kind.param);
@@ -167,9 +167,11 @@ TEST_P(Samplers, FillsASolidFromItsBottomUpToBelowItsTop) {
   LeafImages images;
   sampler->sample(0, global_box(rays, layers), images);
   const LeafImage& image = images.images[0];
-  EXPECT_EQ(images.rays(image, 0, 0, 2).size(), 4U);
-  EXPECT_EQ(images.rays(image, 1, 0, 2).size(), 4U);
-  EXPECT_EQ(images.rays(image, 2, 0, 2).size(), 0U);
+  for (const std::uint32_t ray : {0U, 1U}) {
+    EXPECT_EQ(images.ray(image, 0, ray).size(), 2U);
+    EXPECT_EQ(images.ray(image, 1, ray).size(), 2U);
+    EXPECT_EQ(images.ray(image, 2, ray).size(), 0U);
+  }
 }
 
 TEST_P(Samplers, GivesEveryRayAnEvenNumberOfSamplesInAnyOrientation) {
@@ -228,7 +230,7 @@ TEST_P(Samplers, GivesAnEvenNumberWhereRaysAndSectionsMeetVertices) {
   for (std::uint32_t layer = 0; layer < 9; ++layer) {
     const double half = 1 - std::abs(layers.section_z(layer));
     for (std::uint32_t ray = 0; ray < rays.ray_count(); ++ray) {
-      const auto found = images.rays(image, layer, ray);
+      const auto found = images.ray(image, layer, ray);
       ASSERT_EQ(found.size() % 2, 0U);
       double length = 0;
       for (const Sample& sample : found) {
@@ -373,14 +375,14 @@ TEST_P(Samplers, ShiftsOfTheLeafShiftTheDepths) {
   }
 }
 
-// --- Sweeps -----------------------------------------------------------------
+// --- Lofts -----------------------------------------------------------------
 
 using Outline = std::vector<Vec2>;
 
-csg::Sweep make_sweep(Outline outline, std::vector<Vec2> profile,
-                      bool is_closed_profile = false) {
+csg::Loft make_loft(Outline outline, std::vector<Vec2> profile,
+                    bool is_closed_profile = false, bool is_cavity = false) {
   return {std::make_shared<const Outline>(std::move(outline)),
-          std::move(profile), is_closed_profile};
+          std::move(profile), is_closed_profile, is_cavity};
 }
 
 Outline circle(int sides, double r) {
@@ -392,31 +394,26 @@ Outline circle(int sides, double r) {
   return points;
 }
 
-csg::Leaf sweep_leaf(std::vector<csg::Sweep> sweeps,
-                     std::vector<bool> sweep_is_cavity) {
+csg::Leaf loft_leaf(std::vector<csg::Loft> lofts) {
   csg::Leaf leaf;
-  leaf.sweeps = std::move(sweeps);
-  leaf.sweep_is_cavity = std::move(sweep_is_cavity);
+  leaf.lofts = std::move(lofts);
   return leaf;
 }
 
-// Leaves of every kind of sweep: cylinder, cone to an apex, double cone, torus,
+// Leaves of every kind of loft: cylinder, cone to an apex, double cone, torus,
 // a comb (its caps are cut into many segments), and a tube with a cavity.
-std::vector<csg::Leaf> sweep_leaves() {
+std::vector<csg::Leaf> loft_leaves() {
   const Outline comb = {{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1},
                         {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
   return {
-      sweep_leaf({make_sweep(circle(24, 1), {{2, -1}, {2, 1.5}})}, {false}),
-      sweep_leaf({make_sweep(circle(24, 1), {{2, -1}, {0, 1.5}})}, {false}),
-      sweep_leaf({make_sweep(circle(9, 1), {{0, -1}, {2, 0}, {0, 1.5}})},
-                 {false}),
-      sweep_leaf({make_sweep(circle(20, 1),
-                             {{3, -0.5}, {3.5, 0}, {3, 0.5}, {2.5, 0}}, true)},
-                 {false}),
-      sweep_leaf({make_sweep(comb, {{1, 0}, {0.5, 2}})}, {false}),
-      sweep_leaf({make_sweep(circle(24, 3), {{1, 0}, {1, 2}}),
-                  make_sweep(circle(12, 2), {{1, 0}, {1, 2}})},
-                 {false, true}),
+      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {2, 1.5}})}),
+      loft_leaf({make_loft(circle(24, 1), {{2, -1}, {0, 1.5}})}),
+      loft_leaf({make_loft(circle(9, 1), {{0, -1}, {2, 0}, {0, 1.5}})}),
+      loft_leaf({make_loft(circle(20, 1),
+                           {{3, -0.5}, {3.5, 0}, {3, 0.5}, {2.5, 0}}, true)}),
+      loft_leaf({make_loft(comb, {{1, 0}, {0.5, 2}})}),
+      loft_leaf({make_loft(circle(24, 3), {{1, 0}, {1, 2}}),
+                 make_loft(circle(12, 2), {{1, 0}, {1, 2}}, false, true)}),
   };
 }
 
@@ -432,9 +429,9 @@ Scene scene_with_both(csg::Leaf leaf, const Affine& placement) {
   return scene;
 }
 
-TEST_P(Samplers, SweepsGiveTheSamplesOfTheirExplicitMeshes) {
+TEST_P(Samplers, LoftsGiveTheSamplesOfTheirExplicitMeshes) {
   std::mt19937 random(8);
-  for (const csg::Leaf& leaf : sweep_leaves()) {
+  for (const csg::Leaf& leaf : loft_leaves()) {
     for (int round = 0; round < 8; ++round) {
       Affine placement = support::random_turn(random);
       if (round % 2 == 1) {
@@ -464,14 +461,14 @@ TEST_P(Samplers, SweepsGiveTheSamplesOfTheirExplicitMeshes) {
   }
 }
 
-TEST_P(Samplers, NormalsOfSweepsAreThoseOfTheirMeshes) {
+TEST_P(Samplers, NormalsOfLoftsAreThoseOfTheirMeshes) {
   const Affine placement = support::compose(
       support::turn_about({1, 2, 0.5}, 0.8), support::scale_by({1, 1, -1}));
   // Without cavities, so that samples correspond one to one.
   for (std::size_t kind = 0; kind < 5; ++kind) {
     const Sampled sampled(GetParam(),
-                          scene_with_both(sweep_leaves()[kind], placement),
-                          0.13, 0.11);
+                          scene_with_both(loft_leaves()[kind], placement), 0.13,
+                          0.11);
     for (std::uint32_t layer = 0; layer < sampled.layers.layer_count();
          ++layer) {
       for (std::uint32_t ray = 0; ray < sampled.rays.ray_count(); ++ray) {

@@ -5,12 +5,9 @@
 #include <ostream>
 
 #include "csg/scene.h"
-#include "ldni/gl/face_raster.h"
 #include "ldni/image/sampler.h"
 
 namespace lamina::ldni {
-
-enum class SamplerKind { kScanline, kGlList, kGlPeeling };
 
 std::ostream& operator<<(std::ostream& out, SamplerKind kind);
 
@@ -19,9 +16,5 @@ std::ostream& operator<<(std::ostream& out, SamplerKind kind);
 std::unique_ptr<Sampler> make_sampler(SamplerKind kind, const csg::Scene& scene,
                                       const RayGrid& rays,
                                       const LayerGrid& layers);
-
-// Draws by a raster that all tests of a process share: to make one takes longer
-// than most tests.
-std::unique_ptr<FaceRaster> shared_raster(GlMethod method);
 
 }  // namespace lamina::ldni

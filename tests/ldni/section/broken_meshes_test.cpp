@@ -106,9 +106,9 @@ TEST(BrokenMeshes, GiveSoundLoopsAndAreCounted) {
       EXPECT_TRUE(support::are_sound(contours))
           << "seed " << seed << ", layer " << l;
     }
-    EXPECT_EQ(ray.counts().unbalanced_columns, 0U) << "seed " << seed;
-    EXPECT_EQ(ray.counts().repaired_columns, 0U) << "seed " << seed;
-    EXPECT_EQ(ray.counts().capped_columns, 0U) << "seed " << seed;
+    EXPECT_EQ(ray.counts().unbalanced_clusters, 0U) << "seed " << seed;
+    EXPECT_EQ(ray.counts().repaired_clusters, 0U) << "seed " << seed;
+    EXPECT_EQ(ray.counts().capped_clusters, 0U) << "seed " << seed;
   }
   EXPECT_GT(open_paths, 100U);
   EXPECT_GT(loops, 1000U);

@@ -83,7 +83,7 @@ TEST(LeafSection, AConeCutAlongItsAxisIsATriangle) {
 TEST(LeafSection, ASphereIsARegularPolygonBetweenItsRings) {
   const int facets = 30;
   const csg::Leaf sphere = sphere_leaf(5, facets);
-  const std::vector<Vec2>& profile = sphere.sweeps[0].profile;
+  const std::vector<Vec2>& profile = sphere.lofts[0].profile;
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
     const double height = 0.25 * profile[i].y + 0.75 * profile[i + 1].y;
     const double radius = 0.25 * profile[i].x + 0.75 * profile[i + 1].x;
@@ -97,7 +97,7 @@ TEST(LeafSection, ATorusIsARingAcrossItsAxisAndTwoDiscsAlongIt) {
   // At mid height the profile reaches from 4 to 6.
   EXPECT_NEAR(area_at(torus, kIdentity, 0), polygon_area(60) * (36 - 16),
               1e-11);
-  // Through the axis: two copies of the profile; the outline has spokes at 0
+  // Through the axis: two copies of the profile; the outline has corners at 0
   // and 180 degrees.
   EXPECT_NEAR(area_at(torus, rotated(90, {1, 0, 0}), 0), 2 * polygon_area(40),
               1e-11);
@@ -131,9 +131,9 @@ TEST(LeafSection, ALyingPrismWithANonConvexCapKeepsItsProngs) {
 
 TEST(LeafSection, ACavityIsTakenOffTheArea) {
   csg::Leaf tube = extrusion_leaf({{0, 0}, {6, 0}, {6, 6}, {0, 6}}, 3);
-  tube.sweeps.push_back(
-      extrusion_leaf({{2, 2}, {4, 2}, {4, 4}, {2, 4}}, 3).sweeps[0]);
-  tube.sweep_is_cavity.push_back(true);
+  tube.lofts.push_back(
+      extrusion_leaf({{2, 2}, {4, 2}, {4, 4}, {2, 4}}, 3).lofts[0]);
+  tube.lofts.back().is_cavity = true;
   EXPECT_NEAR(area_at(tube, kIdentity, 1), 36 - 4, 1e-12);
   EXPECT_NEAR(area_at(tube, scaled({-1, 1, 1}), 1), 36 - 4, 1e-12);
 }
@@ -141,7 +141,7 @@ TEST(LeafSection, ACavityIsTakenOffTheArea) {
 // Leaves of every kind, convex or not.
 std::vector<csg::Leaf> all_kinds() {
   csg::Leaf hourglass = cylinder_leaf(2, 2, 1, 9);
-  hourglass.sweeps[0].profile = {{0, 0}, {2, 0.5}, {1, 1}, {2.5, 2}, {0, 3}};
+  hourglass.lofts[0].profile = {{0, 0}, {2, 0.5}, {1, 1}, {2.5, 2}, {0, 3}};
   return {cube_leaf({1, 2, 3}),
           cylinder_leaf(2, 1, 3, 7),
           cylinder_leaf(0, 1, 3, 12),
@@ -166,7 +166,7 @@ TEST(LeafSection, TurningTheLeafAroundZOrMirroringItKeepsTheArea) {
   }
 }
 
-TEST(LeafSection, ASweepAndTheMeshOfItsFacetsEncloseTheSame) {
+TEST(LeafSection, ALoftAndTheMeshOfItsFacetsEncloseTheSame) {
   for (const csg::Leaf& leaf : all_kinds()) {
     const csg::Leaf mesh = as_mesh(leaf);
     for (const double tilt : {0.0, 20.0, 77.0, 90.0, 180.0}) {
@@ -184,7 +184,7 @@ TEST(LeafSection, TheSumOfTheLayersIsTheVolume) {
   const csg::Leaf torus = torus_leaf(4, 1, 40, 24);
   // Pappus for a polygon turned on a polygonal outline: scale² integrates.
   double volume = 0;
-  const std::vector<Vec2>& profile = torus.sweeps[0].profile;
+  const std::vector<Vec2>& profile = torus.lofts[0].profile;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const Vec2& a = profile[i];
     const Vec2& b = profile[(i + 1) % profile.size()];

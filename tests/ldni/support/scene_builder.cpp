@@ -16,19 +16,18 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-csg::Sweep make_sweep(std::vector<Vec2> outline, std::vector<Vec2> profile,
-                      bool is_closed) {
-  csg::Sweep sweep;
-  sweep.outline = std::make_shared<const std::vector<Vec2>>(std::move(outline));
-  sweep.profile = std::move(profile);
-  sweep.is_closed_profile = is_closed;
-  return sweep;
+csg::Loft make_loft(std::vector<Vec2> outline, std::vector<Vec2> profile,
+                    bool is_closed) {
+  csg::Loft loft;
+  loft.outline = std::make_shared<const std::vector<Vec2>>(std::move(outline));
+  loft.profile = std::move(profile);
+  loft.is_closed_profile = is_closed;
+  return loft;
 }
 
-csg::Leaf leaf_of(csg::Sweep sweep) {
+csg::Leaf leaf_of(csg::Loft loft) {
   csg::Leaf leaf;
-  leaf.sweeps.push_back(std::move(sweep));
-  leaf.sweep_is_cavity.push_back(false);
+  leaf.lofts.push_back(std::move(loft));
   return leaf;
 }
 
@@ -40,10 +39,10 @@ void extend(Box3& box, const Vec3& point) {
 // All vertices of a leaf in leaf coordinates.
 std::vector<Vec3> vertices_of(const csg::Leaf& leaf) {
   std::vector<Vec3> vertices;
-  for (const csg::Sweep& sweep : leaf.sweeps) {
-    for (const Vec2& ring : sweep.profile) {
-      for (const Vec2& spoke : *sweep.outline) {
-        vertices.push_back({ring.x * spoke.x, ring.x * spoke.y, ring.y});
+  for (const csg::Loft& loft : leaf.lofts) {
+    for (const Vec2& ring : loft.profile) {
+      for (const Vec2& corner : *loft.outline) {
+        vertices.push_back({ring.x * corner.x, ring.x * corner.y, ring.y});
       }
     }
   }
@@ -123,7 +122,7 @@ csg::Leaf cube_leaf(const Vec3& size) {
 
 csg::Leaf cylinder_leaf(double r1, double r2, double height, int facets) {
   return leaf_of(
-      make_sweep(regular_polygon(facets), {{r1, 0}, {r2, height}}, false));
+      make_loft(regular_polygon(facets), {{r1, 0}, {r2, height}}, false));
 }
 
 csg::Leaf sphere_leaf(double radius, int facets) {
@@ -133,7 +132,7 @@ csg::Leaf sphere_leaf(double radius, int facets) {
     const double angle = kPi * (i + 0.5) / rings;
     profile.push_back({radius * std::sin(angle), radius * std::cos(angle)});
   }
-  return leaf_of(make_sweep(regular_polygon(facets), profile, false));
+  return leaf_of(make_loft(regular_polygon(facets), profile, false));
 }
 
 csg::Leaf torus_leaf(double radius, double tube_radius, int around,
@@ -142,40 +141,39 @@ csg::Leaf torus_leaf(double radius, double tube_radius, int around,
   for (const Vec2& point : regular_polygon(facets)) {
     profile.push_back({radius + tube_radius * point.x, tube_radius * point.y});
   }
-  return leaf_of(make_sweep(regular_polygon(around), profile, true));
+  return leaf_of(make_loft(regular_polygon(around), profile, true));
 }
 
 csg::Leaf extrusion_leaf(std::vector<Vec2> outline, double height) {
-  return leaf_of(make_sweep(std::move(outline), {{1, 0}, {1, height}}, false));
+  return leaf_of(make_loft(std::move(outline), {{1, 0}, {1, height}}, false));
 }
 
 csg::Leaf as_mesh(const csg::Leaf& leaf) {
   csg::Leaf result;
   result.may_overlap_itself = leaf.may_overlap_itself;
   result.meshes = leaf.meshes;
-  for (std::size_t s = 0; s < leaf.sweeps.size(); ++s) {
-    const csg::Sweep& sweep = leaf.sweeps[s];
-    const auto spokes = static_cast<std::uint32_t>(sweep.outline->size());
-    const auto rings = static_cast<std::uint32_t>(sweep.profile.size());
+  for (const csg::Loft& loft : leaf.lofts) {
+    const auto corners = static_cast<std::uint32_t>(loft.outline->size());
+    const auto rings = static_cast<std::uint32_t>(loft.profile.size());
     csg::Leaf single;
-    single.sweeps = {sweep};
+    single.lofts = {loft};
     csg::Mesh mesh;
     mesh.vertices = vertices_of(single);
-    const std::uint32_t strips = sweep.is_closed_profile ? rings : rings - 1;
+    const std::uint32_t strips = loft.is_closed_profile ? rings : rings - 1;
     for (std::uint32_t i = 0; i < strips; ++i) {
-      for (std::uint32_t j = 0; j < spokes; ++j) {
-        const std::uint32_t a = i * spokes + j;
-        const std::uint32_t b = i * spokes + (j + 1) % spokes;
-        const std::uint32_t c = (i + 1) % rings * spokes + (j + 1) % spokes;
-        const std::uint32_t d = (i + 1) % rings * spokes + j;
+      for (std::uint32_t j = 0; j < corners; ++j) {
+        const std::uint32_t a = i * corners + j;
+        const std::uint32_t b = i * corners + (j + 1) % corners;
+        const std::uint32_t c = (i + 1) % rings * corners + (j + 1) % corners;
+        const std::uint32_t d = (i + 1) % rings * corners + j;
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({a, c, d});
       }
     }
-    if (!sweep.is_closed_profile) {
-      for (const auto& t : triangulated(*sweep.outline)) {
+    if (!loft.is_closed_profile) {
+      for (const auto& t : triangulated(*loft.outline)) {
         mesh.triangles.push_back({t[2], t[1], t[0]});
-        const std::uint32_t top = (rings - 1) * spokes;
+        const std::uint32_t top = (rings - 1) * corners;
         mesh.triangles.push_back({top + t[0], top + t[1], top + t[2]});
       }
     }
@@ -186,7 +184,7 @@ csg::Leaf as_mesh(const csg::Leaf& leaf) {
       volume += glm::dot(mesh.vertices[t[0]],
                          glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
     }
-    if ((volume < 0) != leaf.sweep_is_cavity[s]) {
+    if ((volume < 0) != loft.is_cavity) {
       for (auto& t : mesh.triangles) std::swap(t[0], t[2]);
     }
     result.meshes.push_back(std::move(mesh));

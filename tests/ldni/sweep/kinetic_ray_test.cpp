@@ -33,9 +33,9 @@ Contours section(const csg::Scene& scene, double height, double pitch = 0) {
   KineticRay ray(scene, pitch);
   Contours contours;
   ray.sweep(block, 0, contours);
-  EXPECT_EQ(ray.counts().unbalanced_columns, 0U);
-  EXPECT_EQ(ray.counts().capped_columns, 0U);
-  EXPECT_EQ(ray.counts().repaired_columns, 0U);
+  EXPECT_EQ(ray.counts().unbalanced_clusters, 0U);
+  EXPECT_EQ(ray.counts().capped_clusters, 0U);
+  EXPECT_EQ(ray.counts().repaired_clusters, 0U);
   EXPECT_TRUE(are_sound(contours));
   return contours;
 }

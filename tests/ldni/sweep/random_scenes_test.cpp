@@ -19,6 +19,7 @@
 #include <gtest/gtest.h>
 
 #include "csg/scene.h"
+#include "csg/tie_distance.h"
 #include "ldni/image/sample.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
@@ -95,9 +96,9 @@ class SceneJudge {
       where_ = name_ + ", layer " + std::to_string(l);
       judge_layer(scene, reference);
     }
-    EXPECT_EQ(ray.counts().unbalanced_columns, 0U) << name_;
-    EXPECT_EQ(ray.counts().capped_columns, 0U) << name_;
-    EXPECT_EQ(ray.counts().repaired_columns, 0U) << name_;
+    EXPECT_EQ(ray.counts().unbalanced_clusters, 0U) << name_;
+    EXPECT_EQ(ray.counts().capped_clusters, 0U) << name_;
+    EXPECT_EQ(ray.counts().repaired_clusters, 0U) << name_;
   }
 
  private:

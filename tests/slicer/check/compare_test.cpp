@@ -65,6 +65,9 @@ TEST(PairLayers, RefusesOtherHeights) {
   EXPECT_NE(pairing_error(squares(0, 0.05, 20), squares(0, 0.1, 10))
                 .find("b.svg has one at z 0.05, a.slc has its nearest at z "),
             std::string::npos);
+}
+
+TEST(PairLayers, RefusesLayersThatDoNotRise) {
   std::vector<Layer> falling = squares(0, 0.05, 3);
   falling.push_back(falling[1]);
   EXPECT_NE(pairing_error(falling, squares(0, 0.05, 3))
@@ -80,32 +83,57 @@ TEST(PairLayers, AnEmptyLayerNeedsNoPartner) {
   EXPECT_EQ(pair_layers(a, b, 0, "a", "b").size(), 2U);
 }
 
-TEST(Compare, TellsAreasLoopsAndDistances) {
+// A square; a square with a hole in a alone; a square that is longer in b.
+std::vector<LayerDifference> three_layers() {
   const std::vector<Layer> a = {layer_at(0, 0.5, {kSquare}),
                                 layer_at(0.5, 1, {kSquare, kHole}),
                                 layer_at(1, 1.5, {kSquare})};
   const std::vector<Layer> b = {
       layer_at(0, 0.5, {kSquare}), layer_at(0.5, 1, {kSquare}),
       layer_at(1, 1.5, {{{0, 0}, {10, 0}, {10, 10.25}, {0, 10.25}}})};
-  const std::vector<LayerDifference> layers =
-      compare(pair_layers(a, b, 0, "a", "b"), Vec2(0));
-  ASSERT_EQ(layers.size(), 3U);
-  EXPECT_EQ(layers[0].area(), 0);
-  EXPECT_EQ(layers[0].distance.distance, 0);
-  EXPECT_EQ(layers[1].loops_a, (LoopCount{1, 1}));
-  EXPECT_EQ(layers[1].loops_b, (LoopCount{1, 0}));
-  EXPECT_NEAR(layers[1].areas.only_b, 6, 1e-12);
-  // The hole's corner (5, 4) is 4 from the square, its side's middle no more.
-  EXPECT_NEAR(layers[1].distance.distance, 4, 1e-6);
-  EXPECT_NEAR(layers[2].areas.only_b, 2.5, 1e-12);
-  EXPECT_DOUBLE_EQ(layers[2].distance.distance, 0.25);
-  EXPECT_EQ(layers[2].number, 3U);
+  return compare(pair_layers(a, b, 0, "a", "b"), Vec2(0));
+}
 
-  const ComparisonTotals totals = sum_up(layers, 0.25);
+TEST(Compare, NumbersLayersFromOne) {
+  const std::vector<LayerDifference> layers = three_layers();
+  ASSERT_EQ(layers.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(layers[i].number, i + 1);
+}
+
+TEST(Compare, EqualLayersDifferInNothing) {
+  const LayerDifference layer = three_layers()[0];
+  EXPECT_EQ(layer.area(), 0);
+  EXPECT_EQ(layer.distance.distance, 0);
+}
+
+TEST(Compare, AHoleOfOneOnlyIsCountedAndMeasured) {
+  const LayerDifference layer = three_layers()[1];
+  EXPECT_EQ(layer.loops_a, (LoopCount{1, 1}));
+  EXPECT_EQ(layer.loops_b, (LoopCount{1, 0}));
+  EXPECT_NEAR(layer.areas.only_b, 6, 1e-12);
+  // The hole's corner (5, 4) is 4 from the square, its side's middle no more.
+  EXPECT_NEAR(layer.distance.distance, 4, 1e-6);
+}
+
+TEST(Compare, ASideThatMovedIsMeasured) {
+  const LayerDifference layer = three_layers()[2];
+  EXPECT_NEAR(layer.areas.only_b, 2.5, 1e-12);
+  EXPECT_DOUBLE_EQ(layer.distance.distance, 0.25);
+}
+
+TEST(SumUp, CountsLayersBeyondTheToleranceAndOfOtherLoops) {
+  const ComparisonTotals totals = sum_up(three_layers(), 0.25);
   EXPECT_EQ(totals.layers, 3U);
   EXPECT_EQ(totals.outside, 1U);
   EXPECT_EQ(totals.other_loops, 1U);
-  EXPECT_EQ(totals.worst, 1U);
+}
+
+TEST(SumUp, FindsTheWorstLayer) {
+  EXPECT_EQ(sum_up(three_layers(), 0.25).worst, 1U);
+}
+
+TEST(SumUp, AddsUpVolumes) {
+  const ComparisonTotals totals = sum_up(three_layers(), 0.25);
   EXPECT_NEAR(totals.volume_a, 147, 1e-9);
   EXPECT_NEAR(totals.volume_only_a, 0, 1e-9);
   EXPECT_NEAR(totals.volume_only_b, 4.25, 1e-9);
@@ -118,6 +146,10 @@ TEST(Compare, SliversCountForAreasOnly) {
                      layer_at(0, 1, {kSquare, sliver}).contours);
   EXPECT_EQ(difference.distance.distance, 0);
   EXPECT_EQ(difference.loops_b.regions, 2U);
+}
+
+TEST(Compare, ASliverAloneHasNoDistance) {
+  const std::vector<Vec2> sliver = {{4, 4}, {6, 4}, {6, 4 + 2e-6}};
   const LayerDifference alone =
       compare_layers({}, layer_at(0, 1, {sliver}).contours);
   EXPECT_EQ(alone.distance.distance, 0);
@@ -137,7 +169,10 @@ TEST(Compare, AShiftMakesMovedPartsEqual) {
     EXPECT_EQ(layer.area(), 0);
     EXPECT_EQ(layer.distance.distance, 0);
   }
-  EXPECT_EQ(aligning_shift(a, {}), Vec3(0));
+}
+
+TEST(AligningShift, IsNothingWithoutContours) {
+  EXPECT_EQ(aligning_shift(squares(1, 0.5, 4), {}), Vec3(0));
 }
 
 }  // namespace

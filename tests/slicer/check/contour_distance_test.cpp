@@ -58,12 +58,15 @@ TEST(GreatestDistance, OfCirclesIsTheDifferenceOfTheirRadii) {
       1e-12);
 }
 
-TEST(GreatestDistance, FindsPlacesBetweenVertices) {
+TEST(GreatestDistance, FindsTheMiddleOfASlotOfOneOnly) {
   // The middle of the long sides of a slot that only one of them has.
   Contours slotted = loop({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
   add_loop(slotted, {{2, 4.9}, {2, 5.1}, {8, 5.1}, {8, 4.9}});
   const ContourDistance found = greatest_distance(slotted, kSquare);
   EXPECT_NEAR(found.distance, 4.9, 2 * kDistanceResolution);
+}
+
+TEST(GreatestDistance, FindsTheMiddleOfAnOpening) {
   // An arrow head into a square: farthest in the middle of the opening.
   const Contours arrow = loop({{0, 0}, {10, 0}, {10, 10}, {5, 2}, {0, 10}});
   const ContourDistance opening = greatest_distance(kSquare, arrow);
@@ -115,7 +118,6 @@ TEST(GreatestDistance, IsThatOfPointsTriedOneByOne) {
     const double found = greatest_distance(a, b).distance;
     EXPECT_GE(found, expected - 2 * kDistanceResolution);
     EXPECT_LE(found, expected + 0.05);  // between the points that were tried
-    EXPECT_EQ(found, greatest_distance(a, b).distance);
     EXPECT_NEAR(found, greatest_distance(b, a).distance,
                 2 * kDistanceResolution);
   }

@@ -10,15 +10,15 @@
 namespace lamina::slicer {
 namespace {
 
-SlcLayer layer_of(const std::vector<std::vector<Vec2>>& loops) {
-  SlcLayer layer;
+using Loops = std::vector<WrittenLoop>;
+
+Loops closed(const std::vector<std::vector<Vec2>>& loops) {
+  ldni::Contours contours;
   for (const auto& loop : loops) {
-    SlcBoundary boundary;
-    boundary.points = loop;
-    boundary.points.push_back(loop.front());
-    layer.boundaries.push_back(boundary);
+    contours.points.insert(contours.points.end(), loop.begin(), loop.end());
+    contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
   }
-  return layer;
+  return closed_loops(contours);
 }
 
 std::vector<Vec2> square(double x, double y, double size) {
@@ -30,9 +30,9 @@ std::vector<Vec2> hole(double x, double y, double size) {
 }
 
 // Kinds of all defects, each once.
-std::vector<DefectKind> kinds(const SlcLayer& layer) {
+std::vector<DefectKind> kinds(const Loops& loops) {
   std::vector<DefectKind> kinds;
-  for (const Defect& defect : find_defects(layer)) {
+  for (const Defect& defect : find_defects(loops)) {
     if (kinds.empty() || kinds.back() != defect.kind) {
       kinds.push_back(defect.kind);
     }
@@ -44,89 +44,104 @@ using Kinds = std::vector<DefectKind>;
 
 TEST(FindDefects, SoundLayersHaveNone) {
   EXPECT_EQ(kinds({}), Kinds{});
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 1)})), Kinds{});
+  EXPECT_EQ(kinds(closed({square(0, 0, 1)})), Kinds{});
   // An island in a hole, beside another part.
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 9), hole(1, 1, 7), square(2, 2, 5),
-                            hole(3, 3, 1), square(10, 0, 1)})),
+  EXPECT_EQ(kinds(closed({square(0, 0, 9), hole(1, 1, 7), square(2, 2, 5),
+                          hole(3, 3, 1), square(10, 0, 1)})),
             Kinds{});
 }
 
 TEST(FindDefects, PartsMayTouchInAPoint) {
   // Corner to corner; a corner on a side, from outside and from inside.
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 1), square(1, 1, 1)})), Kinds{});
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 2), {{2, 1}, {3, 0.5}, {3, 1.5}}})),
+  EXPECT_EQ(kinds(closed({square(0, 0, 1), square(1, 1, 1)})), Kinds{});
+  EXPECT_EQ(kinds(closed({square(0, 0, 2), {{2, 1}, {3, 0.5}, {3, 1.5}}})),
             Kinds{});
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 2), {{2, 1}, {1, 0.5}, {1, 1.5}}})),
+  EXPECT_EQ(kinds(closed({square(0, 0, 2), {{2, 1}, {1, 0.5}, {1, 1.5}}})),
             Kinds{});
 }
 
-TEST(FindDefects, OpenGapsRepeatsAndNoArea) {
-  SlcLayer open = layer_of({square(0, 0, 1)});
-  open.boundaries[0].points.pop_back();
+TEST(FindDefects, ALoopWithoutItsClosingVertexIsOpen) {
+  Loops open = closed({square(0, 0, 1)});
+  open[0].points.pop_back();
   EXPECT_EQ(kinds(open), Kinds{DefectKind::kOpen});
-
-  SlcLayer gap = layer_of({square(0, 0, 1)});
-  gap.boundaries[0].gaps = 1;
-  EXPECT_EQ(kinds(gap), Kinds{DefectKind::kGap});
-
-  SlcLayer empty;
-  empty.boundaries.emplace_back();
-  EXPECT_EQ(kinds(empty), Kinds{DefectKind::kOpen});
-
-  EXPECT_EQ(kinds(layer_of({{{0, 0}, {1, 0}, {1, 0}, {1, 1}}})),
-            Kinds{DefectKind::kRepeat});
-  EXPECT_EQ(kinds(layer_of({{{0, 0}, {1, 0}}})).front(), DefectKind::kZeroArea);
 }
 
-TEST(FindDefects, CrossingsInEdgesAndInVertices) {
+TEST(FindDefects, ALoopWithoutVerticesIsOpen) {
+  EXPECT_EQ(kinds(Loops(1)), Kinds{DefectKind::kOpen});
+}
+
+TEST(FindDefects, ALoopThatCountsGapsHasAGap) {
+  Loops gap = closed({square(0, 0, 1)});
+  gap[0].gaps = 1;
+  EXPECT_EQ(kinds(gap), Kinds{DefectKind::kGap});
+}
+
+TEST(FindDefects, EqualNeighboursAreARepeat) {
+  EXPECT_EQ(kinds(closed({{{0, 0}, {1, 0}, {1, 0}, {1, 1}}})),
+            Kinds{DefectKind::kRepeat});
+}
+
+TEST(FindDefects, ALoopOfTwoVerticesHasNoArea) {
+  EXPECT_EQ(kinds(closed({{{0, 0}, {1, 0}}})).front(), DefectKind::kZeroArea);
+}
+
+TEST(FindDefects, EdgesCross) {
   const Kinds crossing{DefectKind::kCrossing};
-  // A bow tie.
-  EXPECT_EQ(kinds(layer_of({{{0, 0}, {3, 2}, {3, 0}, {0, 2.5}}})), crossing);
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 2), square(1, 1, 2)})), crossing);
-  // Through a vertex of both.
-  EXPECT_EQ(kinds(layer_of({{{0, 0}, {1, 1}, {2, 0}, {1, 3}},
-                            {{1, 1}, {3, -1}, {4, 1}, {0, 2}}})),
+  // A bow tie; two loops.
+  EXPECT_EQ(kinds(closed({{{0, 0}, {3, 2}, {3, 0}, {0, 2.5}}})), crossing);
+  EXPECT_EQ(kinds(closed({square(0, 0, 2), square(1, 1, 2)})), crossing);
+}
+
+TEST(FindDefects, LoopsCrossInAVertex) {
+  const Kinds crossing{DefectKind::kCrossing};
+  // Of both; of one, on an edge of the other.
+  EXPECT_EQ(kinds(closed({{{0, 0}, {1, 1}, {2, 0}, {1, 3}},
+                          {{1, 1}, {3, -1}, {4, 1}, {0, 2}}})),
             crossing);
-  // A vertex of one on an edge of the other, passing through.
   EXPECT_EQ(
-      kinds(layer_of({square(0, 0, 2), {{1, 1}, {2, 0.5}, {3, 1}, {2, 1.5}}})),
+      kinds(closed({square(0, 0, 2), {{1, 1}, {2, 0.5}, {3, 1}, {2, 1.5}}})),
       crossing);
 }
 
-TEST(FindDefects, EdgesThatRunAlongEachOther) {
+TEST(FindDefects, EdgesThatRunAlongEachOtherCross) {
   const Kinds crossing{DefectKind::kCrossing};
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 1), square(1, 0.5, 1)})), crossing);
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 1), square(0, 0, 1)})), crossing);
+  EXPECT_EQ(kinds(closed({square(0, 0, 1), square(1, 0.5, 1)})), crossing);
+  EXPECT_EQ(kinds(closed({square(0, 0, 1), square(0, 0, 1)})), crossing);
   // A spike of no width.
-  EXPECT_EQ(kinds(layer_of({{{0, 0}, {2, 0}, {1, 0}, {1, 1}}})), crossing);
-  // On one line without a common stretch.
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 1), square(2, 0, 1)})), Kinds{});
+  EXPECT_EQ(kinds(closed({{{0, 0}, {2, 0}, {1, 0}, {1, 1}}})), crossing);
+}
+
+TEST(FindDefects, EdgesOnOneLineWithoutACommonLengthDoNotCross) {
+  EXPECT_EQ(kinds(closed({square(0, 0, 1), square(2, 0, 1)})), Kinds{});
 }
 
 TEST(FindDefects, LoopsTurnedAgainstTheirNesting) {
   const Kinds orientation{DefectKind::kOrientation};
-  EXPECT_EQ(kinds(layer_of({hole(0, 0, 1)})), orientation);
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 3), square(1, 1, 1)})), orientation);
-  EXPECT_EQ(kinds(layer_of({square(0, 0, 9), hole(1, 1, 7), hole(2, 2, 5)})),
+  EXPECT_EQ(kinds(closed({hole(0, 0, 1)})), orientation);
+  EXPECT_EQ(kinds(closed({square(0, 0, 3), square(1, 1, 1)})), orientation);
+  EXPECT_EQ(kinds(closed({square(0, 0, 9), hole(1, 1, 7), hole(2, 2, 5)})),
             orientation);
+}
+
+TEST(FindDefects, TellsTheNumberOfTheLoop) {
   const auto defects =
-      find_defects(layer_of({square(0, 0, 9), hole(1, 1, 1), square(3, 3, 1)}));
+      find_defects(closed({square(0, 0, 9), hole(1, 1, 1), square(3, 3, 1)}));
   ASSERT_EQ(defects.size(), 1U);
-  EXPECT_EQ(defects[0].boundary, 2U);
+  EXPECT_EQ(defects[0].loop, 2U);
 }
 
 TEST(FindDefects, SignsAreExactForNeighboursInFloat32) {
   // Slivers one unit of float32 wide, far from the origin: sound or crossing
   // by the last bit.
   const double step = 0x1p-17;  // of float32 at 64 … 128
-  EXPECT_EQ(kinds(layer_of({{{100, 100}, {120, 100}, {120, 100 + step}}})),
+  EXPECT_EQ(kinds(closed({{{100, 100}, {120, 100}, {120, 100 + step}}})),
             Kinds{});
   const std::vector<Vec2> sliver = {
       {100, 100}, {120, 107}, {110, 103.5 + step}};
   EXPECT_EQ(
-      kinds(layer_of({sliver, {{100, 90}, {120, 107 - step}, {110, 103.5}}})),
+      kinds(closed({sliver, {{100, 90}, {120, 107 - step}, {110, 103.5}}})),
       Kinds{});
-  EXPECT_EQ(kinds(layer_of(
+  EXPECT_EQ(kinds(closed(
                 {sliver, {{100, 90}, {120, 107 - step}, {110, 103.5 + step}}})),
             Kinds{DefectKind::kCrossing});
 }
@@ -140,7 +155,7 @@ TEST(FindDefects, ALargeLayerIsQuick) {
     rim.push_back(10.0 * Vec2(std::cos(angle), std::sin(angle)));
     inner.push_back(9.999 * Vec2(std::cos(-angle), std::sin(-angle)));
   }
-  EXPECT_EQ(kinds(layer_of({rim, inner})), Kinds{});
+  EXPECT_EQ(kinds(closed({rim, inner})), Kinds{});
 }
 
 // Edges as long as the layer stood in as many cells as there are edges: a file
@@ -152,9 +167,9 @@ TEST(FindDefects, LongEdgesSideBySideAreQuick) {
     const double y = 0.001 * i;
     slats.push_back({{0, y}, {1000, y}, {1000, y + 5e-4}, {0, y + 5e-4}});
   }
-  EXPECT_EQ(kinds(layer_of(slats)), Kinds{});
+  EXPECT_EQ(kinds(closed(slats)), Kinds{});
   slats.push_back({{1, -1}, {2, -1}, {2, 11}, {1, 11}});
-  EXPECT_EQ(kinds(layer_of(slats)).front(), DefectKind::kCrossing);
+  EXPECT_EQ(kinds(closed(slats)).front(), DefectKind::kCrossing);
 }
 
 }  // namespace

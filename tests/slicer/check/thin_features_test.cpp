@@ -42,7 +42,8 @@ Sliced slice_text(const std::string& text, double min_feature = 0.2,
 }
 
 // The texts of the calls that made the sides of a feature.
-std::vector<std::string> makers(const Sliced& sliced, std::size_t feature) {
+std::vector<std::string> source_texts(const Sliced& sliced,
+                                      std::size_t feature) {
   std::vector<std::string> texts;
   for (const std::uint32_t i : sliced.report.features.at(feature).instances) {
     texts.emplace_back(
@@ -73,7 +74,7 @@ TEST(ThinFeatures, AGapBetweenPlatesIsOneFeatureWithBothPlates) {
       EXPECT_NEAR(feature.top, 2, 1e-9);
       EXPECT_EQ(feature.last_layer - feature.first_layer + 1, 40U);
       EXPECT_EQ(
-          makers(sliced, 0),
+          source_texts(sliced, 0),
           (std::vector<std::string>{"cube([3, 5, 2])", "cube([3.5, 9, 4])"}));
     }
   }
@@ -89,7 +90,7 @@ TEST(ThinFeatures, AWallBetweenTwoHolesIsMadeByThem) {
   EXPECT_NEAR(sliced.report.features[0].width, 0.1, 1e-9);
   EXPECT_NEAR(sliced.report.features[0].place.x, 4.05, 1e-9);
   EXPECT_NEAR(sliced.report.features[0].place.y, 3, 1e-9);
-  EXPECT_EQ(makers(sliced, 0),
+  EXPECT_EQ(source_texts(sliced, 0),
             (std::vector<std::string>{"cylinder(r = 1, h = 4, $fn = 64)",
                                       "cylinder(r = 1.5, h = 4, $fn = 64)"}));
 }
@@ -100,17 +101,22 @@ TEST(ThinFeatures, UprightWallsAreKnownByTheirLeaves) {
       "cube(5);"
       "translate([-3, 1, 2]) cube([3, 0.1, 1]);");
   ASSERT_EQ(sliced.report.features.size(), 1U);
-  EXPECT_EQ(makers(sliced, 0), (std::vector<std::string>{"cube([3, 0.1, 1])",
-                                                         "cube([3, 0.1, 1])"}));
+  EXPECT_EQ(
+      source_texts(sliced, 0),
+      (std::vector<std::string>{"cube([3, 0.1, 1])", "cube([3, 0.1, 1])"}));
+}
+
+TEST(ThinFeatures, UprightWallsAlongYAreKnownByTheirLeaves) {
   const Sliced along_y = slice_text("cube([0.1, 3, 1]);");
   ASSERT_EQ(along_y.report.features.size(), 1U);
-  EXPECT_EQ(makers(along_y, 0), (std::vector<std::string>{
-                                    "cube([0.1, 3, 1])", "cube([0.1, 3, 1])"}));
+  EXPECT_EQ(
+      source_texts(along_y, 0),
+      (std::vector<std::string>{"cube([0.1, 3, 1])", "cube([0.1, 3, 1])"}));
 }
 
 TEST(ThinFeatures, ACoatCountsToTheFirstLeafThatHasIt) {
   const Sliced sliced = slice_text("cube([0.1, 3, 1]); cube([0.1, 3, 1.0]);");
-  EXPECT_EQ(makers(sliced, 0)[0], "cube([0.1, 3, 1])");
+  EXPECT_EQ(source_texts(sliced, 0)[0], "cube([0.1, 3, 1])");
 }
 
 TEST(ThinFeatures, ATubeIsOneWall) {
@@ -141,7 +147,7 @@ TEST(ThinFeatures, AConesTipIsThinFromWhereItIs) {
   EXPECT_LT(glm::length(feature.place), 1e-6);
 }
 
-TEST(ThinFeatures, ProngsAreToldOneByOne) {
+TEST(ThinFeatures, ProngsAreFeaturesOneByOne) {
   const Sliced sliced = slice_text(
       "cylinder(r = 4, h = 1, $fn = 90); for (i = [0 : 5]) rotate(60 * i)"
       "translate([3, 0, 0.5]) cylinder(d = 0.18, h = 2, $fn = 12);");
@@ -153,11 +159,12 @@ TEST(ThinFeatures, ProngsAreToldOneByOne) {
     EXPECT_NEAR(glm::length(feature.place), 3, 1e-7);
     EXPECT_NEAR(feature.bottom, 1, 1e-9);
     EXPECT_NEAR(feature.top, 2.5, 1e-9);
-    EXPECT_EQ(makers(sliced, i)[0], "cylinder(d = 0.18, h = 2, $fn = 12)");
+    EXPECT_EQ(source_texts(sliced, i)[0],
+              "cylinder(d = 0.18, h = 2, $fn = 12)");
   }
 }
 
-TEST(ThinFeatures, ProngsOfOneMiddleLineStayApart) {
+TEST(ThinFeatures, ProngsOfOneMedialAxisStayApart) {
   // Their stretches are as short as rounding, which has no direction.
   for (const int prongs : {2, 3, 4, 5, 7, 8, 12}) {
     const Sliced sliced = slice_text(
@@ -169,12 +176,12 @@ TEST(ThinFeatures, ProngsOfOneMiddleLineStayApart) {
 }
 
 TEST(ThinFeatures, APlaceMadeByTwoLinesIsTwoFeatures) {
-  // A thin prong on a thin plate: one thin place, and two lines to mend.
+  // A thin prong on a thin plate: one thin place, and two lines to repair.
   const Sliced sliced = slice_text(
       "cube([3, 0.15, 0.1]); translate([1, 0, 0]) cube([0.18, 0.15, 2]);");
   ASSERT_EQ(sliced.report.features.size(), 2U);
-  EXPECT_EQ(makers(sliced, 0)[0], "cube([3, 0.15, 0.1])");
-  EXPECT_EQ(makers(sliced, 1)[0], "cube([0.18, 0.15, 2])");
+  EXPECT_EQ(source_texts(sliced, 0)[0], "cube([3, 0.15, 0.1])");
+  EXPECT_EQ(source_texts(sliced, 1)[0], "cube([0.18, 0.15, 2])");
   EXPECT_EQ(sliced.report.features[0].last_layer, 2U);
   EXPECT_NEAR(sliced.report.features[0].height, 2, 1e-9);
   EXPECT_NEAR(sliced.report.features[1].height, 2, 1e-9);

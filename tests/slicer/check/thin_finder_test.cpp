@@ -170,29 +170,32 @@ TEST(ThinFinder, AHoleIsAGap) {
   }
 }
 
-TEST(ThinFinder, ATaperIsThinUpToTheWidth) {
-  // A blade 20 mm long with an edge of no width, then a blunt one.
-  const double slope = 0.05;
-  const auto blade = [slope](double blunt) {
-    Points points = {{0, -1 - blunt / 2}, {20, -blunt / 2}};
-    if (blunt > 0) points.push_back({20, blunt / 2});
-    points.push_back({0, 1 + blunt / 2});
-    EXPECT_NEAR(slope, 1.0 / 20, 1e-15);
-    return contours_of({points});
-  };
+// A blade 20 mm long, whose edge may be blunt.
+constexpr double kSlope = 0.05;
+Contours blade(double blunt) {
+  const double back = 20 * kSlope + blunt / 2;
+  Points points = {{0, -back}, {20, -blunt / 2}};
+  if (blunt > 0) points.push_back({20, blunt / 2});
+  points.push_back({0, back});
+  return contours_of({points});
+}
+
+TEST(ThinFinder, ASharpBladeIsThinUpToTheWidth) {
   const auto sharp = find(blade(0), 0.2);
   ASSERT_EQ(sharp.size(), 1U);
   EXPECT_NEAR(sharp[0].width, 0, 1e-12);
   EXPECT_LT(glm::distance(sharp[0].place, Vec2(20, 0)), 1e-9);
   // The disk of diameter 0.2 touches both sides with its centre at 20 - a.
-  const double a = 0.1 * std::sqrt(1 + slope * slope) / slope;
+  const double a = 0.1 * std::sqrt(1 + kSlope * kSlope) / kSlope;
   EXPECT_NEAR(glm::distance(sharp[0].from, sharp[0].to), a, 2e-5);
+}
 
-  // The disk that touches both sides and a blunt edge of 0.05.
+TEST(ThinFinder, ABluntBladeIsAsThinAsTheDiskAtItsEdge) {
+  // The disk touches both sides and a blunt edge of 0.05.
   const auto blunt = find(blade(0.05), 0.2);
   ASSERT_EQ(blunt.size(), 1U);
-  const double hypotenuse = std::sqrt(1 + slope * slope);
-  const double r = 0.025 / (hypotenuse - slope);
+  const double hypotenuse = std::sqrt(1 + kSlope * kSlope);
+  const double r = 0.025 / (hypotenuse - kSlope);
   EXPECT_NEAR(blunt[0].width, 2 * r, 1e-7);
   EXPECT_LT(glm::distance(blunt[0].place, Vec2(20 - r, 0)), 1e-6);
 }
@@ -210,14 +213,16 @@ TEST(ThinFinder, ASharpCornerIsThinOnlyBelowTheFacingAngle) {
 }
 
 TEST(ThinFinder, ANeckBetweenCornersIsAsWideAsTheirDistance) {
-  // Two triangles joined tip to tip by a neck; then the void between tips.
+  // Two triangles joined tip to tip by a neck.
   const Points neck = {{-5, -5}, {0, -0.03}, {5, -5},
                        {5, 5},   {0, 0.03},  {-5, 5}};
   const auto stretches = find(contours_of({neck}), 0.2);
   ASSERT_EQ(stretches.size(), 1U);
   EXPECT_EQ(stretches[0].kind, ThinKind::kWall);
   EXPECT_NEAR(stretches[0].width, 0.06, 1e-15);
+}
 
+TEST(ThinFinder, AGapBetweenCornersIsAsWideAsTheirDistance) {
   const auto gap = find(contours_of({{{-5, -5}, {-0.02, 0}, {-5, 5}},
                                      {{0.02, 0}, {5, -5}, {5, 5}}}),
                         0.2);
@@ -398,8 +403,8 @@ std::optional<Disk> facing_disk(const std::vector<Segment>& segments, Vec2 p,
   return std::nullopt;
 }
 
-bool is_told(const std::vector<ThinStretch>& stretches, ThinKind kind,
-             const Disk& disk) {
+bool is_found(const std::vector<ThinStretch>& stretches, ThinKind kind,
+              const Disk& disk) {
   return std::any_of(
       stretches.begin(), stretches.end(), [&](const ThinStretch& stretch) {
         const Segment line{stretch.from, stretch.to};
@@ -426,7 +431,7 @@ void expect_complete(const Contours& contours,
       const auto disk = facing_disk(
           segments, p, kind == ThinKind::kWall ? left : -left, width * 0.9999);
       if (!disk || disk->radius < 1e-4) continue;
-      ASSERT_TRUE(is_told(stretches, kind, *disk))
+      ASSERT_TRUE(is_found(stretches, kind, *disk))
           << "at " << p.x << ' ' << p.y << ", width " << 2 * disk->radius;
     }
   }

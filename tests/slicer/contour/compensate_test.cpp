@@ -135,71 +135,94 @@ TEST(Compensate, TheResultIsTheOffsetByItsDefinition) {
   }
 }
 
-TEST(Compensate, WhatIsThinnerThanTheBeamVanishesAndIsCounted) {
-  const auto counts = [](const std::vector<std::vector<Vec2>>& loops) {
-    return moved(of(loops), 0.1).counts;
-  };
-  // A wall by itself, beside a block that stays.
-  const auto wall = counts({box({0, 0}, {5, 0.19}), box({0, 1}, {5, 5})});
-  EXPECT_EQ(wall.vanished_regions, 1U);
-  EXPECT_EQ(wall.broken_walls, 0U);
-  // A ring of thin wall is one loss.
-  const auto ring =
-      counts({box({0, 0}, {5, 5}), box({0.1, 0.1}, {4.9, 4.9}, true)});
-  EXPECT_EQ(ring.vanished_regions, 1U);
-  EXPECT_EQ(ring.broken_walls, 0U);
-  // Two blocks and a bridge.
-  const auto bridge = counts({{{0, 0},
-                               {2, 0},
-                               {2, 1},
-                               {4, 1},
-                               {4, 0},
-                               {6, 0},
-                               {6, 2},
-                               {4, 2},
-                               {4, 1.1},
-                               {2, 1.1},
-                               {2, 2},
-                               {0, 2}}});
-  EXPECT_EQ(bridge.vanished_regions, 0U);
-  EXPECT_EQ(bridge.broken_walls, 1U);
-  // A hole near the rim, and two near each other.
-  const auto holes =
-      counts({box({0, 0}, {9, 9}), box({0.1, 2}, {3, 4}, true),
-              box({4, 2}, {5, 3}, true), box({5.1, 2}, {6, 3}, true)});
-  EXPECT_EQ(holes.vanished_regions, 0U);
-  EXPECT_EQ(holes.broken_walls, 2U);
-  const auto sound = counts({box({0, 0}, {9, 9}), box({2, 2}, {4, 4}, true)});
-  EXPECT_EQ(sound.vanished_regions + sound.broken_walls, 0U);
+CompensationCounts lost_inwards(const std::vector<std::vector<Vec2>>& loops) {
+  return moved(of(loops), 0.1).counts;
 }
 
-TEST(Compensate, GapsThatCloseAreCounted) {
-  const auto counts = [](const std::vector<std::vector<Vec2>>& loops) {
-    return moved(of(loops), -0.1).counts;
-  };
-  const auto pin = counts({box({0, 0}, {9, 9}), box({2, 2}, {2.19, 5}, true)});
+TEST(Compensate, AWallThinnerThanTheBeamVanishes) {
+  // Beside a block that stays.
+  const auto wall = lost_inwards({box({0, 0}, {5, 0.19}), box({0, 1}, {5, 5})});
+  EXPECT_EQ(wall.vanished_regions, 1U);
+  EXPECT_EQ(wall.broken_walls, 0U);
+}
+
+TEST(Compensate, ARingOfThinWallIsOneLoss) {
+  const auto ring =
+      lost_inwards({box({0, 0}, {5, 5}), box({0.1, 0.1}, {4.9, 4.9}, true)});
+  EXPECT_EQ(ring.vanished_regions, 1U);
+  EXPECT_EQ(ring.broken_walls, 0U);
+}
+
+TEST(Compensate, AThinBridgeBetweenBlocksIsABrokenWall) {
+  const auto bridge = lost_inwards({{{0, 0},
+                                     {2, 0},
+                                     {2, 1},
+                                     {4, 1},
+                                     {4, 0},
+                                     {6, 0},
+                                     {6, 2},
+                                     {4, 2},
+                                     {4, 1.1},
+                                     {2, 1.1},
+                                     {2, 2},
+                                     {0, 2}}});
+  EXPECT_EQ(bridge.vanished_regions, 0U);
+  EXPECT_EQ(bridge.broken_walls, 1U);
+}
+
+TEST(Compensate, ThinWallsBesideHolesAreBrokenWalls) {
+  // A hole near the rim, and two near each other.
+  const auto holes =
+      lost_inwards({box({0, 0}, {9, 9}), box({0.1, 2}, {3, 4}, true),
+                    box({4, 2}, {5, 3}, true), box({5.1, 2}, {6, 3}, true)});
+  EXPECT_EQ(holes.vanished_regions, 0U);
+  EXPECT_EQ(holes.broken_walls, 2U);
+}
+
+TEST(Compensate, ASoundPlateLosesNothing) {
+  const auto sound =
+      lost_inwards({box({0, 0}, {9, 9}), box({2, 2}, {4, 4}, true)});
+  EXPECT_EQ(sound.vanished_regions, 0U);
+  EXPECT_EQ(sound.broken_walls, 0U);
+}
+
+CompensationCounts lost_outwards(const std::vector<std::vector<Vec2>>& loops) {
+  return moved(of(loops), -0.1).counts;
+}
+
+TEST(Compensate, AThinHoleVanishes) {
+  const auto pin =
+      lost_outwards({box({0, 0}, {9, 9}), box({2, 2}, {2.19, 5}, true)});
   EXPECT_EQ(pin.vanished_holes, 1U);
   EXPECT_EQ(pin.closed_gaps, 0U);
-  const auto gap = counts({box({0, 0}, {2, 2}), box({2.1, 0}, {4, 2})});
+}
+
+TEST(Compensate, AThinGapBetweenBlocksCloses) {
+  const auto gap = lost_outwards({box({0, 0}, {2, 2}), box({2.1, 0}, {4, 2})});
   EXPECT_EQ(gap.vanished_holes, 0U);
   EXPECT_EQ(gap.closed_gaps, 1U);
-  // A C whose ends meet: the outside comes apart.
-  const auto ends = counts({{{0, 0},
-                             {5, 0},
-                             {5, 2},
-                             {4, 2},
-                             {4, 1},
-                             {1, 1},
-                             {1, 4},
-                             {4, 4},
-                             {4, 2.1},
-                             {5, 2.1},
-                             {5, 5},
-                             {0, 5}}});
+}
+
+TEST(Compensate, ACWhoseEndsMeetPartsTheOutside) {
+  const auto ends = lost_outwards({{{0, 0},
+                                    {5, 0},
+                                    {5, 2},
+                                    {4, 2},
+                                    {4, 1},
+                                    {1, 1},
+                                    {1, 4},
+                                    {4, 4},
+                                    {4, 2.1},
+                                    {5, 2.1},
+                                    {5, 5},
+                                    {0, 5}}});
   EXPECT_EQ(ends.closed_gaps, 1U);
-  // A hole with an island fills up.
-  const auto island = counts({box({0, 0}, {5, 5}), box({1, 1}, {2, 2}, true),
-                              box({1.1, 1.1}, {1.9, 1.9})});
+}
+
+TEST(Compensate, AHoleThatAnIslandFillsUpIsOneLoss) {
+  const auto island =
+      lost_outwards({box({0, 0}, {5, 5}), box({1, 1}, {2, 2}, true),
+                     box({1.1, 1.1}, {1.9, 1.9})});
   EXPECT_EQ(island.vanished_holes, 1U);
   EXPECT_EQ(island.closed_gaps, 0U);
 }

@@ -16,6 +16,7 @@
 #include "ldni/section/leaf_section.h"
 #include "ldni/sweep/kinetic_ray.h"
 #include "slicer/check/defects.h"
+#include "slicer/contour/layer_file.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/random_scenes.h"
 
@@ -26,18 +27,6 @@ using support::SceneStyle;
 
 bool is_float(double value) {
   return static_cast<double>(static_cast<float>(value)) == value;
-}
-
-SlcLayer as_file(const ldni::Contours& contours) {
-  SlcLayer layer;
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    SlcBoundary boundary;
-    boundary.points.assign(loop.begin(), loop.end());
-    boundary.points.push_back(loop.front());
-    layer.boundaries.push_back(std::move(boundary));
-  }
-  return layer;
 }
 
 // Every coordinate a float32; no repeat, crossing, overlap or wrong
@@ -58,10 +47,10 @@ SlcLayer as_file(const ldni::Contours& contours) {
       }
     }
   }
-  for (const Defect& defect : find_defects(as_file(contours))) {
+  for (const Defect& defect : find_defects(closed_loops(contours))) {
     return ::testing::AssertionFailure()
-           << "loop " << defect.boundary << ' ' << describe(defect.kind)
-           << " near " << defect.place.x << ", " << defect.place.y;
+           << "loop " << defect.loop << ' ' << describe(defect.kind) << " near "
+           << defect.place.x << ", " << defect.place.y;
   }
   return ::testing::AssertionSuccess();
 }

@@ -58,23 +58,22 @@ double one_sided_distance(const Contours& from, const Contours& to,
 }
 
 // The loops as a file holds them, for the exact check.
-SlcLayer rounded(const Contours& contours) {
-  SlcLayer layer;
+std::vector<WrittenLoop> rounded(const Contours& contours) {
+  std::vector<WrittenLoop> loops(contours.loop_count());
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    SlcBoundary boundary;
+    std::vector<Vec2>& points = loops[i].points;
     for (const Vec2& point : contours.loop(i)) {
       const Vec2 place(static_cast<float>(point.x),
                        static_cast<float>(point.y));
-      if (boundary.points.empty() || boundary.points.back() != place) {
-        boundary.points.push_back(place);
+      if (points.empty() || points.back() != place) {
+        points.push_back(place);
       }
     }
-    if (boundary.points.back() != boundary.points.front()) {
-      boundary.points.push_back(boundary.points.front());
+    if (points.back() != points.front()) {
+      points.push_back(points.front());
     }
-    layer.boundaries.push_back(std::move(boundary));
   }
-  return layer;
+  return loops;
 }
 
 // Each loop by itself.

@@ -1,8 +1,6 @@
 // CLI, byte for byte, as the description of the format has it
 // (docs/formats.md).
 
-#include "slicer/formats/cli_writer.h"
-
 #include <string>
 #include <vector>
 
@@ -25,11 +23,12 @@ std::vector<Layer> three_layers() {
           layer_at(2.0, 2.5, {{{-2, 0.5}, {2, 0.5}, {0, 3}}})};
 }
 
-std::string write_cli(const std::vector<Layer>& layers, CliEncoding encoding,
-                      Diagnostics* diagnostics = nullptr) {
-  Diagnostics unheard;
-  return written<CliWriter>(
-      layers, diagnostics != nullptr ? *diagnostics : unheard, encoding);
+WriterOptions as_cli(CliEncoding encoding) {
+  return {.format = OutputFormat::kCli, .cli = encoding};
+}
+
+std::string write_cli(const std::vector<Layer>& layers, CliEncoding encoding) {
+  return written(layers, as_cli(encoding));
 }
 
 constexpr const char* kHeaderAfterEncoding =
@@ -117,8 +116,8 @@ TEST(CliWriter, RefusesLayersOfOneHeight) {
 
 TEST(CliWriter, WarnsWhereNumbersAreCoarse) {
   Diagnostics diagnostics;
-  write_cli({layer_at(0, 1, {{{9000, 0}, {9001, 0}, {9001, 1}}})},
-            CliEncoding::kBinary, &diagnostics);
+  written({layer_at(0, 1, {{{9000, 0}, {9001, 0}, {9001, 1}}})},
+          as_cli(CliEncoding::kBinary), diagnostics);
   ASSERT_EQ(diagnostics.all().size(), 1U);
   EXPECT_NE(diagnostics.all()[0].message.find("the 32-bit numbers of CLI"),
             std::string::npos);

@@ -1,4 +1,4 @@
-#include "slicer/formats/grey_png.h"
+#include "slicer/formats/detail/grey_png.h"
 
 #include <cmath>
 #include <cstddef>

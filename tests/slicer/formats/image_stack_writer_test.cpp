@@ -1,8 +1,6 @@
 // Images for resin printers: what goes where on the panel, and when a folder
 // may be replaced. Their areas are checked in tests/formats.
 
-#include "slicer/formats/image_stack_writer.h"
-
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include <png.h>
 
 #include "base/diagnostic.h"
+#include "slicer/formats/layer_writer.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -55,12 +54,13 @@ Box3 box_around(Vec2 low, Vec2 high) {
 void write_folder(const std::string& path, const Panel& panel,
                   const std::vector<Layer>& layers, const Box3& box) {
   TemporaryFiles files;
-  ImageStackWriter writer(OutputFormat::kPng, panel, path, files);
-  writer.begin(box);
-  for (const Layer& layer : layers) writer.take(layer);
+  const auto writer = make_layer_writer(
+      {.format = OutputFormat::kPng, .panel = panel}, path, files);
+  writer->begin(box);
+  for (const Layer& layer : layers) writer->take(layer);
   Diagnostics unheard;
-  writer.finish(unheard);
-  writer.commit();
+  writer->finish(unheard);
+  writer->commit();
 }
 
 Rows read_png(const std::string& path) {
@@ -168,10 +168,11 @@ TEST(ImageStackWriter, ArchivesHoldLayersOfOneThickness) {
   const std::vector<Layer> layers = {layer_of(kBar), thicker};
   for (const auto format : {OutputFormat::kSl1, OutputFormat::kNanoDlp}) {
     TemporaryFiles files;
-    ImageStackWriter writer(format, small_panel(), folder.file("a"), files);
-    writer.begin(kBox);
-    writer.take(layers[0]);
-    EXPECT_THROW(writer.take(layers[1]), GeometryError);
+    const auto writer = make_layer_writer(
+        {.format = format, .panel = small_panel()}, folder.file("a"), files);
+    writer->begin(kBox);
+    writer->take(layers[0]);
+    EXPECT_THROW(writer->take(layers[1]), GeometryError);
   }
   EXPECT_EQ(folder.entry_count(), 0U);
   write_folder(folder.file("a.png"), small_panel(), layers, kBox);
@@ -200,12 +201,13 @@ TEST(ImageStackWriter, NamesInArchivesAreUtf8) {
   const TemporaryFolder folder;
   const std::string path = folder.file("Rîng.sl1");
   TemporaryFiles files;
-  ImageStackWriter writer(OutputFormat::kSl1, small_panel(), path, files);
-  writer.begin(kBox);
-  writer.take(layer_of(kBar));
+  const auto writer = make_layer_writer(
+      {.format = OutputFormat::kSl1, .panel = small_panel()}, path, files);
+  writer->begin(kBox);
+  writer->take(layer_of(kBar));
   Diagnostics unheard;
-  writer.finish(unheard);
-  writer.commit();
+  writer->finish(unheard);
+  writer->commit();
   const auto listing = support::run_process(
       {"/usr/bin/python3", "-c",
        "import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).namelist())",
@@ -251,8 +253,10 @@ TEST(ImageStackWriter, AnInterruptLeavesNothing) {
   // Never destroyed: after discard_all nothing can be, as in a process that
   // is about to end.
   static auto* const files = new TemporaryFiles;
-  static auto* const writer = new ImageStackWriter(
-      OutputFormat::kPng, small_panel(), folder.file("a.png"), *files);
+  static auto* const writer =
+      make_layer_writer({.format = OutputFormat::kPng, .panel = small_panel()},
+                        folder.file("a.png"), *files)
+          .release();
   writer->begin(kBox);
   writer->take(layer_of(kBar));
   EXPECT_EQ(folder.entry_count(), 1U);

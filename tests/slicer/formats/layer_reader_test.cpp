@@ -16,10 +16,6 @@
 #include <pugixml.hpp>
 
 #include "base/diagnostic.h"
-#include "slicer/formats/cli_writer.h"
-#include "slicer/formats/layers_json_writer.h"
-#include "slicer/formats/slc_writer.h"
-#include "slicer/formats/svg_writer.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/temporary_folder.h"
 
@@ -82,24 +78,21 @@ struct Written {
 
 // The three layers in every format.
 std::vector<Written> files() {
-  Diagnostics unheard;
   const std::vector<Layer> layers = three_layers();
   std::vector<Written> files;
-  const auto add = [&](const std::string& name, std::string bytes,
+  const auto add = [&](const std::string& name, const WriterOptions& options,
                        const std::string& format, bool is_float32) {
-    files.push_back({name, std::move(bytes), {}});
+    files.push_back({name, written(layers, options), {}});
     files.back().facts.format = format;
     files.back().facts.is_float32 = is_float32;
   };
-  add("a.slc", written<SlcWriter>(layers, unheard, std::nullopt), "SLC 2.0",
+  using enum OutputFormat;
+  add("a.slc", {.format = kSlc}, "SLC 2.0", true);
+  add("binary.cli", {.format = kCli}, "CLI, binary", true);
+  add("ascii.CLI", {.format = kCli, .cli = CliEncoding::kAscii}, "CLI, ASCII",
       true);
-  add("binary.cli", written<CliWriter>(layers, unheard, CliEncoding::kBinary),
-      "CLI, binary", true);
-  add("ascii.CLI", written<CliWriter>(layers, unheard, CliEncoding::kAscii),
-      "CLI, ASCII", true);
-  add("a.svg", written<SvgWriter>(layers, unheard), "SVG", true);
-  add("a.layers.json", written<LayersJsonWriter>(layers, unheard),
-      "layers.json", false);
+  add("a.svg", {.format = kSvg}, "SVG", true);
+  add("a.layers.json", {.format = kLayersJson}, "layers.json", false);
   return files;
 }
 
@@ -222,11 +215,10 @@ TEST(ReadCli, ReadsShortNumbers) {
 }
 
 TEST(ReadCli, SectionsWithoutThicknessAreAtTheirHeights) {
-  Diagnostics unheard;
   Layer low = layer_at(1, 1, {{{0, 0}, {1, 0}, {1, 1}}});
   Layer high = layer_at(4, 4, {{{0, 0}, {1, 0}, {1, 1}}});
-  const Content content = read(
-      "a.cli", written<CliWriter>({low, high}, unheard, CliEncoding::kBinary));
+  const Content content =
+      read("a.cli", written({low, high}, {.format = OutputFormat::kCli}));
   ASSERT_EQ(content.layers.size(), 2U);
   EXPECT_EQ(content.layers[0].section_z, 1);
   EXPECT_EQ(content.layers[1].section_z, 4);
@@ -236,7 +228,7 @@ TEST(ReadCli, NamesThePlaceOfAFault) {
   EXPECT_EQ(error_of("a.cli", "solid"),
             "not a CLI file: it does not begin with \"$$HEADERSTART\"");
   EXPECT_EQ(error_of("a.cli", "$$HEADERSTART\n$$HEADEREND"),
-            "the header tells neither $$ASCII nor $$BINARY");
+            "the header has neither $$ASCII nor $$BINARY");
   EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,7,0\n")),
             "line 9: direction 7 (0, 1 or 2 was expected)");
   EXPECT_EQ(error_of("a.cli", ascii("$$POLYLINE/1,1,0\n")),
@@ -337,7 +329,7 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
   EXPECT_EQ(error_of("a.svg",
                      "<svg><g slic3r:z=\"0\"><polygon slic3r:type="
                      "\"hole\" points=\"0,0 1,x\"/></g></svg>"),
-            "line 1: number 4 of the points is none");
+            "line 1: number 4 of the points is malformed");
 }
 
 // --- .layers.json -----------------------------------------------------------

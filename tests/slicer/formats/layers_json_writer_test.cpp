@@ -1,5 +1,3 @@
-#include "slicer/formats/layers_json_writer.h"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -10,8 +8,7 @@ namespace lamina::slicer {
 namespace {
 
 std::string write_json(const std::vector<Layer>& layers) {
-  Diagnostics unheard;
-  return written<LayersJsonWriter>(layers, unheard);
+  return written(layers, {.format = OutputFormat::kLayersJson});
 }
 
 TEST(LayersJsonWriter, AnotherJsonLibraryReadsEveryDigitBack) {

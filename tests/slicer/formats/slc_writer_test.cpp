@@ -1,8 +1,6 @@
 // SLC, byte for byte. What stands here is spelled out from the description of
 // the format (docs/formats.md), not from what the writer once wrote.
 
-#include "slicer/formats/slc_writer.h"
-
 #include <cmath>
 #include <optional>
 #include <string>
@@ -24,8 +22,8 @@ using support::TemporaryFolder;
 
 std::string write_slc(const std::vector<Layer>& layers,
                       std::optional<double> deviation = {}) {
-  Diagnostics unheard;
-  return written<SlcWriter>(layers, unheard, deviation);
+  return written(layers,
+                 {.format = OutputFormat::kSlc, .deviation = deviation});
 }
 
 // What the reader makes of `bytes`.

@@ -1,14 +1,11 @@
 // SVG in the layout of Slic3r, as docs/formats.md describes it.
 
-#include "slicer/formats/svg_writer.h"
-
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "base/diagnostic.h"
 #include "base/version.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/contour_checks.h"
@@ -19,8 +16,7 @@ namespace {
 using support::add_loop;
 
 std::string write_svg(const std::vector<Layer>& layers) {
-  Diagnostics unheard;
-  return written<SvgWriter>(layers, unheard);
+  return written(layers, {.format = OutputFormat::kSvg});
 }
 
 std::string head(const std::string& size_and_view) {

@@ -22,18 +22,23 @@ inline Layer layer_at(double bottom, double top,
   return layer;
 }
 
-// The bytes that a Writer(path, temporary files, options…) writes.
-template <typename Writer, typename... Options>
-std::string written(const std::vector<Layer>& layers, Diagnostics& diagnostics,
-                    Options&&... options) {
+// The bytes that a writer writes.
+inline std::string written(const std::vector<Layer>& layers,
+                           const WriterOptions& options,
+                           Diagnostics& diagnostics) {
   const support::TemporaryFolder folder;
   TemporaryFiles files;
   const std::string path = folder.file("layers");
-  Writer writer(path, files, std::forward<Options>(options)...);
-  for (const Layer& layer : layers) writer.take(layer);
-  writer.finish(diagnostics);
-  writer.commit();
+  const auto writer = make_layer_writer(options, path, files);
+  for (const Layer& layer : layers) writer->take(layer);
+  writer->finish(diagnostics);
+  writer->commit();
   return support::read_file(path);
+}
+inline std::string written(const std::vector<Layer>& layers,
+                           const WriterOptions& options) {
+  Diagnostics unheard;
+  return written(layers, options, unheard);
 }
 
 }  // namespace lamina::slicer

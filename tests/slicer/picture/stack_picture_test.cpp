@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "slicer/contour/trapezoids.h"
 #include "slicer/picture/camera.h"
-#include "slicer/picture/layer_distance.h"
+#include "slicer/picture/detail/layer_distance.h"
+#include "slicer/picture/detail/trapezoids.h"
 
 namespace lamina::slicer {
 namespace {

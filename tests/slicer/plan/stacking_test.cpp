@@ -11,12 +11,12 @@ namespace {
 
 using Borders = std::vector<std::uint32_t>;
 
-bool is_allowed(const Cells& cells, std::uint16_t greatest,
+bool is_allowed(const Plies& plies, std::uint16_t greatest,
                 std::uint32_t bottom, std::uint32_t top) {
   if (top - bottom > greatest) return false;
   for (std::uint32_t i = bottom; i < top; ++i) {
-    if (top - bottom > cells.limits[i]) return false;
-    if (i > bottom && cells.must_part[i]) return false;
+    if (top - bottom > plies.limits[i]) return false;
+    if (i > bottom && plies.must_part[i]) return false;
   }
   return true;
 }
@@ -33,9 +33,9 @@ std::size_t count_runs(const Borders& borders) {
 }
 
 // The fewest layers for each number of runs, by trying everything.
-void try_all(const Cells& cells, std::uint16_t greatest, Borders& borders,
+void try_all(const Plies& plies, std::uint16_t greatest, Borders& borders,
              std::map<std::size_t, std::size_t>& fewest) {
-  if (borders.back() == cells.limits.size()) {
+  if (borders.back() == plies.limits.size()) {
     const std::size_t runs = count_runs(borders);
     const auto [it, is_new] = fewest.emplace(runs, borders.size() - 1);
     if (!is_new) it->second = std::min(it->second, borders.size() - 1);
@@ -43,44 +43,44 @@ void try_all(const Cells& cells, std::uint16_t greatest, Borders& borders,
   }
   for (std::uint32_t size = 1; size <= greatest; ++size) {
     const std::uint32_t top = borders.back() + size;
-    if (top > cells.limits.size()) break;
-    if (!is_allowed(cells, greatest, borders.back(), top)) continue;
+    if (top > plies.limits.size()) break;
+    if (!is_allowed(plies, greatest, borders.back(), top)) continue;
     borders.push_back(top);
-    try_all(cells, greatest, borders, fewest);
+    try_all(plies, greatest, borders, fewest);
     borders.pop_back();
   }
 }
 
-Cells random_cells(std::mt19937_64& random, std::size_t count,
+Plies random_plies(std::mt19937_64& random, std::size_t count,
                    std::uint16_t greatest) {
-  Cells cells;
+  Plies plies;
   for (std::size_t i = 0; i < count; ++i) {
-    cells.limits.push_back(
+    plies.limits.push_back(
         static_cast<std::uint16_t>(1 + random() % (greatest + 1U)));
   }
   for (std::size_t i = 0; i <= count; ++i) {
-    cells.must_part.push_back(random() % 5 == 0);
+    plies.must_part.push_back(random() % 5 == 0);
   }
-  return cells;
+  return plies;
 }
 
 TEST(StackLayers, GivesTheFewestLayersThatAreAllowed) {
   std::mt19937_64 random(7);
   for (int round = 0; round < 300; ++round) {
     const auto greatest = static_cast<std::uint16_t>(1 + random() % 4);
-    const Cells cells = random_cells(random, 1 + random() % 12, greatest);
+    const Plies plies = random_plies(random, 1 + random() % 12, greatest);
     Borders start = {0};
     std::map<std::size_t, std::size_t> fewest;
-    try_all(cells, greatest, start, fewest);
+    try_all(plies, greatest, start, fewest);
     std::size_t least = 1000;
     for (const auto& [runs, layers] : fewest) least = std::min(least, layers);
 
-    const Borders borders = stack_layers(cells, greatest, 255);
+    const Borders borders = stack_layers(plies, greatest, 255);
     ASSERT_EQ(borders.front(), 0U);
-    ASSERT_EQ(borders.back(), cells.limits.size());
+    ASSERT_EQ(borders.back(), plies.limits.size());
     EXPECT_EQ(borders.size() - 1, least);
     for (std::size_t i = 1; i < borders.size(); ++i) {
-      ASSERT_TRUE(is_allowed(cells, greatest, borders[i - 1], borders[i]));
+      ASSERT_TRUE(is_allowed(plies, greatest, borders[i - 1], borders[i]));
     }
   }
 }
@@ -88,17 +88,17 @@ TEST(StackLayers, GivesTheFewestLayersThatAreAllowed) {
 TEST(StackLayers, KeepsToTheRunsThatATableHas) {
   std::mt19937_64 random(8);
   for (int round = 0; round < 200; ++round) {
-    const Cells cells = random_cells(random, 12, 4);
+    const Plies plies = random_plies(random, 12, 4);
     Borders start = {0};
     std::map<std::size_t, std::size_t> fewest;
-    try_all(cells, 4, start, fewest);
+    try_all(plies, 4, start, fewest);
     for (std::size_t most = 1; most < 6; ++most) {
-      const Borders borders = stack_layers(cells, 4, most);
+      const Borders borders = stack_layers(plies, 4, most);
       const std::size_t runs = count_runs(borders);
       ASSERT_LE(runs, most);
       ASSERT_EQ(borders.back(), 12U);
       for (std::size_t i = 1; i < borders.size(); ++i) {
-        ASSERT_TRUE(is_allowed(cells, 4, borders[i - 1], borders[i]));
+        ASSERT_TRUE(is_allowed(plies, 4, borders[i - 1], borders[i]));
       }
       // No stack of as many runs has fewer layers.
       EXPECT_EQ(borders.size() - 1, fewest.at(runs));
@@ -107,17 +107,17 @@ TEST(StackLayers, KeepsToTheRunsThatATableHas) {
 }
 
 TEST(StackLayers, ThinnestLayersAloneAreTheLastResort) {
-  Cells cells;
-  for (int i = 0; i < 99; ++i) cells.limits.push_back(i % 3 == 0 ? 1 : 2);
-  cells.must_part.assign(100, false);
-  EXPECT_EQ(stack_layers(cells, 2, 255).size(), 1 + 66U);
-  EXPECT_EQ(stack_layers(cells, 2, 1).size(), 1 + 99U);
+  Plies plies;
+  for (int i = 0; i < 99; ++i) plies.limits.push_back(i % 3 == 0 ? 1 : 2);
+  plies.must_part.assign(100, false);
+  EXPECT_EQ(stack_layers(plies, 2, 255).size(), 1 + 66U);
+  EXPECT_EQ(stack_layers(plies, 2, 1).size(), 1 + 99U);
 }
 
-TEST(StackLayers, NoCellsAreNoLayers) {
-  Cells cells;
-  cells.must_part.assign(1, true);
-  EXPECT_EQ(stack_layers(cells, 4, 255), Borders{0});
+TEST(StackLayers, NoPliesAreNoLayers) {
+  Plies plies;
+  plies.must_part.assign(1, true);
+  EXPECT_EQ(stack_layers(plies, 4, 255), Borders{0});
 }
 
 }  // namespace

@@ -122,6 +122,43 @@ TEST(Slice, NothingToSliceIsAnError) {
   EXPECT_THROW(plan_layers(empty, {}), GeometryError);
 }
 
+TEST(Slice, ThePapersPitchDefaultsToTheLayersThickness) {
+  const csg::Scene scene = drilled_ball();
+  Settings settings;
+  settings.layer_thickness = 0.2;
+  settings.contour = ContourMode::kPaper;
+  const auto counts_for = [&](double pitch) {
+    settings.ray_pitch = pitch;
+    LayerList list;
+    Diagnostics diagnostics;
+    return slice(scene, plan_layers(scene, settings), settings, list,
+                 diagnostics)
+        .paper;
+  };
+  const ldni::PaperCounts open = counts_for(0);
+  const ldni::PaperCounts equal = counts_for(settings.layer_thickness);
+  EXPECT_GT(open.pixels, 0U);
+  EXPECT_EQ(open.pixels, equal.pixels);
+  EXPECT_EQ(open.samples, equal.samples);
+  EXPECT_EQ(open.intervals, equal.intervals);
+  EXPECT_NE(open.pixels, counts_for(0.1).pixels);
+}
+
+TEST(SliceOutline, CountsTheHolesAndTheArea) {
+  planar::Region outline;
+  outline.contours = {{{0, 0}, {4, 0}, {4, 3}, {0, 3}},
+                      {{1, 1}, {1, 2}, {2, 2}, {2, 1}},
+                      {{3, 1}, {3, 2}, {3.5, 1}}};
+  LayerList list;
+  Diagnostics diagnostics;
+  const SliceReport report = slice_outline(outline, {}, list, diagnostics);
+  EXPECT_EQ(report.layers, 1U);
+  EXPECT_EQ(report.loops, 3U);
+  EXPECT_EQ(report.holes, 2U);
+  EXPECT_EQ(report.points, 11U);
+  EXPECT_DOUBLE_EQ(report.greatest_area, 12 - 1 - 0.25);
+}
+
 // Lowering mends every mesh, so this is a fault of ours, which must not pass
 // in silence.
 TEST(Slice, WarnsWhereALeafIsOpen) {

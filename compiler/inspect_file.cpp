@@ -1,0 +1,33 @@
+#include "compiler/inspect_file.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "slicer/formats/layer_reader.h"
+#include "slicer/formats/output_format.h"
+#include "slicer/formats/slc_reader.h"
+
+namespace lamina::compiler {
+
+using slicer::Layer;
+
+slicer::Inspection inspect_file(const std::string& path, double min_feature,
+                                const FileAccess& access) {
+  slicer::Inspector inspector(min_feature);
+  if (!slicer::is_named(path, ".slc")) {
+    slicer::LayerFileFacts facts = slicer::read_layers(
+        path, [&](Layer& layer) { inspector.take(layer); }, access);
+    return inspector.finish(path, std::move(facts));
+  }
+  // SLC's boundaries as they are: they may be open.
+  slicer::SlcReader reader(path, access);
+  slicer::SlcLayer written;
+  for (std::size_t number = 1; reader.read_layer(written); ++number) {
+    const Layer layer = to_layer(written);
+    slicer::require_within_reach(path, layer, number);
+    inspector.take(layer, written.boundaries);
+  }
+  return inspector.finish(path, reader.facts());
+}
+
+}  // namespace lamina::compiler

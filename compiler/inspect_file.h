@@ -1,0 +1,16 @@
+#pragma once
+// Inspects a file of layers: here readers and checks meet.
+
+#include <string>
+
+#include "base/file/file_access.h"
+#include "slicer/check/inspect.h"
+
+namespace lamina::compiler {
+
+// Reads the file layer by layer. Throws FileError where it is no file of layers
+// (layer_reader.h) or breaks off.
+slicer::Inspection inspect_file(const std::string& path, double min_feature,
+                                const FileAccess& access);
+
+}  // namespace lamina::compiler

@@ -1,0 +1,190 @@
+#include "csg/eval/builtin/dxf.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/file/file_bytes.h"
+#include "base/file/format_error.h"
+#include "csg/degrees.h"
+#include "csg/eval/builtin/conversions.h"
+#include "csg/eval/builtin/file_paths.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/text.h"
+#include "csg/import/dxf.h"
+
+namespace lamina::csg {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Query {
+  std::string written_file;
+  std::string path;
+  std::string layer;
+  std::string name;
+  Vec2 origin = Vec2(0.0);
+  double scale = 1;
+};
+
+void warn(const CallCode& code, Frame& frame, std::string message) {
+  frame.in.warn(code.range, std::move(message));
+}
+
+std::string folder_of(const Frame& frame) {
+  if (frame.document == nullptr) return frame.in.design_folder();
+  return fs::absolute(frame.document->path()).parent_path().string();
+}
+
+enum class Kind : std::uint8_t { kDim, kCross };
+
+// All arguments go by name.
+Query read_query(Kind kind, const CallCode& code, Frame& frame) {
+  Query query;
+  for (const WrittenArgument& argument : code.arguments) {
+    const Value value = run(argument.value, frame);
+    if (argument.name == "file") {
+      query.written_file = to_text(value);
+      const std::string folder =
+          kind == Kind::kDim ? folder_of(frame) : frame.in.design_folder();
+      query.path = find_file(query.written_file, folder, code.range, frame.in);
+    } else if (argument.name == "layer") {
+      query.layer = to_text(value);
+    } else if (argument.name == "origin") {
+      const std::optional<Vec2> origin = to_vec2(value);
+      if (origin) query.origin = *origin;
+      if (!origin || !std::isfinite(origin->x) || !std::isfinite(origin->y)) {
+        warn(code, frame,
+             fmt::format("{}(..., origin={}) could not be "
+                         "converted",
+                         code.name, to_echo(value)));
+      }
+    } else if (argument.name == "scale") {
+      if (value.is_number()) query.scale = value.as_number();
+    } else if (argument.name == "name" && kind == Kind::kDim) {
+      query.name = to_text(value);
+    } else {
+      warn(code, frame,
+           fmt::format("{}(..., {}=...) is not supported", code.name,
+                       argument.name));
+    }
+  }
+  return query;
+}
+
+bool can_open(const Query& query, const CallCode& code, Frame& frame) {
+  if (frame.in.file_access().is_there(query.path)) {
+    frame.in.add_file(query.path);
+    return true;
+  }
+  warn(code, frame,
+       fmt::format("Can't open DXF file '{}'!", query.written_file));
+  return false;
+}
+
+// What cannot be read measures nothing.
+DxfDrawing read_drawing(const Query& query, const CallCode& code,
+                        Frame& frame) {
+  DxfOptions options{query.layer, query.origin, query.scale, {}, query.path};
+  // OpenSCAD measures circles of 36 sides.
+  options.fragments = [](double) { return 36; };
+  DxfDrawing drawing;
+  try {
+    const auto bytes = FileBytes::open(query.path, frame.in.file_access());
+    if (bytes) drawing = parse_dxf(bytes->view(), options);
+  } catch (const FormatError& fault) {
+    warn(code, frame,
+         fmt::format("{} importing file '{}'", fault.what(), query.path));
+  }
+  for (const std::string& warning : drawing.warnings) {
+    frame.in.warn({}, warning);
+  }
+  for (const std::string& warning : unknown_entity_warnings(
+           drawing, query.layer, relative_quoted(query.path, frame))) {
+    frame.in.warn({}, warning);
+  }
+  return drawing;
+}
+
+// The measured value; nothing for a kind of dimension without one.
+std::optional<double> length_of(const DxfDimension& dimension) {
+  const auto& p = dimension.points;
+  const auto distance = [](Vec2 d) { return std::sqrt(d.x * d.x + d.y * d.y); };
+  switch (dimension.type & 7) {
+    case 0: {  // rotated, horizontal or vertical
+      const Vec2 d = p[4] - p[3];
+      return std::fabs(d.x * cos_deg(dimension.angle_deg) +
+                       d.y * sin_deg(dimension.angle_deg));
+    }
+    case 1:  // aligned
+      return distance(p[4] - p[3]);
+    case 2: {  // angular
+      const Vec2 a = p[0] - p[5];
+      const Vec2 b = p[4] - p[3];
+      return std::fabs(atan2_deg(a.x, a.y) - atan2_deg(b.x, b.y));
+    }
+    case 3:  // diameter
+    case 4:  // radius
+      return distance(p[5] - p[0]);
+    case 6:  // ordinate
+      return (dimension.type & 64) != 0 ? p[3].x : p[3].y;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Value builtin_dxf_dim(const CallCode& code, Frame& frame) {
+  const Query query = read_query(Kind::kDim, code, frame);
+  if (!can_open(query, code, frame)) return Value();
+  const DxfDrawing drawing = read_drawing(query, code, frame);
+  for (const DxfDimension& dimension : drawing.dimensions) {
+    if (!query.name.empty() && dimension.name != query.name) continue;
+    if (const std::optional<double> length = length_of(dimension)) {
+      return Value(*length);
+    }
+    warn(code, frame,
+         fmt::format("Dimension '{}' in '{}', layer '{}' has unsupported type!",
+                     query.name, query.written_file, query.layer));
+    return Value();
+  }
+  warn(code, frame,
+       fmt::format("Can't find dimension '{}' in '{}', layer '{}'!", query.name,
+                   query.written_file, query.layer));
+  return Value();
+}
+
+Value builtin_dxf_cross(const CallCode& code, Frame& frame) {
+  const Query query = read_query(Kind::kCross, code, frame);
+  if (!can_open(query, code, frame)) return Value();
+  // The first two lines that no other line touches.
+  std::vector<Vec2> ends;
+  for (const DxfPath& path : read_drawing(query, code, frame).paths) {
+    if (path.is_closed || path.points.size() != 2) continue;
+    ends.insert(ends.end(), path.points.begin(), path.points.end());
+  }
+  if (ends.size() >= 4) {
+    const auto [a, b, c, d] = std::array{ends[0], ends[1], ends[2], ends[3]};
+    const double denominator =
+        (d.y - c.y) * (b.x - a.x) - (d.x - c.x) * (b.y - a.y);
+    if (denominator != 0) {
+      const double t =
+          ((d.x - c.x) * (a.y - c.y) - (d.y - c.y) * (a.x - c.x)) / denominator;
+      const double meeting[] = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+      return Value::numbers(meeting);
+    }
+  }
+  warn(code, frame,
+       fmt::format("Can't find cross in '{}', layer '{}'!", query.written_file,
+                   query.layer));
+  return Value();
+}
+
+}  // namespace lamina::csg

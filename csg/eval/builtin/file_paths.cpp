@@ -1,0 +1,88 @@
+#include "csg/eval/builtin/file_paths.h"
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "csg/eval/builtin/conversions.h"
+#include "csg/eval/value/text.h"
+
+namespace lamina::csg {
+
+namespace fs = std::filesystem;
+
+std::string find_file(std::string_view name, const BuiltinModuleCode& code,
+                      Frame& frame) {
+  const fs::path own = fs::absolute(code.unit->source->path());
+  std::string path =
+      find_file(name, own.parent_path().string(), code.range, frame.in);
+  frame.in.add_file(path);
+  return path;
+}
+
+std::string find_file(std::string_view name, const std::string& from,
+                      SourceRange place, Interpreter& in) {
+  if (name.empty()) return "";
+  const FileAccess& access = in.file_access();
+  const fs::path here = fs::path(from) / name;  // name, where it is absolute
+  access.require(here, name, place, FileUse::kData);
+  if (fs::path(name).is_absolute()) return std::string(name);
+  const fs::path fallback = fs::path(in.design_folder()) / name;
+  if (!access.is_there(here) && access.is_there(fallback)) {
+    in.deprecate({}, fmt::format("Imported file ({}) found in document root "
+                                 "instead of relative to the importing module. "
+                                 "This behavior is deprecated",
+                                 name));
+    return fallback.string();
+  }
+  return here.string();
+}
+
+std::string relative_path(const std::string& path, Frame& frame) {
+  const FileAccess& access = frame.in.file_access();
+  const fs::path folder = access.weakly_canonical(frame.in.design_folder());
+  const fs::path file =
+      path.empty() ? folder : fs::path(access.weakly_canonical(path));
+  const std::string relative = file.lexically_relative(folder).generic_string();
+  return relative == "." ? "./" : relative;
+}
+
+std::string relative_quoted(const std::string& path, Frame& frame) {
+  std::string text;
+  append_quoted(relative_path(path, frame), text);
+  return text;
+}
+
+Vec2 read_origin(const Value& origin, std::string_view shown_name,
+                 const BuiltinModuleCode& code, Frame& frame) {
+  const std::optional<Vec2> given = to_vec2(origin);
+  const bool is_fine =
+      given && std::isfinite(given->x) && std::isfinite(given->y);
+  if (!origin.is_undef() && !is_fine) {
+    frame.in.warn(code.range,
+                  fmt::format("{}(..., origin={}) could not be converted",
+                              shown_name, to_echo(origin)));
+  }
+  return given.value_or(Vec2(0.0));
+}
+
+std::string drawing_text(const ImportParams& drawing, Frame& frame) {
+  std::string text =
+      "file = " + relative_quoted(std::string(drawing.path), frame);
+  text += ", layer = ";
+  append_quoted(drawing.layer, text);
+  text += ", origin = [";
+  append_stream_number(drawing.origin.x, text);
+  text += ", ";
+  append_stream_number(drawing.origin.y, text);
+  return text + "], ";
+}
+
+std::string timestamp_text(const std::string& path, Frame& frame) {
+  const auto status = frame.in.file_access().look_at(path);
+  return fmt::format("timestamp = {}", status ? status->st_mtime : 0);
+}
+
+}  // namespace lamina::csg

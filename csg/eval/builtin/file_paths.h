@@ -1,0 +1,38 @@
+#pragma once
+// Files that modules name: where they are, and how `.csg` shows them.
+
+#include <string>
+#include <string_view>
+
+#include "base/vec.h"
+#include "csg/eval/code/code.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/tree.h"
+
+namespace lamina::csg {
+
+// Absolute path of the file `name` as a module call means it: from the folder
+// of the file that holds the call or, deprecated, from the design's folder.
+// Empty for an empty name. The file need not exist; the design depends on it
+// all the same. Throws AccessError where it may not be read.
+std::string find_file(std::string_view name, const BuiltinModuleCode& code,
+                      Frame& frame);
+// The same for a file that code of the folder `from` names at `place`.
+std::string find_file(std::string_view name, const std::string& from,
+                      SourceRange place, Interpreter& in);
+
+// The path relative to the design's folder, as it is and quoted.
+std::string relative_path(const std::string& path, Frame& frame);
+std::string relative_quoted(const std::string& path, Frame& frame);
+
+// The deprecated `origin` of a drawing; messages call the module `shown_name`.
+Vec2 read_origin(const Value& origin, std::string_view shown_name,
+                 const BuiltinModuleCode& code, Frame& frame);
+
+// "file = …, layer = …, origin = […], ".
+std::string drawing_text(const ImportParams& drawing, Frame& frame);
+
+// "timestamp = " and the seconds of the last change, 0 if there is no file.
+std::string timestamp_text(const std::string& path, Frame& frame);
+
+}  // namespace lamina::csg

@@ -1,0 +1,143 @@
+#include "csg/eval/builtin/functions.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "csg/eval/builtin/call.h"
+#include "csg/eval/builtin/dxf.h"
+#include "csg/eval/builtin/metrics.h"
+#include "csg/eval/builtin/objects.h"
+#include "csg/eval/builtin/search.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/integers.h"
+
+namespace lamina::csg {
+
+namespace {
+
+// --- About the program and its values ---------------------------------------
+
+constexpr double kVersion[] = {2021, 1, 0};
+
+Value builtin_version(const CallCode&, Frame&) {
+  return Value::numbers(kVersion);
+}
+
+Value builtin_version_num(const CallCode& code, Frame& frame) {
+  const Value version = code.arguments.empty() ? Value::numbers(kVersion)
+                                               : argument(code, 0, frame);
+  const std::span<const Value> parts = version.elements();
+  if (parts.size() != 2 && parts.size() != 3) return Value();
+  double number = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i < parts.size() && !parts[i].is_number()) return Value();
+    number = number * 100 + (i < parts.size() ? parts[i].as_number() : 0);
+  }
+  return Value(number);
+}
+
+Value builtin_parent_module(const CallCode& code, Frame& frame) {
+  ++frame.in.effects();
+  double number = 1;
+  if (code.arguments.size() == 1) {
+    const Value value = argument(code, 0, frame);
+    if (!value.is_number()) return Value();
+    number = value.as_number();
+  } else if (code.arguments.size() > 1) {
+    return wrong_count(code, frame);
+  }
+  const int n = cut_to_int(number);
+  const auto& names = frame.in.module_names;
+  if (n < 0) {
+    return warn(code, frame,
+                fmt::format("Negative parent module index ({}) "
+                            "not allowed",
+                            n));
+  }
+  if (n >= static_cast<int>(names.size())) {
+    return warn(code, frame,
+                fmt::format("Parent module index ({}) greater than the number "
+                            "of modules on the stack",
+                            n));
+  }
+  return Value::string(names[names.size() - 1 - static_cast<std::size_t>(n)]);
+}
+
+template <Type type>
+Value is_type(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  Value spill;
+  return Value(look(code.arguments[0].value, frame, spill).type() == type);
+}
+
+Value builtin_is_num(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  Value spill;
+  const Value& value = look(code.arguments[0].value, frame, spill);
+  return Value(value.is_number() && !std::isnan(value.as_number()));
+}
+
+std::span<const BuiltinFunctionRow> program_rows() {
+  static constexpr BuiltinFunctionRow kRows[] = {
+      {"search", builtin_search},
+      {"version", builtin_version},
+      {"version_num", builtin_version_num},
+      {"parent_module", builtin_parent_module},
+      {"dxf_dim", builtin_dxf_dim},
+      {"dxf_cross", builtin_dxf_cross},
+      {"is_undef", builtin_is_undef},
+      {"is_bool", is_type<Type::kBool>},
+      {"is_string", is_type<Type::kString>},
+      {"is_list", is_type<Type::kVector>},
+      {"is_function", is_type<Type::kFunction>},
+      {"is_num", builtin_is_num},
+      {"is_object", builtin_is_object},
+      {"object", builtin_object},
+      {"has_key", builtin_has_key},
+      {"import", builtin_import},
+      {"textmetrics", builtin_textmetrics},
+      {"fontmetrics", builtin_fontmetrics},
+  };
+  return kRows;
+}
+
+using Table = std::unordered_map<std::string_view, const BuiltinFunctionRow*>;
+
+const Table& builtin_table() {
+  static const Table table = [] {
+    Table all;
+    for (const auto rows :
+         {number_rows(), string_rows(), vector_rows(), program_rows()}) {
+      for (const BuiltinFunctionRow& row : rows) {
+        all[row.name] = &row;
+      }
+    }
+    return all;
+  }();
+  return table;
+}
+
+}  // namespace
+
+Value builtin_is_undef(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  Value spill;
+  return Value(look(code.arguments[0].value, frame, spill).is_undef());
+}
+
+Value call_math(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  Value spill;
+  const Value& value = look(code.arguments[0].value, frame, spill);
+  if (!value.is_number()) return wrong_type(code, frame);
+  return Value(code.math(value.as_number()));
+}
+
+const BuiltinFunctionRow* find_builtin_function(std::string_view name) {
+  const auto row = builtin_table().find(name);
+  return row == builtin_table().end() ? nullptr : row->second;
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,125 @@
+// Built-in functions of strings (see functions.h).
+
+#include <fmt/format.h>
+
+#include "base/utf8.h"
+#include "csg/eval/builtin/call.h"
+#include "csg/eval/builtin/functions.h"
+#include "csg/eval/run/each_value.h"
+#include "csg/eval/value/object.h"
+#include "csg/eval/value/text.h"
+
+namespace lamina::csg {
+
+namespace {
+
+Value builtin_str(const CallCode& code, Frame& frame) {
+  // Mostly the first argument is what was built so far: append to it.
+  if (code.arguments.empty()) return Value::string("");
+  Value result = argument(code, 0, frame);
+  std::string text;
+  if (!result.is_string()) {
+    append_text(result, text);
+    result = Value();
+  }
+  for (std::size_t i = 1; i < code.arguments.size(); ++i) {
+    Value spill;
+    append_text(look(code.arguments[i].value, frame, spill), text);
+  }
+  return result.is_string() ? result.with_appended(text) : Value::string(text);
+}
+
+void append_characters(const Value& value, Frame& frame, std::string& text) {
+  switch (value.type()) {
+    case Type::kNumber:
+      append_utf8(value.as_number(), text);
+      return;
+    case Type::kVector:
+      for (const Value& element : value.as_vector()) {
+        append_characters(element, frame, text);
+      }
+      return;
+    case Type::kRange: {
+      const Range& range = value.as_range();
+      const std::uint32_t count = range.count();
+      if (count >= kMostStatementElements) {
+        frame.in.warn({}, fmt::format("Bad range parameter in for statement: "
+                                      "too many elements ({}).",
+                                      count));
+        return;
+      }
+      if (range.step == 0) return;
+      for (std::uint32_t i = 0; i < count; ++i) append_utf8(range.at(i), text);
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+Value builtin_chr(const CallCode& code, Frame& frame) {
+  std::string text;
+  for (std::size_t i = 0; i < code.arguments.size(); ++i) {
+    append_characters(argument(code, i, frame), frame, text);
+  }
+  return Value::string(text);
+}
+
+Value builtin_ord(const CallCode& code, Frame& frame) {
+  const std::size_t n = code.arguments.size();
+  if (n == 0) return Value();
+  if (n > 1) {
+    return warn(code, frame,
+                fmt::format("ord() called with {} arguments, only 1 argument "
+                            "expected",
+                            n));
+  }
+  const Value value = argument(code, 0, frame);
+  if (!value.is_string()) {
+    return warn(code, frame,
+                fmt::format("ord() argument {} is not of type "
+                            "string",
+                            to_echo(value)));
+  }
+  // OpenSCAD sees a string end at its first zero byte.
+  std::string_view text = value.as_string();
+  text = text.substr(0, text.find('\0'));
+  if (!is_valid_utf8(text)) {
+    return warn(code, frame,
+                fmt::format("ord() argument '{}' is not a valid "
+                            "utf8 string",
+                            text));
+  }
+  if (text.empty()) return Value();
+  return Value(static_cast<double>(first_code_point(text)));
+}
+
+Value builtin_len(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  Value spill;
+  const Value& value = look(code.arguments[0].value, frame, spill);
+  if (value.is_vector()) {
+    return Value(static_cast<double>(value.as_vector().size()));
+  }
+  if (value.is_string()) {
+    return Value(static_cast<double>(value.character_count()));
+  }
+  if (value.is_object()) {
+    return Value(static_cast<double>(value.as_object().places.size()));
+  }
+  return wrong_type(code, frame);
+}
+
+}  // namespace
+
+std::span<const BuiltinFunctionRow> string_rows() {
+  static constexpr BuiltinFunctionRow kRows[] = {
+      {"str", builtin_str},
+      {"chr", builtin_chr},
+      {"ord", builtin_ord},
+      {"len", builtin_len},
+  };
+  return kRows;
+}
+
+}  // namespace lamina::csg

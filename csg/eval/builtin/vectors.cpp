@@ -1,0 +1,138 @@
+// Built-in functions of vectors (see functions.h).
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "csg/eval/builtin/call.h"
+#include "csg/eval/builtin/functions.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/text.h"
+
+namespace lamina::csg {
+
+namespace {
+
+Value builtin_concat(const CallCode& code, Frame& frame) {
+  if (code.arguments.empty()) return Value::vector({});
+  Value result = argument(code, 0, frame);
+  if (!result.is_vector()) result = Value::vector({&result, 1});
+  for (std::size_t i = 1; i < code.arguments.size(); ++i) {
+    Value spill;
+    const Value& more = look(code.arguments[i].value, frame, spill);
+    result = more.is_vector()
+                 ? result.with_appended(more.as_vector())
+                 : result.with_appended(std::span<const Value>(&more, 1));
+  }
+  return result;
+}
+
+Value builtin_norm(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  const Value value = argument(code, 0, frame);
+  if (!value.is_vector()) return Value();
+  double sum = 0;
+  for (const Value& element : value.as_vector()) {
+    if (!element.is_number()) {
+      return warn(code, frame, "Incorrect arguments to norm()");
+    }
+    sum += element.as_number() * element.as_number();
+  }
+  return Value(std::sqrt(sum));
+}
+
+Value builtin_cross(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 2) {
+    return warn(code, frame, "Invalid number of parameters for cross()");
+  }
+  const Value first = argument(code, 0, frame);
+  const Value second = argument(code, 1, frame);
+  if (!first.is_vector() || !second.is_vector()) {
+    return warn(code, frame, "Invalid type of parameters for cross()");
+  }
+  const std::span<const Value> a = first.as_vector();
+  const std::span<const Value> b = second.as_vector();
+  const auto minor = [&](std::size_t i, std::size_t k) {
+    return a[i].number_or_zero() * b[k].number_or_zero() -
+           a[k].number_or_zero() * b[i].number_or_zero();
+  };
+  if (a.size() == 2 && b.size() == 2) return Value(minor(0, 1));
+  if (a.size() != 3 || b.size() != 3) {
+    return warn(code, frame, "Invalid vector size of parameter for cross()");
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!a[i].is_number() || !b[i].is_number()) {
+      return warn(code, frame, "Invalid value in parameter vector for cross()");
+    }
+    if (std::isnan(a[i].as_number()) || std::isnan(b[i].as_number())) {
+      return warn(code, frame,
+                  "Invalid value (NaN) in parameter vector for cross()");
+    }
+    if (std::isinf(a[i].as_number()) || std::isinf(b[i].as_number())) {
+      return warn(code, frame,
+                  "Invalid value (INF) in parameter vector for cross()");
+    }
+  }
+  const double product[] = {minor(1, 2), minor(2, 0), minor(0, 1)};
+  return Value::numbers(product);
+}
+
+bool is_pair(const Value& value, double& key, double& result) {
+  const std::span<const Value> pair = value.elements();
+  if (pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number()) {
+    return false;
+  }
+  key = pair[0].as_number();
+  result = pair[1].as_number();
+  return true;
+}
+
+// Linear interpolation in a table of pairs, which need not be sorted.
+Value builtin_lookup(const CallCode& code, Frame& frame) {
+  if (code.arguments.size() != 2) return wrong_count(code, frame);
+  const Value key = argument(code, 0, frame);
+  if (!key.is_number() || !std::isfinite(key.as_number())) {
+    return warn(code, frame,
+                fmt::format("lookup({}, ...) first argument is not a number",
+                            to_echo(argument(code, 0, frame))));
+  }
+  const double p = key.as_number();
+  const Value table = argument(code, 1, frame);
+  const std::span<const Value> rows = table.elements();
+  double low = 0;
+  double low_value = 0;
+  if (rows.empty() || !is_pair(rows[0], low, low_value)) return Value();
+  double high = low;
+  double high_value = low_value;
+  for (const Value& row : rows.subspan(1)) {
+    double at = 0;
+    double value = 0;
+    if (!is_pair(row, at, value)) continue;
+    if (at <= p && (at > low || low > p)) {
+      low = at;
+      low_value = value;
+    }
+    if (at >= p && (at < high || high < p)) {
+      high = at;
+      high_value = value;
+    }
+  }
+  if (p <= low) return Value(high_value);
+  if (p >= high) return Value(low_value);
+  const double f = (p - low) / (high - low);
+  return Value(high_value * f + low_value * (1 - f));
+}
+
+}  // namespace
+
+std::span<const BuiltinFunctionRow> vector_rows() {
+  static constexpr BuiltinFunctionRow kRows[] = {
+      {"concat", builtin_concat},
+      {"norm", builtin_norm},
+      {"cross", builtin_cross},
+      {"lookup", builtin_lookup},
+  };
+  return kRows;
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,39 @@
+#pragma once
+// How the arguments of a call meet parameters: by position and by name.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+
+#include "csg/eval/code/code.h"
+#include "csg/eval/code/dynamic_names.h"
+
+namespace lamina::csg {
+
+// Parameters by name; of several with one name, the first.
+class ParameterIndex {
+ public:
+  explicit ParameterIndex(std::span<const Parameter> parameters);
+
+  // Null where there is none.
+  const Parameter* find(std::string_view name) const;
+
+ private:
+  std::span<const Parameter> parameters_;
+  std::unordered_map<std::string_view, const Parameter*> table_;
+};
+
+// Whether arguments that meet no parameter are warned of.
+enum class Surplus : std::uint8_t { kWarn, kSilent };
+
+// positional  how many parameters arguments without a name reach; names reach
+//             all
+ArgumentPlan plan_arguments(std::span<const Parameter> parameters,
+                            std::size_t positional,
+                            std::span<const WrittenArgument> arguments,
+                            DynamicNames& names,
+                            Surplus surplus = Surplus::kWarn);
+
+}  // namespace lamina::csg

@@ -1,0 +1,422 @@
+#pragma once
+// Resolved code: what the resolver makes of a syntax tree and the interpreter
+// runs.
+//
+// Design. A tree of small nodes, each with a pointer to the function that runs
+// it ("closure generation"). Against bytecode with registers it is as fast
+// where it counts (a call, a vector operation, a csg node cost more than
+// dispatch), and each construct of the language stays one readable function.
+// Against a variant with one large switch it needs a fifth of the C++ stack,
+// since every function's frame holds only its own temporaries: that is what
+// makes recursion 100,000 deep cheap.
+//
+// Names are gone: a variable is a slot in the frame of its activation (a file,
+// a call of a module or function), found by a number of hops along the static
+// links. OpenSCAD assigns in order and a variable not assigned yet does not
+// hide the one outside. What cannot be decided while resolving stays a check
+// for an unset slot, with the next outer variable behind it (`otherwise`).
+// `$` variables have dynamic scope: one value per name, saved and restored
+// around scopes (shallow binding), so that looking one up is one load.
+//
+// Resolved code is frozen: running it changes nothing in it. What the
+// interpreter wants to remember about a node it keeps in tables of its own,
+// under the number that the node has. Bodies of files, functions and modules
+// are resolved when they are first entered, so that a library costs what is
+// used of it; the resolver alone fills them in, each once.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/source.h"
+#include "csg/eval/value/value.h"
+#include "parser/ast.h"
+
+namespace lamina::csg {
+
+class Interpreter;
+struct Activation;
+struct Scope;
+struct Module;
+struct Unit;
+struct Block;
+struct ArgumentPlan;
+
+// --- Frames ---------------------------------------------------------------
+
+// The variables of one activation. Lives on the C++ stack.
+class Frame {
+ public:
+  Interpreter& in;
+  Value* slots = nullptr;
+  Frame* link = nullptr;             // of the module or file written around it
+  const Closure* closure = nullptr;  // of a function literal
+  // The used file whose code this is; null for the design's own. Messages show
+  // places relative to it.
+  const Source* document = nullptr;
+  // What `children()` of a module's activation stands for.
+  const Block* children = nullptr;
+  Frame* children_frame = nullptr;
+};
+
+// A variable while resolving; the code refers to it for `is_boxed`, which may
+// be decided by a closure that comes later in the text.
+struct Variable {
+  std::uint32_t slot = 0;
+  bool is_boxed = false;
+  bool is_set = false;        // at the point that the resolver has reached
+  bool is_parameter = false;  // set from the start of its activation
+  bool is_statement_level = false;  // lives as long as its activation
+  bool is_repeated = false;         // a loop gives it several values
+  bool may_be_unset = false;        // at run time, even where is_set
+  Scope* scope = nullptr;
+  Variable* outer = nullptr;  // the next of its name in the open scopes around
+};
+
+// Where an assignment goes: a slot, a `$` variable, or nowhere.
+struct Target {
+  enum class Kind : std::uint8_t { kSlot, kDynamic, kNowhere };
+  Kind kind = Kind::kNowhere;
+  std::uint32_t index = 0;             // slot or number of the `$` variable
+  const Variable* variable = nullptr;  // of a slot; null for parameters
+};
+
+// --- Expressions ----------------------------------------------------------
+
+struct Expression {
+  using Runner = Value (*)(const Expression&, Frame&);
+  // What a caller may look at instead of running the node.
+  enum class Kind : std::uint8_t {
+    kOther,
+    kConstant,
+    kLocal,  // slots[slot]
+    kOuter,  // link->slots[slot]
+    kIndex,  // object[index]
+    // Nodes that pass a tail position on.
+    kConditional,
+    kLet,
+    kAssert,
+    kEcho,
+    kTailCall,
+  };
+
+  Runner run = nullptr;
+  SourceRange range;
+  Kind kind = Kind::kOther;
+  std::uint32_t slot = 0;
+};
+
+// An expression as the node that its function knows it to be.
+template <typename T>
+const T& as(const Expression& expression) {
+  return static_cast<const T&>(expression);
+}
+
+struct Constant : Expression {
+  const Value* value = nullptr;
+};
+
+// A number that was warned of each time it is looked at.
+struct InexactLiteral : Expression {
+  double value = 0;
+  std::string_view warning;
+};
+
+struct UnknownVariable : Expression {
+  std::string_view name;
+};
+struct DynamicVariable : Expression {
+  std::uint32_t index = 0;
+  std::string_view name;
+  bool is_silent = false;
+};
+// A variable of any activation. `slot` counts captured values for kCaptured.
+struct VariableLoad : Expression {
+  std::uint32_t hops = 0;
+  const Expression* otherwise = nullptr;  // where the slot is unset
+};
+
+struct UnaryCode : Expression {
+  const Expression* operand = nullptr;
+};
+struct BinaryCode : Expression {
+  ast::BinaryOp op = ast::BinaryOp::kAdd;
+  const Expression* left = nullptr;
+  const Expression* right = nullptr;
+};
+struct ConditionalCode : Expression {
+  const Expression* condition = nullptr;
+  const Expression* if_true = nullptr;
+  const Expression* if_false = nullptr;
+};
+struct MemberCode : Expression {
+  const Expression* object = nullptr;
+  std::string_view name;
+};
+struct RangeCode : Expression {
+  const Expression* begin = nullptr;
+  const Expression* step = nullptr;  // may be null
+  const Expression* end = nullptr;
+  bool is_literal = false;
+};
+
+// An element of a vector or comprehension: gives any number of values.
+struct Element {
+  using Emit = void (*)(const Element&, Frame&, VectorBuilder&);
+  Emit emit = nullptr;
+  const Expression* value = nullptr;  // of a plain one
+  SourceRange range;
+};
+struct VectorCode : Expression {
+  std::span<const Element* const> elements;
+};
+
+// `name = value` in let, for, and assignments.
+struct Binding {
+  Target target;
+  std::string_view name;
+  const Expression* value = nullptr;
+  bool is_duplicate = false;  // reported and dropped
+  SourceRange range;
+};
+using Bindings = std::span<const Binding>;
+
+struct LetCode : Expression {
+  Bindings bindings;
+  const Expression* body = nullptr;
+};
+
+struct ForElement : Element {
+  Binding binding;
+  const Element* body = nullptr;
+};
+struct ForCElement : Element {
+  Bindings init;
+  const Expression* condition = nullptr;
+  Bindings update;  // into slots of their own, then copied:
+  struct Copy {
+    Target from;
+    Target to;
+  };
+  std::span<const Copy> copies;
+  const Element* body = nullptr;
+};
+struct IfElement : Element {
+  const Expression* condition = nullptr;
+  const Element* if_true = nullptr;
+  const Element* if_false = nullptr;  // may be null
+};
+struct EachElement : Element {
+  const Element* body = nullptr;
+};
+struct LetElement : Element {
+  Bindings bindings;
+  const Element* body = nullptr;
+};
+
+// Arguments as written, for echo and for built-in functions.
+struct WrittenArgument {
+  std::string_view name;
+  const Expression* value = nullptr;
+};
+
+struct EchoCode : Expression {
+  std::span<const WrittenArgument> arguments;
+  const Expression* body = nullptr;  // may be null
+};
+struct AssertCode : Expression {
+  const ArgumentPlan* plan = nullptr;
+  const Expression* condition = nullptr;
+  const Expression* message = nullptr;
+  const ast::Expr* condition_text = nullptr;  // null: none given
+  const Expression* body = nullptr;           // may be null
+};
+
+// --- Calls ----------------------------------------------------------------
+
+struct Parameter {
+  std::string_view name;
+  Target target;
+  const Expression* fallback = nullptr;  // null: undef
+  const ast::Expr* fallback_text = nullptr;
+  bool has_silent_fallback = true;  // evaluating it cannot be noticed
+  bool is_extra = false;            // only given by callers that were warned
+};
+
+// One argument that goes somewhere.
+struct BoundArgument {
+  Target target;
+  std::uint32_t written = 0;  // index in the call's arguments
+};
+// How the arguments of a call meet parameters, settled once per call site.
+struct ArgumentPlan {
+  // In the order in which OpenSCAD evaluates them: that of a hash table.
+  std::vector<BoundArgument> bound;
+  std::vector<std::uint32_t> defaults;  // parameters whose fallback is needed
+  std::vector<std::string> warnings;
+};
+
+// What named functions and function literals have in common.
+struct Callable {
+  std::string_view name;
+  std::span<Parameter> parameters;
+  const Expression* body = nullptr;  // null until resolved
+  std::uint32_t slot_count = 0;
+  bool has_tail_calls = false;
+};
+struct Function : Callable {
+  std::uint32_t number = 0;  // among the functions
+  const ast::FunctionDefinition* definition = nullptr;
+  SourceRange range;
+  Scope* scope = nullptr;  // where it is defined
+  const Unit* unit = nullptr;
+};
+struct FunctionLiteral : Callable, FunctionCode {
+  struct Capture {
+    bool from_closure = false;  // else from a slot of the frame
+    std::uint32_t index = 0;
+  };
+  std::vector<Capture> captures;
+  std::uint32_t hops = 0;  // from the maker's frame to the closure's link
+  const Source* document = nullptr;  // as in Frame
+  Scope* scope = nullptr;            // where it is written
+  Activation* activation = nullptr;
+};
+
+inline const FunctionLiteral& literal_of(const Closure& closure) {
+  return static_cast<const FunctionLiteral&>(*closure.code);
+}
+
+// How a call meets a function literal: the version of it that has parameters
+// for all that the call names, and the plan for that version.
+struct LiteralCall {
+  const FunctionLiteral* literal = nullptr;
+  ArgumentPlan plan;
+};
+
+struct LiteralCode : Expression {
+  const FunctionLiteral* literal = nullptr;
+};
+
+using BuiltinFunction = Value (*)(const struct CallCode&, Frame&);
+using MathFunction = double (*)(double);
+
+struct CallCode : Expression {
+  std::string_view name;  // empty where the callee is not a plain name:
+  const ast::Expr* callee_text = nullptr;
+  std::span<const WrittenArgument> arguments;
+  // The function that the name means, if any: one of these two.
+  const Function* function = nullptr;
+  BuiltinFunction builtin = nullptr;
+  MathFunction math = nullptr;  // of a built-in function of one number
+  std::uint32_t hops = 0;       // from the caller's frame to the callee's link
+  bool is_foreign = false;      // defined in another file: by `use`
+  ArgumentPlan* plan = nullptr;
+  // A variable of that name, which goes first if it holds a function; or the
+  // callee, if it is not a plain name.
+  const Expression* callee = nullptr;
+  bool is_name = true;
+  std::uint32_t number = 0;  // among the calls that have a `callee`
+  // A function's call of itself in tail position: OpenSCAD looks at its
+  // arguments' names once, so that their warnings come once.
+  bool is_self_call = false;
+  // Such a call is a jump: the arguments without those that pass a parameter on
+  // to itself; the fallbacks, which OpenSCAD evaluates once per call site, in
+  // the scope of the call.
+  struct TailDefault {
+    Target target;
+    const Expression* value = nullptr;
+    std::uint32_t number = 0;  // among the fallbacks of all jumps
+  };
+  bool is_jump = false;
+  std::span<const BoundArgument> tail_arguments;
+  std::span<const TailDefault> tail_defaults;
+};
+
+// --- Statements -----------------------------------------------------------
+
+struct InstantiationCode {
+  // Makes the node of the module's instance, if there is one, on top of the
+  // interpreter's list of nodes.
+  using Runner = void (*)(const InstantiationCode&, Frame&);
+  Runner run = nullptr;
+  std::string_view name;
+  SourceRange range;
+  ast::Modifiers modifiers;
+  Block* block = nullptr;  // its children
+};
+
+// `{ … }` behind a module: assignments, then instantiations.
+struct Block {
+  Bindings assignments;
+  std::span<const InstantiationCode* const> statements;
+  // Variables of the block that something may look at before they are set.
+  std::span<const std::uint32_t> resets;
+};
+
+// A file: the design, or one that is used.
+struct Unit {
+  std::uint32_t number = 0;  // among the files; 0: the design
+  const Source* source = nullptr;
+  const Source* document = nullptr;  // of a used file; null for the design
+  Block body;                        // of a used file assignments only
+  std::uint32_t slot_count = 0;
+  bool is_resolved = false;
+};
+
+struct Module {
+  static constexpr std::uint32_t kChildrenSlot = 0;  // of `$children`
+
+  std::uint32_t number = 0;  // among the modules
+  std::string_view name;
+  const ast::ModuleDefinition* definition = nullptr;
+  SourceRange range;
+  Scope* scope = nullptr;
+  const Unit* unit = nullptr;
+  std::span<Parameter> parameters;
+  std::uint32_t slot_count = 0;
+  bool is_resolved = false;
+  Block body;
+  // Assignments that overwrite a parameter with a literal (index, message).
+  std::vector<std::pair<std::uint32_t, std::string>> overwrites;
+};
+
+struct UserModuleCode : InstantiationCode {
+  const Module* module = nullptr;
+  std::uint32_t hops = 0;
+  bool is_foreign = false;
+  std::span<const WrittenArgument> arguments;
+  ArgumentPlan* plan = nullptr;
+};
+struct UnknownModuleCode : InstantiationCode {};
+struct IfCode : InstantiationCode {
+  const Expression* condition = nullptr;
+  const Block* otherwise = nullptr;  // null: no `else`
+};
+struct ForCode : InstantiationCode {
+  Bindings bindings;
+  bool is_intersection = false;
+};
+struct LetModuleCode : InstantiationCode {
+  Bindings bindings;
+  std::span<const std::uint32_t> resets;  // as for Block
+};
+struct AssertModuleCode : InstantiationCode {
+  const AssertCode* assertion = nullptr;
+};
+struct BuiltinModuleCode;
+using BuiltinModule = void (*)(const BuiltinModuleCode&, Frame&);
+struct BuiltinModuleCode : InstantiationCode {
+  BuiltinModule handler = nullptr;
+  std::span<const WrittenArgument> arguments;
+  ArgumentPlan* plan = nullptr;
+  std::uint32_t parameter_count = 0;
+  const Unit* unit = nullptr;
+  // linear_extrude: its first argument, as it is seen from inside its block.
+  const Expression* late_argument = nullptr;
+  std::string_view deprecated_for;  // what to use instead; mostly empty
+};
+
+}  // namespace lamina::csg

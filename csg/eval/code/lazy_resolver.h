@@ -1,0 +1,37 @@
+#pragma once
+// What running code asks of the resolver.
+//
+// The resolver stands above the interpreter, since it must know how each node
+// is run; but bodies are resolved when they are first entered. So running code
+// reaches the resolver through this interface, and sees what it makes as const.
+
+#include <cstdint>
+
+#include "csg/eval/code/code.h"
+
+namespace lamina::csg {
+
+// How many numbers the nodes have that the interpreter remembers something of.
+struct CodeCounts {
+  std::uint32_t units = 0;
+  std::uint32_t calls = 0;          // CallCode::number
+  std::uint32_t tail_defaults = 0;  // CallCode::TailDefault::number
+};
+
+class LazyResolver {
+ public:
+  virtual ~LazyResolver() = default;
+
+  // Fills in the body of what has none yet.
+  virtual void resolve(const Unit& unit) = 0;
+  virtual void resolve(const Function& function) = 0;
+  virtual void resolve(const Module& module) = 0;
+
+  // Made once for each pair.
+  virtual const LiteralCall& plan_for(const CallCode& call,
+                                      const FunctionLiteral& literal) = 0;
+
+  virtual CodeCounts counts() const = 0;
+};
+
+}  // namespace lamina::csg

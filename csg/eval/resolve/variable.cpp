@@ -1,0 +1,169 @@
+// Resolving names of variables (see expression.h).
+
+#include <algorithm>
+#include <numbers>
+
+#include "csg/eval/resolve/expression.h"
+#include "csg/eval/resolve/prefixed_literal.h"
+#include "csg/eval/run/expression.h"
+
+namespace lamina::csg {
+
+Variable* ExpressionResolver::declare(std::string_view name,
+                                      bool is_statement_level) {
+  auto* variable = resolver_.make<Variable>();
+  variable->slot = scope_->activation->new_slot();
+  variable->is_statement_level = is_statement_level;
+  variable->scope = scope_;
+  scope_->variables[name] = variable;
+  if (!scope_->is_home()) resolver_.open_variables.declare(name, *variable);
+  return variable;
+}
+
+Target ExpressionResolver::target(std::string_view name, Variable* variable) {
+  if (is_dynamic_name(name)) {
+    return {Target::Kind::kDynamic, resolver_.names().number_of(name), nullptr};
+  }
+  return {Target::Kind::kSlot, variable->slot, variable};
+}
+
+// Index of a captured variable in the closures of `literal`; literals between
+// it and the variable's home pass it on.
+std::uint32_t ExpressionResolver::capture(Activation& literal,
+                                          Variable& variable) {
+  const auto known = literal.captured.find(&variable);
+  if (known != literal.captured.end()) return known->second;
+  FunctionLiteral::Capture source;
+  if (literal.lexical == variable.scope->activation) {
+    source.index = variable.slot;
+  } else {
+    source.from_closure = true;
+    source.index = capture(*literal.lexical, variable);
+  }
+  auto& captures = literal.literal->captures;
+  const auto index = static_cast<std::uint32_t>(captures.size());
+  captures.push_back(source);
+  literal.captured.emplace(&variable, index);
+  return index;
+}
+
+namespace {
+
+// The version of a literal, if any, through whose closures a variable comes.
+const Activation* version_between(const Activation& here,
+                                  const Variable& variable) {
+  const Activation* version = here.version;
+  return version != nullptr &&
+                 version->depth > variable.scope->activation->depth
+             ? version
+             : nullptr;
+}
+
+// Variables that a literal's closures have not captured are of no use to its
+// versions: they came later, or a nearer one certainly has a value.
+bool is_within_reach(const Activation& here, const Variable& variable) {
+  if (variable.is_statement_level) return true;
+  const Activation* version = version_between(here, variable);
+  return version == nullptr || version->captured.contains(&variable);
+}
+
+}  // namespace
+
+const Expression* ExpressionResolver::load(Variable& variable,
+                                           SourceRange range,
+                                           bool* is_certain) {
+  Activation& here = *scope_->activation;
+  const Activation& home = *variable.scope->activation;
+  auto* code = resolver_.make<VariableLoad>();
+  code->range = range;
+  *is_certain = variable.is_parameter;
+  if (&home == &here) {
+    *is_certain = !variable.may_be_unset;
+    code->run = run_local;
+    code->kind = Expression::Kind::kLocal;
+    code->slot = variable.slot;
+  } else if (variable.is_statement_level) {
+    code->hops = here.count_hops(home);
+    code->slot = variable.slot;
+    code->run = code->hops == 1 ? run_outer : run_far_outer;
+    if (code->hops == 1) code->kind = Expression::Kind::kOuter;
+  } else {
+    // Code that boxes a variable, or does not, may have run by the time that a
+    // version is made.
+    const bool is_settled = version_between(here, variable) != nullptr;
+    *is_certain = variable.is_set && !variable.may_be_unset && !is_settled;
+    if (!is_settled && (!variable.is_set || variable.is_repeated)) {
+      variable.is_boxed = true;
+    }
+    code->run = run_captured;
+    code->slot = capture(here, variable);
+  }
+  return code;
+}
+
+const Expression* ExpressionResolver::variable(std::string_view name,
+                                               SourceRange range,
+                                               Unknown unknown) {
+  if (is_dynamic_name(name)) {
+    auto* code = resolver_.make<DynamicVariable>();
+    code->run = run_dynamic;
+    code->range = range;
+    code->index = resolver_.names().number_of(name);
+    code->name = name;
+    code->is_silent = unknown == Unknown::kSilent;
+    return code;
+  }
+  // From the innermost scope outwards, until one certainly has the variable.
+  std::vector<const Expression*> candidates;
+  bool is_certain = false;
+  for (Variable* found = resolver_.open_variables.find(*scope_, name);
+       found != nullptr && !is_certain;
+       found = OpenVariables::next(*found, name)) {
+    Variable& variable = *found;
+    const bool is_here = variable.scope->activation == scope_->activation;
+    if (is_here && !variable.is_set && !variable.may_be_unset) continue;
+    if (!is_within_reach(*scope_->activation, variable)) continue;
+    candidates.push_back(load(variable, range, &is_certain));
+    if (!is_certain && !is_here && variable.is_statement_level) {
+      variable.scope->resets.push_back(variable.slot);
+    }
+  }
+  const Expression* otherwise = nullptr;
+  if (!is_certain) {
+    if (name == "PI") {
+      otherwise = constant(Value(std::numbers::pi), range);
+    } else if (is_prefixed_literal(name)) {
+      otherwise = prefixed_literal(name, range);
+    } else if (unknown == Unknown::kSilent) {
+      otherwise = constant(Value(), range);
+    } else {
+      auto* code = resolver_.make<UnknownVariable>();
+      code->run = run_unknown_variable;
+      code->range = range;
+      code->name = name;
+      otherwise = code;
+    }
+  }
+  while (!candidates.empty()) {
+    auto* code =
+        static_cast<VariableLoad*>(const_cast<Expression*>(candidates.back()));
+    code->otherwise = otherwise;
+    otherwise = code;
+    candidates.pop_back();
+  }
+  return otherwise;
+}
+
+const Expression* ExpressionResolver::prefixed_literal(std::string_view name,
+                                                       SourceRange range) {
+  const PrefixedLiteral literal = read_prefixed_literal(name);
+  if (literal.warning.empty()) return constant(Value(literal.value), range);
+  auto* code = resolver_.make<InexactLiteral>();
+  code->run = run_inexact_literal;
+  code->range = range;
+  code->value = literal.value;
+  code->warning = resolver_.keep_text(literal.warning);
+  return code;
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,301 @@
+// Running function literals, calls and bodies (see expression.h).
+
+#include <cassert>
+
+#include <fmt/format.h>
+
+#include "csg/eval/run/expression.h"
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/text.h"
+
+namespace lamina::csg {
+
+// --- Functions --------------------------------------------------------------
+
+Value run_function_literal(const Expression& expression, Frame& frame) {
+  const FunctionLiteral& literal = *as<LiteralCode>(expression).literal;
+  auto* closure = new Closure;
+  closure->code = &literal;
+  closure->link = literal.hops == 0 ? &frame : frame.link;
+  closure->captured.reserve(literal.captures.size());
+  for (const FunctionLiteral::Capture& capture : literal.captures) {
+    closure->captured.push_back(capture.from_closure
+                                    ? frame.closure->captured[capture.index]
+                                    : frame.slots[capture.index]);
+  }
+  return Value::adopt(Type::kFunction, closure, 0);
+}
+
+namespace {
+
+[[gnu::noinline]] void give_warnings(const ArgumentPlan& plan,
+                                     SourceRange range, Frame& caller,
+                                     Repeats repeats) {
+  if (repeats == Repeats::kSilent && !caller.in.is_first_of_call(range)) return;
+  for (const std::string& warning : plan.warnings) warn(caller, range, warning);
+}
+void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
+                       Frame& caller, Repeats repeats) {
+  if (!plan.warnings.empty()) give_warnings(plan, range, caller, repeats);
+}
+
+}  // namespace
+
+void pass_arguments(const ArgumentPlan& plan,
+                    std::span<const Parameter> parameters,
+                    std::span<const WrittenArgument> arguments,
+                    SourceRange range, Frame& caller, Frame& callee,
+                    Repeats repeats) {
+  for (const std::uint32_t i : plan.defaults) {
+    const Parameter& parameter = parameters[i];
+    Value value =
+        parameter.fallback ? run(parameter.fallback, callee) : Value();
+    callee.in.assign(parameter.target, std::move(value), callee);
+  }
+  warn_of_arguments(plan, range, caller, repeats);
+  for (const BoundArgument& bound : plan.bound) {
+    Value value = run(arguments[bound.written].value, caller);
+    callee.in.assign(bound.target, std::move(value), callee);
+  }
+}
+
+namespace {
+
+// `$` variables that a tail call's arguments and enclosing lets bind stay
+// bound; everything else of the frame is overwritten.
+void jump(const CallCode& call, const ArgumentPlan& plan,
+          std::span<const BoundArgument> bound, std::size_t trail_mark,
+          Frame& frame) {
+  warn_of_arguments(plan, call.range, frame, Repeats::kSilent);
+  const auto count = static_cast<std::uint32_t>(bound.size());
+  Frame scratch{frame.in};
+  Value* memory = LAMINA_FRAME_MEMORY(count);
+  const FrameSlots values(scratch, memory, count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    memory[i] = run(call.arguments[bound[i].written].value, frame);
+  }
+  const auto store = [&](const Target& target, Value value) {
+    if (target.kind == Target::Kind::kDynamic) {
+      frame.in.rebind_dynamic(target.index, std::move(value), trail_mark);
+    } else {
+      frame.in.assign(target, std::move(value), frame);
+    }
+  };
+  for (const CallCode::TailDefault& fallback : call.tail_defaults) {
+    if (frame.in.tail_value(fallback.number).is_unset()) {
+      frame.in.set_tail_value(fallback.number, run(fallback.value, frame));
+    }
+    store(fallback.target, frame.in.tail_value(fallback.number));
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    store(bound[i].target, std::move(memory[i]));
+  }
+}
+
+// A tail call of a function literal by the name that it was called by is a
+// jump if that name still means the same literal.
+bool jump_to_literal(const CallCode& call, const Callable& callable,
+                     std::string_view name, std::size_t trail_mark,
+                     Frame& frame) {
+  if (call.callee == nullptr || call.name != name) return false;
+  assert(frame.closure != nullptr);  // as in all bodies of literals
+  if (frame.closure->method != nullptr) return false;
+  const Value callee = run(call.callee, frame);
+  if (!callee.is_function() || &callee.as_function() != frame.closure) {
+    return false;
+  }
+  const auto& here = static_cast<const FunctionLiteral&>(callable);
+  const auto& [literal, plan] = frame.in.plan_for(call, here);
+  if (literal != &here || !plan.defaults.empty()) return false;
+  jump(call, plan, plan.bound, trail_mark, frame);
+  return true;
+}
+
+// Follows the tail positions of a body. True: start again.
+bool run_round(const Callable& callable, std::string_view name,
+               std::size_t trail_mark, Frame& frame, Value& result) {
+  const Expression* code = callable.body;
+  while (true) {
+    switch (code->kind) {
+      case Expression::Kind::kConditional: {
+        const auto& conditional = as<ConditionalCode>(*code);
+        code = is_true(conditional.condition, frame) ? conditional.if_true
+                                                     : conditional.if_false;
+        break;
+      }
+      case Expression::Kind::kLet:
+        run_bindings(as<LetCode>(*code).bindings, frame);
+        code = as<LetCode>(*code).body;
+        break;
+      case Expression::Kind::kAssert:
+        run_assert(as<AssertCode>(*code), frame);
+        code = as<AssertCode>(*code).body;
+        break;
+      case Expression::Kind::kEcho:
+        frame.in.echo(echo_text(as<EchoCode>(*code).arguments, frame));
+        code = as<EchoCode>(*code).body;
+        break;
+      case Expression::Kind::kTailCall: {
+        const auto& call = as<CallCode>(*code);
+        if (call.is_jump) {
+          jump(call, *call.plan, call.tail_arguments, trail_mark, frame);
+          return true;
+        }
+        if (jump_to_literal(call, callable, name, trail_mark, frame)) {
+          return true;
+        }
+        result = run(code, frame);
+        return false;
+      }
+      default:
+        result = run(code, frame);
+        return false;
+    }
+    if (code == nullptr) {
+      result = Value();
+      return false;
+    }
+  }
+}
+
+}  // namespace
+
+Value run_body(const Callable& callable, std::string_view name,
+               SourceRange range, Frame& frame) {
+  if (!callable.has_tail_calls) return run(callable.body, frame);
+  constexpr std::uint32_t kMostTailCalls = 1000000;
+  const std::size_t trail_mark = frame.in.trail_size();
+  Value result;
+  std::uint32_t rounds = 0;
+  while (run_round(callable, name, trail_mark, frame, result)) {
+    frame.in.count_step();
+    if (rounds++ == kMostTailCalls) {
+      frame.in.fail_recursion(range, "function", name, frame.document);
+    }
+  }
+  return result;
+}
+
+// --- Calls ------------------------------------------------------------------
+
+// Made when it is asked for: in f(1)(2)(3)… every callee holds all before it.
+std::string shown_name(const CallCode& code) {
+  return code.callee_text == nullptr
+             ? std::string(code.name)
+             : fmt::format("({})", expression_text(*code.callee_text));
+}
+
+namespace {
+
+Value call_function(const CallCode& code, Frame& frame) {
+  const Function& function = *code.function;
+  frame.in.ensure_resolved(function);
+  const DynamicScope scope(frame.in);
+  Frame callee{frame.in};
+  callee.document = function.unit->document;
+  if (code.is_foreign) {
+    callee.link = &frame.in.enter_unit(*function.unit);
+  } else {
+    callee.link = &frame;
+    for (std::uint32_t i = 0; i < code.hops; ++i) {
+      callee.link = callee.link->link;
+    }
+  }
+  Value* memory = LAMINA_FRAME_MEMORY(function.slot_count);
+  const FrameSlots slots(callee, memory, function.slot_count);
+  pass_arguments(*code.plan, function.parameters, code.arguments, code.range,
+                 frame, callee,
+                 code.is_self_call ? Repeats::kSilent : Repeats::kTold);
+  return run_body(function, function.name, function.range, callee);
+}
+
+// The parameter `this` of a method is its object, whatever else was given.
+[[gnu::noinline]] void pass_this(const Closure& closure, Frame& callee) {
+  for (const Parameter& parameter : literal_of(closure).parameters) {
+    if (parameter.name != "this") continue;
+    callee.in.assign(parameter.target, Value(closure.method->object), callee);
+  }
+}
+
+// The callee holds a function; `function` keeps it alive.
+Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
+  const Closure& closure = function.as_function();
+  const auto& [literal, plan] = frame.in.plan_for(code, literal_of(closure));
+  const Callable& callable = *literal;
+  const DynamicScope scope(frame.in);
+  Frame callee{frame.in};
+  callee.link = closure.link;
+  callee.closure = &closure;
+  callee.document = literal->document;
+  Value* memory = LAMINA_FRAME_MEMORY(callable.slot_count);
+  const FrameSlots slots(callee, memory, callable.slot_count);
+  const bool is_self_call =
+      code.kind == Expression::Kind::kTailCall && frame.closure == &closure;
+  pass_arguments(plan, callable.parameters, code.arguments, code.range, frame,
+                 callee, is_self_call ? Repeats::kSilent : Repeats::kTold);
+  if (closure.method != nullptr) [[unlikely]]
+    pass_this(closure, callee);
+  return run_body(callable, code.name, code.range, callee);
+}
+
+Value report_unknown(const CallCode& code, Frame& frame) {
+  frame.in.warn(code.range,
+                fmt::format("Ignoring unknown function '{}'", code.name));
+  return Value();
+}
+
+}  // namespace
+
+Value run_call_function(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  frame.in.check_depth(code.range, "function", code.name, frame.document);
+  const ActiveCall active(code, frame);
+  return call_function(code, frame);
+}
+
+Value run_call_math(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  const ActiveCall active(code, frame);
+  return code.builtin(code, frame);
+}
+
+Value run_call_builtin(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  frame.in.check_depth(code.range, "function", code.name, frame.document);
+  const ActiveCall active(code, frame);
+  return code.builtin(code, frame);
+}
+
+Value run_call_unknown(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  const ActiveCall active(code, frame);
+  return report_unknown(code, frame);
+}
+
+Value run_call_value(const Expression& expression, Frame& frame) {
+  const auto& code = as<CallCode>(expression);
+  if (frame.in.is_too_deep()) {
+    frame.in.fail_recursion(code.range, "function", shown_name(code),
+                            frame.document);
+  }
+  const ActiveCall active(code, frame);
+  const Value callee = run(code.callee, frame);
+  if (callee.is_function()) {
+    if (code.is_name && code.name[0] == '$') {
+      warn(frame, code.range,
+           "Can't call function on dynamically scoped variable");
+      return Value();
+    }
+    return call_closure(code, callee, frame);
+  }
+  if (!code.is_name) {
+    warn(frame, code.range,
+         fmt::format("Can't call function on {}", type_name(callee.type())));
+    return Value();
+  }
+  if (code.function != nullptr) return call_function(code, frame);
+  if (code.builtin != nullptr) return code.builtin(code, frame);
+  return report_unknown(code, frame);
+}
+
+}  // namespace lamina::csg

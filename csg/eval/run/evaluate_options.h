@@ -1,0 +1,42 @@
+#pragma once
+// What an evaluation may take and how it behaves.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "csg/text_measurer.h"
+
+namespace lamina::csg {
+
+// Far more nested calls than any design needs, few enough to fail within a
+// second.
+inline constexpr std::uint32_t kMostNestedCalls = 300000;
+
+struct EvaluateOptions {
+  bool preview = true;     // $preview
+  double time = 0;         // $t
+  std::uint32_t seed = 0;  // of rands() without a seed
+  // C++ stack that evaluation may use below the caller's frame. A call takes
+  // about 700 bytes of it, more where it stands deep in an expression; 200,000
+  // may be nested. Where either ends, so does the evaluation, with OpenSCAD's
+  // error. Callers should run evaluate() on a thread with a large stack.
+  std::size_t stack_bytes = std::size_t{6} << 20;
+  // Calls and turns of loops that the evaluation may take. For fuzzers, which
+  // end no process; the program has --max-time.
+  std::uint64_t max_steps = UINT64_MAX;
+  // Calls of functions and modules that may be nested (`--max-depth`), as far
+  // as the stack goes.
+  std::uint32_t max_depth = kMostNestedCalls;
+  // Nodes without children that may be made, left out later or not
+  // (`--max-leaves`). On their way to the layers they take about 1 kB each.
+  std::uint32_t max_leaves = 10'000'000;
+  // Arguments that a user's module has no parameter for are warned of
+  // (`--check-parameters`); those of functions and built-in modules always.
+  bool check_parameters = true;
+  // For textmetrics() and fontmetrics(), which are undef without.
+  TextMeasurer* text_measurer = nullptr;
+  // Numbers outside their range (`--check-parameter-ranges`) are warned of.
+  bool check_ranges = false;
+};
+
+}  // namespace lamina::csg

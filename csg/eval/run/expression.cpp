@@ -1,0 +1,234 @@
+#include "csg/eval/run/expression.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "csg/eval/run/interpreter.h"
+#include "csg/eval/value/operators.h"
+#include "csg/eval/value/text.h"
+
+namespace lamina::csg {
+
+void warn(Frame& frame, SourceRange range, std::string message) {
+  frame.in.warn(range, std::move(message), frame.document);
+}
+
+// --- Variables --------------------------------------------------------------
+
+Value run_constant(const Expression& expression, Frame&) {
+  return *as<Constant>(expression).value;
+}
+
+namespace {
+// A slot that is unset or boxed.
+[[gnu::noinline]] Value load_unusual(const VariableLoad& code,
+                                     const Value& value, Frame& frame) {
+  if (value.type() == Type::kBox && !value.as_box().value.is_unset()) {
+    return value.as_box().value;
+  }
+  return run(code.otherwise, frame);
+}
+Value load(const VariableLoad& code, const Value& value, Frame& frame) {
+  if (is_plain(value)) [[likely]]
+    return value;
+  return load_unusual(code, value, frame);
+}
+}  // namespace
+
+Value run_local(const Expression& expression, Frame& frame) {
+  return load(as<VariableLoad>(expression), frame.slots[expression.slot],
+              frame);
+}
+Value run_outer(const Expression& expression, Frame& frame) {
+  return load(as<VariableLoad>(expression), frame.link->slots[expression.slot],
+              frame);
+}
+Value run_far_outer(const Expression& expression, Frame& frame) {
+  const auto& code = as<VariableLoad>(expression);
+  const Frame* home = &frame;
+  for (std::uint32_t i = 0; i < code.hops; ++i) home = home->link;
+  return load(code, home->slots[code.slot], frame);
+}
+Value run_captured(const Expression& expression, Frame& frame) {
+  return load(as<VariableLoad>(expression),
+              frame.closure->captured[expression.slot], frame);
+}
+Value run_dynamic(const Expression& expression, Frame& frame) {
+  const auto& code = as<DynamicVariable>(expression);
+  const Value& value = frame.in.dynamic(code.index);
+  if (!value.is_unset()) return value;
+  if (!code.is_silent) {
+    warn(frame, code.range,
+         fmt::format("Ignoring unknown variable '{}'", code.name));
+  }
+  return Value();
+}
+Value run_inexact_literal(const Expression& expression, Frame& frame) {
+  const auto& code = as<InexactLiteral>(expression);
+  warn(frame, code.range, std::string(code.warning));
+  return Value(code.value);
+}
+Value run_unknown_variable(const Expression& expression, Frame& frame) {
+  frame.in.warn(expression.range,
+                fmt::format("Ignoring unknown variable '{}'",
+                            as<UnknownVariable>(expression).name));
+  return Value();
+}
+
+// --- Conditions, elements, ranges -------------------------------------------
+
+Value run_conditional(const Expression& expression, Frame& frame) {
+  const auto& code = as<ConditionalCode>(expression);
+  return run(is_true(code.condition, frame) ? code.if_true : code.if_false,
+             frame);
+}
+
+namespace {
+// An element of a vector that stands in memory; otherwise as `look`.
+const Value& look_at_element(const BinaryCode& code, Frame& frame,
+                             Value& spill) {
+  Value spill_object;
+  Value spill_index;
+  const Value& i = look(code.right, frame, spill_index);
+  const Value& object = look(code.left, frame, spill_object);
+  if (object.is_vector() && &object != &spill_object && i.is_number()) {
+    const std::span<const Value> elements = object.as_vector();
+    const double number = i.as_number();
+    // Cut towards zero, as index() does.
+    if (number >= 0 && number < static_cast<double>(elements.size())) {
+      return elements[static_cast<std::uint32_t>(number)];
+    }
+  }
+  spill = index(object, i);
+  return spill;
+}
+}  // namespace
+
+Value run_index(const Expression& expression, Frame& frame) {
+  Value spill;
+  const Value& element =
+      look_at_element(as<BinaryCode>(expression), frame, spill);
+  if (&element == &spill) return spill;
+  return element;
+}
+
+const Value& look_further(const Expression* code, Frame& frame, Value& spill) {
+  if (code->kind == Expression::Kind::kOuter &&
+      is_plain(frame.link->slots[code->slot])) {
+    return frame.link->slots[code->slot];
+  }
+  if (code->kind == Expression::Kind::kIndex) {
+    return look_at_element(as<BinaryCode>(*code), frame, spill);
+  }
+  spill = run(code, frame);
+  return spill;
+}
+
+Value run_member(const Expression& expression, Frame& frame) {
+  const auto& code = as<MemberCode>(expression);
+  Value spill;
+  return member(look(code.object, frame, spill), code.name);
+}
+
+Value run_range(const Expression& expression, Frame& frame) {
+  const auto& code = as<RangeCode>(expression);
+  const Value first = run(code.begin, frame);
+  if (!first.is_number()) return Value();
+  const Value last = run(code.end, frame);
+  if (!last.is_number()) return Value();
+  const double begin = first.as_number();
+  const double end = last.as_number();
+  if (code.step == nullptr) {
+    if (end >= begin || std::isnan(begin) || std::isnan(end)) {
+      return Value::range(begin, 1, end);
+    }
+    frame.in.deprecate(code.range,
+                       "Using ranges of the form [begin:end] with begin value "
+                       "greater than the end value is deprecated",
+                       frame.document);
+    return Value::range(end, 1, begin);
+  }
+  const Value step = run(code.step, frame);
+  if (!step.is_number()) return Value();
+  if (code.is_literal) {
+    if (step.as_number() > 0 && end < begin) {
+      warn(frame, code.range,
+           "begin is greater than the end, but step is positive");
+    } else if (step.as_number() < 0 && end > begin) {
+      warn(frame, code.range,
+           "begin is smaller than the end, but step is negative");
+    }
+  }
+  return Value::range(begin, step.as_number(), end);
+}
+
+// --- let, echo, assert ------------------------------------------------------
+
+void run_bindings(Bindings bindings, Frame& frame) {
+  for (const Binding& binding : bindings) prepare(binding.target, frame);
+  for (const Binding& binding : bindings) {
+    Value value = run(binding.value, frame);
+    if (binding.target.kind != Target::Kind::kNowhere) [[likely]] {
+      frame.in.assign(binding.target, std::move(value), frame);
+    } else if (binding.name.empty()) {
+      warn(frame, binding.range,
+           "Assignment without variable name " + to_echo(value));
+    } else {
+      warn(frame, binding.range,
+           fmt::format("Ignoring duplicate variable assignment {} = {}",
+                       binding.name, to_echo(value)));
+    }
+  }
+}
+
+Value run_let(const Expression& expression, Frame& frame) {
+  const auto& code = as<LetCode>(expression);
+  const DynamicScope scope(frame.in);
+  run_bindings(code.bindings, frame);
+  return run(code.body, frame);
+}
+
+std::string echo_text(std::span<const WrittenArgument> arguments,
+                      Frame& frame) {
+  std::string text;
+  for (const WrittenArgument& argument : arguments) {
+    if (&argument != arguments.data()) text += ", ";
+    if (!argument.name.empty()) {
+      text += argument.name;
+      text += " = ";
+    }
+    append_echo(run(argument.value, frame), text);
+  }
+  return text;
+}
+
+Value run_echo(const Expression& expression, Frame& frame) {
+  const auto& code = as<EchoCode>(expression);
+  frame.in.echo(echo_text(code.arguments, frame));
+  return code.body != nullptr ? run(code.body, frame) : Value();
+}
+
+void run_assert(const AssertCode& code, Frame& frame) {
+  for (const std::string& warning : code.plan->warnings) {
+    warn(frame, code.range, warning);
+  }
+  const Value condition = run(code.condition, frame);
+  const Value message = run(code.message, frame);
+  if (condition.is_true()) return;
+  std::string text = "Assertion";
+  if (code.condition_text != nullptr) {
+    text += " '" + expression_text(*code.condition_text) + "'";
+  }
+  text += " failed";
+  if (!message.is_undef()) text += ": " + to_echo(message);
+  frame.in.fail(code.range, std::move(text), frame.document);
+}
+
+Value run_assert_expression(const Expression& expression, Frame& frame) {
+  const auto& code = as<AssertCode>(expression);
+  run_assert(code, frame);
+  return code.body != nullptr ? run(code.body, frame) : Value();
+}
+
+}  // namespace lamina::csg

@@ -1,0 +1,50 @@
+#pragma once
+// The functions that run expressions (Expression::run, Element::emit).
+
+#include "csg/eval/code/code.h"
+#include "csg/eval/value/value.h"
+#include "parser/ast.h"
+
+namespace lamina::csg {
+
+Value run_constant(const Expression& expression, Frame& frame);
+Value run_local(const Expression& expression, Frame& frame);
+Value run_outer(const Expression& expression, Frame& frame);
+Value run_far_outer(const Expression& expression, Frame& frame);
+Value run_captured(const Expression& expression, Frame& frame);
+Value run_dynamic(const Expression& expression, Frame& frame);
+Value run_inexact_literal(const Expression& expression, Frame& frame);
+Value run_unknown_variable(const Expression& expression, Frame& frame);
+
+Value run_conditional(const Expression& expression, Frame& frame);
+Value run_index(const Expression& expression, Frame& frame);
+Value run_member(const Expression& expression, Frame& frame);
+Value run_range(const Expression& expression, Frame& frame);
+Value run_vector(const Expression& expression, Frame& frame);
+Value run_let(const Expression& expression, Frame& frame);
+Value run_echo(const Expression& expression, Frame& frame);
+Value run_assert_expression(const Expression& expression, Frame& frame);
+Value run_function_literal(const Expression& expression, Frame& frame);
+
+// The functions that run an operator.
+Expression::Runner unary_runner(ast::UnaryOp op);
+Expression::Runner binary_runner(ast::BinaryOp op, const Expression& left,
+                                 const Expression& right);
+
+// A call by a name that only a function can have: a user's function, a
+// built-in one of one number, any other built-in one, none.
+Value run_call_function(const Expression& expression, Frame& frame);
+Value run_call_math(const Expression& expression, Frame& frame);
+Value run_call_builtin(const Expression& expression, Frame& frame);
+Value run_call_unknown(const Expression& expression, Frame& frame);
+// A call of what may be a function value.
+Value run_call_value(const Expression& expression, Frame& frame);
+
+void emit_value(const Element& element, Frame& frame, VectorBuilder& out);
+void emit_for(const Element& element, Frame& frame, VectorBuilder& out);
+void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out);
+void emit_if(const Element& element, Frame& frame, VectorBuilder& out);
+void emit_each(const Element& element, Frame& frame, VectorBuilder& out);
+void emit_let(const Element& element, Frame& frame, VectorBuilder& out);
+
+}  // namespace lamina::csg

@@ -1,0 +1,287 @@
+#include "csg/eval/run/interpreter.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <sanitizer/asan_interface.h>
+
+namespace lamina::csg {
+
+namespace {
+std::uintptr_t lowest_stack(std::uintptr_t highest, std::size_t bytes) {
+  // What building a message needs below the last frame that passed the check.
+  constexpr std::size_t kReserve = 64 << 10;
+  const std::size_t usable = bytes > 2 * kReserve ? bytes - kReserve : kReserve;
+  return highest > usable ? highest - usable : 0;
+}
+}  // namespace
+
+Interpreter::Interpreter(LazyResolver& resolver, DynamicNames& names,
+                         const FileAccess& access,
+                         const EvaluateOptions& options,
+                         Diagnostics& diagnostics, Arena& arena, Arena& calls)
+    : random(options.seed),
+      resolver_(resolver),
+      names_(names),
+      access_(access),
+      options_(options),
+      diagnostics_(diagnostics),
+      arena_(arena),
+      calls_(calls),
+      stack_begin_(
+          reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0))),
+      stack_limit_(lowest_stack(stack_begin_, options.stack_bytes)),
+      steps_left_(options.max_steps) {
+  make_room();
+}
+
+// Boxes in cycles die here: empty each, and the closures inside let go.
+Interpreter::~Interpreter() {
+  while (boxes_.next != nullptr) {
+    Box* box = boxes_.next;
+    {
+      const Value let_go = std::move(box->value);
+      box->value = Value();
+    }
+    if (boxes_.next != box) continue;
+    // Still held by someone: take it out of the list only.
+    boxes_.next = box->next;
+    if (box->next != nullptr) box->next->previous = &boxes_;
+    box->previous = box->next = nullptr;
+  }
+}
+
+// --- Messages ---------------------------------------------------------------
+
+void Interpreter::warn(SourceRange range, std::string message,
+                       const Source* document) {
+  ++effects_;
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::kWarning;
+  diagnostic.range = range;
+  diagnostic.message = std::move(message);
+  diagnostic.document = document;
+  // The calls that lead to a hard warning are noted like those of an error.
+  if (diagnostics_.has_hard_warnings()) end_with(std::move(diagnostic));
+  diagnostics_.report(std::move(diagnostic));
+}
+
+// Once for each place and text.
+void Interpreter::deprecate(SourceRange range, std::string message,
+                            const Source* document) {
+  ++effects_;
+  std::string place = "-";
+  if (range.is_known()) {
+    place = fmt::format("{}:{}", range.source->path(),
+                        range.source->line_column(range.begin).line);
+  }
+  if (!deprecations_.emplace(std::move(place), message).second) return;
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::kDeprecated;
+  diagnostic.range = range;
+  diagnostic.message = std::move(message);
+  diagnostic.document = document;
+  diagnostics_.report(std::move(diagnostic));
+}
+
+void Interpreter::echo(std::string text) {
+  ++effects_;
+  diagnostics_.echo(std::move(text));
+}
+
+void Interpreter::note(std::string text) {
+  ++effects_;
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::kPlain;
+  diagnostic.message = std::move(text);
+  diagnostics_.report(std::move(diagnostic));
+}
+
+void Interpreter::fail(SourceRange range, std::string message,
+                       const Source* document) {
+  Diagnostic diagnostic;
+  diagnostic.range = range;
+  diagnostic.message = std::move(message);
+  diagnostic.document = document;
+  end_with(std::move(diagnostic));
+}
+
+void Interpreter::end_with(Diagnostic diagnostic) {
+  // AddressSanitizer does not see that an exception leaves the frames of a
+  // stack as large as that of the evaluation; else this does nothing.
+  void* const here = __builtin_frame_address(0);
+  ASAN_UNPOISON_MEMORY_REGION(
+      here, stack_begin_ - reinterpret_cast<std::uintptr_t>(here));
+  failure_ = std::make_unique<Diagnostic>(std::move(diagnostic));
+  throw EvaluationFailure();
+}
+
+void Interpreter::note_call(std::string_view name, SourceRange range,
+                            const Source* document) {
+  constexpr std::size_t kMostNotes = 12;
+  if (failure_->notes.size() == kMostNotes) return;
+  failure_->notes.push_back(
+      {range, fmt::format("called by '{}'", name), document});
+}
+
+void Interpreter::fail_recursion(SourceRange range, std::string_view kind,
+                                 std::string_view name,
+                                 const Source* document) {
+  Diagnostic diagnostic;
+  diagnostic.range = range;
+  diagnostic.message =
+      fmt::format("Recursion detected calling {} '{}'", kind, name);
+  diagnostic.document = document;
+  if (depth_ > options_.max_depth) {
+    diagnostic.hints.push_back(
+        {range, fmt::format("{} calls are nested, the limit of --max-depth",
+                            options_.max_depth)});
+  }
+  end_with(std::move(diagnostic));
+}
+
+void Interpreter::fail_steps() {
+  fail({},
+       fmt::format("Evaluation takes more than {} steps", options_.max_steps),
+       nullptr);
+}
+
+// --- Variables --------------------------------------------------------------
+
+void Interpreter::make_room() {
+  const CodeCounts counts = resolver_.counts();
+  dynamic_.resize(names_.size(), Value::unset());
+  unit_values_.resize(counts.units);
+  last_plans_.resize(counts.calls);
+  tail_values_.resize(counts.tail_defaults, Value::unset());
+}
+
+void Interpreter::bind_dynamic(std::uint32_t index, Value value) {
+  dynamic_[index].swap(value);
+  trail_.push_back({index, std::move(value)});
+}
+
+void Interpreter::rebind_dynamic(std::uint32_t index, Value value,
+                                 std::size_t mark) {
+  for (std::size_t i = trail_.size(); i > mark; --i) {
+    if (trail_[i - 1].index == index) {
+      dynamic_[index] = std::move(value);
+      return;
+    }
+  }
+  bind_dynamic(index, std::move(value));
+}
+
+void Interpreter::unwind_trail(std::size_t mark) {
+  while (trail_.size() > mark) {
+    dynamic_[trail_.back().index] = std::move(trail_.back().value);
+    trail_.pop_back();
+  }
+}
+
+void Interpreter::assign_unusual(const Target& target, Value value,
+                                 Frame& frame) {
+  if (target.kind == Target::Kind::kSlot) {
+    frame.slots[target.index].as_box().value = std::move(value);
+  } else if (target.kind == Target::Kind::kDynamic) {
+    bind_dynamic(target.index, std::move(value));
+  }
+}
+
+void Interpreter::bind_module_depth() {
+  const std::optional<std::uint32_t> index = names_.find("$parent_modules");
+  if (!index || *index >= dynamic_.size()) return;
+  bind_dynamic(*index, Value(static_cast<double>(module_names.size())));
+}
+
+Value Interpreter::make_box() {
+  auto* box = new Box;
+  box->previous = &boxes_;
+  box->next = boxes_.next;
+  if (box->next != nullptr) box->next->previous = box;
+  boxes_.next = box;
+  return Value::adopt(Type::kBox, box, 0);
+}
+
+void Interpreter::add_file(const std::string& path) {
+  if (known_files_.insert(path).second) files_.push_back(path);
+}
+
+const LiteralCall& Interpreter::find_plan(const CallCode& call,
+                                          const FunctionLiteral& literal) {
+  const LiteralCall& plan = resolver_.plan_for(call, literal);
+  make_room();
+  last_plans_[call.number] = {&literal, &plan};
+  return plan;
+}
+
+// --- Used files -------------------------------------------------------------
+
+Frame& Interpreter::enter_unit(const Unit& unit) {
+  if (!unit.is_resolved) resolve(unit);
+  if (const UnitValues& known = unit_values_[unit.number];
+      known.frame != nullptr) {
+    for (const auto& [index, value] : known.dynamic_values) {
+      bind_dynamic(index, value);
+    }
+    return *known.frame;
+  }
+  unit_frames_.push_back({Frame{*this}, {}});
+  UnitFrame& made = unit_frames_.back();
+  made.slots.resize(unit.slot_count, Value::unset());
+  made.frame.slots = made.slots.data();
+  made.frame.document = unit.document;
+  const std::uint64_t effects = effects_;
+  const std::size_t mark = trail_.size();
+  run_assignments(unit.body, made.frame);
+  if (effects_ == effects) {
+    UnitValues& known = unit_values_[unit.number];
+    for (std::size_t i = mark; i < trail_.size(); ++i) {
+      known.dynamic_values.emplace_back(trail_[i].index,
+                                        dynamic_[trail_[i].index]);
+    }
+    known.frame = &made.frame;
+  }
+  return made.frame;
+}
+
+// --- Nodes ------------------------------------------------------------------
+
+const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
+  const double mix = matrix[0].x + 3 * matrix[0].y + 5 * matrix[1].z +
+                     7 * matrix[3].x + 11 * matrix[3].y + 13 * matrix[3].z;
+  const std::size_t slot =
+      (std::bit_cast<std::uint64_t>(mix) * 0x9e3779b97f4a7c15u) >> 58;
+  const Mat4*& kept = recent_matrices_[slot];
+  // The same bits: -0 is not 0 in `.csg`.
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): what is wanted
+  if (kept == nullptr || std::memcmp(kept, &matrix, sizeof matrix) != 0) {
+    kept = keep(matrix);
+  }
+  return kept;
+}
+
+void Interpreter::make_node(decltype(Node::op) op,
+                            const InstantiationCode& code, std::size_t mark) {
+  if (mark == nodes_.size() && leaf_count_++ == options_.max_leaves) {
+    fail(code.range,
+         fmt::format("Too many leaves: more than the {} that --max-leaves "
+                     "allows",
+                     options_.max_leaves),
+         nullptr);
+  }
+  Node* node = arena_.make(Node());
+  node->op = op;
+  node->children = keep_all(nodes_since(mark));
+  node->range = code.range;
+  node->caller = current_call;
+  node->is_root = code.modifiers.root;
+  node->is_highlight = code.modifiers.highlight;
+  node->is_background = code.modifiers.background;
+  nodes_.resize(mark);
+  nodes_.push_back(node);
+}
+
+}  // namespace lamina::csg

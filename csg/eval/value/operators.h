@@ -1,0 +1,48 @@
+#pragma once
+// The operators on values, with OpenSCAD's rules for mixed types.
+//
+// Where an operation has no meaning the result is undef and the reason is
+// left in `reason`, in the words of OpenSCAD's warning. An undef inside a
+// resulting vector has no reason: OpenSCAD keeps quiet about those.
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "csg/eval/value/undefined.h"
+#include "csg/eval/value/value.h"
+#include "parser/ast.h"
+
+namespace lamina::csg {
+
+// std::fmod, quicker where both are whole numbers, as they mostly are.
+inline double modulo(double a, double b) {
+  constexpr double kWhole = 0x1p53;
+  if (std::fabs(a) < kWhole && std::fabs(b) < kWhole && b != 0) {
+    const auto i = static_cast<std::int64_t>(a);
+    const auto k = static_cast<std::int64_t>(b);
+    if (static_cast<double>(i) == a && static_cast<double>(k) == b) {
+      return std::copysign(static_cast<double>(i % k), a);
+    }
+  }
+  return std::fmod(a, b);
+}
+
+// All but `&&` and `||`, which do not evaluate both sides. A vector moved in
+// that no other value holds may become the result: `[..] * 2 + [..]` makes two
+// vectors, not four.
+Value apply_binary(ast::BinaryOp op, Value left, Value right, Reason& reason);
+
+Value apply_unary(ast::UnaryOp op, Value value, Reason& reason);
+Value negate(Value value, Reason& reason);
+
+// object[index], or object["name"] of an object; undef without a word where
+// there is no such element.
+Value index(const Value& object, const Value& index);
+
+// object.name: a member of an object; begin, step, end of a range; of a vector
+// one of xyzw or rgba (its first four elements), or a vector of up to four from
+// one of the two.
+Value member(const Value& object, std::string_view name);
+
+}  // namespace lamina::csg

@@ -1,0 +1,82 @@
+#pragma once
+// Which leaves can matter at all.
+//
+// Of a lattice that a sphere bounds, half of the struts lie outside the sphere;
+// of a pattern of drills many meet nothing. Within the box of such a leaf the
+// Boolean is decided by others, and the leaf need not be cut in any layer.
+//
+// To see that, the program is evaluated over the box in three values. A leaf
+// gives them by its box, and a body that is round or straight by bounds of its
+// scale, in O(its rings): empty where the box lies outside of it, full where
+// the box lies inside, else open. Every operator is the test of
+// csg/program_state.h, here with the least and the greatest count that its
+// children can have. Where an operator on the way from a leaf to the root has
+// one value whether the branch of the leaf holds or not, the leaf is left out.
+//
+// All answers keep a distance that ties of faces do not bridge. That leaves
+// which are left out decide about others does no harm: a leaf is full only over
+// boxes smaller than its own, so each is decided by larger ones, whatever the
+// smaller ones hold.
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "csg/scene.h"
+
+namespace lamina::ldni::detail {
+
+class CsgPruning {
+ public:
+  // The scene must outlive the object.
+  explicit CsgPruning(const csg::Scene& scene);
+  ~CsgPruning();
+  CsgPruning(const CsgPruning&) = delete;
+  CsgPruning& operator=(const CsgPruning&) = delete;
+
+  // Whether the result may depend on the instance. Asks few other leaves, so
+  // that it costs little however many there are.
+  bool matters(std::uint32_t instance);
+
+  // To leaves and operators, for all instances so far.
+  std::uint64_t questions() const { return questions_; }
+
+ private:
+  // A child of an operator: another one, or an instance.
+  struct Child {
+    std::uint32_t number = 0;
+    bool is_instance = false;
+    bool is_subtrahend = false;
+
+    bool operator==(const Child&) const = default;
+    std::int32_t weight() const { return is_subtrahend ? -1 : 1; }
+  };
+  // Least and greatest.
+  struct Count {
+    std::int32_t low = 0;
+    std::int32_t high = 0;
+
+    void add(const Count& other, std::int32_t weight) {
+      low += weight * (weight > 0 ? other.low : other.high);
+      high += weight * (weight > 0 ? other.high : other.low);
+    }
+  };
+  // A leaf as it is asked about.
+  struct Body;
+
+  void list_children();
+  std::int32_t threshold(std::uint32_t node) const;
+  Count count(std::uint32_t node, const Child& left_out, const Box3& box);
+  Count value(const Child& child, const Box3& box);
+  Count value_of_leaf(std::uint32_t instance, const Box3& box);
+
+  const csg::Scene& scene_;
+  // Of the operators with few children; operator i: [ends[i-1], ends[i]).
+  std::vector<Child> children_;
+  std::vector<std::uint32_t> ends_;
+  std::unordered_map<std::uint32_t, Body> bodies_;
+  std::uint64_t questions_ = 0;
+  std::uint64_t last_question_ = 0;  // for the instance in hand
+};
+
+}  // namespace lamina::ldni::detail

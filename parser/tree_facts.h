@@ -1,0 +1,33 @@
+#pragma once
+// What can be told of a syntax tree without evaluating it.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "parser/ast.h"
+
+namespace lamina::ast {
+
+// Whether OpenSCAD calls an expression a literal: numbers, strings, truth
+// values, undef, and vectors, ranges and signs of such.
+bool is_literal(const Expr& expr);
+
+enum class ValueType : std::uint8_t {
+  kBool,
+  kNumber,
+  kString,
+  kVector,
+  kRange
+};
+
+// The type of the value of a literal, or of arithmetic on literals; none for
+// undef and for whatever names a variable or calls a function.
+std::optional<ValueType> type_of(const Expr& expr);
+
+// The variables that a scope assigns, in the order of their first assignments:
+// of each the index of its last assignment, which counts.
+std::vector<std::size_t> assignments_that_count(Statements statements);
+
+}  // namespace lamina::ast

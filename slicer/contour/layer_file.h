@@ -1,0 +1,50 @@
+#pragma once
+// What a file of layers holds beside their contours, whatever its format:
+// readers (slicer/formats) fill it in, checks (slicer/check) judge it.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "ldni/section/contours.h"
+
+namespace lamina::slicer {
+
+// A loop as its file holds it: with the closing vertex, unless it is open.
+struct WrittenLoop {
+  std::uint32_t gaps = 0;    // as the file counts them
+  std::vector<Vec2> points;  // [mm]
+};
+
+// A row of a table of thicknesses: layers from `min_z` upwards [file's unit].
+struct SamplingRow {
+  float min_z = 0;
+  float thickness = 0;
+  float line_width_compensation = 0;
+};
+
+// The loops as a sound file holds them: each ends with its first point again.
+std::vector<WrittenLoop> closed_loops(const ldni::Contours& contours);
+
+struct LayerFileFacts {
+  std::string format;  // "SLC 2.0", "CLI, binary"; empty: layers of a design
+  std::string writer;  // program that made it; empty: not known
+  // Bound on the contours' deviation from the design's sections, if noted [mm].
+  std::optional<double> deviation;
+  // Coordinates are 32-bit numbers.
+  bool is_float32 = true;
+  // false: only heights of sections; sides of layers are then halfway between.
+  bool has_sides = true;
+  std::uint64_t lines_left_out = 0;  // hatches and open polylines
+  // SLC alone has these: a line of words, the table of thicknesses, the low and
+  // high of x, y, z [file's unit], and the top of the part [mm].
+  std::string header;
+  std::vector<SamplingRow> sampling;
+  std::optional<std::array<Vec2, 3>> extents;
+  std::optional<double> top;
+};
+
+}  // namespace lamina::slicer

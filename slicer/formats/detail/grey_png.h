@@ -1,0 +1,21 @@
+#pragma once
+// A layer as the grey PNG image that a printer's panel shows.
+
+#include <string>
+
+#include "ldni/section/contours.h"
+#include "slicer/formats/coverage.h"
+#include "slicer/formats/panel.h"
+
+namespace lamina::slicer {
+
+// Returns the layer as a PNG file of width × height pixels: the grey of each is
+// the share of it that the layer covers, 255 for all.
+//
+// Cost: that of the box around the contours; the rest of the panel takes next
+// to no time (run_deflater.h).
+std::string draw_grey_png(const ldni::Contours& contours, unsigned width,
+                          unsigned height, const PixelMap& map,
+                          PixelLayout layout = PixelLayout::kGrey);
+
+}  // namespace lamina::slicer

@@ -1,0 +1,209 @@
+// Writes layers as images for the panels of resin printers: a folder of PNG
+// files, Prusa's SL1 archive, or NanoDLP's (docs/formats.md).
+//
+// The grey of a pixel is the share of it that the layer covers, by area. The
+// middle of the design's box stands in the middle of the panel.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "base/diagnostic.h"
+#include "base/file/output_folder.h"
+#include "base/file/zip_output.h"
+#include "slicer/contour/regions.h"
+#include "slicer/formats/detail/grey_png.h"
+#include "slicer/formats/detail/image_stack.h"
+#include "slicer/formats/detail/writers.h"
+
+namespace lamina::slicer {
+namespace {
+
+// A part as large as the panel fits, whatever rounding its numbers saw.
+constexpr double kSlack = 1e-3;  // [pixels]
+
+// Where the images and texts of a stack go, by name.
+class StackOutput {
+ public:
+  virtual ~StackOutput() = default;
+  virtual void add_image(const std::string& name, std::string_view bytes) = 0;
+  virtual void add_text(const std::string& name, std::string_view bytes) = 0;
+  virtual void finish() = 0;
+  virtual void commit() = 0;
+  virtual std::uint64_t size() const = 0;
+};
+
+class FolderStack : public StackOutput {
+ public:
+  FolderStack(const std::string& path, TemporaryFiles& files)
+      : folder_(path, kFolderContents, files) {}
+
+  void add_image(const std::string& name, std::string_view bytes) override {
+    folder_.add(name, bytes);
+  }
+  void add_text(const std::string& name, std::string_view bytes) override {
+    folder_.add(name, bytes);
+  }
+  void finish() override {}
+  void commit() override { folder_.commit(); }
+  std::uint64_t size() const override { return folder_.size(); }
+
+ private:
+  OutputFolder folder_;
+};
+
+class ArchiveStack : public StackOutput {
+ public:
+  ArchiveStack(const std::string& path, TemporaryFiles& files)
+      : file_(path, files), archive_(file_) {}
+
+  void add_image(const std::string& name, std::string_view bytes) override {
+    archive_.add_packed(name, bytes);
+  }
+  void add_text(const std::string& name, std::string_view bytes) override {
+    archive_.add_text(name, bytes);
+  }
+  void finish() override { archive_.finish(); }
+  void commit() override { file_.commit(); }
+  std::uint64_t size() const override { return file_.size(); }
+
+ private:
+  OutputFile file_;
+  ZipOutput archive_;
+};
+
+// The name of the print job, which printers show: "ring" of "out/ring.sl1".
+std::string job_name(const std::string& path) {
+  std::string name = path.substr(path.rfind('/') + 1);
+  name.resize(std::min(name.size(), name.rfind('.')));
+  return name.empty() || name == "-" ? "lamina" : name;
+}
+
+std::unique_ptr<StackOutput> open_stack(OutputFormat format,
+                                        const std::string& path,
+                                        TemporaryFiles& files) {
+  if (format == OutputFormat::kPng) {
+    return std::make_unique<FolderStack>(path, files);
+  }
+  return std::make_unique<ArchiveStack>(path, files);
+}
+
+// The layer's thickness without the rounding of its heights.
+double thickness_of(const Layer& layer) {
+  constexpr double kPerMm = 1e9;
+  return std::round((layer.top - layer.bottom) * kPerMm) / kPerMm;
+}
+
+class ImageStackWriter : public LayerWriter {
+ public:
+  ImageStackWriter(OutputFormat format, const Panel& panel,
+                   const std::string& path, TemporaryFiles& temporary_files)
+      : output_(open_stack(format, path, temporary_files)) {
+    stack_.format = format;
+    stack_.job = job_name(path);
+    stack_.panel = panel;
+    map_ = panel.map_around(Vec2(0));
+  }
+
+  void begin(const Box3& box) override {
+    map_ = stack_.panel.map_around((Vec2(box.low) + Vec2(box.high)) / 2.0);
+  }
+
+  // Returns the layer's image.
+  std::string encode(const Layer& layer) const override {
+    const Panel& panel = stack_.panel;
+    return draw_grey_png(layer.contours, panel.width, panel.height, map_,
+                         stack_.format == OutputFormat::kNanoDlp
+                             ? panel.nanodlp_layout
+                             : PixelLayout::kGrey);
+  }
+
+  // Throws GeometryError where the layer reaches beyond the panel, or where the
+  // format wants one thickness and the layer has another than the first one.
+  void take(const Layer& layer) override {
+    ImageLayer measures = measure(layer);
+    const std::string name = image_name(stack_, stack_.layers.size());
+    output_->add_image(name,
+                       layer.encoded.empty() ? encode(layer) : layer.encoded);
+    note_thickness(measures.thickness);
+    stack_.volume +=
+        std::accumulate(measures.regions.begin(), measures.regions.end(), 0.0) *
+        (layer.top - layer.bottom);
+    stack_.layers.push_back(std::move(measures));
+  }
+
+  void finish(Diagnostics& /*diagnostics*/) override {
+    for (const StackText& text : stack_texts(stack_)) {
+      output_->add_text(text.name, text.text);
+    }
+    output_->finish();
+  }
+
+  void commit() override { output_->commit(); }
+  std::uint64_t size() const override { return output_->size(); }
+
+ private:
+  // Throws GeometryError where the layer reaches beyond the panel.
+  ImageLayer measure(const Layer& layer) const {
+    const Panel& panel = stack_.panel;
+    const Vec2 size(panel.width, panel.height);
+    ImageLayer measures;
+    measures.z = layer.section_z;
+    measures.thickness = thickness_of(layer);
+    measures.regions = areas_of_regions(layer.contours);
+    if (layer.contours.points.empty()) return measures;
+    measures.low = measures.high = map_(layer.contours.points.front());
+    for (const Vec2& point : layer.contours.points) {
+      measures.low = glm::min(measures.low, map_(point));
+      measures.high = glm::max(measures.high, map_(point));
+    }
+    const bool fits =
+        glm::all(glm::greaterThanEqual(measures.low, Vec2(-kSlack))) &&
+        glm::all(glm::lessThanEqual(measures.high, size + kSlack));
+    if (fits) {
+      measures.low = glm::max(measures.low, Vec2(0));
+      measures.high = glm::min(measures.high, size);
+      return measures;
+    }
+    throw GeometryError(
+        {Severity::kError,
+         {},
+         fmt::format(
+             "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
+             "({}): the layer at {:.6g} mm reaches beyond it",
+             panel.width * panel.pixel.x, panel.height * panel.pixel.y,
+             panel.name, layer.section_z)});
+  }
+
+  void note_thickness(double thickness) {
+    if (stack_.layers.empty()) stack_.layer_thickness = thickness;
+    if (stack_.layer_thickness == thickness) return;
+    if (stack_.format != OutputFormat::kPng) {
+      throw GeometryError(
+          {Severity::kError, {}, ".sl1 and .zip need layers of one thickness"});
+    }
+    stack_.layer_thickness = 0;
+  }
+
+  std::unique_ptr<StackOutput> output_;
+  ImageStack stack_;
+  PixelMap map_;
+};
+
+}  // namespace
+
+std::unique_ptr<LayerWriter> make_image_stack_writer(
+    const WriterOptions& options, const std::string& path,
+    TemporaryFiles& temporary_files) {
+  return std::make_unique<ImageStackWriter>(options.format, options.panel, path,
+                                            temporary_files);
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,46 @@
+#pragma once
+// What the readers of layer files have in common.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/file/file_access.h"
+#include "base/file/file_bytes.h"
+#include "base/vec.h"
+#include "ldni/section/contours.h"
+
+namespace lamina::slicer {
+
+inline constexpr double kMillimetresPerInch = 25.4;
+
+// Throws FileError, whose message begins with the file's name.
+[[noreturn]] void fail_to_read(const std::string& path,
+                               std::string_view message);
+
+// The same for a file that FileAccess::open could not open: errno says why.
+[[noreturn]] void fail_to_open(const std::string& path);
+
+// Throws FileError where there is no regular file that can be read, AccessError
+// for one that may not be.
+FileBytes open_to_read(const std::string& path, const FileAccess& access);
+
+// The number of the line that holds the byte at `place`, from 1.
+std::size_t line_at(std::string_view text, std::size_t place);
+
+// Takes the leading characters that are among `characters` off the text.
+void skip(std::string_view& text, std::string_view characters);
+
+// Takes a number, with blanks before it, off the front of `text`; false where
+// there is none that is finite.
+bool take_number(std::string_view& text, double& value);
+
+// What a file says that a loop is.
+enum class LoopKind { kOuter, kHole };
+
+// Appends a loop without its closing point, turned round where it does not run
+// as its kind must. What has fewer than three points is left out.
+void add_loop(std::span<const Vec2> points, LoopKind kind,
+              ldni::Contours& contours);
+
+}  // namespace lamina::slicer

@@ -1,0 +1,43 @@
+#pragma once
+// Packs bytes that come in runs (stretches of equal bytes), as the rows of a
+// layer's image do, into a zlib stream.
+//
+// Most of a panel is black and most of a part is white, so an image of millions
+// of bytes is some thousands of runs. zlib looks at every byte, which took
+// hundreds of times as long as making the layers themselves; here a run costs
+// about the same however long it is: its deflate codes and its part in the
+// checksum follow from its length. The stream is one block in one fixed Huffman
+// code, made for images of layers (RFC 1950, RFC 1951); files are as small as
+// zlib's.
+
+#include <cstdint>
+#include <string>
+
+namespace lamina::slicer {
+
+class RunDeflater {
+ public:
+  RunDeflater();  // begins the stream
+
+  // Appends `count` bytes of that value.
+  void add(std::uint8_t value, std::uint64_t count);
+
+  // Ends the stream and returns it; nothing may be added then.
+  std::string finish();
+
+ private:
+  void write_run();
+  void write_matches(std::uint64_t count);
+  void put(std::uint64_t bits, int count);
+  void put_header();
+
+  std::string bytes_;
+  std::uint64_t bits_ = 0;  // not yet in bytes_, the first one lowest
+  int bit_count_ = 0;       // below 32
+  std::uint8_t value_ = 0;  // of the run in hand
+  std::uint64_t count_ = 0;
+  std::uint64_t sum_ = 1;  // the two of Adler-32
+  std::uint64_t sum_of_sums_ = 0;
+};
+
+}  // namespace lamina::slicer

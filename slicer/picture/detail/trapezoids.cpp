@@ -1,0 +1,134 @@
+#include "slicer/picture/detail/trapezoids.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace lamina::slicer {
+namespace {
+
+struct Edge {
+  Vec2 low;
+  Vec2 high;
+  int winding;
+
+  double x_at(double y) const {
+    return low.x + (high.x - low.x) * (y - low.y) / (high.y - low.y);
+  }
+};
+
+// A pair of edges with the solid between them, since `bottom`.
+struct Strip {
+  std::uint32_t left;
+  std::uint32_t right;
+  double bottom;
+
+  bool has_sides_of(const Strip& other) const {
+    return left == other.left && right == other.right;
+  }
+};
+
+class TrapezoidSweep {
+ public:
+  TrapezoidSweep(const ldni::Contours& contours,
+                 std::vector<Trapezoid>& trapezoids)
+      : trapezoids_(trapezoids) {
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const auto loop = contours.loop(i);
+      for (std::size_t j = 0; j < loop.size(); ++j) {
+        add_edge(loop[j], loop[(j + 1) % loop.size()]);
+      }
+    }
+    std::sort(edges_.begin(), edges_.end(),
+              [](const Edge& a, const Edge& b) { return a.low.y < b.low.y; });
+    std::sort(heights_.begin(), heights_.end());
+    heights_.erase(std::unique(heights_.begin(), heights_.end()),
+                   heights_.end());
+  }
+
+  void run() {
+    for (std::size_t i = 0; i + 1 < heights_.size(); ++i) {
+      cross(heights_[i], heights_[i + 1]);
+    }
+    if (!heights_.empty()) replace_strips({}, heights_.back());
+  }
+
+ private:
+  void add_edge(Vec2 from, Vec2 to) {
+    heights_.push_back(from.y);
+    if (from.y < to.y) edges_.push_back({from, to, -1});
+    if (from.y > to.y) edges_.push_back({to, from, 1});
+  }
+
+  // Makes the strips of the next heights, between which nothing begins or ends.
+  void cross(double bottom, double top) {
+    std::erase_if(active_, [&](const Active& active) {
+      return edges_[active.edge].high.y <= bottom;
+    });
+    for (; next_ < edges_.size() && edges_[next_].low.y <= bottom; ++next_) {
+      active_.push_back({static_cast<std::uint32_t>(next_), 0});
+    }
+    const double middle = (bottom + top) / 2;
+    for (Active& active : active_) active.x = edges_[active.edge].x_at(middle);
+    std::sort(active_.begin(), active_.end(),
+              [](const Active& a, const Active& b) { return a.x < b.x; });
+
+    std::vector<Strip> strips;
+    int winding = 0;
+    for (const Active& active : active_) {
+      const bool was_outside = winding == 0;
+      winding += edges_[active.edge].winding;
+      if (was_outside) {
+        strips.push_back({active.edge, active.edge, bottom});
+      } else if (winding == 0) {
+        strips.back().right = active.edge;
+      }
+    }
+    replace_strips(std::move(strips), bottom);
+  }
+
+  // Ends the strips that do not go on beyond `height`.
+  void replace_strips(std::vector<Strip> strips, double height) {
+    for (const Strip& old : strips_) {
+      const auto same = std::find_if(
+          strips.begin(), strips.end(),
+          [&](const Strip& strip) { return strip.has_sides_of(old); });
+      if (same == strips.end()) {
+        finish(old, height);
+      } else {
+        same->bottom = old.bottom;
+      }
+    }
+    strips_ = std::move(strips);
+  }
+
+  void finish(const Strip& strip, double top) {
+    const Edge& left = edges_[strip.left];
+    const Edge& right = edges_[strip.right];
+    trapezoids_.push_back({strip.bottom, top, left.x_at(strip.bottom),
+                           right.x_at(strip.bottom), left.x_at(top),
+                           right.x_at(top)});
+  }
+
+  struct Active {
+    std::uint32_t edge;
+    double x;
+  };
+
+  std::vector<Edge> edges_;  // by where they begin; level ones left out
+  std::vector<double> heights_;
+  std::size_t next_ = 0;  // of the edges
+  std::vector<Active> active_;
+  std::vector<Strip> strips_;
+  std::vector<Trapezoid>& trapezoids_;
+};
+
+}  // namespace
+
+void cut_into_trapezoids(const ldni::Contours& contours,
+                         std::vector<Trapezoid>& trapezoids) {
+  trapezoids.clear();
+  TrapezoidSweep(contours, trapezoids).run();
+}
+
+}  // namespace lamina::slicer

@@ -1,0 +1,124 @@
+#include "csg/lower/detail/repair.h"
+
+#include <gtest/gtest.h>
+
+#include "csg/boundary/leaf_mesh.h"
+#include "tests/csg/lower/mesh_checks.h"
+
+namespace lamina::csg {
+namespace {
+
+// A tetrahedron of volume 1/6, its triangles counter-clockwise from outside.
+Mesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+// The same with three vertices of its own for each triangle, as STL has it;
+// those of triangle i are off by i · shift.
+Mesh apart(const Mesh& mesh, double shift = 0) {
+  Mesh soup;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t corner : mesh.triangles[i]) {
+      soup.vertices.push_back(mesh.vertices[corner] +
+                              static_cast<double>(i) * shift);
+    }
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+bool is_clean(const Repairs& repairs) {
+  return repairs.dropped_triangles == 0 && repairs.turned_triangles == 0 &&
+         repairs.repeated_triangles == 0 && repairs.closed_holes.empty();
+}
+
+TEST(Repair, LeavesASoundMeshAsItIs) {
+  Mesh mesh = tetrahedron();
+  EXPECT_TRUE(is_clean(repair(mesh, Vertices::kJoined)));
+  EXPECT_EQ(mesh, tetrahedron());
+}
+
+TEST(Repair, MakesEqualVerticesOne) {
+  Mesh mesh = apart(tetrahedron());
+  EXPECT_TRUE(is_clean(repair(mesh)));
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_TRUE(is_closed(mesh));
+}
+
+TEST(Repair, MakesNearVerticesOneWhereTheMeshIsOpenOtherwise) {
+  Mesh mesh = apart(tetrahedron(), 1e-8);
+  EXPECT_TRUE(is_clean(repair(mesh)));
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_TRUE(is_closed(mesh));
+}
+
+TEST(Repair, KeepsVerticesApartThatAreNotNear) {
+  Mesh mesh = apart(tetrahedron(), 1e-5);
+  EXPECT_EQ(repair(mesh).closed_holes.size(), 4U);
+  EXPECT_EQ(mesh.vertices.size(), 12U);
+}
+
+TEST(Repair, DropsTrianglesWithACornerTwice) {
+  Mesh mesh = tetrahedron();
+  mesh.triangles.push_back({1, 1, 2});
+  EXPECT_EQ(repair(mesh).dropped_triangles, 1U);
+  EXPECT_EQ(mesh, tetrahedron());
+}
+
+TEST(Repair, TurnsTheMinority) {
+  Mesh mesh = tetrahedron();
+  std::swap(mesh.triangles[1][1], mesh.triangles[1][2]);
+  EXPECT_EQ(repair(mesh).turned_triangles, 1U);
+  EXPECT_EQ(mesh, tetrahedron());
+}
+
+TEST(Repair, TurnsAMeshThatIsInsideOut) {
+  Mesh mesh = tetrahedron();
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  EXPECT_TRUE(is_clean(repair(mesh)));
+  EXPECT_NEAR(signed_volume(mesh), 1.0 / 6, 1e-15);
+}
+
+TEST(Repair, DropsATriangleThatIsThereTwice) {
+  Mesh mesh = tetrahedron();
+  mesh.triangles.push_back({2, 3, 1});
+  EXPECT_EQ(repair(mesh).repeated_triangles, 1U);
+  EXPECT_EQ(mesh, tetrahedron());
+}
+
+TEST(Repair, ClosesAHoleAndSaysWhereItWas) {
+  Mesh mesh = tetrahedron();
+  mesh.triangles.pop_back();
+  const Repairs repairs = repair(mesh);
+  ASSERT_EQ(repairs.closed_holes.size(), 1U);
+  EXPECT_EQ(repairs.closed_holes[0].edge_count, 3U);
+  EXPECT_EQ(repairs.closed_holes[0].box.low, Vec3(0, 0, 0));
+  EXPECT_EQ(repairs.closed_holes[0].box.high, Vec3(1, 1, 1));
+  EXPECT_TRUE(is_closed(mesh));
+}
+
+TEST(Repair, KeepsTwoSolidsThatShareAnEdge) {
+  Mesh mesh = tetrahedron();
+  mesh.vertices.insert(mesh.vertices.end(), {{0, -1, 0}, {0, 0, -1}});
+  // The first one turned by half a turn about the x axis: both have 0-1.
+  for (const auto& t : tetrahedron().triangles) {
+    std::array<std::uint32_t, 3> turned = t;
+    for (std::uint32_t& corner : turned) corner += corner > 1 ? 2 : 0;
+    mesh.triangles.push_back(turned);
+  }
+  const Mesh before = mesh;
+  EXPECT_TRUE(is_clean(repair(mesh)));
+  EXPECT_EQ(mesh, before);
+}
+
+TEST(Repair, LeavesOutVerticesThatNoTriangleNames) {
+  Mesh mesh = tetrahedron();
+  mesh.vertices.push_back({9, 9, 9});
+  EXPECT_TRUE(is_clean(repair(mesh)));
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+}
+
+}  // namespace
+}  // namespace lamina::csg
