@@ -30,12 +30,13 @@ constexpr std::string_view kCompareHelp =
     R"(Usage: lamina compare A B [OPTION]...
        lamina compare DESIGN --against openscad [OPTION]...
 
-Compares layers: of files (.slc .cli .svg .layers.json), designs (.scad .csg)
-and meshes (.stl .off .obj .amf .3mf), in any pairing. Designs and meshes are
-cut at the heights of the other one; two designs at those of the first. Shows
-for each layer the areas that only one of them covers, regions and holes, and
-the greatest distance of their contours: no point of one is farther from the
-other's. Ends with 0 if all layers are within the tolerance, with 1 if not.
+Compares the layers of files (.slc .cli .svg .layers.json), designs (.scad
+.csg), meshes (.stl .off .obj .amf .3mf) and drawings (.dxf), in any pairing.
+All but files are cut at the heights of the other one; two designs at those of
+the first. Shows for each layer the areas that only one of them covers, regions
+and holes, and the greatest distance of their contours: no point of one is
+farther from the other's. Ends with 0 if all layers are within the tolerance,
+with 1 if not.
 
   --tolerance MM      greatest distance that counts as equal [the sum of what
                       both say of their precision, 0.001 at least]
@@ -106,7 +107,7 @@ class CompareCommand : public Command {
     for (const std::string& path : {a_, b_}) {
       if (!path.empty() && !can_compare(path)) {
         throw UsageError(fmt::format(
-            "'{}' is nothing that compare knows (.slc .cli .svg .layers.json "
+            "'{}' is no file that compare reads (.slc .cli .svg .layers.json "
             ".scad .csg .stl .off .obj .amf .3mf .dxf)",
             path));
       }

@@ -107,11 +107,7 @@ OptionPage option_page(const CLI::Option& option,
   page.may_repeat =
       option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   page.words = words_of(option, page.value);
-  if (!page.words.empty()) {
-    page.completion = Completion::kWords;
-  } else if (option.get_type_name() == "file") {
-    page.completion = Completion::kFile;
-  }
+  page.is_file = option.get_type_name() == "file";
   return page;
 }
 
@@ -127,7 +123,7 @@ std::vector<std::string> extensions_of(const std::string& usage) {
   std::vector<std::string> extensions = {"slc",  "cli",  "svg",
                                          "json", "scad", "csg"};
   if (usage.find(" FILE") == std::string::npos) {
-    for (const char* mesh : {"stl", "off", "obj", "amf", "3mf"}) {
+    for (const char* mesh : {"stl", "off", "obj", "amf", "3mf", "dxf"}) {
       extensions.emplace_back(mesh);
     }
   }
@@ -185,6 +181,14 @@ std::vector<CommandPage> command_pages() {
     pages.push_back(command_page(std::string(named.name), *command, main_help));
   }
   return pages;
+}
+
+void replace(std::string& frame, std::string_view mark,
+             std::string_view content) {
+  for (std::size_t at = frame.find(mark); at != std::string::npos;
+       at = frame.find(mark, at + content.size())) {
+    frame.replace(at, mark.size(), content);
+  }
 }
 
 }  // namespace lamina::cli
