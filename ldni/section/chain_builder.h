@@ -1,11 +1,11 @@
 #pragma once
-// Cuts closed loops at their turns into x-monotone chains.
+// Cuts closed loops at their local extrema of x into x-monotone chains.
 //
 // An edge that is vertical, or as good as (|dx| < kClusterWidth), belongs to no
 // chain: rounding would otherwise give it a direction, and a wall that two
 // leaves share would become two steep chains that cross. Its ends get one x,
-// exactly, so that the chain before and the chain after it meet in one column
-// of the kinetic ray whatever else stops there (invariant I1).
+// exactly, so that the chain before and the chain after it meet in one event
+// cluster of the kinetic ray whatever else happens there (invariant I1).
 
 #include <cstdint>
 #include <span>

@@ -1,9 +1,9 @@
 #pragma once
 // The chains of a block of layers: what the moving ray is given.
 //
-// The ray needs from a leaf no triangles and no polygon, only its samples from
-// left to right. A chain is just that: a polyline that runs to the right, from
-// one local extremum of x to the next (Vatti's bounds, turned by 90 degrees).
+// The ray needs from a leaf only its samples from left to right. A chain is
+// just that: a polyline that runs to the right, from one local extremum of x to
+// the next (a bound of Vatti 1992, turned by 90 degrees).
 
 #include <cstdint>
 #include <memory>

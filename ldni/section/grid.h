@@ -1,12 +1,11 @@
 #pragma once
-// Heights of the sections and, for rays, positions in x.
+// Heights of the sections.
 //
-// Layers stand at z_k = bottom + (k + 1/2)·thickness, by multiplication, in the
-// middle of layers that are several units thick each, or at heights given one
-// by one. One rule decides whether a vertex is above a
-// section, for every sampler: it is where z > threshold(section). Comparing
-// with one threshold and counting layers are the same decision bit by bit, so
-// that a sampler may do either.
+// Sections stand at z_k = bottom + (k + 1/2)·thickness, by multiplication, in
+// the middle of layers of several units each, or at heights given one by one.
+// One rule decides for every sampler whether a vertex is above a section: it is
+// where z > threshold(section). Comparing with one threshold and counting
+// layers are the same decision bit by bit, so that a sampler may do either.
 
 #include <cstdint>
 #include <vector>
@@ -28,7 +27,7 @@ class LayerGrid {
   static LayerGrid at_heights(std::vector<double> heights);
 
   std::uint32_t layer_count() const;
-  // Of all layers; 0 where they are of several, or have none.
+  // Of each layer; 0 where they differ or have none.
   double thickness() const { return thickness_; }
   double section_z(std::uint32_t layer) const;
   double layer_bottom(std::uint32_t layer) const;  // = section_z for heights
@@ -39,9 +38,8 @@ class LayerGrid {
   // below, so a solid fills [bottom, top). Ascends with the layer.
   double threshold(std::uint32_t layer) const;
 
-  // Number of sections that a vertex at height z is above of:
-  // layers_below(z) > l exactly where z > threshold(l). Nothing else ever
-  // decides this.
+  // Number of sections that a vertex at height z is above of: layers_below(z)
+  // > l exactly where z > threshold(l). Nothing else ever decides this.
   std::uint32_t layers_below(double z) const;
 
  private:

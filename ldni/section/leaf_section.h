@@ -28,8 +28,6 @@ class LeafSectioner {
  public:
   LeafSectioner(const csg::Scene& scene, const LayerGrid& grid);
   ~LeafSectioner();
-  LeafSectioner(const LeafSectioner&) = delete;
-  LeafSectioner& operator=(const LeafSectioner&) = delete;
 
   // Replaces `block` by the chains of those layers; its capacity is reused.
   // Cost: the instances that reach these layers, their rings or triangles, and

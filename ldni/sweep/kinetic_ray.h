@@ -1,39 +1,38 @@
 #pragma once
 // The kinetic ray: exact contours of a Boolean of leaves, at any pitch.
 //
-// A row of rays, each with its own Boolean, sees a layer at the pitch: what is
-// thinner and parallel to the rays is lost, and corners are cut off. That is
-// the open problem of Zeng et al. 2011. Here one ray moves along x and carries
-// its sorted samples, one of each chain that it crosses. Their order, and with
-// it every set of leaves and every value of the Boolean program, changes only
-// where a chain begins or ends (a turn), where two chains cross, and where they
-// begin or cease to coincide. There the ray stops. A stop has two sides; the
-// 1D Boolean left of it and right of it differ in intervals of y, and these
-// are the boundary that lies in the ray. All other boundary is pieces of
-// chains between two stops. So topology and corners are exact, whatever the
-// pitch: rays at the pitch remain as the places where the ray looks ahead.
+// A row of rays, each with its own Boolean, sees a layer at the pitch: it loses
+// what is thinner and parallel to the rays, and cuts corners off. That is the
+// open problem of Zeng et al. 2011. Here one ray sweeps along x (Bentley and
+// Ottmann 1979) and carries its sorted samples, one of each chain that it
+// crosses. Their order, and with it the value of the Boolean in every gap,
+// changes only at event points: where a chain begins or ends, where two chains
+// cross, and where they begin or cease to coincide. The 1D Boolean left and
+// right of an event point differ in intervals of y, and these are the boundary
+// that stands in the ray. All other boundary is stretches of chains between two
+// event points. So topology and corners are exact, whatever the pitch: rays at
+// the pitch remain as the places up to which the ray looks ahead.
 //
-// Nothing is computed anew at a stop: neighbours swap, sets of leaves change
-// from the swap upwards until they are what they were, and the Boolean program
-// is evaluated once for each set that occurs. The cost is that of the changes,
-// not of the leaves on the ray.
+// Nothing is computed anew at an event point: neighbours swap, states of the
+// Boolean program change from the swap upwards until they are what they were,
+// and the program is evaluated once for each state. The cost is that of the
+// changes, not of the leaves on the ray.
 //
 // Faces that coincide up to rounding tie: samples nearer than kTieDistance
-// (ldni/image/sample.h) between two vertices are one curve, of which only the
-// solid below and above counts. So solids that touch unite without an inner
-// wall and a difference with coplanar faces leaves no skin; what rounding makes
-// of a coincidence is never seen. Faces that are apart by less than that, but
-// not by rounding, may leave boundary that runs into itself by as much; those
-// layers are found, and their loops swept once more with ties of 1e-9 mm.
+// between two vertices are one curve, of which only the solid below and above
+// counts. So solids that touch unite without an inner wall, and a difference
+// with coplanar faces leaves no skin. Faces that are apart by less than that,
+// but not by rounding, may leave boundary that runs into itself by as much;
+// those layers are found, and their loops swept once more with ties of 1e-9 mm.
 //
-// Invariants and the order of work at a stop: ldni/sweep/detail/ray_sweep.h.
+// The order of work and the invariants: ldni/sweep/detail/ray_sweep.h.
 
 #include <cstdint>
 #include <memory>
 
 #include "csg/scene.h"
+#include "ldni/section/chains.h"
 #include "ldni/section/contours.h"
-#include "ldni/section/leaf_section.h"
 #include "ldni/sweep/sweep_counts.h"
 
 namespace lamina::ldni {
@@ -45,8 +44,6 @@ class KineticRay {
   // pitch  distance of the look-ahead rays [mm]; 0 = auto. A speed knob only.
   KineticRay(const csg::Scene& scene, double pitch);
   ~KineticRay();
-  KineticRay(const KineticRay&) = delete;
-  KineticRay& operator=(const KineticRay&) = delete;
 
   // Replaces `contours` by the loops of layer `layer` of `block`.
   void sweep(const ChainBlock& block, std::uint32_t layer, Contours& contours);

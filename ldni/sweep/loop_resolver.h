@@ -1,8 +1,7 @@
 #pragma once
-// Loops that run into themselves or each other, made regular: solid is where
-// they wind around in the positive sense.
-//
-// The moving ray does it, with one leaf that may overlap itself.
+// Makes loops regular that run into themselves or each other: solid is where
+// the winding number is positive. The moving ray does it, with one leaf that
+// may overlap itself.
 
 #include <memory>
 
@@ -19,8 +18,6 @@ class LoopResolver {
   //                 [mm]
   LoopResolver(double tie_distance, double merge_distance);
   ~LoopResolver();
-  LoopResolver(const LoopResolver&) = delete;
-  LoopResolver& operator=(const LoopResolver&) = delete;
 
   // Replaces the loops by those of the solid: simple, outer ones
   // counter-clockwise, holes clockwise.

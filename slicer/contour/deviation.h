@@ -12,16 +12,16 @@ namespace lamina::slicer {
 // boundary of the Boolean of the leaves in the plane of the section, which
 // --compensate may have moved. Walls and gaps thinner than a tie have no bound.
 struct Deviation {
-  double ties = kTieDistance;            // faces this near are one
-  double columns = ldni::kClusterWidth;  // what the ray takes for one x
-  double compensation = 0;               // arcs of moved contours
-  double simplification = 0;             // vertices left out
-  double rounding = 0;                   // of the format's coordinates
+  double ties = kTieDistance;             // faces this near are one
+  double clusters = ldni::kClusterWidth;  // what the ray takes for one x
+  double compensation = 0;                // arcs of moved contours
+  double simplification = 0;              // vertices left out
+  double rounding = 0;                    // of the format's coordinates
   std::optional<double> facets = {};  // of leaves, from their curves, if known
 
   // From the exact section of the facetted leaves.
   double from_section() const {
-    return ties + columns + compensation + simplification + rounding;
+    return ties + clusters + compensation + simplification + rounding;
   }
   // From the section of the curved solids.
   std::optional<double> from_curves() const {

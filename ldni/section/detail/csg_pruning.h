@@ -1,9 +1,9 @@
 #pragma once
-// Which leaves can matter at all.
+// CSG pruning, or null-object detection (Tilove 1984): which leaves can matter.
 //
 // Of a lattice that a sphere bounds, half of the struts lie outside the sphere;
-// of a pattern of drills many meet nothing. Within the box of such a leaf the
-// Boolean is decided by others, and the leaf need not be cut in any layer.
+// of a pattern of drills many meet nothing. Within the box of such a leaf other
+// leaves decide the Boolean, and the leaf need not be cut in any layer.
 //
 // To see that, the program is evaluated over the box in three values. A leaf
 // gives them by its box, and a body that is round or straight by bounds of its
@@ -13,10 +13,9 @@
 // children can have. Where an operator on the way from a leaf to the root has
 // one value whether the branch of the leaf holds or not, the leaf is left out.
 //
-// All answers keep a distance that ties of faces do not bridge. That leaves
-// which are left out decide about others does no harm: a leaf is full only over
-// boxes smaller than its own, so each is decided by larger ones, whatever the
-// smaller ones hold.
+// All answers keep a distance that ties of faces do not bridge. Leaves that are
+// left out may decide about others: a leaf is full only over boxes smaller than
+// its own, so larger leaves decide about smaller ones and never in a circle.
 
 #include <cstdint>
 #include <unordered_map>

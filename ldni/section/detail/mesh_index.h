@@ -2,14 +2,15 @@
 // Which parts of a mesh a block of layers meets.
 //
 // A mesh has a million triangles and a block of layers crosses few of them. So
-// triangles, and vertices likewise, are looked at in runs that stand together
-// in the mesh, and of each run one knows the layers between its lowest and its
-// highest vertex. Meshes from files come in some order along the surface, so a
-// run is a small patch of it; where they do not, every run is looked into, and
-// nothing but time is lost.
+// the index groups triangles, and vertices likewise, into runs that stand
+// together in the mesh, and knows for each run the layers between its lowest
+// and its highest vertex. Meshes from files come in some order along the
+// surface, so a run is a small patch of it; where they do not, every run is
+// opened, and nothing but time is lost.
 //
-// Each instance has an index of its own, made at one look over the mesh. That
-// is 0.4 bytes for a triangle, where the mesh, which instances share, has 24.
+// Each instance has an index of its own, made in one pass over the mesh. It
+// takes 0.4 bytes for a triangle, where the mesh, which instances share,
+// has 24.
 
 #include <algorithm>
 #include <cstddef>

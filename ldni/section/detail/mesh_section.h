@@ -2,7 +2,7 @@
 // Sections of a closed triangle mesh.
 //
 // Only triangles with vertices on both sides of some layer of the block take
-// part; in a fine mesh they are few, and its index tells where to look. Their
+// part; in a fine mesh they are few, and its index finds them. Their
 // edges meet in a hash table keyed by the two vertices, which pairs each
 // directed edge with one of the opposite direction; where an edge is used more
 // often any such pairing gives closed loops. A walk then goes from triangle to

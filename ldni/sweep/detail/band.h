@@ -2,9 +2,9 @@
 // Strips that chains keep to, for a cheap answer to whether two are apart.
 //
 // From one vertex to another a chain stays near the line that joins them, much
-// nearer than to any box: so two chains that run side by side are told apart by
-// two differences, however steep they are and however many vertices they have
-// on the way.
+// nearer than to any box: so two differences separate two chains that run side
+// by side, however steep they are and however many vertices they have on the
+// way.
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ struct Band {
   void enclose(const Vec2* first, const Vec2* last, double limit);
 };
 
-// A stretch of x [mm], empty unless begin < end.
+// A range of x [mm], empty unless begin < end.
 struct XRange {
   double begin = 0;
   double end = 0;

@@ -11,15 +11,15 @@
 namespace lamina::ldni::detail {
 namespace {
 
-// What is alone keeps this distance [mm] from all else, ten ties, and is wider.
+// A lone loop keeps this distance [mm] from all else, ten ties, and is wider.
 constexpr double kMargin = 1e-5;
 
-// Finding out pays where loops are many and the points of all others few.
+// The grid pays where loops are many and the points of all others few.
 constexpr std::uint32_t kLeastCandidates = 4;
 constexpr std::uint32_t kMostPoints = 64;  // of a loop
 constexpr std::uint32_t kPointsPerCandidate = 48;
 
-// Loops that reach over more cells are not asked whether they are alone.
+// Loops that reach over more cells are no candidates.
 constexpr std::int32_t kMostCells = 8;  // along an axis
 constexpr double kCellsPerCandidate = 64;
 

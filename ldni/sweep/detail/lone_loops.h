@@ -2,14 +2,14 @@
 // Convex loops of a layer that no other boundary comes near.
 //
 // In many layers of a lattice most struts are cut across, far from each other.
-// Within the box of such a loop the leaf's own boundary is all there is: so one
-// look at the set of leaves around it tells whether all of the loop is boundary
-// of the solid, or none. The ray asks that where the loop begins and passes
-// over it: no entries, no looking ahead, no stops (ray_sweep.h).
+// Within the box of such a loop the leaf's own boundary is all there is: so the
+// state of the program around it decides whether the loop is boundary of the
+// solid, as a whole or not at all. The ray looks that up where the loop begins
+// and passes over it: no entries, no certificates, no events.
 //
-// A coarse grid over the layer tells who is alone. Small convex loops claim the
-// cells of their boxes; all other edges, those that are vertical too, block the
-// cells that they pass. A loop is alone where its cells are its own.
+// A coarse grid over the layer finds them. Small convex loops claim the cells
+// of their boxes; all other edges, vertical ones too, block the cells that they
+// pass. A loop is alone where all its cells are its own.
 
 #include <cstdint>
 #include <span>
@@ -22,7 +22,7 @@ namespace lamina::ldni::detail {
 
 class LoneLoops {
  public:
-  // Replaces what is known by the lone loops of a layer.
+  // Finds the lone loops of a layer and forgets those of the one before.
   void find(const ChainBlock& block, std::uint32_t layer,
             const ProgramStates& states);
 

@@ -1,9 +1,9 @@
 #pragma once
 // Draws loops point by point, without points that change nothing.
 //
-// Left out are points that repeat their neighbour, that lie on the line between
-// their neighbours, and tips of spikes without width. Hardly any do: a point is
-// kept by a few products.
+// The pen leaves out points that repeat their neighbour, points on the line
+// between their neighbours, and tips of spikes without width. These are rare:
+// a few products show that a point stays.
 
 #include <cstddef>
 #include <vector>
@@ -21,8 +21,8 @@ class LoopPen {
       : merge_distance_(merge_distance),
         merge_squared_(merge_distance * merge_distance) {}
 
-  // Loops are added to `contours` from here on, which the pen alone may change
-  // until lift().
+  // Adds loops to `contours` from here on, which the pen alone may change until
+  // lift().
   void begin(Contours& contours);
   void lift();
 

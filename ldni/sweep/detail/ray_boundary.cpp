@@ -49,9 +49,8 @@ void RayBoundary::add_lone_loop(const Chain& lower, const Chain& upper,
                      static_cast<std::int8_t>(side));
 }
 
-void RayBoundary::end_chain(std::uint32_t chain) {
+void RayBoundary::end_side(std::uint32_t chain) {
   Entry& entry = status_[chain];
-  if (entry.side == 0) return;
   end_arc(entry);
   note_disorder_before(entry.below, chain);
   note_disorder_before(chain, entry.above);
@@ -96,13 +95,14 @@ void RayBoundary::update_states(OrderChanges& changes) {
 // that a vertical wall costs only the entries that it spans.
 void RayBoundary::update_states_from(std::uint32_t entry,
                                      OrderChanges& changes) {
-  while (status_[status_[entry].below].is_stale &&
-         status_[entry].below != status_.sentinel()) {
-    entry = status_[entry].below;
+  Status& status = status_;
+  while (status[status[entry].below].is_stale &&
+         status[entry].below != status.sentinel()) {
+    entry = status[entry].below;
   }
-  ProgramStates::State state = status_[status_[entry].below].state;
-  for (; entry != status_.sentinel(); entry = status_[entry].above) {
-    Entry& e = status_[entry];
+  ProgramStates::State state = status[status[entry].below].state;
+  for (; entry != status.sentinel(); entry = status[entry].above) {
+    Entry& e = status[entry];
     state = states_.state_above(state, e.crossing);
     if (!e.is_stale && e.state == state) return;
     e.is_stale = false;
@@ -112,9 +112,10 @@ void RayBoundary::update_states_from(std::uint32_t entry,
 }
 
 void RayBoundary::update_sides(const OrderChanges& changes) {
+  Status& status = status_;
   for (const std::uint32_t entry : changes.unsure) {
-    if (status_.is_alive(entry) &&
-        status_[entry].side_cluster != cluster_.number) {
+    if (status.is_alive(entry) &&
+        status[entry].side_cluster != cluster_.number) {
       update_group(entry);
     }
   }
@@ -123,33 +124,34 @@ void RayBoundary::update_sides(const OrderChanges& changes) {
 // Tied entries are one curve: the solid below the lowest against that above
 // the highest decides, and one member stands for all.
 void RayBoundary::update_group(std::uint32_t member) {
+  Status& status = status_;
   std::uint32_t first = member;
-  while (status_[status_[first].below].is_tied) first = status_[first].below;
+  while (status[status[first].below].is_tied) first = status[first].below;
   std::uint32_t last = member;
-  while (status_[last].is_tied) last = status_[last].above;
-  const bool below = states_.is_solid(status_[status_[first].below].state);
-  const bool above = states_.is_solid(status_[last].state);
+  while (status[last].is_tied) last = status[last].above;
+  const bool below = states_.is_solid(status[status[first].below].state);
+  const bool above = states_.is_solid(status[last].state);
   const auto side = static_cast<std::int8_t>(above - below);
   if (first == last) {
-    status_[first].side_cluster = cluster_.number;
-    change_side(status_[first], side);
+    status[first].side_cluster = cluster_.number;
+    change_side(status[first], side);
     return;
   }
 
   // The member that stood for it before goes on.
   std::uint32_t chosen = first;
   if (side != 0) {
-    for (std::uint32_t e = first;; e = status_[e].above) {
-      if (status_[e].side == side) {
+    for (std::uint32_t e = first;; e = status[e].above) {
+      if (status[e].side == side) {
         chosen = e;
         break;
       }
       if (e == last) break;
     }
   }
-  for (std::uint32_t e = first;; e = status_[e].above) {
-    status_[e].side_cluster = cluster_.number;
-    change_side(status_[e], e == chosen ? side : std::int8_t{0});
+  for (std::uint32_t e = first;; e = status[e].above) {
+    status[e].side_cluster = cluster_.number;
+    change_side(status[e], e == chosen ? side : std::int8_t{0});
     if (e == last) break;
   }
 }
@@ -167,19 +169,20 @@ void RayBoundary::change_side(Entry& entry, std::int8_t side) {
 // boundary in a point, so that the stitcher sees the touch, and where they run
 // along the cluster past ends.
 void RayBoundary::split_at_touches(const OrderChanges& changes) {
+  Status& status = status_;
   for (const std::uint32_t lower : changes.touches) {
-    if (!status_.is_alive(lower)) continue;
-    const std::uint32_t upper = status_[lower].above;
-    if (upper == status_.sentinel()) continue;
+    if (!status.is_alive(lower)) continue;
+    const std::uint32_t upper = status[lower].above;
+    if (upper == status.sentinel()) continue;
     note_disorder_after(lower, upper);
-    const double y = y_after(status_[lower]);
-    if (std::abs(y_after(status_[upper]) - y) < kClusterWidth) {
+    const double y = y_after(status[lower]);
+    if (std::abs(y_after(status[upper]) - y) < kClusterWidth) {
       split_all_near(lower, y);
     }
   }
   for (const std::uint32_t number : changes.unsure) {
-    if (!status_.is_alive(number)) continue;
-    Entry& entry = status_[number];
+    if (!status.is_alive(number)) continue;
+    Entry& entry = status[number];
     if (entry.touch_cluster == cluster_.number) continue;
     entry.touch_cluster = cluster_.number;
     if (entry.side == 0 && !stitcher_.has_ends()) continue;
@@ -252,22 +255,23 @@ void RayBoundary::note_disorder_after(std::uint32_t lower,
 template <typename YOf>
 void RayBoundary::note_disorder(std::uint32_t lower, std::uint32_t upper,
                                 const YOf& y_of) {
-  const std::uint32_t sentinel = status_.sentinel();
+  Status& status = status_;
+  const std::uint32_t sentinel = status.sentinel();
   if (lower == sentinel || upper == sentinel) return;
-  const double y = y_of(status_[upper]);
+  const double y = y_of(status[upper]);
   // Neighbours that far apart are in order, and so is what ties with them.
-  if (y - y_of(status_[lower]) > 2 * kMostJump * tie_distance_) return;
+  if (y - y_of(status[lower]) > 2 * kMostJump * tie_distance_) return;
   const auto is_passed = [&](std::uint32_t e) {
-    return e != sentinel && status_[e].side == 0 &&
-           std::abs(y_of(status_[e]) - y) <= kMostJump * tie_distance_;
+    return e != sentinel && status[e].side == 0 &&
+           std::abs(y_of(status[e]) - y) <= kMostJump * tie_distance_;
   };
-  while (is_passed(lower)) lower = status_[lower].below;
-  while (is_passed(upper)) upper = status_[upper].above;
+  while (is_passed(lower)) lower = status[lower].below;
+  while (is_passed(upper)) upper = status[upper].above;
   if (lower == sentinel || upper == sentinel) return;
-  if (status_[lower].side == 0 || status_[upper].side == 0) return;
-  if (y_of(status_[upper]) - y_of(status_[lower]) > -kClusterWidth) return;
+  if (status[lower].side == 0 || status[upper].side == 0) return;
+  if (y_of(status[upper]) - y_of(status[lower]) > -kClusterWidth) return;
   std::uint32_t e = lower;
-  while (e != upper && status_[e].is_tied) e = status_[e].above;
+  while (e != upper && status[e].is_tied) e = status[e].above;
   if (e != upper) stitcher_.note_jump();
 }
 

@@ -41,7 +41,9 @@ class RayBoundary {
   void add_lone_loop(const Chain& lower, const Chain& upper,
                      std::span<const Vec2> points);
   // The order is about to remove the chain: its arc ends.
-  void end_chain(std::uint32_t chain);
+  void end_chain(std::uint32_t chain) {
+    if (status_[chain].side != 0) end_side(chain);
+  }
   // The order is settled: brings states, sides and arcs up to date. Uses the
   // changes up.
   void update(const EventCluster& cluster, OrderChanges& changes);
@@ -65,6 +67,7 @@ class RayBoundary {
   void update_states_from(std::uint32_t entry, OrderChanges& changes);
   void update_sides(const OrderChanges& changes);
   void update_group(std::uint32_t member);
+  void end_side(std::uint32_t chain);
   void change_side(Entry& entry, std::int8_t side);
   void split_at_touches(const OrderChanges& changes);
   bool meets_boundary(std::uint32_t number, double y);

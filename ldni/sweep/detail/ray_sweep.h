@@ -1,22 +1,21 @@
 #pragma once
 // One layer under the moving ray: from chains to contours.
 //
-// Between two event points nothing happens. An event point gathers its event
-// cluster, all that lies within 1e-9 mm, and is handled in this order:
+// An event point gathers its event cluster, all that lies within 1e-9 mm, and
+// is handled in this order:
 //
-//   1. take_endpoints   ended chains leave the status, begun ones enter it,
-//                       and lone loops are passed over;
-//   2. RayOrder::settle new neighbours are put in the order right of the
-//                       cluster, which may bring up failures inside it: again
-//                       until there are none;
-//   3. RayBoundary::update
-//                       states of the program, from the changes upwards; the
-//                       boundary, where the solid differs below and above; arcs
-//                       end and begin, and what ended and began is linked.
+//   1. take_endpoints       ended chains leave the status, begun ones enter it,
+//                           and lone loops are passed over;
+//   2. RayOrder::settle     new neighbours are put in the order right of the
+//                           cluster, which may bring up failures inside it:
+//                           again until there are none;
+//   3. RayBoundary::update  states from the changes upwards, then the boundary,
+//                           where the solid differs below and above: arcs end
+//                           and begin, and what ended and began is linked.
 //
 // The order knows chains and where they cross, and no solid. The boundary knows
 // what a crossing means, by a machine of states (program_states.h), and no
-// event. They share the status, and meet in OrderChanges.
+// event. They share the status and meet in OrderChanges.
 //
 // What follows from what, and where it is kept:
 //
@@ -26,23 +25,21 @@
 //     Else the state above the topmost entry is not kOutside: counted as an
 //     unbalanced cluster.
 // I2  The state above an entry follows from the state below it and the entry's
-//     crossing; above the topmost entry it is kOutside. Kept by
-//     update_states_from.
+//     crossing; above the topmost entry it is kOutside. update_states_from.
 // I3  Between clusters neighbours are apart or tied, so the order is constant,
 //     so every 1D Boolean there has the same result: one ray proves the slab.
-//     Kept by settle and the certificates in the event queue.
+//     settle, and the certificates in the event queue.
 // I4  In every cluster as many heads as tails of arcs end or begin: they bound
 //     the difference of the solid intervals left and right. The region is the
 //     union of the trapezoids between clusters, and contours close whatever the
-//     rounding. An end that finds no partner is counted as a repaired cluster.
+//     rounding. An end without a partner is counted as a repaired cluster.
 // I5  Every point is a vertex of a leaf's section, a point on an edge of it at
-//     an event point, or a crossing of two such edges. Kept by end_arc,
-//     start_arc.
+//     an event point, or a crossing of two such edges. end_arc, start_arc.
 // I6  Progress: a failure lies strictly right of the cluster in which it was
 //     found. Swaps in a cluster are capped, and the cap is counted.
 //
-// All are checked by assertions where they hold, in debug builds. The counts
-// are kept in all builds, reported by `--report` and warned of.
+// Assertions check all of them in debug builds. The counts are kept in all
+// builds, reported by `--report` and warned of.
 
 #include <cstddef>
 #include <cstdint>
@@ -69,7 +66,7 @@ struct SweepOptions {
 
 class RaySweep {
  public:
-  // The states must outlive the object, and are used by no other one.
+  // The states must outlive the object, and serve no other one.
   RaySweep(ProgramStates& states, const SweepOptions& options)
       : pitch_(options.pitch),
         states_(states),
