@@ -1,4 +1,4 @@
-#include "cli/piece_table.h"
+#include "cli/commands/piece_table.h"
 
 #include <algorithm>
 #include <map>
@@ -32,14 +32,15 @@ const Source& read_table(const std::string& path, const FileAccess& access,
 }
 
 // What the design lets be set. Its warnings come with its pieces.
-Variables variables_of(const DesignOptions& options, const FileAccess& access,
-                       SourceStore& sources, Diagnostics& diagnostics) {
+Variables variables_of(const compiler::Request& request,
+                       const FileAccess& access, SourceStore& sources,
+                       Diagnostics& diagnostics) {
   Diagnostics messages([&](const Diagnostic& message) {
     if (message.severity == Severity::kError) diagnostics.report(message);
   });
-  Loader loader(sources, messages, library_folders(access), options.definitions,
+  Loader loader(sources, messages, library_folders(access), request.definitions,
                 access);
-  return find_variables(loader.load(options.design), loader);
+  return find_variables(loader.load(request.design), loader);
 }
 
 struct Column {
@@ -58,7 +59,7 @@ class TableReader {
         decimal_(csv_.separator == ',' ? DecimalSign::kPoint
                                        : DecimalSign::kPointOrComma),
         diagnostics_(diagnostics) {
-    for (std::string& word : words_of_pattern(options.design.output)) {
+    for (std::string& word : words_of_pattern(options.request.output)) {
       words_.insert(std::move(word));
     }
   }
@@ -70,7 +71,7 @@ class TableReader {
       return {};
     }
     read_header(
-        variables_of(options_.design, file_access_, sources_, diagnostics_));
+        variables_of(options_.request, file_access_, sources_, diagnostics_));
     std::vector<Piece> pieces;
     for (std::size_t i = 1; i < csv_.rows.size(); ++i) {
       pieces.push_back(read_piece(csv_.rows[i], i));
@@ -93,7 +94,7 @@ class TableReader {
       if (word == kRowWord || find_column(word) != nullptr) continue;
       diagnostics_.error({},
                          fmt::format("'{}' in '{}' is no column of '{}'", word,
-                                     options_.design.output, options_.table));
+                                     options_.request.output, options_.table));
     }
   }
 
@@ -115,7 +116,7 @@ class TableReader {
     diagnostics_.error(
         header.range,
         fmt::format("'{0}' is no variable of '{1}' (--skip {0} passes over it)",
-                    name, options_.design.design));
+                    name, options_.request.design));
   }
 
   void check_repeated(const CsvRow& header, const std::string& name) {
@@ -134,7 +135,7 @@ class TableReader {
   // number  of the row, from 1
   Piece read_piece(const CsvRow& row, std::size_t number) {
     Piece piece;
-    piece.options = options_.design;
+    piece.request = options_.request;
     piece.line = row.line;
     piece.name = cell_of(row, kNameColumn);
     piece.prefix = fmt::format("{}:{}: ", options_.table, row.line);
@@ -145,11 +146,11 @@ class TableReader {
     }
     try {
       check_width(row);
-      piece.options.definitions += definitions_of(row);
-      piece.options.output = output_of(row, number);
+      piece.request.definitions += definitions_of(row);
+      piece.request.output = output_of(row, number);
     } catch (const Error& error) {
       piece.fault = error.what();
-      piece.options.output.clear();
+      piece.request.output.clear();
     }
     return piece;
   }
@@ -196,7 +197,7 @@ class TableReader {
 
   std::string output_of(const CsvRow& row, std::size_t number) const {
     return fill_pattern(
-        options_.design.output, [&](const std::string& word) -> std::string {
+        options_.request.output, [&](const std::string& word) -> std::string {
           if (word == kRowWord && find_column(word) == nullptr) {
             return fmt::format("{}", number);
           }
@@ -222,34 +223,34 @@ class TableReader {
 std::vector<Piece> read_sets(const TableOptions& options,
                              const FileAccess& access,
                              Diagnostics& diagnostics) {
-  for (const std::string& word : words_of_pattern(options.design.output)) {
+  for (const std::string& word : words_of_pattern(options.request.output)) {
     if (word == kRowWord || word == kNameColumn) continue;
     diagnostics.error(
         {},
         fmt::format("'{}' in '{}' means nothing for parameter sets; {{name}} "
                     "is that of the set",
-                    word, options.design.output));
+                    word, options.request.output));
   }
   std::vector<Piece> pieces;
   for (const std::string& name : parameter_set_names(options.table, access)) {
     Piece& piece = pieces.emplace_back();
-    piece.options = options.design;
-    piece.options.parameter_file = options.table;
-    piece.options.parameter_set = name;
+    piece.request = options.request;
+    piece.request.parameter_file = options.table;
+    piece.request.parameter_set = name;
     piece.name = name;
     piece.prefix = fmt::format("{}: {}: ", options.table, name);
     const std::string number = fmt::format("{}", pieces.size());
     const bool is_used =
-        piece.options.output.find("{name}") != std::string::npos;
+        piece.request.output.find("{name}") != std::string::npos;
     const std::string fault = is_used ? fault_of_name(name) : "";
-    piece.options.output =
-        fill_pattern(options.design.output, [&](const std::string& word) {
+    piece.request.output =
+        fill_pattern(options.request.output, [&](const std::string& word) {
           return word == kRowWord ? number : name;
         });
     if (fault.empty()) continue;
     piece.fault =
         fmt::format("'{}' {} and can be no part of a file's name", name, fault);
-    piece.options.output.clear();
+    piece.request.output.clear();
   }
   if (pieces.empty()) {
     diagnostics.error({}, fmt::format("'{}' has no sets", options.table));
@@ -263,11 +264,11 @@ void refuse_equal_outputs(const std::vector<Piece>& pieces,
   for (const Piece& piece : pieces) {
     if (!piece.fault.empty()) continue;
     const auto [first, is_new] =
-        outputs.try_emplace(normal_path(piece.options.output), &piece);
+        outputs.try_emplace(normal_path(piece.request.output), &piece);
     if (is_new) continue;
     diagnostics.error(
         {}, fmt::format("{}and {}have one output, '{}'", first->second->prefix,
-                        piece.prefix, piece.options.output));
+                        piece.prefix, piece.request.output));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "cli/report/openscad.h"
+#include "cli/process/openscad.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -143,7 +143,7 @@ std::string openscad_version(const ScratchFolder& folder) {
   return lines.empty() ? "openscad" : lines.back();
 }
 
-OpenScadMesh render_with_openscad(const DesignOptions& options,
+OpenScadMesh render_with_openscad(const compiler::Request& request,
                                   double time_limit,
                                   const ScratchFolder& folder) {
   OpenScadMesh mesh;
@@ -153,10 +153,10 @@ OpenScadMesh render_with_openscad(const DesignOptions& options,
   const auto pass_on = [&](const char* option, const std::string& value) {
     if (!value.empty()) arguments.insert(arguments.end(), {option, value});
   };
-  pass_on("-D", options.definitions);
-  pass_on("-p", options.parameter_file);
-  pass_on("-P", options.parameter_set);
-  arguments.push_back(options.design);
+  pass_on("-D", request.definitions);
+  pass_on("-p", request.parameter_file);
+  pass_on("-P", request.parameter_set);
+  arguments.push_back(request.design);
 
   const std::string words = folder.file("words");
   const Clock::time_point begin = Clock::now();
@@ -167,14 +167,14 @@ OpenScadMesh render_with_openscad(const DesignOptions& options,
     fail(fmt::format(
         "openscad took more than {:g} s on {} and was ended; --time-limit "
         "gives it more",
-        time_limit, options.design));
+        time_limit, request.design));
   }
   if (WIFSIGNALED(*status)) {
-    fail(fmt::format("openscad crashed on {} (signal {}){}", options.design,
+    fail(fmt::format("openscad crashed on {} (signal {}){}", request.design,
                      WTERMSIG(*status), last_words(words)));
   }
   if (*status != 0 || !std::filesystem::exists(mesh.path)) {
-    fail(fmt::format("openscad made no mesh of {}{}", options.design,
+    fail(fmt::format("openscad made no mesh of {}{}", request.design,
                      last_words(words)));
   }
   return mesh;

@@ -1,4 +1,4 @@
-#include "cli/report/progress.h"
+#include "cli/process/progress.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,34 +2,13 @@
 // A command of the program, such as `lamina inspect`. Each has a file in
 // cli/commands, with its options, its help and what it does.
 
-#include <cstddef>
-#include <memory>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include <CLI/App.hpp>
 
-#include "base/file/output_file.h"
-#include "cli/process/process_watch.h"
+#include "cli/process/context.h"
 
 namespace lamina::cli {
-
-inline constexpr int kDone = 0;
-inline constexpr int kFault = 1;  // of the design or of a file
-inline constexpr int kUsageFault = 2;
-
-// Options that are good each, but not together or not for this output.
-class UsageError : public std::runtime_error {
- public:
-  explicit UsageError(const std::string& message, int status = kUsageFault)
-      : std::runtime_error(message), status_(status) {}
-
-  int status() const { return status_; }
-
- private:
-  int status_;
-};
 
 class Command {
  public:
@@ -49,9 +28,7 @@ class Command {
   virtual void check() {}
 
   // Returns the exit status. Faults have been shown.
-  // stack  bytes of the thread that calls
-  virtual int run(TemporaryFiles& temporary_files, std::size_t stack,
-                  ProcessWatch& watch) = 0;
+  virtual int run(const Context& context) = 0;
 };
 
 }  // namespace lamina::cli

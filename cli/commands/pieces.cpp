@@ -1,4 +1,4 @@
-#include "cli/pieces.h"
+#include "cli/commands/pieces.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,13 +13,13 @@
 #include <fmt/format.h>
 #include <pthread.h>
 
-#include "cli/command.h"
+#include "cli/commands/pieces_report.h"
 #include "cli/options/output_pattern.h"
+#include "cli/process/exit_status.h"
 #include "cli/process/large_stack.h"
-#include "cli/report/pieces_report.h"
-#include "cli/report/terminal.h"
+#include "cli/report/run_report.h"
+#include "cli/report/session.h"
 #include "compiler/compile.h"
-#include "compiler/run.h"
 
 namespace lamina::cli {
 namespace {
@@ -27,11 +27,10 @@ namespace {
 class Workshop {
  public:
   Workshop(std::span<const Piece> pieces, const PiecesOptions& options,
-           TemporaryFiles& temporary_files, ProcessWatch& watch)
+           const Context& context)
       : pieces_(pieces),
         options_(options),
-        temporary_files_(temporary_files),
-        watch_(watch),
+        context_(context),
         outcomes_(pieces.size()) {
     const unsigned threads =
         options.threads != 0
@@ -45,9 +44,9 @@ class Workshop {
   }
 
   // The calling thread works too.
-  std::vector<Outcome> run(std::size_t stack) {
+  std::vector<Outcome> run() {
     const std::size_t others = worker_count_ - 1;
-    watch_.reserve(std::uint64_t{others} * LargeStack::kLargestSize);
+    context_.watch.reserve(std::uint64_t{others} * LargeStack::kLargestSize);
     std::vector<Worker> workers(others);
     std::size_t started = 0;
     for (Worker& worker : workers) {
@@ -55,7 +54,7 @@ class Workshop {
       if (!worker.stack.start(worker.thread, &work_in_thread, &worker)) break;
       ++started;
     }
-    std::exception_ptr fault = work_caught(stack);
+    std::exception_ptr fault = work_caught(context_.stack);
     for (std::size_t i = 0; i < started; ++i) {
       ::pthread_join(workers[i].thread, nullptr);
       if (!fault) fault = workers[i].fault;
@@ -92,7 +91,7 @@ class Workshop {
   void work(std::size_t stack) {
     while (const Piece* piece = next()) {
       // With its messages, which may find nobody who reads them.
-      const ProcessWatch::Piece timed(watch_, piece->prefix);
+      const ProcessWatch::Part timed(context_.watch, piece->prefix);
       const auto index = static_cast<std::size_t>(piece - pieces_.data());
       Inbox inbox{piece->prefix, worker_count_ == 1, "", ""};
       Outcome outcome = make(*piece, stack, inbox);
@@ -106,25 +105,27 @@ class Workshop {
   }
 
   Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
-    DesignOptions options = piece.options;
-    options.settings.threads = threads_per_piece_;
-    Run run(options, temporary_files_, stack, &inbox);
-    const int status = run_caught(run.terminal, run.diagnostics, [&] {
+    compiler::Request request = piece.request;
+    request.settings.threads = threads_per_piece_;
+    Session session(request, options_.is_quiet,
+                    {context_.temporary_files, stack, context_.watch}, &inbox);
+    compiler::Compilation& compilation = session.compilation;
+    const int status = session.run([&] {
       if (!piece.fault.empty()) refuse_geometry(piece.fault);
-      make_folder_of(options.output, run.file_access());
-      return compile(run);
+      make_folder_of(request.output, context_.file_access());
+      return compiler::compile(compilation) ? kDone : kFault;
     });
-    Outcome outcome = outcome_of(run.report, status == kDone);
-    if (status == kDone && run.report.min_feature > 0) {
-      run.terminal.say(feature_lines(run.report));
-    }
-    if (!options_.report.empty() && status == kDone) {
-      outcome.json = piece_json(run.report);
+    Outcome outcome = outcome_of(compilation.report, status == kDone);
+    if (status == kDone) {
+      if (request.settings.min_feature > 0) {
+        session.terminal.say(feature_lines(compilation));
+      }
+      if (!options_.report.empty()) outcome.json = report_json(compilation);
     }
     // Under hard warnings no error tells.
     outcome.error = inbox.first_error;
     if (status != kDone && outcome.error.empty()) {
-      outcome.error = run.diagnostics.all().back().message;
+      outcome.error = compilation.diagnostics.all().back().message;
     }
     return outcome;
   }
@@ -148,8 +149,7 @@ class Workshop {
 
   std::span<const Piece> pieces_;
   const PiecesOptions& options_;
-  TemporaryFiles& temporary_files_;
-  ProcessWatch& watch_;
+  const Context& context_;
   unsigned worker_count_ = 1;
   unsigned threads_per_piece_ = 1;
 
@@ -165,23 +165,22 @@ class Workshop {
 }  // namespace
 
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
-                TemporaryFiles& temporary_files, std::size_t stack,
-                ProcessWatch& watch) {
+                const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
-  watch.time_pieces();
+  context.watch.time_parts();
   const std::vector<Outcome> outcomes =
-      Workshop(pieces, options, temporary_files, watch).run(stack);
+      Workshop(pieces, options, context).run();
   const std::chrono::duration<double> seconds =
       std::chrono::steady_clock::now() - begin;
-  const ProcessWatch::Piece timed(watch, "");
+  const ProcessWatch::Part timed(context.watch, "");
   Terminal terminal(options.is_quiet);
   terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
   if (!options.report.empty()) {
-    OutputFile report(options.report, temporary_files);
-    report.write(options.report.ends_with(".csv")
-                     ? outcomes_csv(pieces, outcomes)
-                     : outcomes_json(pieces, outcomes, seconds.count()));
-    report.commit();
+    write_file(options.report,
+               options.report.ends_with(".csv")
+                   ? outcomes_csv(pieces, outcomes)
+                   : outcomes_json(pieces, outcomes, seconds.count()),
+               context.temporary_files);
   }
   const bool is_good =
       std::all_of(outcomes.begin(), outcomes.end(),

@@ -7,20 +7,18 @@
 // one follows the other and has all threads. The bytes are those of single runs
 // either way, and messages and the closing table keep the order of the pieces.
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "base/file/output_file.h"
-#include "cli/process/process_watch.h"
-#include "compiler/design_options.h"
+#include "cli/process/context.h"
+#include "compiler/request.h"
 
 namespace lamina::cli {
 
 struct Piece {
-  DesignOptions options;
+  compiler::Request request;
   std::string name;        // for the closing table
   std::string prefix;      // of its messages: "orders.csv:17: ring-17: "
   std::uint32_t line = 0;  // of the table; 0: none
@@ -36,11 +34,8 @@ struct PiecesOptions {
 
 // Makes all pieces and their folders; returns the exit status.
 //
-// stack   bytes of the thread that calls
-// watch   times each piece by itself
 // throws  FileError where the report cannot be written
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
-                TemporaryFiles& temporary_files, std::size_t stack,
-                ProcessWatch& watch);
+                const Context& context);
 
 }  // namespace lamina::cli

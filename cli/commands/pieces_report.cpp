@@ -1,4 +1,4 @@
-#include "cli/report/pieces_report.h"
+#include "cli/commands/pieces_report.h"
 
 #include <algorithm>
 
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
+#include "cli/report/run_report.h"
 
 namespace lamina::cli {
 namespace {
@@ -20,15 +21,9 @@ std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-// Names and messages can hold any bytes.
-std::string json_text(const std::string& text) {
-  using nlohmann::json;
-  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 }  // namespace
 
-Outcome outcome_of(const RunReport& report, bool is_done) {
+Outcome outcome_of(const compiler::Report& report, bool is_done) {
   Outcome outcome;
   outcome.is_done = is_done;
   outcome.layers = report.slice.layers;
@@ -71,32 +66,32 @@ std::string outcomes_csv(std::span<const Piece> pieces,
                                       outcome.volume, outcome.seconds)
                         : ",,," + csv_cell(outcome.error);
     text += fmt::format("{},{},{},{}\r\n", line, csv_cell(piece.name),
-                        csv_cell(piece.options.output), figures);
+                        csv_cell(piece.request.output), figures);
   }
   return text;
 }
 
 std::string outcomes_json(std::span<const Piece> pieces,
                           std::span<const Outcome> outcomes, double seconds) {
+  using Json = nlohmann::ordered_json;
   const std::size_t done = count_done(outcomes);
-  std::string text = fmt::format(
-      "{{\n\"done\": {},\n\"failed\": {},\n\"total_seconds\": {},\n"
-      "\"wall_seconds\": {},\n\"peak_memory_bytes\": {},\n\"pieces\": [",
-      done, pieces.size() - done, process_seconds(), seconds,
-      peak_memory_bytes());
+  Json json = {{"done", done},
+               {"failed", pieces.size() - done},
+               {"total_seconds", process_seconds()},
+               {"wall_seconds", seconds},
+               {"peak_memory_bytes", peak_memory_bytes()},
+               {"pieces", Json::array()}};
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
     const Outcome& outcome = outcomes[i];
-    text += fmt::format(
-        "{}\n{{\"line\": {}, \"name\": {}, \"output\": {}, \"error\": {}, "
-        "\"report\": {}}}",
-        i == 0 ? "" : ",",
-        piece.line > 0 ? fmt::format("{}", piece.line) : "null",
-        json_text(piece.name), json_text(piece.options.output),
-        outcome.is_done ? "null" : json_text(outcome.error),
-        outcome.json.empty() ? "null" : outcome.json);
+    json["pieces"].push_back(
+        {{"line", piece.line > 0 ? Json(piece.line) : Json()},
+         {"name", piece.name},
+         {"output", piece.request.output},
+         {"error", outcome.is_done ? Json() : Json(outcome.error)},
+         {"report", outcome.json}});
   }
-  return text + "\n]\n}\n";
+  return json_text(json);
 }
 
 }  // namespace lamina::cli

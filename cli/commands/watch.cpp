@@ -1,4 +1,4 @@
-#include "cli/watch.h"
+#include "cli/commands/watch.h"
 
 #include <chrono>
 #include <ctime>
@@ -10,11 +10,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/command.h"
+#include "cli/process/exit_status.h"
 #include "cli/process/file_watcher.h"
-#include "cli/report/terminal.h"
-#include "compiler/compile.h"
-#include "compiler/run.h"
+#include "cli/report/run_report.h"
 
 namespace lamina::cli {
 namespace {
@@ -24,11 +22,11 @@ namespace fs = std::filesystem;
 // The times of files come from a clock that ticks this seldom, at most.
 constexpr std::chrono::milliseconds kClockStep{10};
 
-// Those that are known before the run.
-std::set<std::string> given_files(const DesignOptions& options) {
-  std::set<std::string> files = {options.design};
-  if (!options.parameter_file.empty()) files.insert(options.parameter_file);
-  if (fs::is_regular_file(options.printer)) files.insert(options.printer);
+// Those that are known before the compilation.
+std::set<std::string> given_files(const compiler::Request& request) {
+  std::set<std::string> files = {request.design};
+  if (!request.parameter_file.empty()) files.insert(request.parameter_file);
+  if (fs::is_regular_file(request.printer)) files.insert(request.printer);
   return files;
 }
 
@@ -47,39 +45,37 @@ std::string change_line(const std::set<std::string>& files) {
                      fmt::join(names, ", "));
 }
 
-// Adds what the run found to depend on; true if it ended well.
-bool compile_once(const DesignOptions& options, TemporaryFiles& temporary_files,
-                  std::size_t stack, ProcessWatch& watch,
+// Adds what the compilation found to depend on; true if it ended well.
+bool compile_once(const compiler::Request& request, const std::string& report,
+                  bool is_quiet, const Context& context,
                   std::set<std::string>& files) {
-  const ProcessWatch::Piece timed(watch, "");
+  const ProcessWatch::Part timed(context.watch, "");
   const double earlier_seconds = process_seconds();
-  Run run(options, temporary_files, stack);
-  run.report.earlier_seconds = earlier_seconds;
-  const int status = run_caught(run.terminal, run.diagnostics, [&] {
-    const int compiled = compile(run);
-    if (compiled == kDone) show_report(run);
-    return compiled;
-  });
-  files.insert(run.loader.files().begin(), run.loader.files().end());
-  files.insert(run.named_files.begin(), run.named_files.end());
+  Session session(request, is_quiet, context);
+  const int status = session.run(
+      [&] { return compile_and_report(session, report, earlier_seconds); });
+  const compiler::Compilation& compilation = session.compilation;
+  files.insert(compilation.loader.files().begin(),
+               compilation.loader.files().end());
+  files.insert(compilation.tree.files.begin(), compilation.tree.files.end());
   return status == kDone;
 }
 
 }  // namespace
 
-void compile_and_watch(const DesignOptions& options,
-                       TemporaryFiles& temporary_files, std::size_t stack,
-                       ProcessWatch& watch) {
-  watch.time_pieces();
+void compile_and_watch(const compiler::Request& request,
+                       const std::string& report, bool is_quiet,
+                       const Context& context) {
+  context.watch.time_parts();
   FileWatcher watcher;
-  Terminal terminal(options.is_quiet);
-  std::set<std::string> watched = given_files(options);
+  Terminal terminal(is_quiet);
+  std::set<std::string> watched = given_files(request);
   watcher.watch(watched, fs::file_time_type::max());
   while (true) {
     const auto begin = fs::file_time_type::clock::now() - kClockStep;
-    std::set<std::string> files = given_files(options);
+    std::set<std::string> files = given_files(request);
     const bool is_done =
-        compile_once(options, temporary_files, stack, watch, files);
+        compile_once(request, report, is_quiet, context, files);
     // A design that failed half way does not know all that it depends on.
     if (!is_done) files.insert(watched.begin(), watched.end());
     watched = files;

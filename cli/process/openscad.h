@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/file/temporary_files.h"
-#include "compiler/design_options.h"
+#include "compiler/request.h"
 
 namespace lamina::cli {
 
@@ -34,11 +34,11 @@ struct OpenScadMesh {
   double seconds = 0;  // that it took, by the clock
 };
 
-// options     design, definitions and parameter set are passed on
+// request     design, definitions and parameter set are passed on
 // time_limit  after which it is ended [s]
 // throws      FileError where the program is missing, takes longer, or makes no
 //             mesh; with its last words
-OpenScadMesh render_with_openscad(const DesignOptions& options,
+OpenScadMesh render_with_openscad(const compiler::Request& request,
                                   double time_limit,
                                   const ScratchFolder& folder);
 

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "cli/pieces.h"
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/pieces.h"
 #include "compiler/report.h"
 
 namespace lamina::cli {
@@ -15,12 +17,12 @@ struct Outcome {
   bool is_done = false;
   std::string error;  // the first one
   std::uint64_t layers = 0;
-  double volume = 0;   // [mm³]
-  double seconds = 0;  // by the clock
-  std::string json;    // piece_json(), if a report is wanted
+  double volume = 0;            // [mm³]
+  double seconds = 0;           // by the clock
+  nlohmann::ordered_json json;  // report_json(), if a report is wanted
 };
 
-Outcome outcome_of(const RunReport& report, bool is_done);
+Outcome outcome_of(const compiler::Report& report, bool is_done);
 
 // Each function takes the outcomes in the order of the pieces.
 

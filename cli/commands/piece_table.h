@@ -15,15 +15,15 @@
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
 #include "base/source.h"
-#include "cli/pieces.h"
-#include "compiler/design_options.h"
+#include "cli/commands/pieces.h"
+#include "compiler/request.h"
 
 namespace lamina::cli {
 
 struct TableOptions {
   std::string table;              // path; .json: parameter sets
   std::set<std::string> skipped;  // columns that are passed over
-  DesignOptions design;           // of all pieces; `output` is the pattern
+  compiler::Request request;      // of all pieces; `output` is the pattern
 };
 
 // The pieces, in the order of the table. What is wrong with a row is the fault

@@ -1,26 +1,27 @@
 #pragma once
-// What a run over a design is asked for, and the options that say so.
+// What a compilation is asked for.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include <CLI/App.hpp>
-
 #include "csg/eval/evaluator.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/slice/settings.h"
 
-namespace lamina::cli {
+namespace lamina::compiler {
 
-// Of --axis: the program chooses.
+// Of Request::axis: the program chooses.
 inline constexpr std::string_view kAutomaticAxis = "auto";
 
 // From a design to layers, or to one of the stages on the way.
-struct DesignOptions {
+struct Request {
+  // The path of a design or of a file that import() reads.
   std::string design;
-  std::string output;  // "-": standard output
+  // The design itself; `design` is only its name then.
+  std::optional<std::string> text;
+  std::string output;  // path; "-": standard output
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
   std::optional<slicer::CliEncoding> cli_encoding;
   std::string printer;     // name or profile of its panel; empty: the format's
@@ -43,16 +44,10 @@ struct DesignOptions {
   // is shows in nothing but $preview.
   std::string render;
   std::string preview;
-  std::string dependencies;  // -d, path; empty: none
-  std::string report;        // path; empty: none
-  bool is_quiet = false;
+  std::string dependencies;  // path of the rule for make (-d); empty: none
   bool has_hard_warnings = false;
+  // A folder where lamina_text.so is looked for first; empty: none.
+  std::string module_folder;
 };
 
-// -D, -p, -P and what else the language has; `options` outlives `app`.
-void add_design_options(CLI::App& app, DesignOptions& options);
-
-// What --help calls Slicing.
-void add_slicing_options(CLI::App& app, DesignOptions& options);
-
-}  // namespace lamina::cli
+}  // namespace lamina::compiler

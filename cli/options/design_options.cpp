@@ -1,4 +1,4 @@
-#include "compiler/design_options.h"
+#include "cli/options/design_options.h"
 
 #include <cmath>
 #include <cstdint>
@@ -69,35 +69,36 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
 
 }  // namespace
 
-void add_design_options(CLI::App& app, DesignOptions& options) {
+void add_design_options(CLI::App& app, compiler::Request& request,
+                        bool& is_quiet) {
   app.add_option_function<std::vector<std::string>>(
          "-D",
-         [&options](const std::vector<std::string>& definitions) {
+         [&request](const std::vector<std::string>& definitions) {
            for (const std::string& definition : definitions) {
-             options.definitions += definition + ";\n";
+             request.definitions += definition + ";\n";
            }
          })
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  CLI::Option* set = app.add_option("-P", options.parameter_set);
-  CLI::Option* file = app.add_option("-p", options.parameter_file);
+  CLI::Option* set = app.add_option("-P", request.parameter_set);
+  CLI::Option* file = app.add_option("-p", request.parameter_file);
   set->type_name("set")->needs(file);
   file->type_name("file")->needs(set);
-  add_switch(app, "--check-parameters", options.checks_parameters);
-  add_switch(app, "--check-parameter-ranges", options.checks_parameter_ranges);
-  add_count(app, "--max-depth", csg::kMostNestedCalls, options.max_depth);
-  add_count(app, "--max-leaves", 1'000'000'000, options.max_leaves);
-  app.add_flag("--render", options.render);
-  app.add_flag("--preview", options.preview);
-  app.add_option("--seed", options.seed)->type_name("number");
-  app.add_flag("--hardwarnings", options.has_hard_warnings);
-  app.add_flag("-q,--quiet", options.is_quiet);
+  add_switch(app, "--check-parameters", request.checks_parameters);
+  add_switch(app, "--check-parameter-ranges", request.checks_parameter_ranges);
+  add_count(app, "--max-depth", csg::kMostNestedCalls, request.max_depth);
+  add_count(app, "--max-leaves", 1'000'000'000, request.max_leaves);
+  app.add_flag("--render", request.render);
+  app.add_flag("--preview", request.preview);
+  app.add_option("--seed", request.seed)->type_name("number");
+  app.add_flag("--hardwarnings", request.has_hard_warnings);
+  app.add_flag("-q,--quiet", is_quiet);
 }
 
-void add_slicing_options(CLI::App& app, DesignOptions& options) {
-  slicer::Settings& settings = options.settings;
+void add_slicing_options(CLI::App& app, compiler::Request& request) {
+  slicer::Settings& settings = request.settings;
   add_text(app, "--layer", "length", [&](const std::string& text) {
     settings.layer_thickness = require_positive("--layer", text);
   });
@@ -111,8 +112,8 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
     settings.heights = parse_heights("--heights", text);
   });
   add_text(app, "--chordal-error", "length", [&](const std::string& text) {
-    options.chordal_error = require_number("--chordal-error", text);
-    if (!(options.chordal_error >= kLeastChordalError)) {
+    request.chordal_error = require_number("--chordal-error", text);
+    if (!(request.chordal_error >= kLeastChordalError)) {
       throw CLI::ValidationError("--chordal-error",
                                  "must be at least 0.000001 mm");
     }
@@ -131,13 +132,13 @@ void add_slicing_options(CLI::App& app, DesignOptions& options) {
                        kGreatestCompensation, " mm");
   });
   add_text(app, "--scale", "factor",
-           [&](const std::string& text) { options.scale = parse_scale(text); });
+           [&](const std::string& text) { request.scale = parse_scale(text); });
   add_text(app, "--ray", "length", [&](const std::string& text) {
     settings.ray_pitch = text == "auto" ? 0 : require_positive("--ray", text);
   });
   add_choice(app, "--axis", {"z", "x", "y", "-x", "-y", "-z", "auto"},
-             [&](const std::string& axis) { options.axis = axis; });
-  app.add_flag("--place-on-bed", options.is_placed_on_bed);
+             [&](const std::string& axis) { request.axis = axis; });
+  app.add_flag("--place-on-bed", request.is_placed_on_bed);
   add_choice(
       app, "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
         settings.contour = mode == "paper" ? slicer::ContourMode::kPaper
