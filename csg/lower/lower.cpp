@@ -29,17 +29,17 @@ void survey(const Node& node, Survey& result) {
   }
 }
 
-std::vector<Note> call_chain(const CallFrame* caller) {
+std::vector<Note> call_chain(const CallSite* caller) {
   std::vector<Note> notes;
-  for (const CallFrame* frame = caller; frame; frame = frame->caller) {
-    notes.push_back({frame->range, fmt::format("called by '{}'", frame->name)});
+  for (const CallSite* call = caller; call; call = call->caller) {
+    notes.push_back({call->range, fmt::format("called by '{}'", call->name)});
   }
   return notes;
 }
 
 // Calls work(); to a limit that it exceeds the place in the text is added.
 template <typename Work>
-auto add_place(SourceRange range, const CallFrame* caller, const Work& work) {
+auto add_place(SourceRange range, const CallSite* caller, const Work& work) {
   try {
     return work();
   } catch (const LimitExceeded& limit) {

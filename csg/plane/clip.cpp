@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <cstddef>
-#include <mutex>
-#include <new>
 #include <vector>
 
 #include <clipper.hpp>
 
 #include "base/check.h"
+#include "base/memory_end.h"
 #include "csg/limits.h"
 #include "csg/plane/link_edges.h"
 
@@ -81,37 +80,6 @@ Region to_region(const ClipperLib::Paths& paths) {
     }
   }
   return region;
-}
-
-// Clipper catches whatever is thrown inside it and returns an empty result. It
-// cannot hide that memory ended: operator new calls its handler first, on the
-// thread that asked.
-thread_local bool has_memory_ended = false;
-std::new_handler next_handler = nullptr;
-
-void note_end_of_memory() {
-  has_memory_ended = true;
-  if (next_handler == nullptr) throw std::bad_alloc();
-  next_handler();
-}
-
-void hear_of_memory() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    next_handler = std::get_new_handler();
-    std::set_new_handler(note_end_of_memory);
-  });
-}
-
-// Calls clip(), which lets Clipper work.
-//
-// throws  std::bad_alloc where memory ended within
-template <typename Clip>
-void watch_memory(const Clip& clip) {
-  hear_of_memory();
-  has_memory_ended = false;
-  clip();
-  if (has_memory_ended) throw std::bad_alloc();
 }
 
 ClipperLib::Paths clip(ClipperLib::ClipType type,

@@ -52,8 +52,9 @@ void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
   }
   found_.greatest_coordinate = std::max(
       found_.greatest_coordinate, greatest_coordinate(layer.contours.points));
-  found_.layers.push_back(
-      {layer.bottom, layer.top - layer.bottom, measure(layer.contours)});
+  found_.layers.push_back({layer.bottom, layer.top - layer.bottom,
+                           measure(layer.contours),
+                           total_perimeter(layer.contours)});
   found_.volume +=
       found_.layers.back().measures.area * found_.layers.back().thickness;
   found_.top = layer.top;

@@ -12,9 +12,16 @@ LayerMeasures measure(const ldni::Contours& contours) {
     const double area = signed_area(contours.loop(i));
     measures.holes += area < 0 ? 1 : 0;
     measures.area += area;
-    measures.perimeter += perimeter(contours.loop(i));
   }
   return measures;
+}
+
+double total_perimeter(const ldni::Contours& contours) {
+  double length = 0;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    length += perimeter(contours.loop(i));
+  }
+  return length;
 }
 
 }  // namespace lamina::slicer

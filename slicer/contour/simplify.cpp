@@ -6,7 +6,7 @@
 
 #include "base/loop_area.h"
 #include "base/plane.h"
-#include "slicer/contour/farthest_reach.h"
+#include "slicer/contour/detail/farthest_reach.h"
 
 namespace lamina::slicer {
 namespace {

@@ -15,7 +15,7 @@
 namespace lamina::ldni::detail {
 namespace {
 
-// Leaves are told apart only by more than this [mm]: ten ties.
+// Leaves count as apart only by more than this [mm]: ten ties.
 constexpr double kMargin = 1e-5;
 
 // Operators with more children are not looked into, and for one instance no

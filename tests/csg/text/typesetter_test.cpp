@@ -1,4 +1,4 @@
-// Laws of text. That outlines are OpenSCAD's is the oracles' matter.
+// Laws of text. The oracles check that outlines are those of OpenSCAD.
 
 #include "csg/text/typesetter.h"
 
