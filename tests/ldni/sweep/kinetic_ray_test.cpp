@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
