@@ -88,8 +88,7 @@ bool CellGrid::visit_rows(Vec2 a, Vec2 b, Vec2 reach,
   const std::uint32_t last_row = row_of(upper.y + reach.y);
   // What is level, or spans few rows, is taken whole in each.
   const bool is_whole = last_row - first_row < 2 || lower.y == upper.y;
-  const double slope =
-      is_whole ? 0 : (upper.x - lower.x) / (upper.y - lower.y);
+  const double slope = is_whole ? 0 : (upper.x - lower.x) / (upper.y - lower.y);
   for (std::uint32_t row = first_row; row <= last_row; ++row) {
     double x0 = lower.x;
     double x1 = upper.x;
