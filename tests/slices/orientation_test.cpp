@@ -80,7 +80,13 @@ TEST(ChooseOrientation, AConeOnItsBaseHangsOverNowhere) {
       choice_of("cylinder(r1 = 3, r2 = 0, h = 4, $fn = 200);");
   // No side is flatter than 45°.
   EXPECT_NEAR(of_axis(choice, "z").overhang, 0, 1e-9);
+}
+
+TEST(ChooseOrientation, HeightIsTheSizeAlongTheAxis) {
+  const OrientationChoice choice =
+      choice_of("cylinder(r1 = 3, r2 = 0, h = 4, $fn = 200);");
   EXPECT_NEAR(of_axis(choice, "x").height, 6, 1e-9);
+  EXPECT_NEAR(of_axis(choice, "z").height, 4, 1e-9);
 }
 
 TEST(ChooseOrientation, OverhangIsWhatLooksDownSteeplyAndLiesNotOnTheBed) {
