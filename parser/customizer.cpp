@@ -60,8 +60,10 @@ std::string read_group(std::string_view comment) {
 
 }  // namespace
 
-Customizer::Customizer(const ast::Program& program) : source_(*program.source) {
-  scan();
+Customizer Customizer::read(const ast::Program& program) {
+  Customizer customizer(*program.source);
+  customizer.scan();
+  return customizer;
 }
 
 // Finds the groups and the first '{'. Like OpenSCAD's scan it does not know the
