@@ -132,4 +132,25 @@ ParameterComment Customizer::comment_of(
   return result;
 }
 
+std::vector<CustomizerEntry> list_parameters(const ast::Program& program) {
+  const Customizer customizer(program);
+  std::vector<CustomizerEntry> parameters;
+  for (const ast::Statement* statement : program.statements) {
+    const auto* variable = std::get_if<ast::Assignment>(&statement->node);
+    if (variable == nullptr) continue;
+    ParameterComment comment = customizer.comment_of(*statement);
+    if (!comment.is_parameter) continue;
+    auto place = std::find_if(
+        parameters.begin(), parameters.end(),
+        [&](const CustomizerEntry& p) { return p.name == variable->name; });
+    if (place == parameters.end()) {
+      place = parameters.insert(place, {std::string(variable->name), {}, {}});
+    }
+    place->value.clear();
+    ast::append_expression(*variable->value, place->value);
+    place->comment = std::move(comment);
+  }
+  return parameters;
+}
+
 }  // namespace lamina

@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
 
 #include <clipper.hpp>
 
 #include "base/check.h"
 #include "base/memory_end.h"
+#include "csg/limits.h"
 #include "csg/plane/link_edges.h"
 
 namespace lamina::planar {
@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kGridPerMm = 1e8;
 
-// Clipper multiplies coordinates in 128 bits; this leaves it all the room that
-// it asks for (2^62 grid units).
-constexpr double kGreatestCoordinate = 1e9;
+// Clipper multiplies coordinates in 128 bits; it asks for no more than 2^62
+// grid units.
+static_assert(csg::kGreatestCoordinate * kGridPerMm < 0x1p62);
 
 // Two grid diagonals: closer to the line between its neighbours, or to one of
 // them, a vertex is the clipper's rounding, not the design's.
@@ -30,13 +30,8 @@ constexpr double kMiterLimit = 1000000;
 // Its limit for those of strokes [half widths].
 constexpr double kStrokeMiterLimit = 2;
 
-[[noreturn]] void fail_range_check() {
-  throw std::range_error(
-      "Coordinates beyond 1e9 mm: too large for exact layers");
-}
-
 ClipperLib::cInt to_grid(double x) {
-  if (!(std::abs(x) <= kGreatestCoordinate)) fail_range_check();
+  if (csg::is_too_far(x)) csg::fail_too_far();
   return std::llround(x * kGridPerMm);
 }
 
@@ -101,7 +96,8 @@ ClipperLib::Paths clip(ClipperLib::ClipType type,
   if (!has_subject && !has_other) return result;
   bool is_clipped = false;
   watch_memory([&] { is_clipped = clipper.Execute(type, result, fill, fill); });
-  // Else it found no order of crossings in which only neighbours cross.
+  // It fails where it finds no order of crossings in which only neighbours
+  // cross.
   LAMINA_CHECK_EQ(is_clipped, true);
   return result;
 }
@@ -182,7 +178,7 @@ Region offset(const Region& region, double amount, Join join,
     });
   } catch (const ClipperLib::clipperException&) {
     // A sharp corner's spike went too far.
-    fail_range_check();
+    csg::fail_too_far();
   }
   return to_region(result);
 }
