@@ -133,7 +133,7 @@ ParameterComment Customizer::comment_of(
 }
 
 std::vector<CustomizerEntry> list_parameters(const ast::Program& program) {
-  const Customizer customizer(program);
+  const Customizer customizer = Customizer::read(program);
   std::vector<CustomizerEntry> parameters;
   for (const ast::Statement* statement : program.statements) {
     const auto* variable = std::get_if<ast::Assignment>(&statement->node);
