@@ -1,22 +1,21 @@
-// The passes of the program (compiler/compile.cpp), behind a header without
-// them.
+// The passes of compiler/passes.h behind a header that shows no type of theirs.
 
 #include "api/lamina/design.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "csg/eval/evaluator.h"
-#include "csg/lower/lower.h"
-#include "csg/text/typesetter.h"
-#include "parser/loader.h"
-#include "slicer/contour/deviation.h"
-#include "slicer/formats/layer_writer.h"
-#include "slicer/formats/output_format.h"
-#include "slicer/slice/slice.h"
+#include "base/loop_area.h"
+#include "compiler/compile.h"
+#include "compiler/layer_output.h"
+#include "compiler/passes.h"
+#include "parser/customizer.h"
+#include "slicer/check/thin_finder.h"
+#include "slicer/plan/orientation.h"
 
 namespace lamina {
 namespace {
@@ -43,16 +42,40 @@ class CallingSink : public slicer::LayerSink {
   const std::function<void(const Layer&)>& take_;
 };
 
-// What must not reach the slicer, which trusts its settings.
+void require(bool holds, const std::string& words) {
+  if (!holds) throw std::runtime_error(words);
+}
+
+bool is_positive(double value) { return value > 0 && std::isfinite(value); }
+bool is_not_negative(double value) {
+  return value >= 0 && std::isfinite(value);
+}
+
+// The passes trust what they are asked for.
+void check(const DesignOptions& options) {
+  const auto& axes = slicer::kAxes;
+  require(options.axis == compiler::kAutomaticAxis ||
+              std::find(axes.begin(), axes.end(), options.axis) != axes.end(),
+          "axis must be z, x, y, -x, -y, -z or auto");
+  require(is_positive(options.scale), "scale must be more than 0");
+  require(is_not_negative(options.chordal_error),
+          "chordal_error must not be negative");
+  require(options.parameter_file.empty() == options.parameter_set.empty(),
+          "parameter_file and parameter_set need each other");
+}
+
 void check(const SliceOptions& options) {
-  const auto require = [](bool holds, const char* words) {
-    if (!holds) throw std::runtime_error(words);
-  };
-  require(options.layer_thickness > 0 && std::isfinite(options.layer_thickness),
+  require(is_positive(options.layer_thickness),
           "layer_thickness must be more than 0 mm");
-  require(options.tolerance >= 0 && std::isfinite(options.tolerance),
-          "tolerance must not be negative");
+  require(is_not_negative(options.tolerance), "tolerance must not be negative");
   require(std::isfinite(options.compensation), "compensation must be finite");
+  require(is_not_negative(options.adaptive), "adaptive must not be negative");
+  require(options.adaptive == 0 || options.heights.empty(),
+          "adaptive and heights exclude each other");
+  require(options.max_layer == 0 ||
+              (options.adaptive > 0 && std::isfinite(options.max_layer) &&
+               options.max_layer >= options.layer_thickness),
+          "max_layer needs adaptive and must not be less than layer_thickness");
   for (std::size_t i = 0; i < options.heights.size(); ++i) {
     require(std::isfinite(options.heights[i]), "heights must be finite");
     require(i == 0 || options.heights[i - 1] < options.heights[i],
@@ -60,10 +83,32 @@ void check(const SliceOptions& options) {
   }
 }
 
+compiler::Request to_request(const DesignOptions& options, std::string name) {
+  check(options);
+  compiler::Request request;
+  request.design = std::move(name);
+  for (const std::string& definition : options.definitions) {
+    request.definitions += definition + ";\n";
+  }
+  request.parameter_file = options.parameter_file;
+  request.parameter_set = options.parameter_set;
+  request.chordal_error = options.chordal_error;
+  request.scale = options.scale;
+  request.axis = options.axis;
+  request.is_placed_on_bed = options.place_on_bed;
+  request.seed = options.seed;
+  request.max_depth = options.max_depth;
+  request.max_leaves = options.max_leaves;
+  request.module_folder = options.module_folder;
+  return request;
+}
+
 slicer::Settings to_settings(const SliceOptions& options) {
   check(options);
   slicer::Settings settings;
   settings.layer_thickness = options.layer_thickness;
+  settings.cusp = options.adaptive;
+  settings.greatest_thickness = options.max_layer;
   settings.heights = options.heights;
   settings.tolerance = options.tolerance;
   settings.compensation = options.compensation;
@@ -71,35 +116,31 @@ slicer::Settings to_settings(const SliceOptions& options) {
   return settings;
 }
 
-std::string join_definitions(const std::vector<std::string>& definitions) {
-  std::string text;
-  for (const std::string& definition : definitions) text += definition + ";\n";
-  return text;
+// Where its choices are `""`, the customizer found none.
+Parameter to_parameter(const CustomizerEntry& entry) {
+  const ParameterComment& comment = entry.comment;
+  return {entry.name, entry.value,
+          comment.values == "\"\"" ? "" : comment.values, comment.description,
+          comment.group};
 }
 
-// The messages of a run: shown as they come, and kept where they end it.
+ThinPlace to_place(const slicer::ThinFeature& feature, std::string origin) {
+  return {feature.kind == slicer::ThinKind::kWall,
+          feature.width,
+          {feature.place.x, feature.place.y},
+          feature.section_z,
+          feature.bottom,
+          feature.top,
+          std::move(origin)};
+}
+
+// Shows messages as they come, and keeps those that end the work.
 class Messages {
  public:
   explicit Messages(std::function<void(std::string_view)> show)
       : show_(std::move(show)),
         diagnostics_([this](const Diagnostic& d) { take(d); }) {}
 
-  Diagnostics& diagnostics() { return diagnostics_; }
-
-  // Runs `work`, and throws the text of the errors where it fails.
-  template <typename Work>
-  auto run(const Work& work) {
-    try {
-      return work();
-    } catch (const Error& error) {
-      if (errors_.empty()) take(error.diagnostic());
-      fail();
-    }
-  }
-
-  [[noreturn]] void fail() const { throw std::runtime_error(errors_); }
-
- private:
   void take(const Diagnostic& diagnostic) {
     const std::string text = caret_text(diagnostic);
     if (diagnostic.severity == Severity::kError) {
@@ -109,23 +150,43 @@ class Messages {
     }
   }
 
+  // Runs `work`, which may report to the Diagnostics that it gets, and throws
+  // the text of the errors where it fails.
+  template <typename Work>
+  auto run(const Work& work) {
+    try {
+      return work(diagnostics_);
+    } catch (const Error& error) {
+      if (errors_.empty()) take(error.diagnostic());
+      fail();
+    }
+  }
+
+  [[noreturn]] void fail() const { throw std::runtime_error(errors_); }
+
+ private:
   std::function<void(std::string_view)> show_;
   std::string errors_;
   Diagnostics diagnostics_;
 };
 
+FileAccess to_access(const DesignOptions& options) {
+  require(!options.root.empty() || options.readable.empty(),
+          "readable needs root");
+  Messages messages(nullptr);
+  return messages.run([&](Diagnostics&) {
+    return FileAccess({options.root, options.readable, options.no_import});
+  });
+}
+
 }  // namespace
 
 double signed_area(const Loop& loop) {
-  double twice = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    // From the first point: far from the origin, products lose digits.
-    const Point& a = loop[i];
-    const Point& b = loop[(i + 1) % loop.size()];
-    twice += (a.x - loop[0].x) * (b.y - loop[0].y) -
-             (b.x - loop[0].x) * (a.y - loop[0].y);
-  }
-  return twice / 2;
+  if (loop.empty()) return 0;
+  const auto place = [](const Point& point) { return Vec2(point.x, point.y); };
+  DoubledArea area(place(loop.front()), place(loop.back()));
+  for (const Point& point : loop) area.add(place(point));
+  return area.value() / 2;
 }
 
 double area(const Layer& layer) {
@@ -135,56 +196,47 @@ double area(const Layer& layer) {
 }
 
 struct Design::State {
-  explicit State(const DesignOptions& options)
+  State(const DesignOptions& options, compiler::Request its_request)
       : show(options.show),
         messages(show),
-        loader(sources, messages.diagnostics(), library_folders(),
-               join_definitions(options.definitions)) {}
+        access(to_access(options)),
+        temporary_files(access),
+        request(std::move(its_request)),
+        compilation(request, temporary_files,
+                    [this](const Diagnostic& d) { messages.take(d); }) {}
 
-  template <typename Load>
+  // From the design to the scene.
   static std::unique_ptr<const State> make(const DesignOptions& options,
-                                           const Load& load) {
-    auto state = std::make_unique<State>(options);
-    state->messages.run([&] { state->build(options, load(state->loader)); });
+                                           compiler::Request request) {
+    auto state = std::make_unique<State>(options, std::move(request));
+    state->messages.run([&](Diagnostics&) {
+      auto lowered = compiler::make_geometry(state->compilation);
+      if (!lowered) state->messages.fail();
+      state->lowered = std::move(*lowered);
+    });
+    for (const CustomizerEntry& entry :
+         list_parameters(state->compilation.program)) {
+      state->parameters.push_back(to_parameter(entry));
+    }
     return state;
   }
 
-  // From the syntax tree to the scene.
-  void build(const DesignOptions& options, const ast::Program& program) {
-    Diagnostics& diagnostics = messages.diagnostics();
-    std::vector<std::string> folders = text::module_folders();
-    folders.insert(folders.begin(), options.module_folder);
-    text::Typesetter typesetter(folders, diagnostics);
-    typesetter.add_fonts(loader.fonts());
-    csg::EvaluateOptions how;
-    how.preview = false;
-    how.text_measurer = &typesetter;
-    tree = csg::evaluate(program, loader, how, diagnostics);
-    if (diagnostics.has_errors()) messages.fail();
-    csg::LowerOptions lowering;
-    lowering.chordal_error = options.chordal_error;
-    lowering.scale = options.scale;
-    lowering.typesetter = &typesetter;
-    csg::Lowered lowered = csg::lower(tree, lowering, diagnostics);
-    tree.drop_nodes();
-    if (lowered.scene() == nullptr) {
-      throw GeometryError({Severity::kError,
-                           {},
-                           lowered.is_empty()
-                               ? "Current top level object is empty."
-                               : "Current top level object is not a 3D "
-                                 "object."});
-    }
-    scene = std::get<csg::Scene>(std::move(lowered.geometry));
+  // The passes from the scene to layers. Several threads may call it.
+  slicer::SliceReport slice(const slicer::Settings& settings,
+                            slicer::LayerSink& sink,
+                            Diagnostics& diagnostics) const {
+    return compiler::slice(lowered, compiler::plan(lowered, settings), settings,
+                           sink, diagnostics);
   }
 
   std::function<void(std::string_view)> show;
-  // What the scene names its places in.
-  SourceStore sources;
   Messages messages;
-  Loader loader;
-  csg::Tree tree;
-  csg::Scene scene;
+  FileAccess access;
+  TemporaryFiles temporary_files;
+  compiler::Request request;
+  compiler::Compilation compilation;
+  csg::Lowered lowered;
+  std::vector<Parameter> parameters;
 };
 
 Design::Design(std::unique_ptr<const State> state) : state_(std::move(state)) {}
@@ -194,14 +246,14 @@ Design::~Design() = default;
 
 Design Design::from_file(const std::string& path,
                          const DesignOptions& options) {
-  return Design(
-      State::make(options, [&](Loader& loader) { return loader.load(path); }));
+  return Design(State::make(options, to_request(options, path)));
 }
 
 Design Design::from_text(const std::string& text, const DesignOptions& options,
                          const std::string& name) {
-  return Design(State::make(
-      options, [&](Loader& loader) { return loader.load_text(name, text); }));
+  compiler::Request request = to_request(options, name);
+  request.text = text;
+  return Design(State::make(options, std::move(request)));
 }
 
 std::vector<Layer> Design::slice(const SliceOptions& options) const {
@@ -215,31 +267,61 @@ void Design::slice(const SliceOptions& options,
   const slicer::Settings settings = to_settings(options);
   CallingSink sink(take);
   Messages messages(state_->show);
-  messages.run([&] {
-    slicer::slice(state_->scene, settings, sink, messages.diagnostics());
+  messages.run([&](Diagnostics& diagnostics) {
+    state_->slice(settings, sink, diagnostics);
   });
 }
 
-void Design::write(const std::string& path, const SliceOptions& options) const {
-  const slicer::Settings settings = to_settings(options);
+void Design::write(const std::string& path, const SliceOptions& options,
+                   const ImageOptions& images) const {
+  compiler::Request request = state_->request;
+  request.output = path;
+  request.settings = to_settings(options);
+  request.printer = images.printer;
+  request.mirrors_x = images.mirror_x;
+  request.mirrors_y = images.mirror_y;
   const slicer::FormatChoice choice = slicer::choose_output_format(path);
   if (!choice.format) throw std::runtime_error(choice.complaint);
-  if (!slicer::is_of_layers(*choice.format) ||
-      slicer::is_of_images(*choice.format)) {
-    throw std::runtime_error(
-        fmt::format("'{}' asks for no format of contours", path));
-  }
+  request.format = *choice.format;
+  require(slicer::is_of_layers(request.format),
+          fmt::format("'{}' asks for no format of layers", path));
   Messages messages(state_->show);
-  messages.run([&] {
-    TemporaryFiles temporary_files;
-    slicer::WriterOptions how;
-    how.format = *choice.format;
-    how.deviation = slicer::promised_deviation(settings)->from_section();
-    const auto writer = make_layer_writer(how, path, temporary_files);
-    slicer::slice(state_->scene, settings, *writer, messages.diagnostics());
-    writer->finish(messages.diagnostics());
-    writer->commit();
+  messages.run([&](Diagnostics& diagnostics) {
+    TemporaryFiles temporary_files(state_->access);
+    compiler::LayerOutput output(request, temporary_files);
+    state_->slice(compiler::settings_of(request), output.sink(), diagnostics);
+    compiler::Report report;
+    output.finish(diagnostics, report);
   });
+}
+
+std::vector<ThinPlace> Design::find_thin_places(
+    double width, const SliceOptions& options) const {
+  require(
+      width >= slicer::kLeastThinWidth && width <= slicer::kGreatestThinWidth,
+      fmt::format("width must be from {} to {} mm", slicer::kLeastThinWidth,
+                  slicer::kGreatestThinWidth));
+  slicer::Settings settings = to_settings(options);
+  settings.min_feature = width;
+  struct : slicer::LayerSink {
+    void take(const slicer::Layer&) override {}
+  } nobody;
+  Messages messages(state_->show);
+  return messages.run([&](Diagnostics& diagnostics) {
+    const std::vector<slicer::ThinFeature> features =
+        state_->slice(settings, nobody, diagnostics).features;
+    const std::vector<std::string> origins = compiler::origin_texts(
+        compiler::origins_of(*state_->lowered.scene(), features));
+    std::vector<ThinPlace> places;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      places.push_back(to_place(features[i], origins[i]));
+    }
+    return places;
+  });
+}
+
+const std::vector<Parameter>& Design::parameters() const {
+  return state_->parameters;
 }
 
 }  // namespace lamina

@@ -10,11 +10,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "csg/eval/evaluator.h"
-#include "csg/lower/lower.h"
+#include "compiler/passes.h"
 #include "ldni/section/leaf_section.h"
 #include "ldni/sweep/kinetic_ray.h"
-#include "parser/loader.h"
 
 namespace {
 
@@ -25,21 +23,29 @@ constexpr std::uint32_t kBlockLayers = 32;
 // A scene of bench/scenes with `definitions` as -D gives them.
 struct Design {
   Design(const std::string& scene, const std::string& definitions)
-      : loader(sources, diagnostics, {}, definitions),
-        program(loader.load(LAMINA_SCENES "/" + scene + ".scad")) {}
+      : request(request_of(scene, definitions)), compilation(request, files) {
+    compilation.program = compiler::load(compilation);
+  }
 
+  static compiler::Request request_of(const std::string& scene,
+                                      const std::string& definitions) {
+    compiler::Request request;
+    request.design = LAMINA_SCENES "/" + scene + ".scad";
+    request.definitions = definitions;
+    return request;
+  }
   csg::Tree evaluate() {
-    csg::EvaluateOptions options;
-    return csg::evaluate(program, loader, options, diagnostics);
+    return compiler::evaluate(compilation, compilation.program);
   }
-  csg::Scene lower(const csg::Tree& tree) {
-    return *csg::lower(tree, {}, diagnostics).scene();
+  csg::Scene lower() { return *compiler::lower(compilation).scene(); }
+  csg::Scene make_scene() {
+    compilation.tree = evaluate();
+    return lower();
   }
 
-  SourceStore sources;
-  Diagnostics diagnostics;
-  Loader loader;
-  ast::Program program;
+  compiler::Request request;
+  TemporaryFiles files;
+  compiler::Compilation compilation;
 };
 
 void evaluate(benchmark::State& state, const std::string& scene,
@@ -51,8 +57,8 @@ void evaluate(benchmark::State& state, const std::string& scene,
 void lower(benchmark::State& state, const std::string& scene,
            const std::string& definitions) {
   Design design(scene, definitions);
-  const csg::Tree tree = design.evaluate();
-  for (auto _ : state) benchmark::DoNotOptimize(design.lower(tree));
+  design.make_scene();
+  for (auto _ : state) benchmark::DoNotOptimize(design.lower());
 }
 
 // Calls `visit` with every block of layers of the scene, cut into chains.
@@ -74,8 +80,7 @@ void for_each_block(const csg::Scene& scene, double thickness,
 void cut_leaves(benchmark::State& state, const std::string& scene_name,
                 const std::string& definitions, double thickness) {
   Design design(scene_name, definitions);
-  const csg::Tree tree = design.evaluate();
-  const csg::Scene scene = design.lower(tree);
+  const csg::Scene scene = design.make_scene();
   ldni::ChainBlock block;
   std::size_t points = 0;
   for (auto _ : state) {
@@ -90,8 +95,7 @@ void cut_leaves(benchmark::State& state, const std::string& scene_name,
 void cut_and_sweep(benchmark::State& state, const std::string& scene_name,
                    const std::string& definitions, double thickness) {
   Design design(scene_name, definitions);
-  const csg::Tree tree = design.evaluate();
-  const csg::Scene scene = design.lower(tree);
+  const csg::Scene scene = design.make_scene();
   ldni::ChainBlock block;
   ldni::KineticRay ray(scene, 0);
   ldni::Contours contours;

@@ -16,12 +16,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/version.h"
-#include "cli/command.h"
+#include "base/memory_end.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
-#include "cli/options/access_options.h"
+#include "cli/options/common_options.h"
+#include "cli/options/usage_error.h"
 #include "cli/process/landlock.h"
-#include "cli/process/process_limits.h"
 #include "cli/process/process_watch.h"
 #include "cli/process/run_on_stack.h"
 #include "cli/process/streams.h"
@@ -47,12 +47,9 @@ std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
                                FileAccess& access, int argc,
                                const char* const* argv) {
   CLI::App app("", "lamina");
-  app.set_help_flag("-h,--help");
-  app.set_version_flag("-v,--version", fmt::format("lamina {}", version()));
   command.add_options(app);
-  add_process_limits(app, limits);
   FileAccess::Limits access_limits;
-  add_access_options(app, access_limits);
+  add_common_options(app, limits, access_limits);
   try {
     app.parse(argc, argv);
     command.check();
@@ -102,7 +99,7 @@ int run_program(int argc, char** argv) {
   TemporaryFiles temporary_files(access);
   ProcessWatch watch(limits);
   return run_on_stack(temporary_files, watch, [&](std::size_t stack) {
-    return command->run(temporary_files, stack, watch);
+    return command->run({temporary_files, stack, watch});
   });
 }
 
@@ -111,6 +108,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace lamina;
+  std::set_new_handler(note_memory_end);
   cli::open_missing_streams();
   // What runs on the large stack is caught there, with all that it has to say.
   try {

@@ -2,154 +2,166 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "cli/command.h"
+#include "base/thread_clock.h"
+#include "compiler/layer_output.h"
 #include "compiler/make_rule.h"
-#include "csg/csg_printer.h"
+#include "compiler/passes.h"
 #include "parser/ast_printer.h"
-#include "slicer/contour/deviation.h"
-#include "slicer/formats/layer_writer.h"
 
-namespace lamina::cli {
+namespace lamina::compiler {
 namespace {
 
 using slicer::OutputFormat;
 
+[[noreturn]] void fail(const std::string& words) {
+  throw GeometryError({Severity::kError, {}, words});
+}
+
 // The rule for make; null where none is asked for. It is written before the
 // output, which a fault of it ends, and gets its name after the output.
-std::unique_ptr<OutputFile> begin_rule(Run& run) {
-  if (run.options.dependencies.empty()) return nullptr;
-  std::vector<std::string> files = run.loader.files();
-  files.insert(files.end(), run.named_files.begin(), run.named_files.end());
-  const std::string text = make_rule(run.options.output, files);
-  auto rule = std::make_unique<OutputFile>(run.options.dependencies,
-                                           run.temporary_files);
+std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
+  if (c.request.dependencies.empty()) return nullptr;
+  std::vector<std::string> files = c.loader.files();
+  files.insert(files.end(), c.tree.files.begin(), c.tree.files.end());
+  const std::string text = make_rule(c.request.output, files);
+  auto rule =
+      std::make_unique<OutputFile>(c.request.dependencies, c.temporary_files);
   rule->write(text);
   return rule;
 }
 
-// The product of a stage before layers, and the rule.
-int finish_text(Run& run, std::string_view text, OutputFile* rule) {
-  write_text(run, run.options.output, text);
+// Writes the product of a stage before layers, and the rule.
+bool finish_text(const Compilation& c, std::string_view text,
+                 OutputFile* rule) {
+  write_text(c, text);
   if (rule != nullptr) rule->commit();
-  return kDone;
+  return true;
 }
 
-std::string csg_text(Run& run, const csg::Tree& tree) {
-  if (tree.root == nullptr) return "\n";
-  return csg::print_csg(tree, *csg::select_root(tree, run.diagnostics));
+// The formats that show a 2D design; the others are printed.
+bool holds_outlines(OutputFormat format) {
+  return format == OutputFormat::kSvg || format == OutputFormat::kLayersJson;
 }
 
-// What the options promise of the contours.
-std::optional<slicer::Deviation> promised_deviation(
-    const DesignOptions& options) {
-  auto deviation = slicer::promised_deviation(options.settings);
-  if (deviation && options.chordal_error > 0) {
-    deviation->facets = options.chordal_error;
+void require_sliceable(const Compilation& c, const csg::Lowered& lowered) {
+  if (lowered.is_empty()) fail("Current top level object is empty.");
+  if (lowered.outline() != nullptr && !holds_outlines(c.request.format)) {
+    fail("Current top level object is not a 3D object.");
   }
-  return deviation;
 }
 
-// Empty where contours are not made of samples.
-std::string sampler_name(const slicer::Settings& settings) {
-  if (settings.contour != slicer::ContourMode::kPaper) return {};
-  switch (settings.paper.sampler) {
-    case ldni::SamplerKind::kScanline:
-      return "scanline";
-    case ldni::SamplerKind::kGl:
-      return "gl";
-    case ldni::SamplerKind::kGlPeeling:
-      return "gl-peeling";
+// Passes layers on and counts them.
+class CountingSink : public slicer::LayerSink {
+ public:
+  CountingSink(slicer::LayerSink& sink, const Progress& progress)
+      : sink_(sink), progress_(progress) {}
+
+  void begin(const Box3& box) override { sink_.begin(box); }
+  void expect(std::uint32_t layers) override {
+    all_ = layers;
+    sink_.expect(layers);
+    if (progress_) progress_(0, all_);
   }
-  return {};
-}
+  std::string encode(const slicer::Layer& layer) const override {
+    return sink_.encode(layer);
+  }
+  void take(const slicer::Layer& layer) override {
+    sink_.take(layer);
+    if (progress_) progress_(++done_, all_);
+  }
+  // Fewer layers can come than were expected.
+  void finish() const {
+    if (progress_) progress_(all_, all_);
+  }
 
-// The panel of the printer; of formats without images an empty one.
-slicer::Panel chosen_panel(const DesignOptions& options,
-                           const FileAccess& access) {
-  if (!slicer::is_of_images(options.format)) return {};
-  const std::string usual = options.format == OutputFormat::kSl1 ? "prusa-sl1"
-                            : options.format == OutputFormat::kNanoDlp
-                                ? "wanhao-d7"
-                                : "plain";
-  slicer::Panel panel = slicer::find_panel(
-      options.printer.empty() ? usual : options.printer, access);
-  if (options.mirrors_x) panel.right = -panel.right;
-  if (options.mirrors_y) panel.up = -panel.up;
-  return panel;
-}
-
-void complete_report(Run& run) {
-  run.report.wall_seconds = std::chrono::duration<double>(
-                                std::chrono::steady_clock::now() - run.begin)
-                                .count();
-  run.report.warnings = count(run.diagnostics, Severity::kWarning);
-  run.report.min_feature = run.options.settings.min_feature;
-  run.report.sampler = sampler_name(run.options.settings);
-}
+ private:
+  slicer::LayerSink& sink_;
+  const Progress& progress_;
+  std::uint64_t done_ = 0;
+  std::uint64_t all_ = 0;
+};
 
 }  // namespace
 
-int compile(Run& run) {
-  const Loaded loaded = load(run);
+bool compile(Compilation& c) {
+  // Load and parse: the files of the design, then its parameter set.
+  c.program = load(c);
+
   // The syntax tree is written before anything is evaluated: what a design
   // does is no matter of its syntax.
-  if (run.options.format == OutputFormat::kAst) {
-    const auto rule = begin_rule(run);
-    return finish_text(run, ast::print(loaded.program), rule.get());
+  if (c.request.format == OutputFormat::kAst) {
+    return finish_text(c, ast::print(c.program), begin_rule(c).get());
   }
-  Evaluated evaluated = evaluate(run, loaded.program);
-  run.named_files = evaluated.tree.files;
-  // A run that hard warnings cut short does not know them all.
-  const auto rule = evaluated.tree.root != nullptr ? begin_rule(run) : nullptr;
+
+  // Evaluate: the program runs, echoes, and leaves the CSG tree.
+  c.tree = evaluate(c, c.program);
+
+  // The rule names what modules of the design read. An evaluation that an error
+  // cut short does not know all of it.
+  const auto rule = c.tree.root != nullptr ? begin_rule(c) : nullptr;
+
   // Texts end well even where the design failed, as openscad's do.
-  if (run.options.format == OutputFormat::kEcho) {
-    // For what it warns of.
-    if (evaluated.tree.root) csg::select_root(evaluated.tree, run.diagnostics);
-    return finish_text(run, echo_text(run), rule.get());
+  if (c.request.format == OutputFormat::kEcho) {
+    return finish_text(c, echo_text(c), rule.get());
   }
-  if (run.options.format == OutputFormat::kCsg) {
-    return finish_text(run, csg_text(run, evaluated.tree), rule.get());
+  if (c.request.format == OutputFormat::kCsg) {
+    return finish_text(c, csg_text(c), rule.get());
   }
-  if (loaded.has_failed || evaluated.has_failed) return kFault;
+  if (c.has_failed) return false;
 
-  auto deviation = promised_deviation(run.options);
-  slicer::WriterOptions how;
-  how.format = run.options.format;
-  if (run.options.cli_encoding) how.cli = *run.options.cli_encoding;
-  how.panel = chosen_panel(run.options, run.file_access());
-  if (deviation) how.deviation = deviation->from_section();
-  const auto writer =
-      slicer::make_layer_writer(how, run.options.output, run.temporary_files);
-  make_layers(run, std::move(evaluated.tree), *writer);
-  writer->finish(run.diagnostics);
-  if (deviation) deviation->rounding = writer->greatest_rounding();
-  run.report.deviation = deviation;
-  run.report.snapped_layers = writer->snapped_layers();
-  writer->commit();
+  // The output is opened first: nothing is computed for a file that cannot be.
+  LayerOutput output(c.request, c.temporary_files);
+
+  // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
+  // leaves. The scene is turned and placed here, while it is still one thing.
+  const csg::Lowered lowered = lower(c);
+  c.tree.drop_nodes();
+  require_sliceable(c, lowered);
+
+  // Plan, and slice layer by layer into the output.
+  make_layers(c, lowered, settings_of(c.request), output.sink());
+
+  // Write the end of the output. It gets its name when all has gone well.
+  output.finish(c.diagnostics, c.report);
   if (rule != nullptr) rule->commit();
-  run.report.output_bytes = writer->size();
-  complete_report(run);
-  return kDone;
+  c.report.warnings = c.count(Severity::kWarning);
+  c.report.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - c.begin)
+          .count();
+  return true;
 }
 
-void show_report(Run& run) {
-  if (!slicer::is_of_layers(run.options.format)) return;
-  if (!run.options.report.empty()) {
-    write_text(run, run.options.report, report_json(run.report));
-  }
-  if (run.report.min_feature > 0) {
-    run.terminal.say(feature_lines(run.report));
-  }
-  // The memory in it costs a small run a tenth of its time to find out.
-  if (!run.options.is_quiet) {
-    run.terminal.say(summary_line(run.options.output, run.report));
-  }
+std::optional<csg::Lowered> make_geometry(Compilation& c) {
+  c.program = load(c);
+  c.tree = evaluate(c, c.program);
+  if (c.has_failed) return std::nullopt;
+  csg::Lowered lowered = lower(c);
+  c.tree.drop_nodes();
+  require_sliceable(c, lowered);
+  return lowered;
 }
 
-}  // namespace lamina::cli
+void make_layers(Compilation& c, const csg::Lowered& lowered,
+                 const slicer::Settings& settings, slicer::LayerSink& sink) {
+  CountingSink counting(sink, c.on_progress);
+
+  // Plan: all layers must stand before the first one is cut.
+  ldni::LayerGrid grid;
+  const double plan_seconds =
+      measure_seconds([&] { grid = plan(lowered, settings); });
+
+  // Slice: in parallel, and in order.
+  c.report.slice = slice(lowered, grid, settings, counting, c.diagnostics);
+  c.report.slice.section_seconds += plan_seconds;
+  if (const csg::Scene* scene = lowered.scene()) {
+    c.report.origins = origins_of(*scene, c.report.slice.features);
+  }
+  counting.finish();
+}
+
+}  // namespace lamina::compiler

@@ -1,21 +1,36 @@
 #pragma once
 // A design's way to its output: layers, or the text of a stage before.
 //
-//   load ─▶ parse ─▶ evaluate ─▶ lower ─▶ slice ─▶ write
+//   load, parse ─▶ evaluate ─▶ lower ─▶ plan ─▶ slice ─▶ write
 //
-// Nothing is computed here. Each pass appends to Diagnostics and throws where
-// the run must end.
+// Each pass appends to Diagnostics and throws where the compilation must end.
+// The program, the library, tests and benchmarks call the same passes.
 
-#include "compiler/run.h"
+#include <optional>
 
-namespace lamina::cli {
+#include "compiler/compilation.h"
+#include "csg/lower/lower.h"
+#include "slicer/contour/layer.h"
 
-// All passes that the format of the output asks for. Returns the exit status;
-// throws what run_caught shows.
-int compile(Run& run);
+namespace lamina::compiler {
 
-// What a run that ended well and made layers tells of itself: the file of
-// --report, features, a closing line.
-void show_report(Run& run);
+// All passes that the format of the output asks for, and the report. Returns
+// false where a pass failed.
+bool compile(Compilation& compilation);
 
-}  // namespace lamina::cli
+// The passes from the text to what can be sliced. No value where one failed.
+// Throws GeometryError where that is nothing at all. Drops the tree's nodes.
+std::optional<csg::Lowered> make_geometry(Compilation& compilation);
+
+// The passes from there to layers in `sink`; completes the report's `slice` and
+// `origins`. May be called again, with other settings.
+void make_layers(Compilation& compilation, const csg::Lowered& lowered,
+                 const slicer::Settings& settings, slicer::LayerSink& sink);
+
+// Keeps all layers.
+struct LayerList : slicer::LayerSink {
+  void take(const slicer::Layer& layer) override { layers.push_back(layer); }
+  std::vector<slicer::Layer> layers;
+};
+
+}  // namespace lamina::compiler

@@ -7,7 +7,7 @@
 
 #include "slicer/formats/output_format.h"
 
-namespace lamina::cli {
+namespace lamina::compiler {
 
 bool is_imported(const std::string& path) {
   constexpr std::array<std::string_view, 6> kExtensions = {
@@ -27,4 +27,4 @@ std::string import_of(const std::string& path) {
   return text + "\");\n";
 }
 
-}  // namespace lamina::cli
+}  // namespace lamina::compiler

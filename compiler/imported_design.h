@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace lamina::cli {
+namespace lamina::compiler {
 
 // By its name: what import() reads and is no design and no file of layers, in
 // any letter case. (A .3mf may hold either; import() takes its mesh.)
@@ -13,4 +13,4 @@ bool is_imported(const std::string& path);
 // The text of a design that imports the file beside it.
 std::string import_of(const std::string& path);
 
-}  // namespace lamina::cli
+}  // namespace lamina::compiler

@@ -8,7 +8,7 @@
 
 #include "base/diagnostic.h"
 
-namespace lamina::cli {
+namespace lamina::compiler {
 namespace {
 
 // What a backslash makes part of a name: ends of names, comments, colons, and
@@ -70,4 +70,4 @@ std::string make_rule(const std::string& target,
   return rule + "\n";
 }
 
-}  // namespace lamina::cli
+}  // namespace lamina::compiler

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace lamina::cli {
+namespace lamina::compiler {
 
 // "ring.slc: \\\n\tring.scad …": a rule without commands, ended by '\n'.
 //
@@ -20,4 +20,4 @@ namespace lamina::cli {
 std::string make_rule(const std::string& target,
                       std::span<const std::string> files);
 
-}  // namespace lamina::cli
+}  // namespace lamina::compiler

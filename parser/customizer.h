@@ -49,4 +49,15 @@ class Customizer {
   std::uint32_t end_line_ = 0;  // parameters stand above it
 };
 
+// A parameter of a design, as the customizer shows it.
+struct CustomizerEntry {
+  std::string name;
+  std::string value;  // as an expression: `0.5`, `"round"`, `[1, 2]`
+  ParameterComment comment;
+};
+
+// In the order of the design. A variable that is set more than once stands in
+// its first place and has its last value.
+std::vector<CustomizerEntry> list_parameters(const ast::Program& program);
+
 }  // namespace lamina

@@ -43,12 +43,47 @@ double signed_area(const Loop& loop);
 // [mm²] of what is solid.
 double area(const Layer& layer);
 
+// A value of the design that its customizer lets users choose.
+struct Parameter {
+  std::string name;
+  std::string value;    // in OpenSCAD's notation: `0.5`, `"round"`, `[1, 2]`
+  std::string choices;  // likewise: `[0.25 : 0.25 : 3]`; empty: any value
+  std::string description;  // empty: none
+  std::string group;        // empty: none
+};
+
+// A wall or gap that is too thin, in one layer or through several.
+struct ThinPlace {
+  bool is_wall = true;  // false: a gap
+  double width = 0;     // where it is thinnest [mm]; 0: two sides meet there
+  Point place;          // there
+  double z = 0;         // likewise: the height of the section [mm]
+  double bottom = 0;    // of its lowest layer [mm]
+  double top = 0;       // of its highest layer [mm]
+  // The lines of the design that made it: "ring.scad:12:3", or with the call
+  // that led there, "lib.scad:8:5 from ring.scad:40:3"; joined by ", ".
+  std::string origin;
+};
+
 // How a design is read. Names and defaults are those of the program's options
 // (docs/usage.md).
 struct DesignOptions {
   std::vector<std::string> definitions;  // of -D: "size=57"
+  std::string parameter_file;            // of -p; empty: none
+  std::string parameter_set;             // of -P, in that file
   double chordal_error = 0;              // [mm]; 0: $fa and $fs decide
   double scale = 1;
+  std::string axis = "z";  // direction of building: z, x, y, -x, -y, -z, auto
+  bool place_on_bed = false;  // the lowest point goes to height 0
+  unsigned seed = 0;          // of rands() where the design gives none
+  // Limits: nested calls, and parts of the design. More is an error.
+  unsigned max_depth = 300000;
+  unsigned max_leaves = 10000000;
+  // For designs that strangers write. With a root, files are read and written
+  // in this folder only, links resolved; in `readable` they are read, too.
+  std::string root;  // empty: everywhere
+  std::vector<std::string> readable;
+  bool no_import = false;  // refuse import(), surface() and the like
   // Gets what the design echoes and what it is warned of, as the program
   // prints it, at once.
   std::function<void(std::string_view message)> show;
@@ -64,10 +99,21 @@ struct DesignOptions {
 // How it is sliced.
 struct SliceOptions {
   double layer_thickness = 0.05;  // [mm]
-  std::vector<double> heights;    // not empty: sections at exactly these
-  double tolerance = 0.001;       // [mm]; 0 keeps all vertices
-  double compensation = 0;        // [mm] inwards; negative: outwards
-  unsigned threads = 0;           // 0: as many as the machine has
+  // Not 0: layers as thick as steps of this size on the surface allow [mm], in
+  // multiples of layer_thickness up to max_layer.
+  double adaptive = 0;
+  double max_layer = 0;         // [mm]; 0: 4 times layer_thickness
+  std::vector<double> heights;  // not empty: sections at exactly these
+  double tolerance = 0.001;     // [mm]; 0 keeps all vertices
+  double compensation = 0;      // [mm] inwards; negative: outwards
+  unsigned threads = 0;         // 0: as many as the machine has
+};
+
+// How layers are drawn, for formats of images.
+struct ImageOptions {
+  std::string printer;  // whose panel: a name or a profile; empty: the format's
+  bool mirror_x = false;  // turned over
+  bool mirror_y = false;
 };
 
 // A solid, read and evaluated once, to be sliced as often as needed, by several
@@ -96,9 +142,19 @@ class Design {
   void slice(const SliceOptions& options,
              const std::function<void(const Layer&)>& take) const;
 
-  // To a file of contours whose format its extension tells, such as ring.slc.
-  // It appears whole or not at all.
-  void write(const std::string& path, const SliceOptions& options = {}) const;
+  // To the output whose format its extension says: contours as in ring.slc,
+  // images as in ring.sl1 or ring.png, a folder. It appears whole or not at
+  // all.
+  void write(const std::string& path, const SliceOptions& options = {},
+             const ImageOptions& images = {}) const;
+
+  // Walls and gaps thinner than `width` [mm], from the bottom to the top.
+  std::vector<ThinPlace> find_thin_places(
+      double width, const SliceOptions& options = {}) const;
+
+  // What the customizer offers, in the order of the design, with the values of
+  // the design or of the parameter set.
+  const std::vector<Parameter>& parameters() const;
 
  private:
   struct State;

@@ -18,9 +18,7 @@
 
 #include "base/file/output_file.h"
 #include "bench/section_rival/scene_sweep.h"
-#include "csg/eval/evaluator.h"
-#include "csg/lower/lower.h"
-#include "parser/loader.h"
+#include "compiler/compile.h"
 
 namespace lamina::rival {
 namespace {
@@ -58,19 +56,15 @@ std::string peak_memory() {
 }
 
 void run(const Options& options) {
-  SourceStore sources;
-  Diagnostics diagnostics;
-  Loader loader(sources, diagnostics, {}, options.definitions);
-  const ast::Program program = loader.load(options.design);
-  const csg::Tree tree =
-      csg::evaluate(program, loader, csg::EvaluateOptions(), diagnostics);
-  const csg::Lowered lowered = csg::lower(tree, {}, diagnostics);
-
-  if (lowered.scene() == nullptr) throw std::runtime_error("not a solid");
-
+  compiler::Request request;
+  request.design = options.design;
+  request.definitions = options.definitions;
   TemporaryFiles files;
+  compiler::Compilation compilation(request, files);
+  const auto lowered = compiler::make_geometry(compilation);
+  if (!lowered) throw std::runtime_error("the design has errors");
   OutputFile output(options.output, files);
-  slice_by_sections(*lowered.scene(), options.thickness, output);
+  slice_by_sections(*lowered->scene(), options.thickness, output);
   output.commit();
 }
 

@@ -7,14 +7,15 @@
 #include <fmt/format.h>
 
 #include "base/source.h"
-#include "cli/command.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/piece_table.h"
+#include "cli/commands/pieces.h"
+#include "cli/options/design_options.h"
 #include "cli/options/output_options.h"
-#include "cli/piece_table.h"
-#include "cli/pieces.h"
-#include "cli/report/terminal.h"
-#include "compiler/design_options.h"
-#include "compiler/run.h"
+#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
+#include "cli/report/session.h"
 
 namespace lamina::cli {
 namespace {
@@ -48,9 +49,9 @@ class BatchCommand : public Command {
   std::string_view help() const override { return kBatchHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("design", table_.design.design)->required();
+    app.add_option("design", table_.request.design)->required();
     app.add_option("--table", table_.table)->type_name("file")->required();
-    app.add_option("-o", table_.design.output)
+    app.add_option("-o", table_.request.output)
         ->type_name("pattern")
         ->required();
     app.add_option("--skip", skipped_)
@@ -58,44 +59,43 @@ class BatchCommand : public Command {
         ->expected(1)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    add_output_options(app, table_.design, export_format_);
-    add_design_options(app, table_.design);
-    add_slicing_options(app, table_.design);
+    add_output_options(app, table_.request, output_options_);
+    add_design_options(app, table_.request, is_quiet_);
+    add_slicing_options(app, table_.request);
   }
 
   void check() override {
-    if (!table_.design.parameter_file.empty()) {
+    if (!table_.request.parameter_file.empty()) {
       throw UsageError("batch takes values from --table, not from -p and -P");
     }
-    if (table_.design.output.find('{') == std::string::npos) {
+    if (table_.request.output.find('{') == std::string::npos) {
       throw UsageError(
           "-o needs a pattern, such as 'out/{name}.slc' or 'out/{row}.slc'");
     }
-    choose_format(table_.design, export_format_, table_.design.output);
+    choose_format(table_.request, output_options_, table_.request.output);
     table_.skipped.insert(skipped_.begin(), skipped_.end());
   }
 
-  int run(TemporaryFiles& temporary_files, std::size_t stack,
-          ProcessWatch& watch) override {
-    const DesignOptions& design = table_.design;
-    Terminal terminal(design.is_quiet);
+  int run(const Context& context) override {
+    Terminal terminal(is_quiet_);
     SourceStore sources;
     Diagnostics diagnostics([&](const Diagnostic& d) { terminal.show(d); });
     return run_caught(terminal, diagnostics, [&] {
-      const std::vector<Piece> pieces = read_pieces(
-          table_, temporary_files.file_access(), sources, diagnostics);
+      const std::vector<Piece> pieces =
+          read_pieces(table_, context.file_access(), sources, diagnostics);
       if (diagnostics.has_errors()) return kFault;
-      return make_pieces(
-          pieces,
-          {"pieces", design.report, design.settings.threads, design.is_quiet},
-          temporary_files, stack, watch);
+      return make_pieces(pieces,
+                         {"pieces", output_options_.report,
+                          table_.request.settings.threads, is_quiet_},
+                         context);
     });
   }
 
  private:
   TableOptions table_;
   std::vector<std::string> skipped_;
-  std::string export_format_;
+  OutputOptions output_options_;
+  bool is_quiet_ = false;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "cli/command.h"
+#include "cli/commands/command.h"
 
 namespace lamina::cli {
 

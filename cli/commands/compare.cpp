@@ -8,16 +8,19 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "base/file/output_file.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/contradictions.h"
+#include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
+#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
 #include "cli/report/compared.h"
 #include "cli/report/comparison.h"
 #include "cli/report/comparison_text.h"
-#include "compiler/design_options.h"
-#include "compiler/run.h"
+#include "cli/report/session.h"
 #include "slicer/picture/difference_picture.h"
 
 namespace lamina::cli {
@@ -27,12 +30,13 @@ constexpr std::string_view kCompareHelp =
     R"(Usage: lamina compare A B [OPTION]...
        lamina compare DESIGN --against openscad [OPTION]...
 
-Compares layers: of files (.slc .cli .svg .layers.json), designs (.scad .csg)
-and meshes (.stl .off .obj .amf .3mf), in any pairing. Designs and meshes are
-cut at the heights of the other one; two designs at those of the first. Shows
-for each layer the areas that only one of them covers, regions and holes, and
-the greatest distance of their contours: no point of one is farther from the
-other's. Ends with 0 if all layers are within the tolerance, with 1 if not.
+Compares the layers of files (.slc .cli .svg .layers.json), designs (.scad
+.csg), meshes (.stl .off .obj .amf .3mf) and drawings (.dxf), in any pairing.
+All but files are cut at the heights of the other one; two designs at those of
+the first. Shows for each layer the areas that only one of them covers, regions
+and holes, and the greatest distance of their contours: no point of one is
+farther from the other's. Ends with 0 if all layers are within the tolerance,
+with 1 if not.
 
   --tolerance MM      greatest distance that counts as equal [the sum of what
                       both say of their precision, 0.001 at least]
@@ -69,11 +73,11 @@ class CompareCommand : public Command {
   void add_options(CLI::App& app) override {
     app.add_option("A", a_)->required();
     app.add_option("B", b_);
-    add_design_options(app, design_);
-    add_slicing_options(app, design_);
+    add_design_options(app, request_, is_quiet_);
+    add_slicing_options(app, request_);
     // The words are the comparison's here.
     app.remove_option(app.get_option("--tolerance"));
-    design_.settings.tolerance = 0;
+    request_.settings.tolerance = 0;
     add_text(app, "--tolerance", "length", [this](const std::string& text) {
       tolerance_ =
           require_within("--tolerance", text, 0, kGreatestTolerance, " mm");
@@ -103,35 +107,32 @@ class CompareCommand : public Command {
     for (const std::string& path : {a_, b_}) {
       if (!path.empty() && !can_compare(path)) {
         throw UsageError(fmt::format(
-            "'{}' is nothing that compare knows (.slc .cli .svg .layers.json "
+            "'{}' is no file that compare reads (.slc .cli .svg .layers.json "
             ".scad .csg .stl .off .obj .amf .3mf .dxf)",
             path));
       }
     }
     if (is_against_openscad_) check_openscad();
-    if (design_.settings.paper.sampler != ldni::SamplerKind::kScanline) {
+    if (request_.settings.paper.sampler != ldni::SamplerKind::kScanline) {
       throw UsageError("compare cuts at heights, which --sampler gl cannot");
     }
     if (!picture_.empty() && !picture_.ends_with(".png")) {
       throw UsageError(
           fmt::format("--png draws .png pictures; '{}' is none", picture_));
     }
-    if (const char* contradiction = find_contradiction(design_.settings)) {
-      throw UsageError(contradiction);
-    }
+    refuse_contradictions(request_.settings);
   }
 
-  int run(TemporaryFiles& temporary_files, std::size_t stack,
-          ProcessWatch& /*watch*/) override {
-    Terminal terminal(design_.is_quiet);
+  int run(const Context& context) override {
+    Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {
       try {
-        const auto a = open_compared(a_, design_, temporary_files, stack);
-        const auto b = is_against_openscad_
-                           ? open_openscad(a_, design_, time_limit_,
-                                           temporary_files, stack)
-                           : open_compared(b_, design_, temporary_files, stack);
-        return compare(*a, *b, temporary_files);
+        const auto a = open_compared(a_, request_, is_quiet_, context);
+        const auto b =
+            is_against_openscad_
+                ? open_openscad(a_, request_, time_limit_, is_quiet_, context)
+                : open_compared(b_, request_, is_quiet_, context);
+        return compare(*a, *b, context.temporary_files);
       } catch (const ShownFault&) {
         return kFault;
       }
@@ -143,7 +144,7 @@ class CompareCommand : public Command {
     if (!a_.ends_with(".scad") && !a_.ends_with(".csg")) {
       throw UsageError("--against openscad compares a design");
     }
-    if (design_.chordal_error > 0) {
+    if (request_.chordal_error > 0) {
       throw UsageError(
           "--chordal-error makes other facets than openscad's: give $fa and "
           "$fs by -D");
@@ -155,11 +156,9 @@ class CompareCommand : public Command {
     ComparisonResult result =
         comparison.run(tolerance_.value_or(comparison.usual_tolerance()));
     if (!result.is_equal() && !aligns_) result.hint = find_hint(a, b, result);
-    if (!design_.is_quiet) print_out(comparison_text(result, lists_all_));
+    if (!is_quiet_) print_out(comparison_text(result, lists_all_));
     if (!report_.empty()) {
-      OutputFile output(report_, temporary_files);
-      output.write(comparison_json(result));
-      output.commit();
+      write_file(report_, comparison_json(result), temporary_files);
     }
     if (!picture_.empty()) draw(comparison, result, temporary_files);
     return result.is_equal() ? kDone : kFault;
@@ -200,7 +199,8 @@ class CompareCommand : public Command {
     output.commit();
   }
 
-  DesignOptions design_;
+  compiler::Request request_;  // of designs
+  bool is_quiet_ = false;
   std::string a_;
   std::string b_;                    // empty: openscad
   std::optional<double> tolerance_;  // [mm]

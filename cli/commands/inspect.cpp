@@ -1,19 +1,20 @@
 // lamina inspect: layers of a file or of a design checked, measured and listed.
 
-#include "slicer/check/inspect.h"
-
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "cli/command.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/contradictions.h"
+#include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
+#include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
-#include "compiler/design_options.h"
+#include "cli/report/session.h"
+#include "compiler/compile.h"
 #include "compiler/inspect_file.h"
-#include "compiler/run.h"
+#include "compiler/passes.h"
 #include "slicer/check/inspection_text.h"
 #include "slicer/formats/layer_reader.h"
 
@@ -41,48 +42,46 @@ class InspectCommand : public Command {
   std::string_view help() const override { return kInspectHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("file", options_.design)->required();
+    app.add_option("file", request_.design)->required();
     app.add_flag("--all", lists_all_layers_);
     app.add_flag("--json", is_json_);
     // In the layers as they are written, not by the slicer on its way.
     add_thin_width(app, min_feature_);
-    add_design_options(app, options_);
-    add_slicing_options(app, options_);
-    add_layer_range(app, options_.settings.written);
+    add_design_options(app, request_, is_quiet_);
+    add_slicing_options(app, request_);
+    add_layer_range(app, request_.settings.written);
   }
 
   void check() override {
-    require_readable("inspect", options_.design);
-    if (const char* contradiction = find_contradiction(options_.settings)) {
-      throw UsageError(contradiction);
-    }
+    require_readable("inspect", request_.design);
+    refuse_contradictions(request_.settings);
   }
 
-  int run(TemporaryFiles& temporary_files, std::size_t stack,
-          ProcessWatch& /*watch*/) override {
-    Run run(options_, temporary_files, stack);
-    return run_caught(run.terminal, run.diagnostics,
-                      [&] { return inspect(run); });
+  int run(const Context& context) override {
+    Session session(request_, is_quiet_, context);
+    return session.run([&] { return inspect(session.compilation); });
   }
 
  private:
   // No value where the design failed.
-  std::optional<slicer::Inspection> look(Run& run) const {
-    if (slicer::is_readable_layer_file(options_.design)) {
-      return compiler::inspect_file(options_.design, min_feature_,
-                                    run.file_access());
+  std::optional<slicer::Inspection> look(
+      compiler::Compilation& compilation) const {
+    if (slicer::is_readable_layer_file(request_.design)) {
+      return compiler::inspect_file(request_.design, min_feature_,
+                                    compilation.file_access());
     }
-    auto tree = load_tree(run);
-    if (!tree) return std::nullopt;
+    const auto lowered = compiler::make_geometry(compilation);
+    if (!lowered) return std::nullopt;
     slicer::Inspector inspector(min_feature_);
-    make_layers(run, std::move(*tree), inspector);
+    compiler::make_layers(compilation, *lowered,
+                          compiler::settings_of(request_), inspector);
     slicer::LayerFileFacts exact;
     exact.is_float32 = false;
-    return inspector.finish(options_.design, std::move(exact));
+    return inspector.finish(request_.design, std::move(exact));
   }
 
-  int inspect(Run& run) const {
-    const auto found = look(run);
+  int inspect(compiler::Compilation& compilation) const {
+    const auto found = look(compilation);
     if (!found) return kFault;
     const std::string text =
         is_json_ ? inspection_json(*found)
@@ -93,7 +92,8 @@ class InspectCommand : public Command {
     return found->defects == 0 ? kDone : kFault;
   }
 
-  DesignOptions options_;
+  compiler::Request request_;
+  bool is_quiet_ = false;
   bool lists_all_layers_ = false;
   bool is_json_ = false;
   double min_feature_ = 0;  // [mm]; 0: thin places are not looked for

@@ -6,16 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/pieces.h"
+#include "cli/commands/watch.h"
+#include "cli/options/design_options.h"
 #include "cli/options/output_options.h"
 #include "cli/options/output_pattern.h"
-#include "cli/pieces.h"
-#include "cli/watch.h"
-#include "compiler/compile.h"
-#include "compiler/design_options.h"
+#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
+#include "cli/report/run_report.h"
 #include "compiler/imported_design.h"
-#include "compiler/run.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
@@ -143,7 +144,7 @@ std::string without_extension(const std::string& path) {
 }
 
 void refuse_layers(const std::string& file) {
-  if (!slicer::is_named_as_layers(file) || is_imported(file)) return;
+  if (!slicer::is_named_as_layers(file) || compiler::is_imported(file)) return;
   throw UsageError(
       file.ends_with(".slc")
           ? fmt::format("'{0}' holds layers already; try 'lamina inspect "
@@ -158,82 +159,81 @@ class SliceCommand : public Command {
 
   void add_options(CLI::App& app) override {
     app.add_option("design", designs_);
-    app.add_option("-o", options_.output)->type_name("file");
-    app.add_option("-d", options_.dependencies)->type_name("file");
+    app.add_option("-o", request_.output)->type_name("file");
+    app.add_option("-d", request_.dependencies)->type_name("file");
     app.add_flag("--watch", watches_);
-    add_output_options(app, options_, export_format_);
-    add_design_options(app, options_);
-    add_slicing_options(app, options_);
+    add_output_options(app, request_, output_);
+    add_design_options(app, request_, is_quiet_);
+    add_slicing_options(app, request_);
   }
 
   void check() override {
     if (designs_.empty()) throw UsageError("no design was given");
     for (const std::string& design : designs_) refuse_layers(design);
-    if (options_.output == "-" && export_format_.empty()) {
+    if (request_.output == "-" && output_.export_format.empty()) {
       throw UsageError("-o - needs --export-format");
     }
-    if (watches_ && (designs_.size() > 1 || options_.output == "-")) {
+    if (watches_ && (designs_.size() > 1 || request_.output == "-")) {
       throw UsageError("--watch needs one design and a file to write");
     }
     if (designs_.size() > 1) return check_several();
-    options_.design = designs_.front();
+    request_.design = designs_.front();
     makes_folder_ = is_folder() || is_pattern();
-    options_.output = output_of(options_.design);
-    choose_format(options_, export_format_, options_.output);
+    request_.output = output_of(request_.design);
+    choose_format(request_, output_, request_.output);
   }
 
-  int run(TemporaryFiles& temporary_files, std::size_t stack,
-          ProcessWatch& watch) override {
-    if (designs_.size() > 1) return run_several(temporary_files, stack, watch);
-    Run run(options_, temporary_files, stack);
-    return run_caught(run.terminal, run.diagnostics, [&] {
-      if (makes_folder_) make_folder_of(options_.output, run.file_access());
-      if (watches_) compile_and_watch(options_, temporary_files, stack, watch);
-      const int status = compile(run);
-      if (status == kDone) show_report(run);
-      return status;
+  int run(const Context& context) override {
+    if (designs_.size() > 1) return run_several(context);
+    Session session(request_, is_quiet_, context);
+    return session.run([&] {
+      if (makes_folder_) make_folder_of(request_.output, context.file_access());
+      if (watches_) {
+        compile_and_watch(request_, output_.report, is_quiet_, context);
+      }
+      return compile_and_report(session, output_.report);
     });
   }
 
  private:
   std::string extension() const {
-    return export_format_.empty() ? "slc" : export_format_;
+    return output_.export_format.empty() ? "slc" : output_.export_format;
   }
 
   // A name such as "ring.png/" is that of an output that is a folder.
   bool is_folder() const {
-    const std::string& output = options_.output;
+    const std::string& output = request_.output;
     return output.ends_with('/') &&
            !slicer::choose_output_format(output.substr(0, output.size() - 1))
                 .format;
   }
 
   bool is_pattern() const {
-    return options_.output.find("{name}") != std::string::npos;
+    return request_.output.find("{name}") != std::string::npos;
   }
 
   std::string output_of(const std::string& design) const {
-    if (options_.output.empty()) {
+    if (request_.output.empty()) {
       return fmt::format("{}.{}", without_extension(design), extension());
     }
     if (is_folder()) {
-      return fmt::format("{}{}.{}", options_.output, stem(design), extension());
+      return fmt::format("{}{}.{}", request_.output, stem(design), extension());
     }
-    return fill_pattern(options_.output, [&](const std::string& word) {
+    return fill_pattern(request_.output, [&](const std::string& word) {
       return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
     });
   }
 
   void check_several() {
-    if (!options_.output.empty() && !is_folder() && !is_pattern()) {
+    if (!request_.output.empty() && !is_folder() && !is_pattern()) {
       throw UsageError(
           "-o names one file; for several designs give it a folder, such as "
           "'out/', or a pattern, such as 'out/{name}.slc'");
     }
-    if (!options_.dependencies.empty()) {
+    if (!request_.dependencies.empty()) {
       throw UsageError("-d tells of one design");
     }
-    choose_format(options_, export_format_, output_of(designs_.front()));
+    choose_format(request_, output_, output_of(designs_.front()));
     std::set<std::string> outputs;
     for (const std::string& design : designs_) {
       const std::string output = output_of(design);
@@ -244,29 +244,29 @@ class SliceCommand : public Command {
     }
   }
 
-  int run_several(TemporaryFiles& temporary_files, std::size_t stack,
-                  ProcessWatch& watch) {
+  int run_several(const Context& context) {
     std::vector<Piece> pieces;
     for (const std::string& design : designs_) {
       Piece& piece = pieces.emplace_back();
-      piece.options = options_;
-      piece.options.design = design;
-      piece.options.output = output_of(design);
+      piece.request = request_;
+      piece.request.design = design;
+      piece.request.output = output_of(design);
       piece.name = design;
       piece.prefix = fmt::format("{}: ", design);
     }
-    Terminal terminal(options_.is_quiet);
+    Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {
-      return make_pieces(pieces,
-                         {"designs", options_.report, options_.settings.threads,
-                          options_.is_quiet},
-                         temporary_files, stack, watch);
+      return make_pieces(
+          pieces,
+          {"designs", output_.report, request_.settings.threads, is_quiet_},
+          context);
     });
   }
 
   std::vector<std::string> designs_;
-  DesignOptions options_;  // of each
-  std::string export_format_;
+  compiler::Request request_;  // of each
+  bool is_quiet_ = false;
+  OutputOptions output_;
   bool makes_folder_ = false;
   bool watches_ = false;
 };

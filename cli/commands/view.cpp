@@ -11,14 +11,17 @@
 #include <fmt/format.h>
 
 #include "base/file/output_file.h"
-#include "cli/command.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/contradictions.h"
+#include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
-#include "compiler/design_options.h"
-#include "compiler/feature_report.h"
-#include "compiler/run.h"
+#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
+#include "cli/report/session.h"
+#include "compiler/compile.h"
+#include "compiler/passes.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/picture/image.h"
@@ -87,18 +90,21 @@ struct ViewOptions {
 };
 
 // All layers of a file or of a design; no value where the design failed.
-std::optional<std::vector<slicer::Layer>> layers_of(Run& run) {
-  LayerList list;
-  if (slicer::is_readable_layer_file(run.options.design)) {
+std::optional<std::vector<slicer::Layer>> layers_of(
+    compiler::Compilation& compilation) {
+  const compiler::Request& request = compilation.request;
+  compiler::LayerList list;
+  if (slicer::is_readable_layer_file(request.design)) {
     slicer::read_layers(
-        run.options.design,
+        request.design,
         [&](slicer::Layer& layer) { list.layers.push_back(std::move(layer)); },
-        run.file_access());
+        compilation.file_access());
     return std::move(list.layers);
   }
-  auto tree = load_tree(run);
-  if (!tree) return std::nullopt;
-  make_layers(run, std::move(*tree), list);
+  const auto lowered = compiler::make_geometry(compilation);
+  if (!lowered) return std::nullopt;
+  compiler::make_layers(compilation, *lowered, compiler::settings_of(request),
+                        list);
   return std::move(list.layers);
 }
 
@@ -142,28 +148,28 @@ slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
   return draw_sheet(layers, title, sheet);
 }
 
-int draw(Run& run, const ViewOptions& options) {
-  const auto layers = layers_of(run);
+int draw(compiler::Compilation& compilation, const ViewOptions& options) {
+  const compiler::Request& request = compilation.request;
+  const auto layers = layers_of(compilation);
   if (!layers) return kFault;
   if (std::all_of(layers->begin(), layers->end(), [](const auto& layer) {
         return layer.contours.points.empty();
       })) {
-    refuse_geometry(
-        fmt::format("{} has no contour to draw", run.options.design));
+    refuse_geometry(fmt::format("{} has no contour to draw", request.design));
   }
-  const std::string title =
-      std::filesystem::path(run.options.design).filename();
-  if (is_page(run.options.output)) {
+  const std::string title = std::filesystem::path(request.design).filename();
+  if (is_page(request.output)) {
     slicer::ViewerOptions page;
     page.title = title;
     page.min_feature = options.layer.min_feature;
-    page.features = run.report.slice.features;
-    page.origins = origin_texts(run.report.origins);
-    write_text(run, run.options.output, viewer_page(*layers, page));
+    page.features = compilation.report.slice.features;
+    page.origins = compiler::origin_texts(compilation.report.origins);
+    write_file(request.output, viewer_page(*layers, page),
+               compilation.temporary_files);
     return kDone;
   }
   const slicer::Image picture = draw_picture(*layers, title, options);
-  OutputFile output(run.options.output, run.temporary_files);
+  OutputFile output(request.output, compilation.temporary_files);
   write_png(picture, output);
   output.commit();
   return kDone;
@@ -174,8 +180,8 @@ class ViewCommand : public Command {
   std::string_view help() const override { return kViewHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("file", design_.design)->required();
-    app.add_option("-o", design_.output)->type_name("file")->required();
+    app.add_option("file", request_.design)->required();
+    app.add_option("-o", request_.output)->type_name("file")->required();
     add_choice(
         app, "--style", {"sheet", "stack"}, [this](const std::string& style) {
           options_.style = style == "stack" ? Style::kStack : Style::kSheet;
@@ -194,21 +200,21 @@ class ViewCommand : public Command {
     app.add_option("--width", options_.width)
         ->check(CLI::Range(200U, 8000U))
         ->type_name("number");
-    add_design_options(app, design_);
-    add_slicing_options(app, design_);
+    add_design_options(app, request_, is_quiet_);
+    add_slicing_options(app, request_);
   }
 
   void check() override {
     if (camera_.is_given()) options_.style = Style::kStack;
     options_.stack = camera_.stack();
 
-    if (!is_page(design_.output) && !design_.output.ends_with(".png")) {
+    if (!is_page(request_.output) && !request_.output.ends_with(".png")) {
       throw UsageError(fmt::format(
           "view writes .png pictures and .html pages; '{}' is neither",
-          design_.output));
+          request_.output));
     }
-    require_readable("view", design_.design);
-    if (options_.layer.min_feature > 0 && !is_page(design_.output) &&
+    require_readable("view", request_.design);
+    if (options_.layer.min_feature > 0 && !is_page(request_.output) &&
         !options_.is_of_one_layer()) {
       throw UsageError("--min-feature needs --layer-number, --at or .html");
     }
@@ -218,27 +224,24 @@ class ViewCommand : public Command {
     if (options_.style == Style::kStack && options_.width) {
       throw UsageError("a stack needs --imgsize W,H, not --width");
     }
-    if (is_page(design_.output) && options_.are_for_pictures()) {
+    if (is_page(request_.output) && options_.are_for_pictures()) {
       throw UsageError("of view's own options a page takes --min-feature only");
     }
     // What a design's thin places are made of is told on the page.
-    if (is_page(design_.output)) {
-      design_.settings.min_feature = options_.layer.min_feature;
+    if (is_page(request_.output)) {
+      request_.settings.min_feature = options_.layer.min_feature;
     }
-    if (const char* contradiction = find_contradiction(design_.settings)) {
-      throw UsageError(contradiction);
-    }
+    refuse_contradictions(request_.settings);
   }
 
-  int run(TemporaryFiles& temporary_files, std::size_t stack,
-          ProcessWatch& /*watch*/) override {
-    Run run(design_, temporary_files, stack);
-    return run_caught(run.terminal, run.diagnostics,
-                      [&] { return draw(run, options_); });
+  int run(const Context& context) override {
+    Session session(request_, is_quiet_, context);
+    return session.run([&] { return draw(session.compilation, options_); });
   }
 
  private:
-  DesignOptions design_;  // also names a .slc
+  compiler::Request request_;  // also names a .slc
+  bool is_quiet_ = false;
   ViewOptions options_;
   CameraOptions camera_;
 };

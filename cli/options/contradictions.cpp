@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/options/usage_error.h"
 #include "compiler/imported_design.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
+namespace {
 
+// Null if they go together.
 const char* find_contradiction(const slicer::Settings& settings) {
   const bool is_paper = settings.contour == slicer::ContourMode::kPaper;
   if (settings.min_feature > 0 && is_paper) {
@@ -37,24 +39,24 @@ const char* find_contradiction(const slicer::Settings& settings) {
   return nullptr;
 }
 
-const char* find_misfit(const DesignOptions& options) {
+const char* find_misfit(const compiler::Request& request, bool has_report) {
   using enum slicer::OutputFormat;
-  const slicer::OutputFormat format = options.format;
-  const slicer::Settings& settings = options.settings;
+  const slicer::OutputFormat format = request.format;
+  const slicer::Settings& settings = request.settings;
   const bool has_layers = slicer::is_of_layers(format);
-  if (!has_layers && !options.report.empty()) return "--report needs layers";
+  if (!has_layers && has_report) return "--report needs layers";
   if (!has_layers && settings.min_feature > 0) {
     return "--min-feature needs layers";
   }
   const bool has_images = slicer::is_of_images(format);
-  const bool is_mirrored = options.mirrors_x || options.mirrors_y;
-  if (!has_images && !options.printer.empty()) {
+  const bool is_mirrored = request.mirrors_x || request.mirrors_y;
+  if (!has_images && !request.printer.empty()) {
     return "--printer needs images: .png, .sl1 or .zip";
   }
   if (!has_images && is_mirrored) {
     return "--mirror needs images: .png, .sl1 or .zip";
   }
-  if (options.cli_encoding && format != kCli) return "--cli needs .cli output";
+  if (request.cli_encoding && format != kCli) return "--cli needs .cli output";
   const bool is_archive = format == kSl1 || format == kNanoDlp;
   if (is_archive && (settings.cusp > 0 || !settings.heights.empty())) {
     return ".sl1 and .zip need layers of one thickness, not --heights or "
@@ -66,9 +68,21 @@ const char* find_misfit(const DesignOptions& options) {
   return nullptr;
 }
 
+}  // namespace
+
+void refuse_contradictions(const slicer::Settings& settings) {
+  if (const char* words = find_contradiction(settings)) throw UsageError(words);
+}
+
+void refuse_misfits(const compiler::Request& request, bool has_report) {
+  if (const char* words = find_misfit(request, has_report)) {
+    throw UsageError(words);
+  }
+}
+
 void require_readable(std::string_view command, const std::string& file) {
   if (!slicer::is_named_as_layers(file) ||
-      slicer::is_readable_layer_file(file) || is_imported(file)) {
+      slicer::is_readable_layer_file(file) || compiler::is_imported(file)) {
     return;
   }
   throw UsageError(

@@ -6,19 +6,24 @@
 
 #include <CLI/App.hpp>
 
-#include "compiler/design_options.h"
+#include "compiler/request.h"
 
 namespace lamina::cli {
 
-// What --help calls Output, save -o, and --report and --min-feature; `options`
-// and `export_format` outlive `app`.
-void add_output_options(CLI::App& app, DesignOptions& options,
-                        std::string& export_format);
+struct OutputOptions {
+  std::string export_format;  // empty: the output's name says it
+  std::string report;         // path; empty: none
+};
+
+// What --help calls Output, save -o, and --report and --min-feature; `request`
+// and `options` outlive `app`.
+void add_output_options(CLI::App& app, compiler::Request& request,
+                        OutputOptions& options);
 
 // Chooses the format by --export-format or, where that is empty, by the name
-// of the output, and checks what the options want against it. Throws
+// of the output, and checks what else is asked for against it. Throws
 // UsageError.
-void choose_format(DesignOptions& options, const std::string& export_format,
+void choose_format(compiler::Request& request, const OutputOptions& options,
                    const std::string& output);
 
 }  // namespace lamina::cli

@@ -9,10 +9,9 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/command.h"
+#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
-#include "cli/options/access_options.h"
-#include "cli/process/process_limits.h"
+#include "cli/options/common_options.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/formats/panel.h"
 
@@ -108,11 +107,7 @@ OptionPage option_page(const CLI::Option& option,
   page.may_repeat =
       option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   page.words = words_of(option, page.value);
-  if (!page.words.empty()) {
-    page.completion = Completion::kWords;
-  } else if (option.get_type_name() == "file") {
-    page.completion = Completion::kFile;
-  }
+  page.is_file = option.get_type_name() == "file";
   return page;
 }
 
@@ -128,7 +123,7 @@ std::vector<std::string> extensions_of(const std::string& usage) {
   std::vector<std::string> extensions = {"slc",  "cli",  "svg",
                                          "json", "scad", "csg"};
   if (usage.find(" FILE") == std::string::npos) {
-    for (const char* mesh : {"stl", "off", "obj", "amf", "3mf"}) {
+    for (const char* mesh : {"stl", "off", "obj", "amf", "3mf", "dxf"}) {
       extensions.emplace_back(mesh);
     }
   }
@@ -159,13 +154,10 @@ void read_usage(const std::vector<HelpBlock>& main_help, CommandPage& page) {
 CommandPage command_page(const std::string& name, Command& command,
                          const std::vector<HelpBlock>& main_help) {
   CLI::App app("", "lamina");
-  app.set_help_flag("-h,--help");
-  app.set_version_flag("-v,--version", "");
   command.add_options(app);
   ProcessLimits limits;
-  add_process_limits(app, limits);
-  FileAccess::Limits access_limits;
-  add_access_options(app, access_limits);
+  FileAccess::Limits access;
+  add_common_options(app, limits, access);
   CommandPage page;
   page.name = name;
   page.help = read_help(command.help());
@@ -189,6 +181,14 @@ std::vector<CommandPage> command_pages() {
     pages.push_back(command_page(std::string(named.name), *command, main_help));
   }
   return pages;
+}
+
+void replace(std::string& frame, std::string_view mark,
+             std::string_view content) {
+  for (std::size_t at = frame.find(mark); at != std::string::npos;
+       at = frame.find(mark, at + content.size())) {
+    frame.replace(at, mark.size(), content);
+  }
 }
 
 }  // namespace lamina::cli

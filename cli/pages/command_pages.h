@@ -3,26 +3,21 @@
 // help says.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/pages/help_text.h"
 
 namespace lamina::cli {
 
-enum class Completion {
-  kNothing,  // a number or a name that nobody can guess
-  kWords,    // OptionPage::words
-  kFile,
-};
-
 struct OptionPage {
   std::vector<std::string> names;  // "-q", "--quiet"
   std::string text;                // of the help, in one line
   bool has_value = false;
   bool may_repeat = false;
-  std::string value;  // what the help calls it: "MM"
-  Completion completion = Completion::kNothing;
-  std::vector<std::string> words;
+  std::string value;               // what the help calls it: "MM"
+  std::vector<std::string> words;  // those that it can be; empty: any text
+  bool is_file = false;
 };
 
 struct CommandPage {
@@ -37,5 +32,9 @@ struct CommandPage {
 // All commands, slicing first. An option that neither the help of its command
 // nor that of slicing has an entry for has no text.
 std::vector<CommandPage> command_pages();
+
+// Replaces every `mark` in a frame by `content`.
+void replace(std::string& frame, std::string_view mark,
+             std::string_view content);
 
 }  // namespace lamina::cli

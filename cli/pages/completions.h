@@ -1,6 +1,8 @@
 #pragma once
 // Completion of the command line by the three usual shells: commands, options,
 // words that options take, files by their extensions.
+//
+// What every completion of a shell has stands in a frame (cli/pages/*.in).
 
 #include <span>
 #include <string>
@@ -9,8 +11,11 @@
 
 namespace lamina::cli {
 
-std::string bash_completion(std::span<const CommandPage> pages);
-std::string zsh_completion(std::span<const CommandPage> pages);
-std::string fish_completion(std::span<const CommandPage> pages);
+std::string bash_completion(std::span<const CommandPage> pages,
+                            std::string frame);
+std::string zsh_completion(std::span<const CommandPage> pages,
+                           std::string frame);
+std::string fish_completion(std::span<const CommandPage> pages,
+                            std::string frame);
 
 }  // namespace lamina::cli

@@ -1,15 +1,16 @@
-// lamina_pages FRAME FOLDER: writes the manual page, made from FRAME, and the
-// completions of bash, zsh and fish into FOLDER. Run by the build.
+// lamina_pages FOLDER FRAME...: fills the frames of the manual page
+// (lamina.1.in) and of the completions of bash, zsh and fish (lamina.bash.in,
+// _lamina.in, lamina.fish.in) and writes them into FOLDER. Run by the build.
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "cli/pages/command_pages.h"
 #include "cli/pages/completions.h"
@@ -18,37 +19,36 @@
 namespace lamina::cli {
 namespace {
 
-std::string read(const std::string& path) {
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(fmt::format("can't read {}", path));
+  if (!file) throw std::runtime_error("can't read " + path.string());
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write(const std::string& path, const std::string& text) {
+void write(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;
-  if (!file.flush())
-    throw std::runtime_error(fmt::format("can't write {}", path));
+  if (!file.flush()) throw std::runtime_error("can't write " + path.string());
 }
 
-void write_pages(const std::string& frame, const std::string& folder) {
-  const std::vector<CommandPage> pages = command_pages();
-  write(folder + "/lamina.1", man_page(pages, read(frame)));
-  write(folder + "/lamina.bash", bash_completion(pages));
-  write(folder + "/_lamina", zsh_completion(pages));
-  write(folder + "/lamina.fish", fish_completion(pages));
+void write_page(const fs::path& folder, const fs::path& frame) {
+  const std::map<std::string, decltype(&man_page)> makers = {
+      {"lamina.1", man_page},
+      {"lamina.bash", bash_completion},
+      {"_lamina", zsh_completion},
+      {"lamina.fish", fish_completion}};
+  const fs::path name = frame.stem();
+  write(folder / name, makers.at(name)(command_pages(), read(frame)));
 }
 
 }  // namespace
 }  // namespace lamina::cli
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: lamina_pages FRAME FOLDER\n", stderr);
-    return 2;
-  }
   try {
-    lamina::cli::write_pages(argv[1], argv[2]);
+    for (int i = 2; i < argc; ++i) lamina::cli::write_page(argv[1], argv[i]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lamina_pages: %s\n", error.what());
     return 1;

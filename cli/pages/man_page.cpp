@@ -1,7 +1,9 @@
 #include "cli/pages/man_page.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,27 +14,21 @@ namespace {
 
 // Text as troff prints it: dashes that can be copied, and no requests.
 std::string escaped(std::string_view text) {
+  constexpr std::pair<char, const char*> kWords[] = {{'\\', "\\e"},
+                                                     {'-', "\\-"},
+                                                     {'\'', "\\(aq"},
+                                                     {'^', "\\(ha"},
+                                                     {'~', "\\(ti"}};
   std::string result;
   if (text.starts_with('.') || text.starts_with('\'')) result += "\\&";
   for (const char letter : text) {
-    switch (letter) {
-      case '\\':
-        result += "\\e";
-        break;
-      case '-':
-        result += "\\-";
-        break;
-      case '\'':
-        result += "\\(aq";
-        break;
-      case '^':
-        result += "\\(ha";
-        break;
-      case '~':
-        result += "\\(ti";
-        break;
-      default:
-        result += letter;
+    const auto word = std::find_if(
+        std::begin(kWords), std::end(kWords),
+        [letter](const auto& pair) { return pair.first == letter; });
+    if (word != std::end(kWords)) {
+      result += word->second;
+    } else {
+      result += letter;
     }
   }
   return result;
@@ -145,14 +141,6 @@ std::string section_of(const CommandPage& page) {
     text += entries_of(block);
   }
   return text;
-}
-
-void replace(std::string& text, std::string_view mark,
-             std::string_view content) {
-  for (std::size_t at = text.find(mark); at != std::string::npos;
-       at = text.find(mark, at + content.size())) {
-    text.replace(at, mark.size(), content);
-  }
 }
 
 }  // namespace

@@ -26,18 +26,18 @@ std::string error_line(const std::string& prefix, const std::string& words) {
 
 }  // namespace
 
-void ProcessWatch::time_pieces() {
+void ProcessWatch::time_parts() {
   const std::lock_guard lock(mutex_);
   timed_.clear();
 }
 
-ProcessWatch::Piece::Piece(ProcessWatch& watch, const std::string& name)
+ProcessWatch::Part::Part(ProcessWatch& watch, const std::string& name)
     : watch_(watch) {
   const std::lock_guard lock(watch_.mutex_);
   timed_ = &watch_.timed_.emplace_back(Timed{name, Clock::now()});
 }
 
-ProcessWatch::Piece::~Piece() {
+ProcessWatch::Part::~Part() {
   const std::lock_guard lock(watch_.mutex_);
   watch_.timed_.remove_if([&](const Timed& t) { return &t == timed_; });
 }

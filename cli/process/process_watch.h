@@ -30,18 +30,18 @@ class ProcessWatch {
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;
 
-  // From now on each piece of the work has the time by itself, and what is
-  // between pieces takes as long as it takes.
-  void time_pieces();
+  // From now on each part of the work has the time by itself, and what is
+  // between parts takes as long as it takes.
+  void time_parts();
 
-  // A piece under way, as long as this lives.
-  class Piece {
+  // A part of the work, under way as long as this lives.
+  class Part {
    public:
     // name  before messages: "orders.csv:17: "
-    Piece(ProcessWatch& watch, const std::string& name);
-    ~Piece();
-    Piece(const Piece&) = delete;
-    Piece& operator=(const Piece&) = delete;
+    Part(ProcessWatch& watch, const std::string& name);
+    ~Part();
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
 
    private:
     ProcessWatch& watch_;

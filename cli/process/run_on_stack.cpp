@@ -13,15 +13,13 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include "cli/command.h"
+#include "cli/process/exit_status.h"
 #include "cli/process/large_stack.h"
+#include "cli/process/progress.h"
 #include "cli/process/streams.h"
-#include "cli/report/progress.h"
 
 namespace lamina::cli {
 namespace {
-
-constexpr int kInterruptedStatus = 130;
 
 // Sent to the waiting thread: "done", by the working one, and "an exception
 // cannot be passed on", by any.
@@ -31,17 +29,17 @@ constexpr int kLostSignal = SIGUSR2;
 // With kLostSignal: what was thrown.
 enum Lost { kLostMemory, kLostError };
 
-struct Run {
-  const std::function<int(std::size_t)>& work;
+struct Work {
+  const std::function<int(std::size_t)>& function;
   std::size_t stack_bytes;
   pthread_t waiting_thread;
   int status = 0;
 };
 
-void* work_and_tell(void* argument) {
-  Run& run = *static_cast<Run*>(argument);
-  run.status = run.work(run.stack_bytes);
-  ::pthread_kill(run.waiting_thread, kDoneSignal);
+void* do_work(void* argument) {
+  Work& work = *static_cast<Work*>(argument);
+  work.status = work.function(work.stack_bytes);
+  ::pthread_kill(work.waiting_thread, kDoneSignal);
   return nullptr;
 }
 
@@ -145,7 +143,7 @@ void watch_over(const sigset_t& signals, TemporaryFiles& temporary_files,
       case 0:
         break;
       default:
-        end_process(temporary_files, kInterruptedStatus, "");
+        end_process(temporary_files, kInterrupted, "");
     }
     const std::string exceeded = watch.look(temporary_files.bytes_in_memory());
     if (!exceeded.empty()) end_process(temporary_files, kFault, exceeded);
@@ -168,9 +166,9 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   const LargeStack stack;
-  Run run{work, stack.size(), ::pthread_self()};
+  Work own{work, stack.size(), ::pthread_self()};
   pthread_t thread{};
-  if (!stack.start(thread, &work_and_tell, &run)) {
+  if (!stack.start(thread, &do_work, &own)) {
     end_process(temporary_files, kFault,
                 "error: the system grants no second thread, or no stack for "
                 "it (ulimit -u, -v)\n");
@@ -181,7 +179,7 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
     end_process(temporary_files, kFault, "error: out of memory\n");
   }
   ::pthread_join(thread, nullptr);
-  return run.status;
+  return own.status;
 }
 
 }  // namespace lamina::cli

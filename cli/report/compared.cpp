@@ -11,10 +11,12 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
-#include "cli/command.h"
-#include "cli/report/openscad.h"
+#include "base/loop_area.h"
+#include "cli/process/exit_status.h"
+#include "cli/process/openscad.h"
+#include "cli/report/session.h"
+#include "compiler/compile.h"
 #include "compiler/imported_design.h"
-#include "compiler/run.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/deviation.h"
 #include "slicer/formats/layer_reader.h"
@@ -36,7 +38,7 @@ double greatest_coordinate(const std::vector<Layer>& layers) {
   double greatest = 0;
   for (const Layer& layer : layers) {
     greatest =
-        std::max(greatest, ldni::greatest_coordinate(layer.contours.points));
+        std::max(greatest, lamina::greatest_coordinate(layer.contours.points));
   }
   return greatest;
 }
@@ -93,19 +95,19 @@ double openscad_rounding(double greatest) {
 
 class ComparedDesign : public Compared {
  public:
-  ComparedDesign(std::string name, DesignOptions options, Rounding rounding,
-                 TemporaryFiles& temporary_files, std::size_t stack)
+  ComparedDesign(std::string name, compiler::Request request, Rounding rounding,
+                 bool is_quiet, const Context& context)
       : Compared(std::move(name)),
-        options_(std::move(options)),
+        request_(std::move(request)),
         rounding_(rounding),
-        run_(options_, temporary_files, stack) {}
+        session_(request_, is_quiet, context) {}
 
   std::string description() const override {
-    return is_imported(options_.design) ? "mesh" : "design";
+    return compiler::is_imported(request_.design) ? "mesh" : "design";
   }
 
   const std::vector<Layer>& layers() override {
-    if (!layers_) layers_ = sliced(options_.settings);
+    if (!layers_) layers_ = sliced(request_.settings);
     return *layers_;
   }
 
@@ -113,15 +115,15 @@ class ComparedDesign : public Compared {
 
   std::vector<Layer> cut(const std::vector<double>& heights) override {
     if (heights.empty()) return {};
-    slicer::Settings settings = options_.settings;
+    slicer::Settings settings = request_.settings;
     settings.heights = heights;
     return sliced(settings);
   }
 
   double precision() const override {
     slicer::Deviation deviation;
-    deviation.simplification = options_.settings.tolerance;
-    if (options_.settings.compensation != 0) {
+    deviation.simplification = request_.settings.tolerance;
+    if (request_.settings.compensation != 0) {
       deviation.compensation = slicer::kArcTolerance;
     }
     deviation.rounding = rounding_(greatest_coordinate_);
@@ -130,10 +132,12 @@ class ComparedDesign : public Compared {
 
  private:
   std::vector<Layer> sliced(const slicer::Settings& settings) {
-    LayerList list;
-    const int status = run_caught(run_.terminal, run_.diagnostics, [&] {
-      if (!lowered_) prepare();
-      slice(run_, *lowered_, settings, list);
+    compiler::LayerList list;
+    const int status = session_.run([&] {
+      compiler::Compilation& compilation = session_.compilation;
+      if (!lowered_) lowered_ = compiler::make_geometry(compilation);
+      if (!lowered_) return kFault;
+      compiler::make_layers(compilation, *lowered_, settings, list);
       return kDone;
     });
     if (status != kDone) throw ShownFault();
@@ -142,17 +146,9 @@ class ComparedDesign : public Compared {
     return std::move(list.layers);
   }
 
-  void prepare() {
-    auto tree = load_tree(run_);
-    if (!tree) throw ShownFault();
-    tree_ = std::move(*tree);
-    lowered_ = lower(run_, tree_);
-  }
-
-  const DesignOptions options_;
+  const compiler::Request request_;
   const Rounding rounding_;
-  Run run_;
-  csg::Tree tree_;
+  Session session_;
   std::optional<csg::Lowered> lowered_;
   std::optional<std::vector<Layer>> layers_;
   double greatest_coordinate_ = 0;
@@ -162,11 +158,19 @@ bool is_design(const std::string& path) {
   return slicer::is_named(path, ".scad") || slicer::is_named(path, ".csg");
 }
 
-// What goes for a mesh, too.
-DesignOptions mesh_options(const std::string& path,
-                           const DesignOptions& options) {
-  DesignOptions own = options;
+// Outlines can be compared, too, as files of layers hold them.
+compiler::Request design_request(const std::string& path,
+                                 const compiler::Request& request) {
+  compiler::Request own = request;
   own.design = path;
+  own.format = slicer::OutputFormat::kLayersJson;
+  return own;
+}
+
+// What goes for a mesh, too.
+compiler::Request mesh_request(const std::string& path,
+                               const compiler::Request& request) {
+  compiler::Request own = design_request(path, request);
   own.definitions.clear();
   own.parameter_file.clear();
   own.parameter_set.clear();
@@ -176,15 +180,14 @@ DesignOptions mesh_options(const std::string& path,
 
 class ComparedOpenScad : public Compared {
  public:
-  ComparedOpenScad(const std::string& design, const DesignOptions& options,
-                   double time_limit, TemporaryFiles& temporary_files,
-                   std::size_t stack)
+  ComparedOpenScad(const std::string& design, const compiler::Request& request,
+                   double time_limit, bool is_quiet, const Context& context)
       : Compared("openscad"),
-        options_(options),
+        request_(request),
         time_limit_(time_limit),
-        temporary_files_(temporary_files),
-        stack_(stack) {
-    options_.design = design;
+        is_quiet_(is_quiet),
+        context_(context) {
+    request_.design = design;
   }
 
   std::string description() const override {
@@ -200,24 +203,24 @@ class ComparedOpenScad : public Compared {
  private:
   Compared& mesh() {
     if (!mesh_) {
-      const ScratchFolder folder(temporary_files_);
+      const ScratchFolder folder(context_.temporary_files);
       version_ = openscad_version(folder);
       const OpenScadMesh rendered =
-          render_with_openscad(options_, time_limit_, folder);
+          render_with_openscad(request_, time_limit_, folder);
       render_seconds_ = rendered.seconds;
       mesh_ = std::make_unique<ComparedDesign>(
-          name(), mesh_options(rendered.path, options_), openscad_rounding,
-          temporary_files_, stack_);
+          name(), mesh_request(rendered.path, request_), openscad_rounding,
+          is_quiet_, context_);
       // Has it read while it is there.
       mesh_->cut({0});
     }
     return *mesh_;
   }
 
-  DesignOptions options_;
+  compiler::Request request_;
   double time_limit_;
-  TemporaryFiles& temporary_files_;
-  std::size_t stack_;
+  bool is_quiet_;
+  const Context& context_;
   std::string version_;
   double render_seconds_ = 0;
   std::unique_ptr<ComparedDesign> mesh_;
@@ -232,35 +235,31 @@ std::vector<Layer> Compared::cut(const std::vector<double>& /*heights*/) {
 
 bool can_compare(const std::string& path) {
   return slicer::is_readable_layer_file(path) || is_design(path) ||
-         is_imported(path);
+         compiler::is_imported(path);
 }
 
 std::unique_ptr<Compared> open_compared(const std::string& path,
-                                        const DesignOptions& options,
-                                        TemporaryFiles& temporary_files,
-                                        std::size_t stack) {
+                                        const compiler::Request& request,
+                                        bool is_quiet, const Context& context) {
   if (slicer::is_readable_layer_file(path)) {
-    return std::make_unique<ComparedFile>(path, temporary_files.file_access());
+    return std::make_unique<ComparedFile>(path, context.file_access());
   }
-  if (is_imported(path)) {
+  if (compiler::is_imported(path)) {
     const Rounding rounding =
         slicer::is_named(path, ".stl") ? slicer::float32_rounding : no_rounding;
-    return std::make_unique<ComparedDesign>(path, mesh_options(path, options),
-                                            rounding, temporary_files, stack);
+    return std::make_unique<ComparedDesign>(path, mesh_request(path, request),
+                                            rounding, is_quiet, context);
   }
-  DesignOptions own = options;
-  own.design = path;
-  return std::make_unique<ComparedDesign>(path, std::move(own), no_rounding,
-                                          temporary_files, stack);
+  return std::make_unique<ComparedDesign>(path, design_request(path, request),
+                                          no_rounding, is_quiet, context);
 }
 
 std::unique_ptr<Compared> open_openscad(const std::string& design,
-                                        const DesignOptions& options,
-                                        double time_limit,
-                                        TemporaryFiles& temporary_files,
-                                        std::size_t stack) {
-  return std::make_unique<ComparedOpenScad>(design, options, time_limit,
-                                            temporary_files, stack);
+                                        const compiler::Request& request,
+                                        double time_limit, bool is_quiet,
+                                        const Context& context) {
+  return std::make_unique<ComparedOpenScad>(design, request, time_limit,
+                                            is_quiet, context);
 }
 
 }  // namespace lamina::cli

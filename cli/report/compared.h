@@ -2,14 +2,13 @@
 // One of the two that `lamina compare` compares: a file of layers, a design, or
 // a mesh. Designs and meshes can be cut at any heights, files cannot.
 
-#include <cstddef>
 #include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "base/file/output_file.h"
-#include "compiler/design_options.h"
+#include "cli/process/context.h"
+#include "compiler/request.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::cli {
@@ -53,21 +52,19 @@ class Compared {
 bool can_compare(const std::string& path);
 
 // path     of a file of layers, a design or a mesh, by its name
-// options  of the design, but for its path; a mesh is only turned, scaled and
-//          compensated by them. Outlives the result.
+// request  of the design, but for its path; a mesh is only turned, scaled and
+//          compensated by them. It and the context outlive the result.
 std::unique_ptr<Compared> open_compared(const std::string& path,
-                                        const DesignOptions& options,
-                                        TemporaryFiles& temporary_files,
-                                        std::size_t stack);
+                                        const compiler::Request& request,
+                                        bool is_quiet, const Context& context);
 
 // What openscad makes of the design, by name "openscad". It is rendered when
 // layers are asked for first.
 //
 // time_limit  for openscad [s]
 std::unique_ptr<Compared> open_openscad(const std::string& design,
-                                        const DesignOptions& options,
-                                        double time_limit,
-                                        TemporaryFiles& temporary_files,
-                                        std::size_t stack);
+                                        const compiler::Request& request,
+                                        double time_limit, bool is_quiet,
+                                        const Context& context);
 
 }  // namespace lamina::cli

@@ -102,14 +102,4 @@ void Terminal::write(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-void ProgressSink::expect(std::uint32_t layers) {
-  sink_.expect(layers);
-  line_.begin(layers, "layers");
-}
-
-void ProgressSink::take(const slicer::Layer& layer) {
-  sink_.take(layer);
-  line_.show(++done_);
-}
-
 }  // namespace lamina::cli

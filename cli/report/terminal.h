@@ -8,8 +8,7 @@
 #include <string_view>
 
 #include "base/diagnostic.h"
-#include "cli/report/progress.h"
-#include "slicer/contour/layer.h"
+#include "cli/process/progress.h"
 
 namespace lamina::cli {
 
@@ -38,6 +37,8 @@ class Terminal {
   // A line of its own; not when quiet.
   void say(std::string_view line);
 
+  bool is_quiet() const { return is_quiet_; }
+
   // The line that tells how far the run is; messages are written above it.
   ProgressLine& progress() { return progress_; }
 
@@ -54,26 +55,6 @@ class Terminal {
   std::string last_echo_;
   std::uint64_t echo_count_ = 0;
   std::map<std::string, std::uint64_t> counts_;  // caret text → times
-};
-
-// Passes layers on and shows how many of them are done.
-class ProgressSink : public slicer::LayerSink {
- public:
-  ProgressSink(slicer::LayerSink& sink, ProgressLine& line)
-      : sink_(sink), line_(line) {}
-  ~ProgressSink() override { line_.erase(); }
-
-  void begin(const Box3& box) override { sink_.begin(box); }
-  void expect(std::uint32_t layers) override;
-  std::string encode(const slicer::Layer& layer) const override {
-    return sink_.encode(layer);
-  }
-  void take(const slicer::Layer& layer) override;
-
- private:
-  slicer::LayerSink& sink_;
-  ProgressLine& line_;
-  std::uint64_t done_ = 0;
 };
 
 }  // namespace lamina::cli

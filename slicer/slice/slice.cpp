@@ -8,13 +8,12 @@
 #include <glm/common.hpp>
 
 #include "base/thread_clock.h"
-#include "ldni/section/grid.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/regions.h"
 #include "slicer/plan/adaptive.h"
-#include "slicer/slice/block_slicer.h"
-#include "slicer/slice/slice_job.h"
+#include "slicer/slice/detail/block_slicer.h"
+#include "slicer/slice/detail/slice_job.h"
 
 namespace lamina::slicer {
 namespace {
@@ -32,20 +31,6 @@ void require_layers(const csg::Scene& scene, double thickness) {
        fmt::format("Too many layers: {:.3g} of {:g} mm, at most {:g} can be; "
                    "--layer makes them thicker",
                    count, thickness, kMostLayers)});
-}
-
-ldni::LayerGrid make_grid(const csg::Scene& scene, const Settings& settings) {
-  if (!settings.heights.empty()) {
-    return ldni::LayerGrid::at_heights(settings.heights);
-  }
-  require_layers(scene, settings.layer_thickness);
-  if (settings.cusp > 0) {
-    return adaptive_grid(scene,
-                         {settings.layer_thickness, settings.greatest_thickness,
-                          settings.cusp, settings.most_thickness_runs});
-  }
-  return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
-                                  settings.layer_thickness);
 }
 
 // Reports faults of our own, which should never happen.
@@ -110,6 +95,21 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 
 }  // namespace
 
+ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings) {
+  if (scene.box.is_empty() && settings.heights.empty()) throw_empty({});
+  if (!settings.heights.empty()) {
+    return ldni::LayerGrid::at_heights(settings.heights);
+  }
+  require_layers(scene, settings.layer_thickness);
+  if (settings.cusp > 0) {
+    return adaptive_grid(scene,
+                         {settings.layer_thickness, settings.greatest_thickness,
+                          settings.cusp, settings.most_thickness_runs});
+  }
+  return ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z,
+                                  settings.layer_thickness);
+}
+
 void SliceReport::add(const LayerMeasures& layer, double thickness) {
   ++layers;
   loops += layer.loops;
@@ -119,16 +119,13 @@ void SliceReport::add(const LayerMeasures& layer, double thickness) {
   volume += layer.area * thickness;
 }
 
-SliceReport slice(const csg::Scene& scene, const Settings& settings,
-                  LayerSink& sink, Diagnostics& diagnostics) {
+SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
+                  const Settings& settings, LayerSink& sink,
+                  Diagnostics& diagnostics) {
   SliceReport report;
-  if (scene.box.is_empty() && settings.heights.empty()) throw_empty(report);
-  ldni::LayerGrid grid;
   Plan plan;
-  report.section_seconds = measure_seconds([&] {
-    grid = make_grid(scene, settings);
-    plan = plan_blocks(scene, settings, grid);
-  });
+  report.section_seconds =
+      measure_seconds([&] { plan = plan_blocks(scene, settings, grid); });
   report.renderer = plan.renderer;
   std::optional<FeatureCollector> features;
   if (settings.min_feature > 0) {

@@ -10,6 +10,7 @@
 #include "csg/plane/region.h"
 #include "csg/scene.h"
 #include "ldni/image/paper_counts.h"
+#include "ldni/section/grid.h"
 #include "ldni/sweep/kinetic_ray.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/compensate.h"
@@ -45,11 +46,18 @@ struct SliceReport {
   void add(const LayerMeasures& layer, double thickness);
 };
 
+// Where the layers of a scene stand. Throws GeometryError where the scene is
+// empty (unless heights were given) or would have too many layers.
+ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings);
+
 // Gives the same layers for any number of threads. Throws GeometryError if no
 // wanted layer has a contour (unless heights were given). Warns of what
 // compensation lost.
-SliceReport slice(const csg::Scene& scene, const Settings& settings,
-                  LayerSink& sink, Diagnostics& diagnostics);
+//
+// grid  of plan_layers()
+SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
+                  const Settings& settings, LayerSink& sink,
+                  Diagnostics& diagnostics);
 
 // The one layer of a 2D design, at height 0, with all its vertices.
 SliceReport slice_outline(const planar::Region& outline,

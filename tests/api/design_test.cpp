@@ -130,7 +130,8 @@ TEST(Design, RefusesWhatCannotBeSliced) {
   intolerant.tolerance = -1;
   EXPECT_THROW(cube.slice(intolerant), std::runtime_error);
   EXPECT_THROW(cube.write("cube.stl"), std::runtime_error);
-  EXPECT_THROW(cube.write("cube.png"), std::runtime_error);
+  EXPECT_THROW(cube.write("cube.csg"), std::runtime_error);
+  EXPECT_THROW(cube.find_thin_places(0), std::runtime_error);
   EXPECT_THROW(cube.write("missing/folder/cube.slc"), std::runtime_error);
 }
 
@@ -150,6 +151,157 @@ TEST(Design, WritesTheBytesOfTheProgram) {
               lamina::support::read_file(folder.file("program." + extension)))
         << extension;
   }
+}
+
+std::string reason_of(const DesignOptions& options) {
+  return fault_of([&] { Design::from_text("cube(1);", options); });
+}
+
+TEST(Design, RefusesOptionsThatMeanNothing) {
+  DesignOptions axis;
+  axis.axis = "up";
+  EXPECT_NE(reason_of(axis).find("axis"), std::string::npos);
+  DesignOptions scale;
+  scale.scale = 0;
+  EXPECT_NE(reason_of(scale).find("scale"), std::string::npos);
+  DesignOptions set;
+  set.parameter_set = "large";
+  EXPECT_NE(reason_of(set).find("parameter_file"), std::string::npos);
+  DesignOptions readable;
+  readable.readable = {"."};
+  EXPECT_NE(reason_of(readable).find("root"), std::string::npos);
+  DesignOptions root;
+  root.root = "nowhere";
+  EXPECT_NE(reason_of(root).find("nowhere"), std::string::npos);
+}
+
+TEST(Design, AxisTurnsTheDesignAndTheBedLiftsIt) {
+  DesignOptions options;
+  options.axis = "x";
+  options.place_on_bed = true;
+  const Design bar =
+      Design::from_text("translate([5, 0, 0]) cube([8, 2, 3]);", options);
+  const std::vector<Layer> layers = bar.slice(layers_of(1));
+  ASSERT_EQ(layers.size(), 8U);
+  EXPECT_DOUBLE_EQ(layers[0].bottom, 0);
+  EXPECT_NEAR(lamina::area(layers[0]), 6, 1e-9);
+}
+
+TEST(Design, AutomaticAxisSaysWhatItChose) {
+  std::string shown;
+  DesignOptions options;
+  options.axis = "auto";
+  options.show = [&](std::string_view message) { shown += message; };
+  const Design bar = Design::from_text("cube([8, 2, 3]);", options);
+  EXPECT_NE(shown.find("y"), std::string::npos);
+  EXPECT_EQ(bar.slice(layers_of(1)).size(), 2U);
+}
+
+TEST(Design, AdaptiveLayersAreThickWhereWallsAreUpright) {
+  const Design part = Design::from_text(
+      "cylinder(r = 5, h = 8, $fn = 32);"
+      "translate([0, 0, 8]) cylinder(r1 = 5, r2 = 1, h = 2, $fn = 32);");
+  SliceOptions options = layers_of(0.1);
+  options.adaptive = 0.1;
+  options.max_layer = 0.4;
+  const std::vector<Layer> layers = part.slice(options);
+  EXPECT_NEAR(layers.front().top - layers.front().bottom, 0.4, 1e-9);
+  EXPECT_NEAR(layers.back().top - layers.back().bottom, 0.1, 1e-9);
+}
+
+TEST(Design, LimitsEndAnEvaluation) {
+  DesignOptions leaves;
+  leaves.max_leaves = 3;
+  EXPECT_THROW(Design::from_text("for (i = [1 : 4]) cube(i);", leaves),
+               std::runtime_error);
+  DesignOptions depth;
+  depth.max_depth = 10;
+  EXPECT_THROW(Design::from_text("function f(n) = n > 0 ? 1 + f(n - 1) : 1;"
+                                 "cube(f(20));",
+                                 depth),
+               std::runtime_error);
+}
+
+TEST(Design, TheRootIsTheOnlyFolderThatIsUsed) {
+  const lamina::support::TemporaryFolder root;
+  const lamina::support::TemporaryFolder other;
+  const std::string good = root.write("a.scad", "cube(1);");
+  const std::string bad = other.write("b.scad", "cube(1);");
+  DesignOptions options;
+  options.root = root.path();
+  const Design cube = Design::from_file(good, options);
+  EXPECT_THROW(Design::from_file(bad, options), std::runtime_error);
+  cube.write(root.file("a.slc"));
+  EXPECT_THROW(cube.write(other.file("a.slc")), std::runtime_error);
+  options.readable = {other.path()};
+  Design::from_file(bad, options);
+}
+
+TEST(Design, NoImportRefusesData) {
+  DesignOptions options;
+  options.no_import = true;
+  EXPECT_THROW(Design::from_text("import(\"a.stl\"); cube(1);", options),
+               std::runtime_error);
+}
+
+TEST(Design, FindsThinPlacesAndTheLinesThatMadeThem) {
+  const Design walls = Design::from_text(
+      "cube([10, 0.3, 2]);\ntranslate([0, 5, 0]) cube([10, 3, 2]);", {},
+      "a.scad");
+  const std::vector<lamina::ThinPlace> places =
+      walls.find_thin_places(0.5, layers_of(0.1));
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_TRUE(places[0].is_wall);
+  EXPECT_NEAR(places[0].width, 0.3, 1e-6);
+  EXPECT_NEAR(places[0].place.y, 0.15, 1e-6);
+  EXPECT_NEAR(places[0].bottom, 0, 1e-9);
+  EXPECT_NEAR(places[0].top, 2, 1e-9);
+  EXPECT_EQ(places[0].origin, "a.scad:1:1");
+}
+
+TEST(Design, ListsTheParametersOfTheCustomizer) {
+  const Design stone = Design::from_text(
+      "/* [Stone] */\n// carat weight\ncarat = 0.5;  // [0.25:0.25:3]\n"
+      "name = \"Ada\";\nmodule m() {}\nhidden = 1;\ncube(carat);");
+  const std::vector<lamina::Parameter>& parameters = stone.parameters();
+  ASSERT_EQ(parameters.size(), 2U);
+  EXPECT_EQ(parameters[0].name, "carat");
+  EXPECT_EQ(parameters[0].value, "0.5");
+  EXPECT_EQ(parameters[0].choices, "[0.25 : 0.25 : 3]");
+  EXPECT_EQ(parameters[0].description, "carat weight");
+  EXPECT_EQ(parameters[0].group, "Stone");
+  EXPECT_EQ(parameters[1].value, "\"Ada\"");
+  EXPECT_EQ(parameters[1].choices, "");
+}
+
+TEST(Design, TakesAParameterSet) {
+  const lamina::support::TemporaryFolder folder;
+  DesignOptions options;
+  options.parameter_file = folder.write(
+      "sets.json", R"({"parameterSets": {"large": {"size": "3"}}})");
+  options.parameter_set = "large";
+  const Design cube = Design::from_text("size = 1;\ncube(size);", options);
+  EXPECT_NEAR(lamina::area(cube.slice(at_heights({1}))[0]), 9, 1e-12);
+}
+
+TEST(Design, WritesTheImagesOfTheProgram) {
+  const lamina::support::TemporaryFolder folder;
+  const lamina::support::TemporaryFolder other;
+  const std::string design = folder.write("a.scad", "cube([4, 6, 1]);");
+  const std::string panel = folder.write(
+      "tiny.json", R"({"name":"tiny","pixels":[16,16],"pixel_mm":[1,1],)"
+                   R"("right":"+x","up":"+y"})");
+  lamina::ImageOptions images;
+  images.printer = panel;
+  images.mirror_x = true;
+  Design::from_file(design).write(other.file("a.sl1"), layers_of(0.5), images);
+  const auto program = lamina::support::run_process(
+      {LAMINA_PROGRAM, design, "-o", "a.sl1", "--layer", "0.5", "--printer",
+       panel, "--mirror", "x", "-q"},
+      folder.path());
+  ASSERT_EQ(program.status, 0) << program.errors;
+  EXPECT_EQ(lamina::support::read_file(other.file("a.sl1")),
+            lamina::support::read_file(folder.file("a.sl1")));
 }
 
 // Another locale for the whole process, as a program around the library may

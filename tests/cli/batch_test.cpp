@@ -1,9 +1,7 @@
 // Several pieces in one run: `lamina batch`, and several designs.
 
-#include <chrono>
 #include <filesystem>
 #include <sstream>
-#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -304,9 +302,7 @@ TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {
       command({"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc",
                "--layer", "0.001", "--threads", "2"}),
       folder.path());
-  for (int i = 0; i < 1000 && folder.entry_count() < 5; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  EXPECT_TRUE(support::wait_until([&] { return folder.entry_count() == 5; }));
   process.send(SIGINT);
   EXPECT_EQ(process.wait(), 130);
   EXPECT_EQ(folder.entry_count(), 3U);

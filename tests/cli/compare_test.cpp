@@ -2,6 +2,7 @@
 // designs, shifted parts, broken files.
 
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -234,6 +235,19 @@ TEST_F(Compare, BrokenFilesAreNamed) {
       EXPECT_TRUE(contains(result.errors, "error: ")) << bad;
     }
   }
+}
+
+// The error for another file names all that can be compared, in brackets.
+TEST_F(Compare, HelpNamesEveryKindOfFileThatTheErrorNames) {
+  const std::string help = compare({"--help"}).output;
+  const std::string error = compare({"ring.scad", "ring.txt"}).errors;
+  std::istringstream named(error.substr(
+      error.find(" (") + 2, error.find(')') - error.find(" (") - 2));
+  std::size_t count = 0;
+  for (std::string extension; named >> extension; ++count) {
+    EXPECT_TRUE(contains(help, extension)) << extension;
+  }
+  EXPECT_EQ(count, 12U) << error;
 }
 
 TEST_F(Compare, ChecksItsUsage) {

@@ -14,6 +14,7 @@
 namespace lamina::cli {
 namespace {
 
+using compiler::make_rule;
 using support::TemporaryFolder;
 
 bool has(const std::string& text, const std::string& part) {

@@ -1,6 +1,6 @@
 // The line that tells how far a long run is.
 
-#include "cli/report/progress.h"
+#include "cli/process/progress.h"
 
 #include <gtest/gtest.h>
 #include <pty.h>

@@ -1,9 +1,9 @@
 // Outputs that are made anew when the design changes.
 
-#include <chrono>
 #include <filesystem>
-#include <functional>
-#include <thread>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -21,17 +21,23 @@ class Watched {
   Watched(const TemporaryFolder& folder, const std::string& output,
           std::vector<std::string> more = {})
       : path_(folder.file(output)),
-        process_(words(output, std::move(more)), folder.path()) {}
+        process_(words(output, std::move(more)), folder.path(),
+                 streams_.write("errors", "")) {}
   ~Watched() { stop(); }
 
-  // Waits until the output is this text; false after some seconds.
+  // Waits until the output is this text.
   bool comes_to(const std::string& text) const {
-    for (int i = 0; i < 500; ++i) {
-      if (output() == text) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+    if (support::wait_until([&] { return output() == text; })) return true;
     ADD_FAILURE() << "it stays '" << output() << "'";
     return false;
+  }
+
+  // Waits until messages have these words.
+  bool comes_to_say(const std::string& words) const {
+    return support::wait_until([&] {
+      return support::read_file(streams_.file("errors")).find(words) !=
+             std::string::npos;
+    });
   }
 
   std::string output() const {
@@ -54,6 +60,7 @@ class Watched {
     return command(std::move(more));
   }
 
+  TemporaryFolder streams_;
   std::string path_;
   support::BackgroundProcess process_;
   bool is_stopped_ = false;
@@ -107,7 +114,7 @@ TEST(Watch, KeepsTheOutputWhereTheDesignFails) {
   const std::string one = "cube(size = [1, 1, 1], center = false);\n\n";
   ASSERT_TRUE(watched.comes_to(one));
   folder.write("a.scad", "cube(2;");
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(watched.comes_to_say("error: "));
   EXPECT_EQ(watched.output(), one);
   // What the design depended on when it was good is still watched.
   folder.write("i.scad", "i = 3;");

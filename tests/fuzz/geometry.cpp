@@ -44,7 +44,9 @@ void slice(const csg::Tree& tree) {
     if (const planar::Region* outline = lowered.outline()) {
       slicer::slice_outline(*outline, {}, sink, diagnostics);
     } else if (const csg::Scene* scene = lowered.scene()) {
-      slicer::slice(*scene, settings_for(scene->box), sink, diagnostics);
+      const slicer::Settings settings = settings_for(scene->box);
+      slicer::slice(*scene, slicer::plan_layers(*scene, settings), settings,
+                    sink, diagnostics);
     }
   } catch (const GeometryError&) {
     // Too large, for instance.

@@ -1,56 +1,46 @@
 #include "tests/support/design.h"
 
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "csg/eval/evaluator.h"
-#include "csg/lower/lower.h"
-#include "csg/text/typesetter.h"
-#include "parser/loader.h"
+#include "compiler/passes.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::support {
 
 struct Design::State {
-  SourceStore sources;
-  Diagnostics diagnostics;
-  std::optional<Loader> loader;
-  ast::Program program;
-  csg::Tree tree;
-  csg::Lowered lowered;
+  explicit State(compiler::Request its_request)
+      : request(std::move(its_request)), compilation(request, files) {}
 
   std::string messages() const {
     std::string text;
-    for (const Diagnostic& diagnostic : diagnostics.all()) {
+    for (const Diagnostic& diagnostic : compilation.diagnostics.all()) {
       text += caret_text(diagnostic);
     }
     return text;
   }
 
-  // Reads by `load` and goes on to the scene.
-  template <typename Load>
-  void build(const Load& load, csg::LowerOptions options = {}) {
-    loader.emplace(sources, diagnostics, std::vector<std::string>());
+  // The passes as far as the scene.
+  void build() {
     try {
-      program = load(*loader);
-      tree = csg::evaluate(program, *loader, {}, diagnostics);
-      text::Typesetter typesetter({LAMINA_MODULES}, diagnostics);
-      typesetter.add_fonts(loader->fonts());
-      options.typesetter = &typesetter;
-      lowered = csg::lower(tree, options, diagnostics);
+      compilation.program = compiler::load(compilation);
+      compilation.tree = compiler::evaluate(compilation, compilation.program);
+      lowered = compiler::lower(compilation);
     } catch (const InternalError&) {
       throw;
     } catch (const Error& error) {
       throw std::runtime_error(messages() + error.what());
     }
-    if (diagnostics.has_errors() || lowered.outline() != nullptr) {
+    if (compilation.diagnostics.has_errors() || lowered.outline() != nullptr) {
       throw std::runtime_error("no solid\n" + messages());
     }
-    if (lowered.is_empty()) {
-      lowered.geometry = csg::Scene();
-    }
+    if (lowered.is_empty()) lowered.geometry = csg::Scene();
   }
+
+  compiler::Request request;
+  TemporaryFiles files;
+  compiler::Compilation compilation;
+  csg::Lowered lowered;
 };
 
 Design::Design(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -58,20 +48,25 @@ Design::Design(Design&&) noexcept = default;
 Design& Design::operator=(Design&&) noexcept = default;
 Design::~Design() = default;
 
-Design Design::from_file(const std::filesystem::path& path) {
-  auto state = std::make_unique<State>();
-  state->build([&](Loader& loader) { return loader.load(path.string()); });
+Design Design::make(compiler::Request request) {
+  request.module_folder = LAMINA_MODULES;
+  auto state = std::make_unique<State>(std::move(request));
+  state->build();
   return Design(std::move(state));
 }
 
+Design Design::from_file(const std::filesystem::path& path) {
+  compiler::Request request;
+  request.design = path.string();
+  return make(std::move(request));
+}
+
 Design Design::from_text(const std::string& text, double chordal_error) {
-  auto state = std::make_unique<State>();
-  csg::LowerOptions options;
-  options.chordal_error = chordal_error;
-  state->build(
-      [&](Loader& loader) { return loader.load_text("test.scad", text); },
-      options);
-  return Design(std::move(state));
+  compiler::Request request;
+  request.design = "test.scad";
+  request.text = text;
+  request.chordal_error = chordal_error;
+  return make(std::move(request));
 }
 
 const csg::Scene& Design::scene() const { return *state_->lowered.scene(); }
@@ -80,7 +75,8 @@ std::vector<slicer::Layer> slice_layers(const csg::Scene& scene,
                                         const slicer::Settings& settings) {
   LayerList list;
   Diagnostics diagnostics;
-  slicer::slice(scene, settings, list, diagnostics);
+  slicer::slice(scene, slicer::plan_layers(scene, settings), settings, list,
+                diagnostics);
   return std::move(list.layers);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "compiler/compile.h"
 #include "csg/scene.h"
 #include "slicer/contour/layer.h"
 #include "slicer/slice/settings.h"
@@ -32,17 +33,12 @@ class Design {
  private:
   struct State;
   explicit Design(std::unique_ptr<State> state);
+  static Design make(compiler::Request request);
 
   std::unique_ptr<State> state_;
 };
 
-// Takes layers and keeps them.
-class LayerList : public slicer::LayerSink {
- public:
-  void take(const slicer::Layer& layer) override { layers.push_back(layer); }
-
-  std::vector<slicer::Layer> layers;
-};
+using compiler::LayerList;
 
 // All layers of a scene. Throws what the slicer throws.
 std::vector<slicer::Layer> slice_layers(const csg::Scene& scene,

@@ -1,6 +1,8 @@
 #include "tests/support/process.h"
 
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <pty.h>
@@ -110,8 +112,9 @@ ProcessResult run_on_terminal(const std::vector<std::string>& arguments,
 }
 
 BackgroundProcess::BackgroundProcess(const std::vector<std::string>& arguments,
-                                     const std::string& folder)
-    : process_(start(arguments, folder, "/dev/null", "/dev/null")) {}
+                                     const std::string& folder,
+                                     const std::string& errors)
+    : process_(start(arguments, folder, "/dev/null", errors)) {}
 
 void BackgroundProcess::send(int signal) const { ::kill(process_, signal); }
 
@@ -119,6 +122,14 @@ int BackgroundProcess::wait() {
   int wait_status = 0;
   ::waitpid(process_, &wait_status, 0);
   return status_of(wait_status);
+}
+
+bool wait_until(const std::function<bool()>& holds) {
+  for (int i = 0; i < 6000; ++i) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
 }
 
 }  // namespace lamina::support

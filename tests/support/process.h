@@ -1,6 +1,7 @@
 #pragma once
 // Runs programs as a user would: arguments in, streams and exit status out.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,11 +30,12 @@ ProcessResult run_on_terminal(const std::vector<std::string>& arguments,
                               const std::string& folder,
                               const std::string& cue = "");
 
-// A process under way, its streams closed to us.
+// A process under way. Its standard error goes to the file `errors`.
 class BackgroundProcess {
  public:
   BackgroundProcess(const std::vector<std::string>& arguments,
-                    const std::string& folder);
+                    const std::string& folder,
+                    const std::string& errors = "/dev/null");
 
   void send(int signal) const;
   // Waits for its end; the status as in ProcessResult.
@@ -42,5 +44,9 @@ class BackgroundProcess {
  private:
   pid_t process_;
 };
+
+// Waits until `holds` returns true. Returns false after 60 s, which is a
+// failure even on a busy machine.
+bool wait_until(const std::function<bool()>& holds);
 
 }  // namespace lamina::support

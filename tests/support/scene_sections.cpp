@@ -171,7 +171,9 @@ Sections sliced(const std::string& design, const slicer::Settings& settings) {
   if (scene.instances.empty()) return Sections(settings.heights.size());
   LayerList list;
   Diagnostics diagnostics;
-  expect_no_repairs(slicer::slice(scene, settings, list, diagnostics), design);
+  expect_no_repairs(slicer::slice(scene, slicer::plan_layers(scene, settings),
+                                  settings, list, diagnostics),
+                    design);
   Sections sections;
   for (slicer::Layer& layer : list.layers) {
     expect_sound(layer, settings.tolerance, design);

@@ -35,7 +35,9 @@ Sliced slice_text(const std::string& text, double min_feature = 0.2,
   settings.min_feature = min_feature;
   support::LayerList layers;
   Diagnostics diagnostics;
-  sliced.report = slice(sliced.design.scene(), settings, layers, diagnostics);
+  sliced.report =
+      slice(sliced.design.scene(), plan_layers(sliced.design.scene(), settings),
+            settings, layers, diagnostics);
   return sliced;
 }
 

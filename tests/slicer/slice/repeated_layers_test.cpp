@@ -55,7 +55,8 @@ class RepeatedLayers : public testing::Test {
   }
   SliceReport slice_to(LayerSink& sink) {
     Diagnostics diagnostics;
-    return slice(design_.scene(), settings_, sink, diagnostics);
+    return slice(design_.scene(), plan_layers(design_.scene(), settings_),
+                 settings_, sink, diagnostics);
   }
 
   support::Design design_;

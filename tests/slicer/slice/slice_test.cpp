@@ -23,7 +23,8 @@ std::vector<Layer> slice_to_list(const csg::Scene& scene,
                                  const Settings& settings) {
   LayerList list;
   Diagnostics diagnostics;
-  const SliceReport report = slice(scene, settings, list, diagnostics);
+  const SliceReport report =
+      slice(scene, plan_layers(scene, settings), settings, list, diagnostics);
   EXPECT_EQ(report.layers, list.layers.size());
   return std::move(list.layers);
 }
@@ -116,12 +117,9 @@ TEST(Slice, SimplificationStaysWithinTheTolerance) {
 }
 
 TEST(Slice, NothingToSliceIsAnError) {
-  LayerList list;
-  Diagnostics diagnostics;
   csg::Scene empty;
   empty.program.emplace_back();
-  EXPECT_THROW(slice(empty, {}, list, diagnostics), GeometryError);
-  EXPECT_TRUE(list.layers.empty());
+  EXPECT_THROW(plan_layers(empty, {}), GeometryError);
 }
 
 TEST(Slice, ThePapersPitchDefaultsToTheLayersThickness) {
@@ -133,7 +131,9 @@ TEST(Slice, ThePapersPitchDefaultsToTheLayersThickness) {
     settings.ray_pitch = pitch;
     LayerList list;
     Diagnostics diagnostics;
-    return slice(scene, settings, list, diagnostics).paper;
+    return slice(scene, plan_layers(scene, settings), settings, list,
+                 diagnostics)
+        .paper;
   };
   const ldni::PaperCounts open = counts_for(0);
   const ldni::PaperCounts equal = counts_for(settings.layer_thickness);
@@ -167,7 +167,8 @@ TEST(Slice, WarnsWhereALeafIsOpen) {
   triangles.erase(triangles.begin() + 1000);
   LayerList list;
   Diagnostics diagnostics;
-  const SliceReport report = slice(scene, {}, list, diagnostics);
+  const SliceReport report =
+      slice(scene, plan_layers(scene, {}), {}, list, diagnostics);
   EXPECT_GT(report.open_paths, 0U);
   ASSERT_EQ(diagnostics.all().size(), 1U);
   EXPECT_EQ(diagnostics.all()[0].severity, Severity::kWarning);

@@ -1,0 +1,191 @@
+#include "cli/commands/pieces.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pthread.h>
+
+#include "cli/commands/pieces_report.h"
+#include "cli/options/output_pattern.h"
+#include "cli/process/exit_status.h"
+#include "cli/process/large_stack.h"
+#include "cli/report/run_report.h"
+#include "cli/report/session.h"
+#include "compiler/compile.h"
+
+namespace lamina::cli {
+namespace {
+
+class Workshop {
+ public:
+  Workshop(std::span<const Piece> pieces, const PiecesOptions& options,
+           const Context& context)
+      : pieces_(pieces),
+        options_(options),
+        context_(context),
+        outcomes_(pieces.size()) {
+    const unsigned threads =
+        options.threads != 0
+            ? options.threads
+            : std::max(1U, std::thread::hardware_concurrency());
+    worker_count_ = pieces.size() < threads ? 1 : threads;
+    threads_per_piece_ = worker_count_ == 1 ? threads : 1;
+    line_ =
+        std::make_unique<ProgressLine>(!options.is_quiet && worker_count_ > 1);
+    line_->begin(pieces.size(), options.unit);
+  }
+
+  // The calling thread works too.
+  std::vector<Outcome> run() {
+    const std::size_t others = worker_count_ - 1;
+    context_.watch.reserve(std::uint64_t{others} * LargeStack::kLargestSize);
+    std::vector<Worker> workers(others);
+    std::size_t started = 0;
+    for (Worker& worker : workers) {
+      worker.workshop = this;
+      if (!worker.stack.start(worker.thread, &work_in_thread, &worker)) break;
+      ++started;
+    }
+    std::exception_ptr fault = work_caught(context_.stack);
+    for (std::size_t i = 0; i < started; ++i) {
+      ::pthread_join(workers[i].thread, nullptr);
+      if (!fault) fault = workers[i].fault;
+    }
+    line_->erase();
+    if (fault) std::rethrow_exception(fault);
+    return std::move(outcomes_);
+  }
+
+ private:
+  struct Worker {
+    Workshop* workshop = nullptr;
+    LargeStack stack;
+    pthread_t thread{};
+    std::exception_ptr fault;  // what ended its work
+  };
+
+  static void* work_in_thread(void* argument) {
+    Worker& worker = *static_cast<Worker*>(argument);
+    worker.fault = worker.workshop->work_caught(worker.stack.size());
+    return nullptr;
+  }
+
+  // What is thrown here comes from no piece: there is no memory to begin one.
+  std::exception_ptr work_caught(std::size_t stack) noexcept {
+    try {
+      work(stack);
+      return nullptr;
+    } catch (...) {
+      return std::current_exception();
+    }
+  }
+
+  void work(std::size_t stack) {
+    while (const Piece* piece = next()) {
+      // With its messages, which may find nobody who reads them.
+      const ProcessWatch::Part timed(context_.watch, piece->prefix);
+      const auto index = static_cast<std::size_t>(piece - pieces_.data());
+      Inbox inbox{piece->prefix, worker_count_ == 1, "", ""};
+      Outcome outcome = make(*piece, stack, inbox);
+      take(index, std::move(outcome), std::move(inbox.text));
+    }
+  }
+
+  const Piece* next() {
+    const std::lock_guard lock(mutex_);
+    return next_ < pieces_.size() ? &pieces_[next_++] : nullptr;
+  }
+
+  Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
+    compiler::Request request = piece.request;
+    request.settings.threads = threads_per_piece_;
+    Session session(request, options_.is_quiet,
+                    {context_.temporary_files, stack, context_.watch}, &inbox);
+    compiler::Compilation& compilation = session.compilation;
+    const int status = session.run([&] {
+      if (!piece.fault.empty()) refuse_geometry(piece.fault);
+      make_folder_of(request.output, context_.file_access());
+      return compiler::compile(compilation) ? kDone : kFault;
+    });
+    Outcome outcome = outcome_of(compilation.report, status == kDone);
+    if (status == kDone) {
+      if (request.settings.min_feature > 0) {
+        session.terminal.say(feature_lines(compilation));
+      }
+      if (!options_.report.empty()) outcome.json = report_json(compilation);
+    }
+    // Under hard warnings no error tells.
+    outcome.error = inbox.first_error;
+    if (status != kDone && outcome.error.empty()) {
+      outcome.error = compilation.diagnostics.all().back().message;
+    }
+    return outcome;
+  }
+
+  // Shows the messages of all pieces that no unfinished one precedes.
+  void take(std::size_t index, Outcome outcome, std::string text) {
+    const std::lock_guard lock(mutex_);
+    outcomes_[index] = std::move(outcome);
+    held_back_.resize(pieces_.size());
+    held_back_[index] = std::make_unique<std::string>(std::move(text));
+    for (; shown_ < pieces_.size() && held_back_[shown_]; ++shown_) {
+      const std::string& next_text = *held_back_[shown_];
+      if (!next_text.empty()) {
+        line_->erase();
+        std::fwrite(next_text.data(), 1, next_text.size(), stderr);
+      }
+      held_back_[shown_].reset();
+    }
+    line_->show(++done_);
+  }
+
+  std::span<const Piece> pieces_;
+  const PiecesOptions& options_;
+  const Context& context_;
+  unsigned worker_count_ = 1;
+  unsigned threads_per_piece_ = 1;
+
+  std::mutex mutex_;  // for all below
+  std::unique_ptr<ProgressLine> line_;
+  std::size_t next_ = 0;
+  std::size_t done_ = 0;
+  std::size_t shown_ = 0;
+  std::vector<Outcome> outcomes_;
+  std::vector<std::unique_ptr<std::string>> held_back_;
+};
+
+}  // namespace
+
+int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
+                const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  context.watch.time_parts();
+  const std::vector<Outcome> outcomes =
+      Workshop(pieces, options, context).run();
+  const std::chrono::duration<double> seconds =
+      std::chrono::steady_clock::now() - begin;
+  const ProcessWatch::Part timed(context.watch, "");
+  Terminal terminal(options.is_quiet);
+  terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
+  if (!options.report.empty()) {
+    write_file(options.report,
+               options.report.ends_with(".csv")
+                   ? outcomes_csv(pieces, outcomes)
+                   : outcomes_json(pieces, outcomes, seconds.count()),
+               context.temporary_files);
+  }
+  const bool is_good =
+      std::all_of(outcomes.begin(), outcomes.end(),
+                  [](const Outcome& outcome) { return outcome.is_done; });
+  return is_good ? kDone : kFault;
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,88 @@
+#include "cli/commands/watch.h"
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/process/exit_status.h"
+#include "cli/process/file_watcher.h"
+#include "cli/report/run_report.h"
+
+namespace lamina::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The times of files come from a clock that ticks this seldom, at most.
+constexpr std::chrono::milliseconds kClockStep{10};
+
+// Those that are known before the compilation.
+std::set<std::string> given_files(const compiler::Request& request) {
+  std::set<std::string> files = {request.design};
+  if (!request.parameter_file.empty()) files.insert(request.parameter_file);
+  if (fs::is_regular_file(request.printer)) files.insert(request.printer);
+  return files;
+}
+
+// As short as it can be said from the folder in which the program runs.
+std::string shown(const std::string& file) {
+  std::error_code error;
+  const std::string path = fs::proximate(file, error).string();
+  return error || path.starts_with("..") ? file : path;
+}
+
+std::string change_line(const std::set<std::string>& files) {
+  std::set<std::string> names;
+  for (const std::string& file : files) names.insert(shown(file));
+  return fmt::format("{:%H:%M:%S} {} changed",
+                     fmt::localtime(std::time(nullptr)),
+                     fmt::join(names, ", "));
+}
+
+// Adds what the compilation found to depend on; true if it ended well.
+bool compile_once(const compiler::Request& request, const std::string& report,
+                  bool is_quiet, const Context& context,
+                  std::set<std::string>& files) {
+  const ProcessWatch::Part timed(context.watch, "");
+  const double earlier_seconds = process_seconds();
+  Session session(request, is_quiet, context);
+  const int status = session.run(
+      [&] { return compile_and_report(session, report, earlier_seconds); });
+  const compiler::Compilation& compilation = session.compilation;
+  files.insert(compilation.loader.files().begin(),
+               compilation.loader.files().end());
+  files.insert(compilation.tree.files.begin(), compilation.tree.files.end());
+  return status == kDone;
+}
+
+}  // namespace
+
+void compile_and_watch(const compiler::Request& request,
+                       const std::string& report, bool is_quiet,
+                       const Context& context) {
+  context.watch.time_parts();
+  FileWatcher watcher;
+  Terminal terminal(is_quiet);
+  std::set<std::string> watched = given_files(request);
+  watcher.watch(watched, fs::file_time_type::max());
+  while (true) {
+    const auto begin = fs::file_time_type::clock::now() - kClockStep;
+    std::set<std::string> files = given_files(request);
+    const bool is_done =
+        compile_once(request, report, is_quiet, context, files);
+    // A design that failed half way does not know all that it depends on.
+    if (!is_done) files.insert(watched.begin(), watched.end());
+    watched = files;
+    watcher.watch(watched, begin);
+    terminal.say(fmt::format("watching {} files; Ctrl-C ends", watched.size()));
+    terminal.say(change_line(watcher.wait()));
+  }
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,125 @@
+#include "cli/options/common_options.h"
+
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/number.h"
+#include "base/version.h"
+#include "cli/options/option_values.h"
+#include "cli/options/usage_error.h"
+
+namespace lamina::cli {
+namespace {
+
+constexpr double kGreatestSeconds = 1e9;
+
+constexpr double kGreatestBytes = 1e18;
+
+// 0: no unit is named so.
+double bytes_of_unit(char unit) {
+  switch (unit) {
+    case 'k':
+    case 'K':
+      return 1024;
+    case 'm':
+    case 'M':
+      return 1024.0 * 1024;
+    case 'g':
+    case 'G':
+      return 1024.0 * 1024 * 1024;
+    default:
+      return 0;
+  }
+}
+
+void add_process_limits(CLI::App& app, ProcessLimits& limits) {
+  add_text(app, "--max-memory", "size", [&limits](const std::string& text) {
+    limits.memory = parse_memory_limit(text);
+  });
+  add_text(app, "--max-time", "seconds", [&limits](const std::string& text) {
+    limits.seconds = require_number("--max-time", text);
+    if (!(limits.seconds > 0 && limits.seconds <= kGreatestSeconds)) {
+      throw CLI::ValidationError(
+          "--max-time", fmt::format("must be more than 0 and at most {:g} s, "
+                                    "not {}",
+                                    kGreatestSeconds, text));
+    }
+  });
+}
+
+void add_access_limits(CLI::App& app, FileAccess::Limits& access) {
+  CLI::Option* const root = app.add_option("--root", access.root);
+  root->type_name("folder");
+  // An empty name, as of a variable that is not set, must not mean "no root".
+  root->check([](const std::string& folder) {
+    return folder.empty() ? "a folder was expected, not ''" : "";
+  });
+  app.add_option("--allow-read", access.readable)
+      ->type_name("folder")
+      ->needs(root)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--no-import", access.refuses_data);
+  // One looks at folders for as long as it runs, the other runs a program that
+  // knows no root.
+  for (const char* name : {"--watch", "--against"}) {
+    if (CLI::Option* const option = app.get_option_no_throw(name)) {
+      root->excludes(option);
+    }
+  }
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& app, ProcessLimits& limits,
+                        FileAccess::Limits& access) {
+  app.set_help_flag("-h,--help");
+  app.set_version_flag("-v,--version", fmt::format("lamina {}", version()));
+  add_process_limits(app, limits);
+  add_access_limits(app, access);
+}
+
+MemoryLimit parse_memory_limit(const std::string& text) {
+  std::string_view number = text;
+  const char last = text.empty() ? '\0' : text.back();
+  const bool is_share = last == '%';
+  const double unit = bytes_of_unit(last);
+  if (is_share || unit > 0) number.remove_suffix(1);
+  const std::optional<double> value = parse_number(number);
+  if (!value) {
+    throw CLI::ValidationError(
+        "--max-memory",
+        fmt::format("a size was expected, such as 500M, 2G or 50%, not '{}'",
+                    text));
+  }
+  MemoryLimit limit;
+  if (is_share) {
+    limit.share = *value / 100;
+    if (limit.share > 0 && limit.share <= 1) return limit;
+    throw CLI::ValidationError(
+        "--max-memory",
+        fmt::format("must be more than 0% and at most 100%, not {}", text));
+  }
+  const double bytes = std::floor(*value * (unit > 0 ? unit : 1));
+  if (!(bytes >= 1 && bytes <= kGreatestBytes)) {
+    throw CLI::ValidationError(
+        "--max-memory", fmt::format("must be from 1 to {:g} bytes, not {}",
+                                    kGreatestBytes, text));
+  }
+  limit.bytes = static_cast<std::uint64_t>(bytes);
+  return limit;
+}
+
+FileAccess make_file_access(const FileAccess::Limits& limits) {
+  try {
+    return FileAccess(limits);
+  } catch (const AccessError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace lamina::cli

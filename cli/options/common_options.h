@@ -1,0 +1,27 @@
+#pragma once
+// Options that all commands have: what the process may take, and which files it
+// may use.
+
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "base/file/file_access.h"
+#include "cli/process/process_limits.h"
+
+namespace lamina::cli {
+
+// --help, --version, --max-time, --max-memory, --root, --allow-read and
+// --no-import. To be called when the command's own options are there: some do
+// not go with --root. `limits` and `access` outlive `app`.
+void add_common_options(CLI::App& app, ProcessLimits& limits,
+                        FileAccess::Limits& access);
+
+// "500M", "2G", "1.5g", "800000k", "123456789" or "50%": K, M and G are powers
+// of 1024. Throws CLI::ValidationError for all other texts.
+MemoryLimit parse_memory_limit(const std::string& text);
+
+// Throws UsageError for what is no folder.
+FileAccess make_file_access(const FileAccess::Limits& limits);
+
+}  // namespace lamina::cli

@@ -1,0 +1,158 @@
+#include "cli/options/design_options.h"
+
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include <CLI/App.hpp>
+#include <fmt/format.h>
+
+#include "cli/options/option_values.h"
+
+namespace lamina::cli {
+namespace {
+
+std::vector<double> parse_heights(const std::string& option,
+                                  std::string_view text) {
+  std::vector<double> heights;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    heights.push_back(require_number(option, text.substr(0, comma)));
+    const std::size_t count = heights.size();
+    if (count > 1 && !(heights[count - 1] > heights[count - 2])) {
+      throw CLI::ValidationError(option, "heights must rise");
+    }
+    if (comma == std::string_view::npos) return heights;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+// Finer facets than these are finer than samples that count as one.
+constexpr double kLeastChordalError = 1e-6;  // mm
+
+// Beyond these a design is not shrunk or enlarged but mistyped.
+constexpr double kLeastScale = 0.001;
+constexpr double kGreatestScale = 1000;
+
+// No beam is wider, and no resin bleeds farther [mm].
+constexpr double kGreatestCompensation = 100;
+
+double parse_scale(const std::string& text) {
+  if (text.ends_with('%')) {
+    throw CLI::ValidationError(
+        "--scale", fmt::format("a factor was expected, such as 1.02 for a "
+                               "print 2% larger, not '{}'",
+                               text));
+  }
+  return require_within("--scale", text, kLeastScale, kGreatestScale, "");
+}
+
+ldni::SamplerKind sampler_kind(std::string_view word) {
+  if (word == "gl") return ldni::SamplerKind::kGl;
+  if (word == "gl-peeling") return ldni::SamplerKind::kGlPeeling;
+  return ldni::SamplerKind::kScanline;
+}
+
+// A whole number from 1 to `most`. CLI11's own checks make a text of their
+// bounds at every start.
+void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
+               std::uint32_t& target) {
+  add_text(app, name, "number", [=, &target](const std::string& text) {
+    const double count = require_within(name, text, 1, most, "");
+    if (count != std::floor(count)) {
+      throw CLI::ValidationError(
+          name, fmt::format("a whole number was expected, not '{}'", text));
+    }
+    target = static_cast<std::uint32_t>(count);
+  });
+}
+
+}  // namespace
+
+void add_design_options(CLI::App& app, compiler::Request& request,
+                        bool& is_quiet) {
+  app.add_option_function<std::vector<std::string>>(
+         "-D",
+         [&request](const std::vector<std::string>& definitions) {
+           for (const std::string& definition : definitions) {
+             request.definitions += definition + ";\n";
+           }
+         })
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option* set = app.add_option("-P", request.parameter_set);
+  CLI::Option* file = app.add_option("-p", request.parameter_file);
+  set->type_name("set")->needs(file);
+  file->type_name("file")->needs(set);
+  add_switch(app, "--check-parameters", request.checks_parameters);
+  add_switch(app, "--check-parameter-ranges", request.checks_parameter_ranges);
+  add_count(app, "--max-depth", csg::kMostNestedCalls, request.max_depth);
+  add_count(app, "--max-leaves", 1'000'000'000, request.max_leaves);
+  app.add_flag("--render", request.render);
+  app.add_flag("--preview", request.preview);
+  app.add_option("--seed", request.seed)->type_name("number");
+  app.add_flag("--hardwarnings", request.has_hard_warnings);
+  app.add_flag("-q,--quiet", is_quiet);
+}
+
+void add_slicing_options(CLI::App& app, compiler::Request& request) {
+  slicer::Settings& settings = request.settings;
+  add_text(app, "--layer", "length", [&](const std::string& text) {
+    settings.layer_thickness = require_positive("--layer", text);
+  });
+  add_text(app, "--adaptive", "length", [&](const std::string& text) {
+    settings.cusp = require_positive("--adaptive", text);
+  });
+  add_text(app, "--max-layer", "length", [&](const std::string& text) {
+    settings.greatest_thickness = require_positive("--max-layer", text);
+  });
+  add_text(app, "--heights", "list", [&](const std::string& text) {
+    settings.heights = parse_heights("--heights", text);
+  });
+  add_text(app, "--chordal-error", "length", [&](const std::string& text) {
+    request.chordal_error = require_number("--chordal-error", text);
+    if (!(request.chordal_error >= kLeastChordalError)) {
+      throw CLI::ValidationError("--chordal-error",
+                                 "must be at least 0.000001 mm");
+    }
+  });
+  // Two names of one thing: what simplification is for, and what it promises.
+  add_text(
+      app, "--tolerance,--simplify", "length", [&](const std::string& text) {
+        settings.tolerance = require_number("--tolerance", text);
+        if (settings.tolerance < 0) {
+          throw CLI::ValidationError("--tolerance", "must not be negative");
+        }
+      });
+  add_text(app, "--compensate", "length", [&](const std::string& text) {
+    settings.compensation =
+        require_within("--compensate", text, -kGreatestCompensation,
+                       kGreatestCompensation, " mm");
+  });
+  add_text(app, "--scale", "factor",
+           [&](const std::string& text) { request.scale = parse_scale(text); });
+  add_text(app, "--ray", "length", [&](const std::string& text) {
+    settings.ray_pitch = text == "auto" ? 0 : require_positive("--ray", text);
+  });
+  add_choice(app, "--axis", {"z", "x", "y", "-x", "-y", "-z", "auto"},
+             [&](const std::string& axis) { request.axis = axis; });
+  app.add_flag("--place-on-bed", request.is_placed_on_bed);
+  add_choice(
+      app, "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
+        settings.contour = mode == "paper" ? slicer::ContourMode::kPaper
+                                           : slicer::ContourMode::kFaithful;
+      });
+  add_choice(app, "--boxes", {"local", "global"}, [&](const std::string& mode) {
+    settings.paper.boxes =
+        mode == "global" ? ldni::BoxMode::kGlobal : ldni::BoxMode::kLocal;
+  });
+  add_choice(app, "--sampler", {"scanline", "gl", "gl-peeling"},
+             [&](const std::string& kind) {
+               settings.paper.sampler = sampler_kind(kind);
+             });
+  add_count(app, "--threads", 1024, settings.threads);
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,265 @@
+#include "cli/report/run_report.h"
+
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <time.h>
+
+#include "cli/process/exit_status.h"
+#include "compiler/compile.h"
+#include "slicer/check/feature_table.h"
+
+namespace lamina::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string memory_text(std::uint64_t bytes) {
+  if (bytes >= 1'000'000) {
+    return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
+  }
+  return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+}
+
+// 0 where the system does not say. What getrusage says instead counts the
+// caller's pages too, from between fork and exec.
+std::uint64_t peak_of_address_space() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kib = 0;
+    if (word == "VmHWM:" && status >> kib) return kib * 1024;
+  }
+  return 0;
+}
+
+// Whole numbers without ".0"; null where nothing is known.
+Json number(const std::optional<double>& value) {
+  constexpr double kMost = 1e15;  // whole numbers below it are exact
+  if (!value) return nullptr;
+  if (*value != std::floor(*value) || std::abs(*value) >= kMost) return *value;
+  return static_cast<std::int64_t>(*value);
+}
+
+// The certificate: how far contours can be from what the design says.
+Json deviation_json(const std::optional<slicer::Deviation>& deviation) {
+  if (!deviation) return nullptr;
+  return {{"from_section", number(deviation->from_section())},
+          {"from_curves", number(deviation->from_curves())},
+          {"ties", number(deviation->ties)},
+          {"columns", number(deviation->columns)},
+          {"compensation", number(deviation->compensation)},
+          {"simplification", number(deviation->simplification)},
+          {"rounding", number(deviation->rounding)},
+          {"facets", number(deviation->facets)}};
+}
+
+Json origins_json(const compiler::FeatureOrigins& origins) {
+  Json json = Json::array();
+  for (const compiler::FeatureOrigin& origin : origins) {
+    Json calls = Json::array();
+    for (const compiler::FeatureOrigin::Call& call : origin.calls) {
+      calls.push_back({{"module", call.module}, {"place", call.place}});
+    }
+    json.push_back({{"place", origin.place}, {"called_by", std::move(calls)}});
+  }
+  return json;
+}
+
+Json feature_json(const slicer::ThinFeature& feature, double width) {
+  return {{"kind", slicer::name_of(feature.kind)},
+          {"width_mm", feature.width},
+          {"first_layer", feature.first_layer},
+          {"last_layer", feature.last_layer},
+          {"bottom", feature.bottom},
+          {"top", feature.top},
+          {"is_low", slicer::is_low(feature, width)},
+          {"layer", feature.layer},
+          {"z", feature.section_z},
+          {"x", feature.place.x},
+          {"y", feature.place.y},
+          {"low", {feature.low.x, feature.low.y}},
+          {"high", {feature.high.x, feature.high.y}}};
+}
+
+Json features_json(const compiler::Report& report, double width) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < report.slice.features.size(); ++i) {
+    Json& feature =
+        json.emplace_back(feature_json(report.slice.features[i], width));
+    feature["made_by"] = i < report.origins.size()
+                             ? origins_json(report.origins[i])
+                             : Json::array();
+  }
+  return json;
+}
+
+std::string sampler_name(ldni::SamplerKind kind) {
+  switch (kind) {
+    case ldni::SamplerKind::kScanline:
+      return "scanline";
+    case ldni::SamplerKind::kGl:
+      return "gl";
+    case ldni::SamplerKind::kGlPeeling:
+      return "gl-peeling";
+  }
+  return {};
+}
+
+Json passes_json(const compiler::Report& report) {
+  const slicer::SliceReport& slice = report.slice;
+  return {{"load_seconds", number(report.load_seconds)},
+          {"evaluate_seconds", number(report.evaluate_seconds)},
+          {"lower_seconds", number(report.lower_seconds)},
+          {"section_seconds", number(slice.section_seconds)},
+          {"sweep_seconds", number(slice.sweep_seconds)},
+          {"feature_seconds", number(slice.feature_seconds)},
+          {"output_seconds", number(slice.output_seconds)}};
+}
+
+Json layers_json(const compiler::Report& report) {
+  const slicer::SliceReport& slice = report.slice;
+  return {{"layers", slice.layers},
+          {"loops", slice.loops},
+          {"holes", slice.holes},
+          {"points", slice.points},
+          {"volume_mm3", number(slice.volume)},
+          {"greatest_area_mm2", number(slice.greatest_area)},
+          {"chains", slice.sweep.chains},
+          {"chain_points", slice.sweep.points},
+          {"slabs", slice.sweep.slabs},
+          {"event_points", slice.sweep.event_points},
+          {"evaluations", slice.sweep.evaluations},
+          {"resolved_layers", slice.sweep.resolved_layers},
+          {"image_pixels", slice.paper.pixels},
+          {"image_samples", slice.paper.samples},
+          {"image_bytes", slice.paper.image_bytes()},
+          {"vanished_regions", slice.losses.vanished_regions},
+          {"vanished_holes", slice.losses.vanished_holes},
+          {"broken_walls", slice.losses.broken_walls},
+          {"closed_gaps", slice.losses.closed_gaps},
+          {"open_paths", slice.open_paths},
+          {"unbalanced_clusters", slice.sweep.unbalanced_clusters},
+          {"repaired_clusters", slice.sweep.repaired_clusters},
+          {"capped_clusters", slice.sweep.capped_clusters},
+          {"snapped_layers", report.snapped_layers},
+          {"warnings", report.warnings},
+          {"deviation_mm", deviation_json(report.deviation)}};
+}
+
+// What only the paper's contours have.
+Json paper_json(const slicer::SliceReport& slice, ldni::SamplerKind sampler) {
+  const ldni::PaperCounts& paper = slice.paper;
+  return {{"sampler", sampler_name(sampler)},
+          {"renderer", slice.renderer},
+          {"boolean_seconds", number(paper.boolean_seconds)},
+          {"link_seconds", number(paper.link_seconds)},
+          {"image_intervals", paper.intervals},
+          {"repaired_pixels", paper.repaired_pixels}};
+}
+
+// whole  what the whole program took; empty for one compilation among several
+Json report_with(const compiler::Compilation& compilation, const Json& whole) {
+  const compiler::Report& report = compilation.report;
+  const slicer::Settings& settings = compilation.request.settings;
+  Json json = passes_json(report);
+  json.update(whole);
+  json.update(layers_json(report));
+  if (settings.contour == slicer::ContourMode::kPaper) {
+    json.update(paper_json(report.slice, settings.paper.sampler));
+  }
+  if (settings.min_feature > 0) {
+    json["min_feature_mm"] = number(settings.min_feature);
+    json["features"] = features_json(report, settings.min_feature);
+  }
+  return json;
+}
+
+// earlier_seconds  of processor time, before this compilation
+std::string report_text(const compiler::Compilation& compilation,
+                        double earlier_seconds) {
+  return json_text(report_with(
+      compilation,
+      {{"total_seconds", number(process_seconds() - earlier_seconds)},
+       {"wall_seconds", number(compilation.report.wall_seconds)},
+       {"peak_memory_bytes", peak_memory_bytes()}}));
+}
+
+// "ring.slc: 98 layers, 810 loops, …"
+std::string summary_line(const compiler::Compilation& compilation,
+                         double earlier_seconds) {
+  const std::string& output = compilation.request.output;
+  const compiler::Report& report = compilation.report;
+  const slicer::SliceReport& slice = report.slice;
+  return fmt::format(
+      "{}: {} layers, {} loops, {} vertices, {}\n"
+      "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
+      "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
+      "by the clock",
+      output == "-" ? "standard output" : output, slice.layers, slice.loops,
+      slice.points, memory_text(report.output_bytes),
+      process_seconds() - earlier_seconds, report.load_seconds,
+      report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
+      slice.sweep_seconds, slice.output_seconds,
+      memory_text(peak_memory_bytes()), report.wall_seconds);
+}
+
+}  // namespace
+
+double process_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::uint64_t peak_memory_bytes() {
+  if (const std::uint64_t bytes = peak_of_address_space()) return bytes;
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json report_json(const compiler::Compilation& compilation) {
+  return report_with(
+      compilation, {{"wall_seconds", number(compilation.report.wall_seconds)}});
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string feature_lines(const compiler::Compilation& compilation) {
+  const compiler::Report& report = compilation.report;
+  std::string lines = slicer::feature_table(
+      report.slice.features, compilation.request.settings.min_feature,
+      compiler::origin_texts(report.origins));
+  lines.pop_back();
+  return lines;
+}
+
+int compile_and_report(Session& session, const std::string& report,
+                       double earlier_seconds) {
+  compiler::Compilation& compilation = session.compilation;
+  const compiler::Request& request = compilation.request;
+  if (!compiler::compile(compilation)) return kFault;
+  if (!slicer::is_of_layers(request.format)) return kDone;
+  if (!report.empty()) {
+    write_file(report, report_text(compilation, earlier_seconds),
+               compilation.temporary_files);
+  }
+  if (request.settings.min_feature > 0) {
+    session.terminal.say(feature_lines(compilation));
+  }
+  // The memory in it costs a small run a tenth of its time to find out.
+  if (!session.terminal.is_quiet()) {
+    session.terminal.say(summary_line(compilation, earlier_seconds));
+  }
+  return kDone;
+}
+
+}  // namespace lamina::cli

@@ -1,0 +1,38 @@
+#pragma once
+// What a compilation cost: the closing line on the terminal and `--report`.
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "cli/report/session.h"
+
+namespace lamina::cli {
+
+// Processor seconds of all threads since the program began.
+double process_seconds();
+
+// Greatest memory that this program held so far.
+std::uint64_t peak_memory_bytes();
+
+// The report of one compilation among several, without what only the whole
+// program has, its total time and memory.
+nlohmann::ordered_json report_json(const compiler::Compilation& compilation);
+
+// One member a line, ended by '\n'. Bytes that are no UTF-8 are replaced: names
+// of files and messages can hold any.
+std::string json_text(const nlohmann::ordered_json& json);
+
+// The table of thin features that were found, without the last '\n'.
+std::string feature_lines(const compiler::Compilation& compilation);
+
+// compile(), and then what a compilation that made layers says of itself: the
+// file of --report, thin features, a closing line. Returns the exit status.
+//
+// report           path; empty: none
+// earlier_seconds  of processor time, before this compilation
+int compile_and_report(Session& session, const std::string& report,
+                       double earlier_seconds = 0);
+
+}  // namespace lamina::cli

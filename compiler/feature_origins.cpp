@@ -1,0 +1,65 @@
+#include "compiler/feature_origins.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+namespace lamina::compiler {
+namespace {
+
+std::string place_of(const SourceRange& range) {
+  if (!range.is_known()) return {};
+  const LineColumn at = range.source->line_column(range.begin);
+  return fmt::format("{}:{}:{}", range.source->path(), at.line, at.column);
+}
+
+FeatureOrigin origin_of(const csg::Instance& instance) {
+  FeatureOrigin origin;
+  origin.place = place_of(instance.range);
+  for (const csg::CallSite* call = instance.caller; call != nullptr;
+       call = call->caller) {
+    origin.calls.push_back({std::string(call->name), place_of(call->range)});
+  }
+  return origin;
+}
+
+std::string text_of(const FeatureOrigin& origin) {
+  if (origin.calls.empty()) return origin.place;
+  return fmt::format("{} from {}", origin.place, origin.calls.back().place);
+}
+
+}  // namespace
+
+std::vector<FeatureOrigins> origins_of(
+    const csg::Scene& scene, std::span<const slicer::ThinFeature> features) {
+  std::vector<FeatureOrigins> all;
+  for (const slicer::ThinFeature& feature : features) {
+    FeatureOrigins& origins = all.emplace_back();
+    // In the order of the design; kNoInstance comes last.
+    const auto [first, second] =
+        std::minmax(feature.instances[0], feature.instances[1]);
+    for (const std::uint32_t instance : {first, second}) {
+      if (instance == slicer::kNoInstance) continue;
+      FeatureOrigin origin = origin_of(scene.instances[instance]);
+      if (origins.empty() || text_of(origins[0]) != text_of(origin)) {
+        origins.push_back(std::move(origin));
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<std::string> origin_texts(std::span<const FeatureOrigins> all) {
+  std::vector<std::string> texts;
+  for (const FeatureOrigins& origins : all) {
+    std::string& text = texts.emplace_back();
+    for (const FeatureOrigin& origin : origins) {
+      if (!text.empty()) text += ", ";
+      text += text_of(origin);
+    }
+  }
+  return texts;
+}
+
+}  // namespace lamina::compiler

@@ -1,0 +1,212 @@
+#include "compiler/passes.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/thread_clock.h"
+#include "compiler/imported_design.h"
+#include "csg/boundary/move_scene.h"
+#include "csg/csg_printer.h"
+#include "parser/parameter_set.h"
+#include "slicer/plan/orientation.h"
+#include "slicer/plan/surface_heights.h"
+#include "slicer/slice/slice.h"
+
+namespace lamina::compiler {
+namespace {
+
+using slicer::OutputFormat;
+
+// Runs a pass and adds the processor seconds that it takes to `seconds`. It
+// works on this thread alone, beside which other compilations may go on.
+template <typename Pass>
+auto timed(double& seconds, const Pass& pass) {
+  const double begin = thread_seconds();
+  auto product = pass();
+  seconds += thread_seconds() - begin;
+  return product;
+}
+
+std::vector<std::string> module_folders_of(const Request& request) {
+  std::vector<std::string> folders = text::module_folders();
+  if (!request.module_folder.empty()) {
+    folders.insert(folders.begin(), request.module_folder);
+  }
+  return folders;
+}
+
+ast::Program read_design(const Request& request, Loader& loader) {
+  if (request.text) return loader.load_text(request.design, *request.text);
+  if (is_imported(request.design)) {
+    return loader.load_text(request.design, import_of(request.design));
+  }
+  return loader.load(request.design);
+}
+
+csg::EvaluateOptions evaluate_options(Compilation& c) {
+  const Request& request = c.request;
+  csg::EvaluateOptions options;
+  options.stack_bytes = c.evaluation_stack;
+  // As openscad sets it for each of its outputs.
+  const bool has_preview = request.format == OutputFormat::kCsg ||
+                           request.format == OutputFormat::kEcho;
+  options.preview =
+      has_preview && (request.render.empty() || !request.preview.empty());
+  options.seed = request.seed;
+  options.check_parameters = request.checks_parameters;
+  options.check_ranges = request.checks_parameter_ranges;
+  options.max_depth = request.max_depth;
+  options.max_leaves = request.max_leaves;
+  options.text_measurer = &c.typesetter;
+  return options;
+}
+
+csg::LowerOptions lower_options(Compilation& c) {
+  const Request& request = c.request;
+  csg::LowerOptions options;
+  if (request.axis != kAutomaticAxis) {
+    options.world_from_design = slicer::turn_to_axis(request.axis);
+  }
+  options.chordal_error = request.chordal_error;
+  options.typesetter = &c.typesetter;
+  options.file_access = &c.file_access();
+  options.scale = request.scale;
+  return options;
+}
+
+// Moves the scene as a whole, which needs its surface.
+void place(Compilation& c, csg::Scene& scene) {
+  const Request& request = c.request;
+  if (request.axis == kAutomaticAxis) {
+    const slicer::OrientationChoice choice =
+        slicer::choose_orientation(scene, request.settings.layer_thickness);
+    csg::move_scene(scene, slicer::turn_to_axis(choice.all[choice.best].axis),
+                    Vec3(0));
+    c.diagnostics.report(
+        {Severity::kPlain, {}, slicer::orientation_table(choice)});
+  }
+  if (request.is_placed_on_bed) slicer::place_on_bed(scene);
+}
+
+}  // namespace
+
+Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
+                         Diagnostics::Observer observer)
+    : request(its_request),
+      temporary_files(files),
+      diagnostics(std::move(observer)),
+      loader(sources, diagnostics, library_folders(files.file_access()),
+             its_request.definitions, files.file_access()),
+      typesetter(module_folders_of(its_request), diagnostics,
+                 files.file_access()) {
+  diagnostics.set_hard_warnings(its_request.has_hard_warnings);
+}
+
+std::size_t Compilation::count(Severity severity) const {
+  const std::vector<Diagnostic>& all = diagnostics.all();
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(),
+      [&](const Diagnostic& d) { return d.severity == severity; }));
+}
+
+ast::Program load(Compilation& c) {
+  const Request& request = c.request;
+  try {
+    return timed(c.report.load_seconds, [&] {
+      ast::Program program = read_design(request, c.loader);
+      if (!request.parameter_file.empty() &&
+          !apply_parameter_set(request.parameter_file, request.parameter_set,
+                               program, c.diagnostics, c.file_access())) {
+        c.has_failed = true;
+      }
+      return program;
+    });
+  } catch (const SyntaxError&) {
+    if (request.format == OutputFormat::kEcho) {
+      write_text(c, echo_text(c) + fmt::format("Can't parse file '{}'!\n\n",
+                                               request.design));
+    }
+    throw;
+  }
+}
+
+csg::Tree evaluate(Compilation& c, const ast::Program& program) {
+  c.typesetter.add_fonts(c.loader.fonts());
+  const std::size_t errors = c.count(Severity::kError);
+  return timed(c.report.evaluate_seconds, [&]() -> csg::Tree {
+    try {
+      csg::Tree tree =
+          csg::evaluate(program, c.loader, evaluate_options(c), c.diagnostics);
+      if (c.count(Severity::kError) > errors) c.has_failed = true;
+      return tree;
+    } catch (const InternalError&) {
+      throw;
+    } catch (const FileError&) {
+      throw;
+    } catch (const AccessError&) {
+      throw;
+    } catch (const Error&) {
+      c.has_failed = true;
+      return {};
+    }
+  });
+}
+
+csg::Lowered lower(Compilation& c) {
+  csg::Lowered lowered = timed(c.report.lower_seconds, [&] {
+    return csg::lower(c.tree, lower_options(c), c.diagnostics);
+  });
+  if (auto* scene = std::get_if<csg::Scene>(&lowered.geometry)) {
+    place(c, *scene);
+  }
+  return lowered;
+}
+
+slicer::Settings settings_of(const Request& request) {
+  slicer::Settings settings = request.settings;
+  settings.most_thickness_runs = slicer::most_thickness_runs(request.format);
+  return settings;
+}
+
+ldni::LayerGrid plan(const csg::Lowered& lowered,
+                     const slicer::Settings& settings) {
+  const csg::Scene* const scene = lowered.scene();
+  return scene == nullptr ? ldni::LayerGrid()
+                          : slicer::plan_layers(*scene, settings);
+}
+
+slicer::SliceReport slice(const csg::Lowered& lowered,
+                          const ldni::LayerGrid& grid,
+                          const slicer::Settings& settings,
+                          slicer::LayerSink& sink, Diagnostics& diagnostics) {
+  if (const planar::Region* outline = lowered.outline()) {
+    return slicer::slice_outline(*outline, settings, sink, diagnostics);
+  }
+  return slicer::slice(*lowered.scene(), grid, settings, sink, diagnostics);
+}
+
+std::string echo_text(Compilation& c) {
+  // For what the selection warns of.
+  if (c.tree.root != nullptr) csg::select_root(c.tree, c.diagnostics);
+  const std::string& design = c.request.design;
+  const std::size_t slash = design.rfind('/');
+  return openscad_text(c.diagnostics.all(), slash == std::string::npos
+                                                ? "."
+                                                : design.substr(0, slash));
+}
+
+std::string csg_text(Compilation& c) {
+  if (c.tree.root == nullptr) return "\n";
+  return csg::print_csg(c.tree, *csg::select_root(c.tree, c.diagnostics));
+}
+
+void write_text(const Compilation& c, std::string_view text) {
+  OutputFile output(c.request.output, c.temporary_files);
+  output.write(text);
+  output.commit();
+}
+
+}  // namespace lamina::compiler

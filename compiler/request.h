@@ -1,0 +1,53 @@
+#pragma once
+// What a compilation is asked for.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "csg/eval/evaluator.h"
+#include "slicer/formats/output_format.h"
+#include "slicer/slice/settings.h"
+
+namespace lamina::compiler {
+
+// Of Request::axis: the program chooses.
+inline constexpr std::string_view kAutomaticAxis = "auto";
+
+// From a design to layers, or to one of the stages on the way.
+struct Request {
+  // The path of a design or of a file that import() reads.
+  std::string design;
+  // The design itself; `design` is only its name then.
+  std::optional<std::string> text;
+  std::string output;  // path; "-": standard output
+  slicer::OutputFormat format = slicer::OutputFormat::kSlc;
+  std::optional<slicer::CliEncoding> cli_encoding;
+  std::string printer;     // name or profile of its panel; empty: the format's
+  bool mirrors_x = false;  // the image
+  bool mirrors_y = false;
+  std::string definitions;     // of all -D, as text: "a=1;\nb=2;\n"
+  std::string parameter_file;  // -p; empty: none
+  std::string parameter_set;   // -P
+  std::string axis = "z";      // of slicer::kAxes, or kAutomaticAxis
+  bool is_placed_on_bed = false;
+  double scale = 1;
+  double chordal_error = 0;  // [mm]; 0: $fa and $fs decide
+  slicer::Settings settings;
+  std::uint32_t seed = 0;
+  bool checks_parameters = true;
+  bool checks_parameter_ranges = false;
+  std::uint32_t max_depth = csg::EvaluateOptions().max_depth;
+  std::uint32_t max_leaves = csg::EvaluateOptions().max_leaves;
+  // openscad's modes of --render and --preview; empty: not given. Which one it
+  // is shows in nothing but $preview.
+  std::string render;
+  std::string preview;
+  std::string dependencies;  // path of the rule for make (-d); empty: none
+  bool has_hard_warnings = false;
+  // A folder where lamina_text.so is looked for first; empty: none.
+  std::string module_folder;
+};
+
+}  // namespace lamina::compiler
