@@ -14,7 +14,6 @@
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
-#include "cli/options/usage_error.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
 #include "cli/report/compared.h"

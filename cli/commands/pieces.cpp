@@ -122,7 +122,7 @@ class Workshop {
       }
       if (!options_.report.empty()) outcome.json = report_json(compilation);
     }
-    // Under hard warnings no error tells.
+    // Under hard warnings the last warning is the fault.
     outcome.error = inbox.first_error;
     if (status != kDone && outcome.error.empty()) {
       outcome.error = compilation.diagnostics.all().back().message;

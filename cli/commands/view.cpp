@@ -17,7 +17,6 @@
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
-#include "cli/options/usage_error.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
@@ -74,7 +73,7 @@ bool is_page(const std::string& output) { return output.ends_with(".html"); }
 enum class Style { kSheet, kStack };
 
 struct ViewOptions {
-  std::optional<Style> style;  // a sheet, unless told
+  std::optional<Style> style;  // empty: a sheet
   std::optional<unsigned> layer_count;
   slicer::LayerPictureOptions layer;
   slicer::StackOptions stack;
@@ -227,7 +226,7 @@ class ViewCommand : public Command {
     if (is_page(request_.output) && options_.are_for_pictures()) {
       throw UsageError("of view's own options a page takes --min-feature only");
     }
-    // What a design's thin places are made of is told on the page.
+    // The page shows what made the thin places of a design.
     if (is_page(request_.output)) {
       request_.settings.min_feature = options_.layer.min_feature;
     }
