@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/loop_area.h"
 #include "compiler/compile.h"
 #include "compiler/layer_output.h"
 #include "compiler/passes.h"
@@ -181,15 +182,11 @@ FileAccess to_access(const DesignOptions& options) {
 }  // namespace
 
 double signed_area(const Loop& loop) {
-  double twice = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    // From the first point: far from the origin, products lose digits.
-    const Point& a = loop[i];
-    const Point& b = loop[(i + 1) % loop.size()];
-    twice += (a.x - loop[0].x) * (b.y - loop[0].y) -
-             (b.x - loop[0].x) * (a.y - loop[0].y);
-  }
-  return twice / 2;
+  if (loop.empty()) return 0;
+  const auto place = [](const Point& point) { return Vec2(point.x, point.y); };
+  DoubledArea area(place(loop.front()), place(loop.back()));
+  for (const Point& point : loop) area.add(place(point));
+  return area.value() / 2;
 }
 
 double area(const Layer& layer) {

@@ -1,6 +1,6 @@
 #pragma once
-// LAMINA_CHECK_EQ(a, b): a promise of our own. Shows both values and throws
-// InternalError, which main turns into "internal error, please report".
+// LAMINA_CHECK_EQ(a, b) checks a promise of our own. Where it broke, it throws
+// InternalError: "internal error, please report", with both values.
 
 #include <string>
 

@@ -34,7 +34,7 @@ class Reader {
  private:
   [[noreturn]] void fail(std::size_t begin, std::size_t end,
                          std::string message) const {
-    throw FileError({Severity::kError, range(begin, end), std::move(message)});
+    throw FileError(std::move(message), range(begin, end));
   }
 
   SourceRange range(std::size_t begin, std::size_t end) const {
@@ -42,7 +42,8 @@ class Reader {
             static_cast<std::uint32_t>(end)};
   }
 
-  // Else letters would come out wrong where nobody looks at them any more.
+  // Refuses other encodings: letters would come out wrong in the layers, where
+  // nobody reads them.
   void check_text() const {
     std::size_t length = 0;
     for (std::size_t i = 0; i < text_.size(); i += length) {
@@ -58,7 +59,7 @@ class Reader {
   }
 
   char find_separator() const {
-    // Of equals the first.
+    // Where counts are equal, the first one is taken.
     constexpr std::array<char, 3> kSeparators = {',', ';', '\t'};
     std::array<std::size_t, 3> counts{};
     bool is_quoted = false;

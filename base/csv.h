@@ -6,10 +6,10 @@
 //
 // Lines end with LF, CR or both; a byte order mark in front is passed over. As
 // spreadsheets write commas, semicolons (where the comma is a decimal sign) or
-// tabs between cells, the sign that is most frequent in the first line counts.
-// Departures from RFC 4180, for tables that are written by hand: blanks around
-// a cell belong to it only between quotes, and empty lines are no rows. None of
-// the readers that Debian has for C and C++ tells where a fault is.
+// tabs between cells, the most frequent of these signs in the first line
+// separates cells. Departures from RFC 4180, for tables that are written by
+// hand: blanks around a cell belong to it only between quotes, and empty lines
+// are no rows. No CSV reader for C or C++ in Debian tells where a fault is.
 
 #include <cstdint>
 #include <string>
@@ -34,7 +34,7 @@ struct Csv {
 // UTF-8 text.
 Csv read_csv(const Source& source);
 
-// A cell as CSV with commas has it: in quotes where it needs them.
+// A cell as it stands in CSV with commas, in quotes where it needs them.
 std::string csv_cell(const std::string& text);
 
 }  // namespace lamina

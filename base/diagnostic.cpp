@@ -15,9 +15,9 @@ namespace lamina {
 
 namespace {
 
-// OpenSCAD shows the places of evaluation relative to the design, those of
-// its parser relative to the folder in which it was started, and only there
-// it does not count carriage returns.
+// How messages of OpenSCAD's parser begin. It shows their places relative to
+// the folder in which it runs, and does not count carriage returns in them;
+// other places it shows relative to the design.
 constexpr std::string_view kParserError = "Parser error: ";
 
 std::string_view openscad_prefix(Severity severity) {
@@ -58,9 +58,9 @@ void append_openscad_place(std::string& text, const Source& source,
                       relative_path(source.path(), base_folder), line);
 }
 
-// A piece of text as a terminal shows it in one column a character: control
-// characters would move the cursor and tabs shift the carets, so both become
-// blanks; bytes that are no UTF-8 become question marks.
+// Text that a terminal shows with one column for each character. Control
+// characters would move the cursor, and tabs would shift the carets, so both
+// become blanks; bytes that are no UTF-8 become question marks.
 std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
@@ -117,6 +117,9 @@ void append_terminal_text(std::string& text, SourceRange range,
 }  // namespace
 
 Error::Error(Diagnostic diagnostic) : diagnostic_(std::move(diagnostic)) {}
+
+Error::Error(std::string message, SourceRange range)
+    : diagnostic_{Severity::kError, range, std::move(message)} {}
 
 const char* Error::what() const noexcept { return diagnostic_.message.c_str(); }
 

@@ -1,9 +1,10 @@
 #pragma once
-// What a run has to say: echoes, warnings, errors, each with its place.
+// The messages of a run: echoes, warnings, errors, each with its place.
 //
-// Passes append and go on; only main prints. A Diagnostic keeps OpenSCAD's
-// words exactly and without place; `openscad_line` adds the place as OpenSCAD
-// 2021.01 writes it (`.echo` files), `caret_text` as a terminal shows it.
+// Passes append and go on; only the program prints. A Diagnostic keeps
+// OpenSCAD's words exactly and without place; `openscad_line` adds the place as
+// OpenSCAD 2021.01 writes it (`.echo` files), `caret_text` as a terminal shows
+// it.
 
 #include <exception>
 #include <functional>
@@ -35,16 +36,18 @@ struct Diagnostic {
   std::vector<Note> notes = {};
   // What OpenSCAD does not say: shown on the terminal only, after the notes.
   std::vector<Note> hints = {};
-  // A file in whose folder OpenSCAD starts the path that it shows (for much of
-  // what comes up in a used file, that file); null: the design.
+  // The file to whose folder OpenSCAD shows paths relative (for much of what
+  // comes up in a used file, that file); null: the design.
   const Source* document = nullptr;
   Audience audience = Audience::kAll;
 };
 
-// Thrown to end the run; only main catches.
+// Thrown where a run cannot go on.
 class Error : public std::exception {
  public:
   explicit Error(Diagnostic diagnostic);
+  // An error with a place, or without one.
+  explicit Error(std::string message, SourceRange range = {});
   const char* what() const noexcept override;
   const Diagnostic& diagnostic() const { return diagnostic_; }
 
@@ -68,7 +71,7 @@ class EvaluationError : public Error {
   using Error::Error;
 };
 
-// A promise of our own that broke (LAMINA_CHECK_EQ).
+// LAMINA_CHECK_EQ found a promise of our own broken.
 class InternalError : public Error {
  public:
   using Error::Error;
@@ -105,14 +108,14 @@ class Diagnostics {
   bool has_errors_ = false;
 };
 
-// The exact lines of OpenSCAD 2021.01, each ended by '\n': the message with
-// "in file …, line …" where it has a place, then a TRACE line per note. File
-// names are relative to `base_folder`, the folder of the design.
+// The exact lines of OpenSCAD 2021.01, each ended by '\n': the message, with
+// "in file …, line …" where it has a place, then a TRACE line for each note.
+// File names are relative to `base_folder`, the folder of the design.
 std::string openscad_line(const Diagnostic& diagnostic,
                           const std::string& base_folder);
 
-// What `.echo` holds for all messages of a run that are for it. Like OpenSCAD,
-// drops a warning, error or TRACE line that equals each of the last five.
+// What `.echo` holds for the messages of a run. Like OpenSCAD, it drops a
+// warning, error or TRACE line that equals each of the last five.
 std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
                           const std::string& base_folder);
 

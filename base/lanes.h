@@ -2,8 +2,8 @@
 // Both coordinates of a point in one register, for loops over long runs of
 // points: half the sums and products, a quarter of the least and greatest.
 //
-// In the notation that GCC and Clang have for every processor, with such
-// registers or without.
+// This is the notation of GCC and Clang, which works on processors with such
+// registers and without.
 
 #include <cstring>
 
@@ -25,7 +25,7 @@ inline Vec2 point_of(Lanes lanes) {
 }
 inline Lanes both_lanes(double value) { return Lanes{value, value}; }
 
-// Of each coordinate by itself.
+// The least and the greatest of each coordinate by itself.
 inline Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
 inline Lanes greatest(Lanes a, Lanes b) { return a > b ? a : b; }
 

@@ -3,9 +3,9 @@
 //
 // Debian's library is not instrumented: the tool sees neither its queues nor
 // its locks, and would take every object that one task hands to the next for a
-// race. So the order that oneTBB promises is said where it is relied on, object
-// by object; where it is not said, a race is a race. In other builds nothing
-// remains of it.
+// race. So the order that oneTBB promises is declared where the code relies on
+// it, object by object; elsewhere a race is still found. Other builds contain
+// none of this.
 
 #include <cstddef>
 #include <functional>
@@ -28,8 +28,8 @@ inline void take_over([[maybe_unused]] void* object) {
 #endif
 }
 
-// An object that tasks have in turns, while this lives. The thread that makes
-// it has the object before and after.
+// Lends an object to tasks, which have it in turns, as long as this lives. The
+// thread that makes this has the object before and after.
 class Lent {
  public:
   explicit Lent(void* object) : object_(object) { hand_over(object_); }
@@ -45,8 +45,8 @@ class Lent {
 class TaskTurn {
  public:
   explicit TaskTurn(void* object) : TaskTurn(object, object) {}
-  // Goes on where `from` was handed over; hands over `to`. Tasks that hand over
-  // another object than they take are in no order.
+  // Begins after `from` was handed over, and hands over `to` at its end. Tasks
+  // that hand over another object than they take are in no order.
   TaskTurn(void* from, void* to) : to_(to) { take_over(from); }
   ~TaskTurn() { hand_over(to_); }
   TaskTurn(const TaskTurn&) = delete;
@@ -56,14 +56,15 @@ class TaskTurn {
   void* to_;
 };
 
-// for_each_index() without what must be told.
+// for_each_index() without the declarations for ThreadSanitizer.
 void run_tasks(std::size_t count, const std::function<void(std::size_t)>& task);
 
-// Calls body(0) … body(count - 1), several at a time, in any order; ends when
-// all have.
+// Calls body(0) … body(count - 1), several at a time, in any order, and returns
+// when all calls have.
 inline void for_each_index(std::size_t count,
                            const std::function<void(std::size_t)>& body) {
-  // Static: a task finds them before it has taken over anything else.
+  // They are static, so that a task can find them before it takes over
+  // anything.
   static char begin;
   static char end;
   const std::function<void(std::size_t)> task = [&body](std::size_t i) {
@@ -75,20 +76,20 @@ inline void for_each_index(std::size_t count,
   run_tasks(count, task);
 }
 
-// What is done to each of a row of items: start and finish take one at a time,
-// in order; work takes several at a time. An item is known by its place among
-// those under way; start is false where there is none left.
+// The stages of a pipeline. `start` and `finish` take one item at a time, in
+// order; `work` takes several at a time. An item is known by its place among
+// those under way. `start` returns false where no item is left.
 struct Stages {
   std::function<bool(std::size_t)> start;
   std::function<void(std::size_t)> work;
   std::function<void(std::size_t)> finish;
 };
 
-// run_pipeline() without what must be told.
+// run_pipeline() without the declarations for ThreadSanitizer.
 void run_stages(std::size_t places, const Stages& stages);
 
-// At most `places` items are under way. Ends when no task runs any more, also
-// where one threw.
+// Runs the stages with at most `places` items under way. Returns or throws when
+// no task runs any more.
 inline void run_pipeline(std::size_t places, const Stages& stages) {
   static char begin;
   static char end;

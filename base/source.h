@@ -20,7 +20,7 @@ struct LineColumn {
   std::uint32_t column = 1;
 };
 
-// One text: a file, or what `-D` gave.
+// The text of a file, or that of `-D`.
 class Source {
  public:
   // path  as messages show it and as relative file names are resolved against

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/memory_end.h"
 #include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
@@ -106,6 +107,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace lamina;
+  std::set_new_handler(note_memory_end);
   cli::open_missing_streams();
   // What runs on the large stack is caught there, with all that it has to say.
   try {

@@ -17,9 +17,9 @@ std::string place_of(const SourceRange& range) {
 FeatureOrigin origin_of(const csg::Instance& instance) {
   FeatureOrigin origin;
   origin.place = place_of(instance.range);
-  for (const csg::CallFrame* frame = instance.caller; frame != nullptr;
-       frame = frame->caller) {
-    origin.calls.push_back({std::string(frame->name), place_of(frame->range)});
+  for (const csg::CallSite* call = instance.caller; call != nullptr;
+       call = call->caller) {
+    origin.calls.push_back({std::string(call->name), place_of(call->range)});
   }
   return origin;
 }

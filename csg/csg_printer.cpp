@@ -8,7 +8,7 @@ namespace lamina::csg {
 
 namespace {
 
-// Writes text piece by piece: strings as they are, numbers as streams do.
+// Appends strings as they are and numbers as streams show them.
 class Writer {
  public:
   explicit Writer(std::string& text) : text_(text) {}
@@ -187,7 +187,7 @@ struct OpPrinter {
   void operator()(const Surface& op) { out << op.params->csg_text; }
 };
 
-// Where a node stands for all below it in `.csg`.
+// The `.csg` text of a node with all below it, where that is kept; else empty.
 std::string_view whole_text(const Node& node) {
   if (const auto* linear = std::get_if<LinearExtrude>(&node.op)) {
     return linear->params->csg_text;

@@ -1,5 +1,7 @@
 #include "csg/edge_table.h"
 
+#include <tuple>
+
 namespace lamina::csg {
 
 EdgeTable EdgeTable::of(const Mesh& mesh) {

@@ -31,4 +31,8 @@ void require_heights(std::size_t columns, std::size_t rows) {
                   columns, rows, kMostHeights));
 }
 
+void fail_too_far() {
+  throw LimitExceeded("Coordinates beyond 1e9 mm: too large for exact layers");
+}
+
 }  // namespace lamina::csg

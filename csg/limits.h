@@ -1,12 +1,15 @@
 #pragma once
 // What no design needs and no memory holds: numbers that a few letters of text
-// can ask for.
+// can ask for, and coordinates too large for exact layers.
 //
-// They are looked at before anything is made. Who asks does not know the text's
-// place; the walk over the tree does, and makes the exception an error there.
+// They are checked before anything is made of them. The check does not know the
+// place in the text; the walk over the tree does, and adds it to the error.
 
+#include <cmath>
 #include <cstddef>
-#include <stdexcept>
+#include <string>
+
+#include "base/diagnostic.h"
 
 namespace lamina::csg {
 
@@ -21,14 +24,28 @@ constexpr double kMostTriangles = 1e8;
 // one long row of numbers makes all rows long; each makes four triangles.
 constexpr double kMostHeights = 1 << 23;
 
-class LimitExceeded : public std::runtime_error {
+// Up to here doubles are ten times finer than the distance at which faces tie,
+// and here ends the polygon clipper's grid [mm]. Layers of what lies beyond
+// would be wrong, so it is refused.
+constexpr double kGreatestCoordinate = 1e9;
+
+// A GeometryError without a place.
+class LimitExceeded : public GeometryError {
  public:
-  using std::runtime_error::runtime_error;
+  explicit LimitExceeded(std::string message)
+      : GeometryError({Severity::kError, {}, std::move(message), {}}) {}
 };
 
-// They throw LimitExceeded where there are more.
+// These throw LimitExceeded where there are more.
 void require_fragments(double count);
 void require_triangles(double count);
 void require_heights(std::size_t columns, std::size_t rows);
+
+[[noreturn]] void fail_too_far();
+
+// NaN is too far as well.
+inline bool is_too_far(double coordinate) {
+  return !(std::abs(coordinate) <= kGreatestCoordinate);
+}
 
 }  // namespace lamina::csg

@@ -18,6 +18,21 @@
 
 namespace lamina::csg {
 
+// Whether the child, an instance or an operator, is subtracted by its parent:
+// then its weight is -1.
+template <typename Child>
+bool is_subtrahend(const Scene& scene, const Child& child) {
+  return scene.program[child.parent].op == BooleanOp::kDifference &&
+         !child.is_minuend;
+}
+
+// An intersection of nothing is empty, as in OpenSCAD.
+inline std::int32_t threshold_of(const BooleanNode& node) {
+  return node.op == BooleanOp::kIntersection && node.child_count > 1
+             ? static_cast<std::int32_t>(node.child_count)
+             : 1;
+}
+
 // The value of the program for one set of leaf instances. Starts with the
 // empty set, which no program holds for.
 class ProgramState {

@@ -78,7 +78,7 @@ struct Instance {
   Affine world_from_leaf{1.0};
   Box3 box;           // in the world, of the transformed vertices
   SourceRange range;  // of the module call that made the leaf
-  const CallFrame* caller = nullptr;
+  const CallSite* caller = nullptr;
 };
 
 enum class BooleanOp : std::uint8_t { kUnion, kIntersection, kDifference };

@@ -1,9 +1,9 @@
 #pragma once
-// What textmetrics() and fontmetrics() tell, and who measures it.
+// What textmetrics() and fontmetrics() return, and who measures it.
 //
 // The evaluator does not know fonts; it is given a measurer. The functions are
-// newer than OpenSCAD 2021.01. What they tell is true of text() here, which is
-// that of 2021.01; later releases set letters 2.4% further apart.
+// newer than OpenSCAD 2021.01. They describe text() here, which is that of
+// 2021.01; later releases set letters 2.4% further apart.
 
 #include <optional>
 #include <string>

@@ -24,10 +24,10 @@
 namespace lamina::csg {
 
 // One step of a call chain, innermost first; shared by all nodes below it.
-struct CallFrame {
-  const CallFrame* caller = nullptr;  // null: the top level
-  std::string_view name;              // of the module called
-  SourceRange range;                  // of the call
+struct CallSite {
+  const CallSite* caller = nullptr;  // null: the top level
+  std::string_view name;             // of the module called
+  SourceRange range;                 // of the call
 };
 
 // $fn, $fa, $fs as in force where the module was called.
@@ -207,7 +207,7 @@ struct Node {
       op;
   std::span<const Node* const> children;
   SourceRange range;
-  const CallFrame* caller = nullptr;
+  const CallSite* caller = nullptr;
   bool is_root = false;        // !
   bool is_highlight = false;   // #
   bool is_background = false;  // %
@@ -216,7 +216,7 @@ struct Node {
 // Owns its nodes. The root is a Group ("group", the implicit top level).
 struct Tree {
   std::shared_ptr<Arena> arena;
-  // Has the call frames: a scene goes on pointing at them.
+  // Has the call sites: a scene goes on pointing at them.
   std::shared_ptr<Arena> calls;
   const Node* root = nullptr;
   // Paths that modules and functions named as files to read, whether they are

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -50,5 +51,26 @@ class VertexTable {
   std::vector<std::uint32_t> slots_;  // names; a power of 2 of them, or none
   int hash_shift_ = 64;
 };
+
+// Keeps the points that corners name, in the order in which they first do, and
+// renames the corners.
+//
+// faces  ranges of names
+template <typename Faces>
+void keep_named_points(std::vector<Vec3>& points, Faces& faces) {
+  constexpr std::uint32_t kUnused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> renamed(points.size(), kUnused);
+  std::vector<Vec3> named;
+  for (auto& face : faces) {
+    for (std::uint32_t& corner : face) {
+      if (renamed[corner] == kUnused) {
+        renamed[corner] = static_cast<std::uint32_t>(named.size());
+        named.push_back(points[corner]);
+      }
+      corner = renamed[corner];
+    }
+  }
+  points = std::move(named);
+}
 
 }  // namespace lamina::csg

@@ -22,7 +22,7 @@ std::string print(const Program& program);
 void append_expression(const Expr& expression, std::string& text);
 void append_expression(const FunctionLiteral& function, std::string& text);
 
-// As it is written: "<=".
+// The operator as it is written: "<=".
 std::string_view symbol(BinaryOp op);
 
 }  // namespace lamina::ast

@@ -20,11 +20,9 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view expected, std::string_view cell) {
   throw FileError(
-      {Severity::kError,
-       {},
-       fmt::format("{} was expected, not '{}' (text would stand in quotes: "
-                   "\"{}\")",
-                   expected, cell, cell)});
+      fmt::format("{} was expected, not '{}' (text would stand in quotes: "
+                  "\"{}\")",
+                  expected, cell, cell));
 }
 
 // A number as OpenSCAD writes it; none if it is none.

@@ -8,9 +8,9 @@
 //     Ada, size 57           anything else is text, as it stands
 //
 // A variable that the design sets to a text takes all but quoted text as it
-// stands, so that an engraving may be 2024; one that it sets to a number, a
-// truth value or a vector takes that or a quoted text, so that a slip of the
-// pen is no other ring.
+// stands, so that an engraving may be 2024. A variable that it sets to a
+// number, a truth value or a vector takes one of these or a quoted text, so
+// that a typing mistake does not make another ring.
 
 #include <string>
 #include <string_view>

@@ -12,7 +12,7 @@ namespace lamina {
 
 namespace {
 
-// The comment behind the first statement of a line; none if a second one
+// The comment behind the first statement of a line; empty if a second statement
 // follows.
 std::string_view find_comment(std::string_view line) {
   bool is_in_string = false;
@@ -30,7 +30,7 @@ std::string_view find_comment(std::string_view line) {
   return {};
 }
 
-// The text of a line that is a comment, further "//" in it made blanks.
+// The text of a line that is a comment; further "//" in it become blanks.
 std::string read_description(std::string_view line) {
   if (!line.starts_with("//")) return {};
   line.remove_prefix(2);
@@ -64,8 +64,8 @@ Customizer::Customizer(const ast::Program& program) : source_(*program.source) {
   scan();
 }
 
-// Finds the groups and the first '{'. Like OpenSCAD's scan this one is apart
-// from the language: a '{' in a string counts.
+// Finds the groups and the first '{'. Like OpenSCAD's scan it does not know the
+// whole language: a '{' in a string counts.
 void Customizer::scan() {
   const std::string& text = source_.text();
   bool is_in_string = false;

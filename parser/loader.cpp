@@ -25,8 +25,8 @@ constexpr const char* kInstalledLibraries = "/usr/share/openscad/libraries";
 constexpr std::uintmax_t kLargestText =
     std::numeric_limits<std::uint32_t>::max() / 2;
 
-// Where OpenSCAD finds no data folder of the user it takes the library folder
-// for "", which stands for the folder it runs in.
+// Where OpenSCAD finds no data folder of the user, its library folder is "",
+// which stands for the folder in which it runs.
 std::string user_folder(const FileAccess& access) {
   const char* home = std::getenv("HOME");
   const fs::path data =
@@ -96,7 +96,7 @@ std::string Loader::look_up(SourceRange place, std::string_view name,
   access_.require(beside, name, place, use);
   if (access_.is_file(beside)) beside = access_.canonical(beside);
   if (accept(beside)) return beside;
-  // A library folder that may not be read is none.
+  // Pass over library folders that may not be read.
   for (const std::string& folder : folders_) {
     const fs::path path = fs::path(folder) / local;
     if (!access_.is_file(path)) continue;
@@ -133,8 +133,7 @@ ast::Program Loader::load(const std::string& path) {
   access_.require(path);
   std::optional<std::string> text = read(path);
   if (!text) {
-    throw FileError(
-        {Severity::kError, {}, "Can't open input file '" + path + "'!"});
+    throw FileError("Can't open input file '" + path + "'!");
   }
   add_file(path);
   return load_text(path, std::move(*text));
@@ -162,7 +161,8 @@ void Loader::load_uses(const ast::Program& program) {
   for (const ast::Use& use : program.uses) {
     const std::string path(use.file);
     if (!use.is_found || used_.contains(path)) continue;
-    // Entered before it is read, so that files which use each other end.
+    // Enter it before it is read, so that files which use each other do not
+    // repeat.
     std::optional<ast::Program>& used = used_[path];
     used = load_used(path, *program.source);
     if (used) load_uses(*used);

@@ -22,8 +22,8 @@ struct Entry {
   std::string text;
 };
 
-// Collects the entries of one set while the file is read. Texts of numbers are
-// wanted as they stand there, which a tree of values would not keep.
+// Collects the entries of one set while the file is read. It keeps the texts of
+// numbers as they stand there, which a tree of values would not.
 class SetReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit SetReader(const std::string& set)
@@ -170,8 +170,8 @@ bool set_value(const ast::Statement*& statement, std::string_view text,
   if (!type) return true;
   const ast::Expr* value = read_value(text, *type, arena);
   if (value == nullptr) return type != ast::ValueType::kBool;
-  // What was no parameter does not become one: the customizer's comments
-  // describe values with a place in the text.
+  // A variable that was no parameter must not become one, so its value gets no
+  // place: comments describe values that have one.
   const bool was_literal = ast::is_literal(*assignment.value);
   const SourceRange range =
       was_literal ? assignment.value->range : SourceRange();
@@ -182,8 +182,8 @@ bool set_value(const ast::Statement*& statement, std::string_view text,
   return true;
 }
 
-// Variable by variable, as OpenSCAD does, which tells what is set before a
-// value fails.
+// Sets values variable by variable, as OpenSCAD does: that decides which are
+// set before one fails.
 bool set_values(const std::vector<Entry>& entries, ast::Program& program) {
   Arena& arena = *program.arena;
   std::vector<const ast::Statement*> statements(program.statements.begin(),
@@ -221,8 +221,7 @@ bool apply_parameter_set(const std::string& path, const std::string& set,
 std::vector<std::string> parameter_set_names(const std::string& path,
                                              const FileAccess& access) {
   const auto refuse = [&](std::string_view why) {
-    throw FileError(
-        {Severity::kError, {}, fmt::format("Cannot open '{}': {}", path, why)});
+    throw FileError(fmt::format("Cannot open '{}': {}", path, why));
   };
   access.require(path);
   const std::optional<std::string> text = access.read(path);

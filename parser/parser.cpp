@@ -43,7 +43,7 @@ ast::Program parse(const Source& source, const Source* user, Loader& loader,
   detail::Reader reader(source, builder.arena(), loader, errors, diagnostics);
   detail::ParserStack stack;
   const Scanner scanner(reader);
-  // The errors are counted, so the parser's answer says nothing new.
+  // `errors` counts the errors, so what the parser returns is not needed.
   scadparse(scanner.get(), reader, builder, errors, stack);
   return builder.finish();
 }

@@ -26,7 +26,6 @@ namespace lamina {
 
 namespace fs = std::filesystem;
 
-
 namespace {
 
 using State = Destination::State;
@@ -42,9 +41,7 @@ PermittedFolder open_folder(const std::string& path) {
   check_machine(path, fault);
   if (fault != 0) {
     throw AccessError(
-        {Severity::kError,
-         {},
-         fmt::format("Can't use folder '{}': {}", path, std::strerror(fault))});
+        fmt::format("Can't use folder '{}': {}", path, std::strerror(fault)));
   }
   folder.given_parts = parts_of(fs::absolute(path, error));
   folder.parts = parts_of(without_links);
@@ -53,8 +50,7 @@ PermittedFolder open_folder(const std::string& path) {
 
 [[noreturn]] void refuse(std::string_view written, std::string_view fault,
                          SourceRange range) {
-  throw AccessError(
-      {Severity::kError, range, fmt::format("'{}' {}", written, fault)});
+  throw AccessError(fmt::format("'{}' {}", written, fault), range);
 }
 
 constexpr std::string_view kOutside = "is outside of --root";
@@ -72,7 +68,8 @@ bool is_of_kernel(const OpenFile& file) {
          system.f_type == PROC_SUPER_MAGIC || system.f_type == SYSFS_MAGIC;
 }
 
-// Where a rename must go: through symbolic links, to the file itself.
+// The path that a rename must take: that of the file itself, behind symbolic
+// links.
 std::string follow_links(const std::string& path) {
   const std::unique_ptr<char, void (*)(void*)> resolved(
       ::realpath(path.c_str(), nullptr), ::free);
@@ -108,20 +105,17 @@ FileAccess FileAccess::none() {
 void check_machine(const std::string& path, int error) {
   switch (error) {
     case ESTALE:
-      throw FileError({Severity::kError,
-                       {},
-                       fmt::format("Can't read file '{}': it changed while it "
-                                   "was read.",
-                                   path)});
+      throw FileError(
+          fmt::format("Can't read file '{}': it changed while it "
+                      "was read.",
+                      path));
     case EIO:
     case ENOSPC:
     case ENOMEM:
     case EMFILE:
     case ENFILE:
-      throw FileError({Severity::kError,
-                       {},
-                       fmt::format("Can't read file '{}': {}.", path,
-                                   std::strerror(error))});
+      throw FileError(
+          fmt::format("Can't read file '{}': {}.", path, std::strerror(error)));
     default:
       return;
   }
@@ -323,7 +317,7 @@ void FileAccess::make_folders(const std::string& path) const {
     fs::create_directories(path, ignored);
     return;
   }
-  // Each turn makes one that lay in the way, of no more than a path can have.
+  // Each turn makes one missing folder; a path has no more than these.
   for (int i = 0; i < PATH_MAX; ++i) {
     const Destination found = find_in_root(path);
     const bool can_be_made =

@@ -2,13 +2,13 @@
 // Which files a run may use, and the one way to them.
 //
 // A design says which files are read, and whoever runs the program may have it
-// from a stranger. So whatever a design or a command line names is opened here,
-// and asked for here whether it is there: under --root only what lies in that
-// folder, or for reading in one of --allow-read, after all symbolic links. What
-// is outside is not even asked for, so nothing tells whether it exists. What is
-// opened is what was judged: the way to it is walked folder by folder through
-// descriptors (detail/confined_walk.h), and a link put in its place meanwhile
-// gains nothing. Hard links cannot be told from files of the folder.
+// from a stranger. So whatever a design or a command line names is looked for
+// and opened here. Under --root that is only what lies in that folder, or for
+// reading in one of --allow-read, after all symbolic links. What lies outside
+// is not even looked for, so nothing shows whether it exists. The file that is
+// opened is the one that was judged: the way to it is walked folder by folder
+// through descriptors (detail/confined_walk.h), so a link put in its place
+// meanwhile does not help. Hard links look like files of the folder.
 //
 // What the program needs for itself (its libraries, its text module, /proc,
 // Fontconfig's configuration) does not pass here.
@@ -30,7 +30,7 @@ namespace lamina {
 struct PermittedFolder;
 struct Destination;
 
-// A file that may not be used, wherever it is named.
+// A file may not be used.
 class AccessError : public Error {
  public:
   using Error::Error;
@@ -52,8 +52,8 @@ struct OutputPlace {
   std::optional<struct stat> there;  // what does
 };
 
-// Throws FileError where `error` (errno) is the machine's fault and not that of
-// whoever named the file: a disk that fails, no memory, no descriptor left.
+// Throws FileError where `error` (errno) is a fault of the machine and not of
+// the name: a disk that fails, no memory, no descriptor left.
 void check_machine(const std::string& path, int error);
 
 class FileAccess {
@@ -69,12 +69,12 @@ class FileAccess {
   // Throws AccessError for what is no folder.
   explicit FileAccess(const Limits& limits);
 
-  // Not one file.
+  // No file at all.
   static FileAccess none();
 
   bool is_confined() const { return folders_ != nullptr; }
-  // Of the folders, the root first; none where nothing is confined. They stay
-  // open as long as this.
+  // The descriptors of the folders, the root first; none where nothing is
+  // confined. They stay open as long as this.
   std::vector<int> folder_descriptors() const;
 
   // --- Judging ---------------------------------------------------------------
@@ -113,8 +113,8 @@ class FileAccess {
 
   // --- Opening ---------------------------------------------------------------
 
-  // A regular file, to read. No value where that fails: errno tells why, 0 for
-  // what is no regular file. Never waits.
+  // Opens a regular file to read it. Where that fails, no file is open and
+  // errno tells why; it is 0 for what is no regular file. Never waits.
   OpenFile open(const std::string& path) const;
 
   // All bytes of a file, or, where nothing is confined, of a stream such as a
@@ -144,7 +144,7 @@ class FileAccess {
   bool refuses_data_ = false;
 };
 
-// For whoever is given no other.
+// The default where no other is given.
 inline const FileAccess kAllFiles;
 
 }  // namespace lamina

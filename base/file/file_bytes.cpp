@@ -15,8 +15,7 @@ namespace lamina {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const char* why) {
-  throw FileError(
-      {Severity::kError, {}, fmt::format("Can't read '{}': {}", path, why)});
+  throw FileError(fmt::format("Can't read '{}': {}", path, why));
 }
 
 // Memory of whole pages, large ones where the system has them.

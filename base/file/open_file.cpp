@@ -8,8 +8,8 @@
 namespace lamina {
 namespace {
 
-// Whether the file is as it was before `size` bytes of it were read. What is
-// no regular file, or has no size as those of /proc, has no "before".
+// Whether the file is as it was before `size` bytes of it were read. Files that
+// are not regular, or that have no size, as in /proc, have no "before".
 bool is_whole(const OpenFile& file, const struct stat& before,
               std::size_t size) {
   if (!S_ISREG(before.st_mode) || before.st_size == 0) return true;

@@ -119,10 +119,7 @@ void OutputFile::copy_to(int target) {
 void OutputFile::fail(int error) const {
   const std::string name = path_ == "-" ? "standard output" : path_;
   throw FileError(
-      {Severity::kError,
-       {},
-       fmt::format("Can't write '{}': {}", name, std::strerror(error)),
-       {}});
+      fmt::format("Can't write '{}': {}", name, std::strerror(error)));
 }
 
 }  // namespace lamina

@@ -95,10 +95,7 @@ void OutputFolder::commit() {
 }
 
 void OutputFolder::fail(std::string_view fault) const {
-  throw FileError({Severity::kError,
-                   {},
-                   fmt::format("Can't write '{}': {}", path_, fault),
-                   {}});
+  throw FileError(fmt::format("Can't write '{}': {}", path_, fault));
 }
 
 }  // namespace lamina

@@ -79,8 +79,8 @@ bool lock(int file) {
   return ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
-// Whether what is open is what stands under the name: once it is locked, only
-// we may remove it.
+// Whether the open file is the one of that name. Once it is locked, only we may
+// remove it.
 bool stands_at(const std::string& path, const struct stat& open) {
   struct stat named = {};
   return ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
@@ -198,7 +198,7 @@ int TemporaryFiles::open_nameless() {
   const std::string folder = access_.scratch_folder();
   int file = open_nameless_in(folder);
   if (file >= 0) return file;
-  // A hidden name for a moment.
+  // It has a hidden name for a moment.
   std::string name;
   const Lock lock(mutex_);
   file = make_hidden(folder + "/output", name, paths_, make_private_file);
@@ -207,7 +207,7 @@ int TemporaryFiles::open_nameless() {
     forget(name);
     return file;
   }
-  // Without such a folder, memory has to do.
+  // Without such a folder, use memory.
   file = ::memfd_create("lamina", MFD_CLOEXEC);
   if (file >= 0) in_memory_.push_back(file);
   return file;

@@ -1,9 +1,9 @@
 #pragma once
-// What a run has begun and not finished: outputs that no one must see yet.
+// The outputs that a run has begun and not finished, which no one must see yet.
 //
 // A file has no name at all until it is whole, where the file system has such
-// files (O_TMPFILE): then even a run that is killed leaves nothing. Else, and
-// for folders, there is a hidden name beside the target. It is locked as long
+// files (O_TMPFILE): then even a run that is killed leaves nothing. Otherwise,
+// and for folders, it has a hidden name beside the target. It is locked as long
 // as the run lives, and the kernel unlocks it when the run ends, however that
 // comes: a hidden name whose lock is free is abandoned, and the next run that
 // wants it removes what stands there.
@@ -52,11 +52,11 @@ class TemporaryFiles {
   // Closes the file and removes it if it was not committed.
   void discard_file(File& file);
 
-  // A file without a name that nobody will give one; −1 if there is no room for
-  // it (errno).
+  // Opens a file that never gets a name; −1 if there is no room for it (errno).
   int open_nameless();
-  // Of those for which there was no folder: they are held in memory [B]. The
-  // last known number while another thread is busy here. Called by one thread.
+  // Bytes of such files for which there was no folder, so that memory holds
+  // them. The last known number while another thread is busy here. Called by
+  // one thread.
   std::uint64_t bytes_in_memory();
 
   // A new folder beside `path`, or beside what it links to. Throws AccessError.

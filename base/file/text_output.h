@@ -11,7 +11,8 @@
 
 namespace lamina {
 
-// At most 512 bytes come of `values`; `format` is compiled (FMT_COMPILE).
+// Prints `values`, which must take 512 bytes at most; `format` is compiled
+// (FMT_COMPILE).
 template <typename Format, typename... Values>
 void print(OutputFile& output, const Format& format, const Values&... values) {
   constexpr std::size_t kLongest = 512;
@@ -20,8 +21,8 @@ void print(OutputFile& output, const Format& format, const Values&... values) {
   output.advance(static_cast<std::size_t>(end - begin));
 }
 
-// `value` in as many characters as any other (13), filled up with decimals: for
-// numbers that are written over when they are known.
+// `value` in 13 characters, as any other, filled up with decimals: for numbers
+// that are written over when they are known.
 std::string fixed_width(double value);
 
 }  // namespace lamina

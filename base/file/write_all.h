@@ -20,7 +20,7 @@ inline int write_all(int file, std::string_view bytes, off_t offset = -1) {
       if (errno == EINTR) continue;
       return errno;
     }
-    // What takes nothing and names no error never will.
+    // A file that takes nothing and names no error never will take anything.
     if (count == 0) return ENOSPC;
     bytes.remove_prefix(static_cast<std::size_t>(count));
     if (offset >= 0) offset += count;

@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// What pugixml would take several times the memory of is refused.
+// Larger files are refused: pugixml takes several times their memory.
 constexpr std::size_t kMostXmlBytes = std::size_t{1} << 31;
 
 struct XmlFault {

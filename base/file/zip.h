@@ -19,7 +19,7 @@ class ZipArchive {
     return bytes.starts_with("PK\3\4");
   }
 
-  // Of the entries, folders included, in the order of the directory.
+  // The names of the entries, folders included, in the order of the directory.
   const std::vector<std::string>& names() const { return names_; }
 
   // The contents of an entry; nothing where there is none of that name. Case

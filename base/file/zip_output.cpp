@@ -112,10 +112,7 @@ void ZipOutput::finish() {
 void ZipOutput::check(int status) {
   if (stream_.fault != nullptr) std::rethrow_exception(stream_.fault);
   if (status == ZIP_OK) return;
-  throw FileError({Severity::kError,
-                   {},
-                   "Can't write '" + stream_.output.path() + "' as ZIP archive",
-                   {}});
+  throw FileError("Can't write '" + stream_.output.path() + "' as ZIP archive");
 }
 
 }  // namespace lamina

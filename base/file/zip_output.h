@@ -21,11 +21,12 @@ class ZipOutput {
   ZipOutput(const ZipOutput&) = delete;
   ZipOutput& operator=(const ZipOutput&) = delete;
 
-  // What is packed already (images) is stored as it is. Throw FileError.
+  // Add an entry: as it is, where it is packed already (images), or packed.
+  // Throw FileError.
   void add_packed(const std::string& name, std::string_view bytes);
   void add_text(const std::string& name, std::string_view bytes);
 
-  // A text in pieces; below 4 GB in all. Throw FileError.
+  // Write a text in several parts, below 4 GB in all. Throw FileError.
   void begin_text(const std::string& name);
   void write(std::string_view bytes);
   void end_entry();
@@ -33,7 +34,8 @@ class ZipOutput {
   // Writes the directory; nothing may be added then. Throws FileError.
   void finish();
 
-  // For the library that makes the archive: a file with a place in it.
+  // What the library that makes the archive writes to: an output and a place in
+  // it.
   struct Stream {
     OutputFile& output;
     std::uint64_t place = 0;

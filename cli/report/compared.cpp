@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "base/loop_area.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/openscad.h"
 #include "cli/report/session.h"
@@ -37,7 +38,7 @@ double greatest_coordinate(const std::vector<Layer>& layers) {
   double greatest = 0;
   for (const Layer& layer : layers) {
     greatest =
-        std::max(greatest, ldni::greatest_coordinate(layer.contours.points));
+        std::max(greatest, lamina::greatest_coordinate(layer.contours.points));
   }
   return greatest;
 }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <exception>
 #include <new>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -61,9 +60,6 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
     if (!is_reported(diagnostics, error.diagnostic())) {
       terminal.show(error.diagnostic());
     }
-  } catch (const std::range_error& error) {
-    // Of csg/plane/clip.h, past lowering: no place in the design is at hand.
-    show(error.what());
   } catch (const std::bad_alloc&) {
     show(out_of_memory_text());
   } catch (const std::exception& error) {

@@ -15,10 +15,10 @@
 
 #include "csg/boundary/box_tree.h"
 #include "csg/boundary/plane_section.h"
-#include "csg/boundary/program_range.h"
 #include "csg/boundary/program_region.h"
 #include "csg/plane/clip.h"
 #include "csg/program_state.h"
+#include "csg/ternary_program.h"
 #include "csg/tie_distance.h"
 
 namespace lamina::csg {
@@ -29,8 +29,8 @@ using planar::Region;
 using Side = WindowSection::Side;
 
 Box3 expand(const Box3& box) {
-  // More than the box of a window is, so that what is judged by boxes here has
-  // no face in the window there.
+  // By more than the box of a window is, so that a leaf that misses this box
+  // has no face in the window.
   constexpr double kMargin = 4 * kTieDistance;
   return {box.low - kMargin, box.high + kMargin};
 }
@@ -61,27 +61,29 @@ class Finder {
         is_wanted_(is_wanted),
         take_(take),
         state_(scene),
-        range_(scene) {
-    std::vector<Box3> boxes;
+        program_(scene, Ternary::kFalse) {
     for (const Instance& instance : scene.instances) {
       leaves_.emplace_back(scene.leaves[instance.leaf],
                            instance.world_from_leaf);
-      boxes.push_back(expand(instance.box));
+      boxes_.push_back(expand(instance.box));
     }
-    const BoxTree tree(boxes);
-    for (const std::uint32_t instance : outermost_first(scene)) {
+  }
+
+  void find() {
+    const BoxTree tree(boxes_);
+    for (const std::uint32_t instance : outermost_first(scene_)) {
       self_ = instance;
-      if (!is_wanted(boxes[self_]) || leaf().tree.nodes().empty()) continue;
+      if (!is_wanted_(boxes_[self_]) || leaf().tree.nodes().empty()) continue;
       std::vector<std::uint32_t> near;
-      tree.visit([&](const Box3& box) { return do_meet(box, boxes[self_]); },
+      tree.visit([&](const Box3& box) { return do_meet(box, boxes_[self_]); },
                  [&](std::uint32_t other) {
-                   range_.set(other, Knowledge::kUnknown);
+                   program_.set(other, Ternary::kUnknown);
                    if (other != self_) near.push_back(other);
                  });
       descend(0, near);
-      range_.set(self_, Knowledge::kOutside);
+      program_.set(self_, Ternary::kFalse);
       for (const std::uint32_t other : near) {
-        range_.set(other, Knowledge::kOutside);
+        program_.set(other, Ternary::kFalse);
       }
     }
   }
@@ -89,15 +91,15 @@ class Finder {
  private:
   const PlacedLeaf& leaf() const { return leaves_[self_]; }
 
-  // Of the surface of one leaf, what meets no other surface lies wholly inside
-  // or wholly outside of each.
+  // The part of a leaf's surface that meets no other surface lies wholly inside
+  // or wholly outside of each other leaf.
   //
   // unknown  instances of which it is not yet known
   void descend(std::uint32_t index, std::span<const std::uint32_t> unknown) {
     const BoxTree::Node& node = leaf().tree.nodes()[index];
     if (!is_wanted_(node.box)) return;
     const Settled settled = settle(node.box, unknown);
-    if (range_.is_decided()) {
+    if (program_.is_decided()) {
       // Solid on both sides, or empty.
     } else if (settled.unknown.empty() && is_embedded()) {
       take_all(node);
@@ -122,7 +124,7 @@ class Finder {
     Settled settled;
     const Box3 reach = expand(box);
     for (const std::uint32_t other : unknown) {
-      if (range_.is_decided()) break;
+      if (program_.is_decided()) break;
       if (has_face_in(other, reach)) {
         settled.unknown.push_back(other);
       } else {
@@ -136,20 +138,20 @@ class Finder {
     if (is_around) {
       settled.around.push_back(other);
       state_.flip(other, true);
-      range_.set(other, Knowledge::kInside);
+      program_.set(other, Ternary::kTrue);
     } else {
       settled.apart.push_back(other);
-      range_.set(other, Knowledge::kOutside);
+      program_.set(other, Ternary::kFalse);
     }
   }
 
   void forget(const Settled& settled) {
     for (const std::uint32_t other : settled.around) {
       state_.flip(other, false);
-      range_.set(other, Knowledge::kUnknown);
+      program_.set(other, Ternary::kUnknown);
     }
     for (const std::uint32_t other : settled.apart) {
-      range_.set(other, Knowledge::kUnknown);
+      program_.set(other, Ternary::kUnknown);
     }
   }
 
@@ -191,7 +193,7 @@ class Finder {
     const Box3 box = leaf().faces.box_of(face);
     if (normal == Vec3(0) || !is_wanted_(box)) return;
     const Settled settled = settle(box, unknown);
-    if (range_.is_decided()) {
+    if (program_.is_decided()) {
       // Solid on both sides, or empty.
     } else if (settled.unknown.empty() && is_embedded()) {
       take_whole(face);
@@ -233,15 +235,15 @@ class Finder {
       outline = planar::subtract(earlier);
     }
     if (outline.is_empty()) return;
-    if (is_embedded()) range_.set(self_, Knowledge::kOutside);
+    if (is_embedded()) program_.set(self_, Ternary::kFalse);
     const auto outside = evaluate(cuts, Side::kAbove, outline);
     if (is_embedded()) {
       state_.flip(self_, true);
-      range_.set(self_, Knowledge::kInside);
+      program_.set(self_, Ternary::kTrue);
     }
     const auto inside = evaluate(cuts, Side::kBelow, outline);
     if (is_embedded()) state_.flip(self_, false);
-    range_.set(self_, Knowledge::kUnknown);
+    program_.set(self_, Ternary::kUnknown);
     emit(plane, normal, outline, inside, outside, false);
     emit(plane, -normal, outline, outside, inside, true);
   }
@@ -255,13 +257,13 @@ class Finder {
                                  const Region& outline) {
     Settled settled;
     for (const Cut& cut : cuts) {
-      if (!range_.matters(cut.instance)) continue;
+      if (!program_.matters(cut.instance)) continue;
       const auto value = cut.section.uniform_value(side);
       if (value) note(cut.instance, *value, settled);
     }
     std::vector<LiveInstance> live;
     for (const Cut& cut : cuts) {
-      if (!range_.matters(cut.instance)) continue;
+      if (!program_.matters(cut.instance)) continue;
       live.push_back({cut.instance, cut.section.contours(side)});
     }
     auto value = evaluate_in_window(scene_, state_, live, outline);
@@ -269,7 +271,7 @@ class Finder {
     return value;
   }
 
-  // Of faces that lie in one plane the first one speaks for what they share.
+  // Of faces that lie in one plane the first one gives what they share.
   void add_earlier(std::uint32_t other, std::span<const std::uint32_t> faces,
                    std::uint32_t face, const Plane& plane,
                    std::vector<Region>& earlier) const {
@@ -321,17 +323,18 @@ class Finder {
   const Scene& scene_;
   const IsWanted& is_wanted_;
   const Take& take_;
-  ProgramState state_;  // of those known to be inside
-  ProgramRange range_;  // of all; those that are nowhere near are outside
+  ProgramState state_;      // of those known to be inside
+  TernaryProgram program_;  // of all; those that are nowhere near are false
   std::vector<PlacedLeaf> leaves_;
-  std::uint32_t self_ = 0;  // the instance whose faces are judged
+  std::vector<Box3> boxes_;  // of instances
+  std::uint32_t self_ = 0;   // the instance whose faces are judged
 };
 
 }  // namespace
 
 void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
                           const Take& take) {
-  Finder(scene, is_wanted, take);
+  Finder(scene, is_wanted, take).find();
 }
 
 Box3 box_of(const BoundaryFace& face) {

@@ -1,13 +1,14 @@
 #pragma once
 // The boundary of a Boolean, face by face.
 //
-// Who needs the explicit boundary of a subtree (hull, minkowski, resize,
-// projection) asks here. No mesh of the whole is built: each face of each leaf
-// is judged alone. Most faces lie wholly inside or wholly outside of each
-// other leaf, and that is found for many at once, by boxes. What is left is a
-// plane problem: the leaves that meet the face are cut by its plane, the
-// Boolean is evaluated in that plane just inside and just outside of the face,
-// and the part of the face that separates the two is boundary.
+// Hulls, Minkowski sums, resize() and projection() need the explicit boundary
+// of a subtree. No mesh of the whole is built: each face of each leaf is
+// classified alone. Most faces lie wholly inside or wholly outside of each
+// other leaf, and boxes show that for many at once. What is left is a plane
+// problem: the leaves that meet the face are cut by its plane, the Boolean is
+// evaluated in that plane just inside and just outside of the face, and the
+// part of the face that separates the two is boundary.
+// Source: set membership classification, Tilove 1980.
 
 #include <functional>
 #include <vector>
@@ -33,7 +34,7 @@ Box3 box_of(const BoundaryFace& face);
 // merged. Cost: about n log n of the faces, plus the plane problems.
 std::vector<BoundaryFace> boundary_faces(const Scene& scene);
 
-// The same one by one, for those who need not all of them. Leaves come from the
+// The same one by one, where not all of them are needed. Leaves come from the
 // outermost to the innermost.
 //
 // is_wanted  false where no face within the box is; asked often, and may change

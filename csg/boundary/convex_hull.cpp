@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -19,7 +18,7 @@
 
 #include "base/check.h"
 #include "csg/boundary/leaf_mesh.h"
-#include "csg/greatest_coordinate.h"
+#include "csg/limits.h"
 #include "csg/plane/convex_hull.h"
 
 namespace lamina::csg {
@@ -34,18 +33,15 @@ bool is_less(Vec3 a, Vec3 b) {
   return a.y < b.y || (a.y == b.y && a.z < b.z);
 }
 
-bool is_too_far(Vec3 p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >
-         kGreatestCoordinate;
-}
-
 // Sorts the points and leaves each of them once; those beyond all numbers have
 // no place.
 void make_unique(std::vector<Vec3>& points) {
   // 0 · x is NaN where x is not finite.
   std::erase_if(points, [](Vec3 p) { return glm::dot(p, Vec3(0)) != 0; });
-  if (std::any_of(points.begin(), points.end(), is_too_far)) {
-    throw std::range_error("point too far for a hull");
+  for (const Vec3& point : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (is_too_far(point[axis])) fail_too_far();
+    }
   }
   std::sort(points.begin(), points.end(), is_less);
   points.erase(std::unique(points.begin(), points.end()), points.end());

@@ -14,7 +14,7 @@
 namespace lamina::csg {
 
 // A closed mesh; its vertices are some of the points, bit by bit. Empty where
-// all points lie in one plane, up to rounding. Throws std::range_error for
+// all points lie in one plane, up to rounding. Throws LimitExceeded for
 // points beyond kGreatestCoordinate.
 Mesh convex_hull(std::vector<Vec3> points);
 

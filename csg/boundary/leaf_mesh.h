@@ -1,5 +1,5 @@
 #pragma once
-// Leaves as explicit triangles, for whoever cannot use the formula.
+// Leaves as explicit triangles, for code that cannot use the formula.
 
 #include "csg/scene.h"
 

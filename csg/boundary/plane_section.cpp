@@ -11,8 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "csg/boundary/boundary_faces.h"
-#include "csg/plane/orientation.h"
+#include "base/plane.h"
 #include "csg/tie_distance.h"
 
 namespace lamina::csg {
@@ -29,25 +28,6 @@ struct Segment {
   Vec2 begin;
   Vec2 end;
 };
-
-// +1 where the edge passes the ray from c along +u upwards, -1 downwards. Of an
-// edge's ends the lower one belongs to it; the same edge gives the same answer
-// in either direction.
-int crossing(Vec2 from, Vec2 to, Vec2 c) {
-  const bool goes_up = from.y <= c.y;
-  if (goes_up == (to.y <= c.y)) return 0;
-  if (!goes_up) std::swap(from, to);
-  if (planar::orientation(from, to, c) <= 0) return 0;
-  return goes_up ? 1 : -1;
-}
-
-int winding(const Contour& contour, Vec2 c) {
-  int sum = 0;
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    sum += crossing(contour[i], contour[(i + 1) % contour.size()], c);
-  }
-  return sum;
-}
 
 // The segments of faces in one plane, on one side.
 class Cutter {
@@ -387,10 +367,10 @@ planar::Region WindowSection::contours(Side side) const {
     result.contours.push_back(std::move(chain));
   }
 
-  // These contours are right but for a constant: the whole section tells it.
+  // These contours are right but for a constant, which the whole section has.
   int missing = section_winding(leaf_, plane_, side, window_.low);
   for (const Contour& contour : result.contours) {
-    missing -= winding(contour, window_.low);
+    missing -= winding_number(contour, window_.low);
   }
   Contour all = frame.contour();
   if (missing < 0) std::reverse(all.begin(), all.end());

@@ -1,11 +1,11 @@
 #pragma once
 // Leaves cut by any plane, near a place of interest.
 //
-// A plane goes through vertices and along faces of the leaves as a rule, not
-// as an exception: boundary faces are found in the planes of faces. So what is
-// asked for is the section just above or just below the plane. A vertex within
-// kTieDistance lies on the plane and counts to the other side; every edge
-// is then crossed or not, and its crossing is one point for both its faces. So
+// As a rule, not as an exception, a plane goes through vertices and along faces
+// of the leaves: boundary faces are found in the planes of faces. So the
+// section is taken just above or just below the plane. A vertex within
+// kTieDistance lies on the plane and counts to the other side; every edge is
+// then crossed or not, and its crossing is one point for both its faces. So
 // sections are closed by construction.
 
 #include <cstdint>
@@ -43,7 +43,7 @@ class Plane {
   int dropped_ = 2;
 };
 
-// A leaf in the world, ready to be asked for parts of its surface.
+// A leaf in the world, with its faces to be found by place.
 struct PlacedLeaf {
   PlacedLeaf(const Leaf& leaf, const Affine& world_from_leaf);
 

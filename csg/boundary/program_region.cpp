@@ -16,8 +16,8 @@ using Value = std::optional<Region>;
 
 bool is_empty(const Value& value) { return value && value->is_empty(); }
 
-// An operator with live children. Children that are not live are in `count`
-// only (see ProgramState::count).
+// An operator with live children. `count` covers only those that are not live
+// (see ProgramState::count).
 struct LiveNode {
   std::int32_t count = 0;
   std::optional<Value> minuend;  // of a difference, if it is live
@@ -96,10 +96,7 @@ class Evaluation {
 
  private:
   std::int32_t weight(const BooleanNode& node) const {
-    const bool is_subtrahend =
-        scene_.program[node.parent].op == BooleanOp::kDifference &&
-        !node.is_minuend;
-    return is_subtrahend ? -1 : 1;
+    return is_subtrahend(scene_, node) ? -1 : 1;
   }
 
   void add(std::uint32_t parent, bool is_minuend, Value value) {

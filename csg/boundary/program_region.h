@@ -23,7 +23,7 @@ struct LiveInstance {
 // of the live ones. No value: everywhere. Only operators above live instances
 // are looked at.
 //
-// throws  std::range_error for coordinates beyond 1e9 mm
+// throws  LimitExceeded for coordinates beyond kGreatestCoordinate
 std::optional<planar::Region> evaluate_in_window(
     const Scene& scene, const ProgramState& state,
     const std::vector<LiveInstance>& live, const planar::Region& window);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plane.h"
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
@@ -22,15 +23,9 @@ using planar::Contour;
 using planar::Region;
 using Side = WindowSection::Side;
 
-struct IsLess {
-  bool operator()(Vec2 a, Vec2 b) const {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
-  }
-};
-
-// Polygons summed up: an edge that comes in both directions is none. Of a mesh
-// seen from above little more than its outline is left, with the winding
-// numbers of all its faces together.
+// The sum of polygons: an edge that comes in both directions cancels. A mesh
+// seen from above leaves little more than its outline, with the winding numbers
+// of all its faces together.
 class PolygonSum {
  public:
   void add(const Contour& contour) {
@@ -74,7 +69,10 @@ class PolygonSum {
     ends_[from].push_back(to);
   }
 
-  std::map<Vec2, std::vector<Vec2>, IsLess> ends_;  // of edges, by their begins
+  // Of edges, by their begins.
+  std::map<Vec2, std::vector<Vec2>,
+           decltype([](Vec2 a, Vec2 b) { return precedes(a, b); })>
+      ends_;
 };
 
 Region flatten(const std::vector<std::vector<Vec3>>& contours) {
@@ -99,8 +97,8 @@ void add_shadow(const Leaf& leaf, const Affine& world_from_leaf,
   }
 }
 
-// Faces that were cut fit together only up to the clipper's grid. What is
-// thinner than a tie between them is no gap.
+// Faces that were cut fit together only up to the clipper's grid. A gap between
+// them that is thinner than a tie is rounding.
 Region close_cracks(const Region& region) {
   constexpr double kGrowth = 0.5 * kTieDistance;
   // Not needed where every join is a miter.
@@ -110,7 +108,7 @@ Region close_cracks(const Region& region) {
   return planar::offset(grown, -kGrowth, planar::Join::kMiter, kArcTolerance);
 }
 
-// What the program holds for just above or below the plane.
+// Where the program holds just above or just below the plane.
 Region evaluate_at(const Scene& scene, const Plane& plane,
                    const std::vector<std::uint32_t>& near,
                    const std::vector<PlacedLeaf>& leaves, Side side) {
@@ -126,7 +124,7 @@ Region evaluate_at(const Scene& scene, const Plane& plane,
   return value.value_or(window);
 }
 
-// What is flat and lies in the plane.
+// The flat instances that lie in the plane.
 Region flat_at_zero(const Scene& scene) {
   std::vector<Contour> shadows;
   for (const Instance& instance : scene.instances) {

@@ -6,7 +6,7 @@
 
 namespace lamina::csg {
 
-// Both throw std::range_error for coordinates beyond 1e9 mm.
+// Both throw LimitExceeded for coordinates beyond kGreatestCoordinate.
 
 // The shadow of the solid on the plane z = 0.
 planar::Region project(Scene scene);

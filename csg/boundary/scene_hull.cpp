@@ -41,8 +41,8 @@ Shifts shifts_of(const std::vector<Instance>& instances) {
   return shifts;
 }
 
-// The hull of the points so far. Most faces of a Boolean are inside of it
-// early, and can add nothing.
+// The hull of the points so far. Most faces of a Boolean soon lie inside of it,
+// and add nothing.
 class GrowingHull {
  public:
   explicit GrowingHull(std::vector<Vec3> points) : points_(std::move(points)) {

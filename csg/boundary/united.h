@@ -9,7 +9,7 @@
 namespace lamina::csg {
 
 // Takes the instances that stand directly below a root that is a union out of
-// the scene; the rest is what only a Boolean can tell.
+// the scene; what is left needs a Boolean.
 inline std::vector<Instance> take_united(Scene& scene) {
   std::vector<Instance> united;
   if (scene.program[0].op != BooleanOp::kUnion) return united;

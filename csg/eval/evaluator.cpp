@@ -65,7 +65,7 @@ void check_view(const Unit& unit, Interpreter& in) {
   check(kViewTranslation, "$vpt", true);
   check(kViewDistance, "$vpd", false);
   check(kViewField, "$vpf", false);
-  // Of no interest to who makes layers.
+  // Layers have no camera: only previews say so.
   if (is_set && in.options().preview)
     in.warn({}, "Viewall and autocenter disabled in favor of $vp*");
 }

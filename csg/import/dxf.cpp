@@ -13,6 +13,7 @@
 #include "csg/degrees.h"
 #include "csg/import/detail/dxf_lines.h"
 #include "csg/import/detail/text_lines.h"
+#include "csg/limits.h"
 
 namespace lamina::csg {
 namespace {
@@ -193,10 +194,9 @@ class Reader {
   }
 
   std::uint32_t snap(Vec2 point) {
-    const double farthest = std::max(std::abs(point.x), std::abs(point.y));
-    if (!(farthest <= DxfGrid::kFarthest)) {
+    if (is_too_far(point.x) || is_too_far(point.y)) {
       throw FormatError(fmt::format("DXF line {}, a coordinate beyond {} mm",
-                                    lines_.number(), DxfGrid::kFarthest));
+                                    lines_.number(), kGreatestCoordinate));
     }
     return grid_.snap(point);
   }

@@ -28,16 +28,15 @@ class Joiner {
       : lines_(lines),
         grid_(grid),
         is_taken_(lines.size()),
-        ends_(grid.size()) {
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto [a, b] = lines[i];
+        ends_(grid.size()) {}
+
+  std::vector<DxfPath> join() {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const auto [a, b] = lines_[i];
       add_end(a, i);
       if (a != b) add_end(b, i);
     }
-    for (std::size_t i = 0; i < lines.size(); ++i) watch(i);
-  }
-
-  std::vector<DxfPath> join() {
+    for (std::size_t i = 0; i < lines_.size(); ++i) watch(i);
     std::vector<DxfPath> paths;
     while (!open_.empty()) {
       const std::size_t line = *open_.begin();

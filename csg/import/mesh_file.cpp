@@ -9,7 +9,6 @@
 
 #include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
-#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 namespace {
@@ -62,11 +61,12 @@ void report_broken(const std::string& path, ImportFormat format,
   const std::string_view words = format == ImportFormat::k3mf
                                      ? "Could not read file"
                                      : "Failed to parse file";
-  Diagnostic diagnostic{Severity::kWarning, range,
-                        fmt::format("{} '{}', import() at line {}", words, path,
-                                    range.openscad_line())};
-  diagnostic.hints.push_back({range, fault.what()});
-  diagnostics.report(std::move(diagnostic));
+  diagnostics.report({Severity::kWarning,
+                      range,
+                      fmt::format("{} '{}', import() at line {}", words, path,
+                                  range.openscad_line()),
+                      {},
+                      {{range, fault.what()}}});
 }
 
 bool is_finite(Vec3 p) {

@@ -6,7 +6,7 @@
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
-#include "csg/import/raw_mesh.h"
+#include "csg/import/mesh_readers.h"
 #include "csg/tree.h"
 
 namespace lamina::csg {

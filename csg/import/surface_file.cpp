@@ -206,10 +206,11 @@ Mesh read_surface_file(const SurfaceParams& params, const FileAccess& access,
   try {
     return make_surface(parse_png(bytes->view(), params.invert), params.center);
   } catch (const FormatError& fault) {
-    Diagnostic diagnostic{Severity::kWarning, range,
-                          fmt::format("Can't read PNG image '{}'", path)};
-    diagnostic.hints.push_back({range, fault.what()});
-    diagnostics.report(std::move(diagnostic));
+    diagnostics.report({Severity::kWarning,
+                        range,
+                        fmt::format("Can't read PNG image '{}'", path),
+                        {},
+                        {{range, fault.what()}}});
     return {};
   }
 }

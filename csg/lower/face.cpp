@@ -4,7 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/plane/orientation.h"
+#include "base/loop_area.h"
+#include "base/plane.h"
 #include "csg/plane/triangulate.h"
 
 namespace lamina::csg {
@@ -67,7 +68,7 @@ planar::Contour project(std::span<const Vec3> vertices,
     contour.push_back(
         {vertices[i][(drop + 1) % 3], vertices[i][(drop + 2) % 3]});
   }
-  if (planar::signed_area(contour) < 0) {
+  if (signed_area(contour) < 0) {
     for (Vec2& point : contour) point.y = -point.y;
   }
   return contour;
@@ -85,9 +86,8 @@ std::vector<Triangle> split_quad(const planar::Contour& quad) {
   });
   const Vec2 left = quad[order[0]];
   const Vec2 right = quad[order[3]];
-  const bool are_on_two_sides =
-      planar::orientation(left, right, quad[order[1]]) !=
-      planar::orientation(left, right, quad[order[2]]);
+  const bool are_on_two_sides = orientation(left, right, quad[order[1]]) !=
+                                orientation(left, right, quad[order[2]]);
   const std::uint32_t from = order[1];
   const std::uint32_t to = are_on_two_sides ? order[2] : order[3];
   std::vector<Triangle> halves{{from, (from + 1) % 4, (from + 2) % 4},
@@ -95,7 +95,7 @@ std::vector<Triangle> split_quad(const planar::Contour& quad) {
   const bool is_diagonal = to == (from + 2) % 4;
   const bool is_inside =
       std::all_of(halves.begin(), halves.end(), [&](const Triangle& t) {
-        return planar::orientation(quad[t[0]], quad[t[1]], quad[t[2]]) > 0;
+        return orientation(quad[t[0]], quad[t[1]], quad[t[2]]) > 0;
       });
   if (is_diagonal && is_inside) return halves;
   return planar::triangulate({{quad}});

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
+#include <string_view>
 #include <utility>
 
 #include "csg/boundary/leaf_box.h"
@@ -47,32 +49,17 @@ std::vector<Vec2> sphere_profile(int fragments) {
   return profile;
 }
 
-// Equal content gives equal hashes; more is not asked of it.
-class ContentHash {
- public:
-  void add(std::uint64_t word) {
-    state_ = (std::rotl(state_, 23) ^ word) * 0x9e3779b97f4a7c15u;
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(Vec2 v) { add(v.x), add(v.y); }
-  void add(Vec3 v) { add(v.x), add(v.y), add(v.z); }
-  std::uint64_t value() const { return state_; }
-
- private:
-  std::uint64_t state_ = 0;
-};
-
+// Equal bytes give equal hashes; more is not asked of it.
 std::uint64_t hash(const Leaf& leaf) {
-  ContentHash hash;
-  for (const Loft& loft : leaf.lofts) {
-    for (const Vec2 point : *loft.outline) hash.add(point);
-    for (const Vec2 ring : loft.profile) hash.add(ring);
-  }
-  for (const Mesh& mesh : leaf.meshes) {
-    for (const Vec3 vertex : mesh.vertices) hash.add(vertex);
-    hash.add(std::uint64_t{mesh.triangles.size()});
-  }
-  return hash.value();
+  std::uint64_t state = 0;
+  const auto add = [&state](const auto& values) {
+    const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                                 values.size() * sizeof values[0]);
+    state = std::rotl(state, 23) ^ std::hash<std::string_view>()(bytes);
+  };
+  for (const Loft& loft : leaf.lofts) add(*loft.outline), add(loft.profile);
+  for (const Mesh& mesh : leaf.meshes) add(mesh.vertices);
+  return state;
 }
 
 bool are_equal(const Loft& a, const Loft& b) {

@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/loop_area.h"
 #include "csg/degrees.h"
 #include "csg/limits.h"
 #include "csg/lower/detail/extrude.h"
@@ -27,22 +28,15 @@ using planar::Region;
 // must not choose.
 constexpr double kEqualDiagonals = 1e-5;
 
-double max_radius(const Region& region) {
-  double r = 0;
+// The greatest length of f(point) over the region's points.
+template <typename F>
+double greatest_length(const Region& region, F f) {
+  double greatest = 0;
   for (const Contour& contour : region.contours) {
-    for (const Vec2 point : contour) r = std::max(r, glm::length(point));
+    for (const Vec2 p : contour)
+      greatest = std::max(greatest, glm::length(f(p)));
   }
-  return r;
-}
-
-double max_shift(const Region& region, Vec2 scale) {
-  double shift = 0;
-  for (const Contour& contour : region.contours) {
-    for (const Vec2 point : contour) {
-      shift = std::max(shift, glm::length(point - point * scale));
-    }
-  }
-  return shift;
+  return greatest;
 }
 
 // Into how many parts an edge is cut, none longer than this; 0: it stays whole.
@@ -88,7 +82,7 @@ Leaf loft_contours(const Region& region, double low, double high,
                    double scale) {
   Leaf leaf;
   for (const Contour& contour : region.contours) {
-    const bool is_hole = planar::signed_area(contour) < 0;
+    const bool is_hole = signed_area(contour) < 0;
     auto outline = std::make_shared<std::vector<Vec2>>(contour);
     if (is_hole) std::reverse(outline->begin(), outline->end());
     leaf.lofts.push_back(
@@ -128,7 +122,7 @@ class TwistedExtruder {
     for (int i = 0; i <= slices_; ++i) add_ring(slice_at(i));
     std::uint32_t first = 0;
     for (const Contour& contour : region_.contours) {
-      const bool is_hole = planar::signed_area(contour) < 0;
+      const bool is_hole = signed_area(contour) < 0;
       for (int i = 0; i < slices_; ++i) {
         add_band(i, first, static_cast<std::uint32_t>(contour.size()), is_hole);
       }
@@ -230,9 +224,11 @@ Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region,
   if (!params.has_twist && params.scale.x == params.scale.y) {
     return loft_contours(region, low, high, params.scale.x);
   }
+  const double radius = greatest_length(region, [](Vec2 p) { return p; });
+  const double shift =
+      greatest_length(region, [&](Vec2 p) { return p - p * params.scale; });
   const ExtrusionSteps steps =
-      extrusion_steps(params, max_radius(region),
-                      max_shift(region, params.scale), chordal_error);
+      extrusion_steps(params, radius, shift, chordal_error);
   require_triangles(triangle_count(region, steps));
   const Region outline = split_edges(region, steps.longest_edge);
   Leaf leaf;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -10,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "csg/greatest_coordinate.h"
 #include "csg/limits.h"
 #include "csg/lower/detail/lowerer.h"
 
@@ -31,22 +29,23 @@ void survey(const Node& node, Survey& result) {
   }
 }
 
-std::vector<Note> call_chain(const CallFrame* caller) {
+std::vector<Note> call_chain(const CallSite* caller) {
   std::vector<Note> notes;
-  for (const CallFrame* frame = caller; frame; frame = frame->caller) {
-    notes.push_back({frame->range, fmt::format("called by '{}'", frame->name)});
+  for (const CallSite* call = caller; call; call = call->caller) {
+    notes.push_back({call->range, fmt::format("called by '{}'", call->name)});
   }
   return notes;
 }
 
-[[noreturn]] void fail_too_far(SourceRange range, const CallFrame* caller) {
-  throw GeometryError({Severity::kError, range,
-                       "Coordinates beyond 1e9 mm: too large for exact layers",
-                       call_chain(caller)});
-}
-
-bool is_too_far(double coordinate) {
-  return !(std::abs(coordinate) <= kGreatestCoordinate);
+// Calls work(); to a limit that it exceeds the place in the text is added.
+template <typename Work>
+auto add_place(SourceRange range, const CallSite* caller, const Work& work) {
+  try {
+    return work();
+  } catch (const LimitExceeded& limit) {
+    throw GeometryError({Severity::kError, range, limit.diagnostic().message,
+                         call_chain(caller)});
+  }
 }
 
 // Whether the instance makes the scene's box too large.
@@ -62,9 +61,8 @@ bool stretches(const Box3& box, const Box3& whole) {
 void check_range(const Scene& scene) {
   if (scene.box.is_empty()) return;
   for (const Instance& instance : scene.instances) {
-    if (stretches(instance.box, scene.box)) {
-      fail_too_far(instance.range, instance.caller);
-    }
+    if (!stretches(instance.box, scene.box)) continue;
+    add_place(instance.range, instance.caller, fail_too_far);
   }
 }
 
@@ -83,15 +81,10 @@ Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
 }
 
 Shape Lowerer::lower(const Node& node, const Affine& world) {
-  try {
+  return add_place(node.range, node.caller, [&] {
     return std::visit([&](const auto& op) { return lower_op(op, node, world); },
                       node.op);
-  } catch (const std::range_error&) {
-    fail_too_far(node.range, node.caller);
-  } catch (const LimitExceeded& limit) {
-    throw GeometryError(
-        {Severity::kError, node.range, limit.what(), call_chain(node.caller)});
-  }
+  });
 }
 
 Scene Lowerer::take_scene() {

@@ -54,7 +54,7 @@ struct Lowered {
 //         clipped on the way, reaches beyond 1e9 mm, and where the tree asks
 //         for more than csg/limits.h allows
 //
-// The scene points to the tree's call frames and to nothing else in it.
+// The scene points to the tree's call sites and to nothing else in it.
 Lowered lower(const Tree& tree, const LowerOptions& options,
               Diagnostics& diagnostics);
 

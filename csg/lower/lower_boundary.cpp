@@ -3,9 +3,9 @@
 
 #include "csg/boundary/projection.h"
 #include "csg/boundary/scene_hull.h"
-#include "csg/lower/detail/flat.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/resize.h"
+#include "csg/plane/clip.h"
 #include "csg/plane/convex_hull.h"
 
 namespace lamina::csg {
@@ -63,7 +63,7 @@ Shape Lowerer::lower_op(const Resize& op, const Node& node,
   Apart apart = lower_apart(node, world);
   if (apart.dimension == Dimension::kFlat) {
     if (apart.regions.empty()) return {Dimension::kFlat};
-    planar::Region region = combine_regions(BooleanOp::kUnion, apart.regions);
+    planar::Region region = planar::unite(apart.regions);
     const Vec3 factor(resize_factor(op, region), 1);
     return {Dimension::kFlat,
             transform_region(std::move(region), scaling(factor), node.range,

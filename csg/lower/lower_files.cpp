@@ -12,7 +12,6 @@
 #include "csg/import/surface_file.h"
 #include "csg/import/svg.h"
 #include "csg/lower/detail/face.h"
-#include "csg/lower/detail/flat.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/repair.h"
 #include "csg/plane/clip.h"
@@ -55,6 +54,17 @@ Leaf make_import_leaf(const ImportParams& params, const FileAccess& access,
 }
 
 // --- Drawings ---------------------------------------------------------------
+
+// Fills each shape where its contours enclose a point an odd number of times,
+// and unites all shapes.
+planar::Region fill_shapes(
+    std::span<const std::vector<planar::Contour>> shapes) {
+  std::vector<planar::Region> regions;
+  for (const std::vector<planar::Contour>& contours : shapes) {
+    regions.push_back(planar::from_contours(contours));
+  }
+  return regions.empty() ? planar::Region() : planar::unite(regions);
+}
 
 planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
                         const FileAccess& access, SourceRange range,
@@ -127,12 +137,13 @@ planar::Region read_svg(const ImportParams& params, const FileAccess& access,
   try {
     shapes = parse_svg(bytes->view(), options);
   } catch (const FormatError& fault) {
-    Diagnostic diagnostic{
-        Severity::kError, range,
-        fmt::format("Error parsing file '{}', import() at line {}", params.path,
-                    range.openscad_line())};
-    diagnostic.hints.push_back({range, fault.what()});
-    diagnostics.report(std::move(diagnostic));
+    diagnostics.report(
+        {Severity::kError,
+         range,
+         fmt::format("Error parsing file '{}', import() at line {}",
+                     params.path, range.openscad_line()),
+         {},
+         {{range, fault.what()}}});
     return {};
   }
   return fill_shapes(shapes);

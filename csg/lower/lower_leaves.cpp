@@ -8,6 +8,7 @@
 #include "csg/boundary/leaf_box.h"
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/lowerer.h"
+#include "csg/lower/detail/points.h"
 #include "csg/lower/detail/polyhedron.h"
 
 namespace lamina::csg {
@@ -49,22 +50,22 @@ Shape Lowerer::lower_op(const Cylinder& c, const Node& node,
   }
   const int n = circle_fragments(r, fineness(c.facets, world));
   // A cone keeps its radii: their ratio would not give back the same bits.
-  const bool is_straight = c.r1 == c.r2;
-  const Vec3 size = is_straight ? Vec3(r, r, c.h) : Vec3(1, 1, c.h);
-  const std::uint32_t leaf =
-      is_straight ? leaves_.unit_height_cone(1, 1, c.center, n)
-                  : leaves_.unit_height_cone(c.r1, c.r2, c.center, n);
-  place(leaf, size, node, world);
+  const double unit = c.r1 == c.r2 ? r : 1;
+  place(leaves_.unit_height_cone(c.r1 / unit, c.r2 / unit, c.center, n),
+        Vec3(unit, unit, c.h), node, world);
   return {Dimension::kSolid};
 }
 
 Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
                         const Affine& world) {
+  const PolyhedronParams& params = *polyhedron.params;
+  if (!check_points(params.wrong_point, "vec3", node.range, diagnostics_)) {
+    return {Dimension::kSolid};
+  }
   Leaf leaf;
   leaf.meshes.push_back(
-      takes_corners_
-          ? make_corners(*polyhedron.params, node.range, diagnostics_)
-          : make_polyhedron(*polyhedron.params, node.range, diagnostics_));
+      takes_corners_ ? make_corners(params, node.range, diagnostics_)
+                     : make_polyhedron(params, node.range, diagnostics_));
   leaf.may_overlap_itself = true;
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};

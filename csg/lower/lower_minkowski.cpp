@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "csg/boundary/convex_hull.h"
-#include "csg/lower/detail/flat.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/minkowski/minkowski.h"
+#include "csg/plane/minkowski.h"
 
 namespace lamina::csg {
 namespace {
@@ -34,6 +34,19 @@ bool is_lost(const std::vector<Operand>& terms) {
                      [](const Convex& part) {
                        return convex_hull(part.vertices).triangles.empty();
                      });
+}
+
+// The sum of all regions that are not empty; empty where the first one is, or
+// all others are.
+planar::Region add_regions(std::span<const planar::Region> regions) {
+  planar::Region sum = regions[0];
+  bool has_sum = regions.size() == 1;
+  for (const planar::Region& region : regions.subspan(1)) {
+    if (region.is_empty()) continue;
+    sum = planar::add(sum, region);
+    has_sum = true;
+  }
+  return has_sum ? sum : planar::Region{};
 }
 
 }  // namespace

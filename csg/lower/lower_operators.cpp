@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/lower/detail/flat.h"
 #include "csg/lower/detail/lowerer.h"
+#include "csg/plane/clip.h"
 
 namespace lamina::csg {
 namespace {
@@ -29,17 +29,20 @@ Affine compose(const Affine& outer, const Mat4& inner) {
           apply_linear(outer, m[2]), apply_linear(outer, m[3]) + outer[3]};
 }
 
+planar::Region combine_regions(BooleanOp op,
+                               std::span<const planar::Region> regions) {
+  switch (op) {
+    case BooleanOp::kDifference:
+      return planar::subtract(regions);
+    case BooleanOp::kIntersection:
+      return planar::intersect(regions);
+    case BooleanOp::kUnion:
+      break;
+  }
+  return planar::unite(regions);
+}
+
 }  // namespace
-
-Shape Lowerer::lower_op(const Difference&, const Node& node,
-                        const Affine& world) {
-  return lower_children(node, world, BooleanOp::kDifference);
-}
-
-Shape Lowerer::lower_op(const Intersection&, const Node& node,
-                        const Affine& world) {
-  return lower_children(node, world, BooleanOp::kIntersection);
-}
 
 Shape Lowerer::lower_op(const Transform& op, const Node& node,
                         const Affine& world) {

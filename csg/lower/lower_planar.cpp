@@ -1,8 +1,61 @@
-#include "csg/lower/detail/flat.h"
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "csg/degrees.h"
 #include "csg/lower/detail/lowerer.h"
+#include "csg/lower/detail/points.h"
+#include "csg/plane/clip.h"
+#include "csg/plane/facets.h"
 #include "csg/plane/minkowski.h"
+#include "csg/text/typesetter.h"
 
 namespace lamina::csg {
+namespace {
+
+using planar::Contour;
+
+std::vector<Contour> read_paths(const PolygonParams& polygon, SourceRange range,
+                                Diagnostics& diagnostics) {
+  const auto points = polygon.points;
+  if (!polygon.paths || polygon.paths->empty()) {
+    return {Contour(points.begin(), points.end())};
+  }
+  std::vector<Contour> contours;
+  for (std::size_t path = 0; path < polygon.paths->size(); ++path) {
+    contours.emplace_back();
+    const auto& indices = (*polygon.paths)[path];
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      if (indices[i] < points.size()) {
+        contours.back().push_back(points[indices[i]]);
+      } else {
+        warn_of_index(indices[i], "paths", path, i, range, diagnostics);
+      }
+    }
+  }
+  return contours;
+}
+
+// Drops contours from the first one on that holds no numbers, as OpenSCAD does.
+void check_contours(std::vector<Contour>& contours, SourceRange range,
+                    Diagnostics& diagnostics) {
+  const auto is_wrong = [](const Contour& contour) {
+    return std::any_of(contour.begin(), contour.end(), [](Vec2 point) {
+      return std::isnan(point.x) || std::isnan(point.y);
+    });
+  };
+  const auto wrong = std::find_if(contours.begin(), contours.end(), is_wrong);
+  if (wrong == contours.end()) return;
+  diagnostics.warning(range, "Range check failed for polygon. skipping");
+  contours.erase(wrong, contours.end());
+}
+
+planar::Join join_of(const Offset& offset) {
+  if (!offset.is_delta) return planar::Join::kRound;
+  return offset.chamfer ? planar::Join::kBevel : planar::Join::kMiter;
+}
+
+}  // namespace
 
 Shape Lowerer::lower_op(const Square& square, const Node&, const Affine&) {
   return {Dimension::kFlat, planar::square(square.size, square.center)};
@@ -16,16 +69,24 @@ Shape Lowerer::lower_op(const Circle& circle, const Node&,
 
 Shape Lowerer::lower_op(const Polygon& polygon, const Node& node,
                         const Affine&) {
-  return {Dimension::kFlat,
-          make_polygon(*polygon.params, node.range, diagnostics_)};
+  const PolygonParams& params = *polygon.params;
+  if (!check_points(params.wrong_point, "vec2", node.range, diagnostics_)) {
+    return {Dimension::kFlat};
+  }
+  auto contours = read_paths(params, node.range, diagnostics_);
+  check_contours(contours, node.range, diagnostics_);
+  return {Dimension::kFlat, planar::from_contours(contours)};
 }
 
 Shape Lowerer::lower_op(const Offset& op, const Node& node,
                         const Affine& world) {
   const Shape shape = flatten_children(node, world);
   if (shape.dimension == Dimension::kNone) return {};
+  const double distance = std::abs(op.amount);
+  const int n = circle_fragments(distance, fineness(op.facets, world));
+  const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
   return {Dimension::kFlat,
-          offset_region(op, fineness(op.facets, world), shape.region)};
+          planar::offset(shape.region, op.amount, join_of(op), arc_tolerance)};
 }
 
 Shape Lowerer::lower_op(const Fill&, const Node& node, const Affine& world) {
@@ -43,9 +104,14 @@ Shape Lowerer::lower_op(const Text& text, const Node& node,
                         const Affine& world) {
   if (!options_.typesetter) fail_unsupported(node, "text");
   const TextParams& params = *text.params;
+  const Fineness fine = fineness(params.facets, world);
+  const text::Chords chords = {
+      planar::curve_segment_count(params.size, params.facets),
+      fine.is_by_error() ? fine.chordal_error : 0};
+  const auto contours =
+      options_.typesetter->outline(params, chords, node.range, diagnostics_);
   return {Dimension::kFlat,
-          make_text(params, fineness(params.facets, world),
-                    *options_.typesetter, node.range, diagnostics_)};
+          planar::from_contours(contours, planar::FillRule::kNonZero)};
 }
 
 Shape Lowerer::flatten_children(const Node& node, const Affine& world) {
@@ -55,8 +121,24 @@ Shape Lowerer::flatten_children(const Node& node, const Affine& world) {
   if (operands.regions.empty()) {
     return {operands.count > 1 ? Dimension::kFlat : Dimension::kNone};
   }
-  return {Dimension::kFlat,
-          combine_regions(BooleanOp::kUnion, operands.regions)};
+  return {Dimension::kFlat, planar::unite(operands.regions)};
+}
+
+planar::Region transform_region(planar::Region region, const Mat4& m,
+                                SourceRange range, Diagnostics& diagnostics) {
+  const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  if (det == 0) {
+    diagnostics.warning(range, "Scaling a 2D object with 0 - removing object");
+    return {};
+  }
+  for (Contour& contour : region.contours) {
+    for (Vec2& point : contour) {
+      point = {m[0][0] * point.x + m[1][0] * point.y + m[3][0],
+               m[0][1] * point.x + m[1][1] * point.y + m[3][1]};
+    }
+    if (det < 0) std::reverse(contour.begin(), contour.end());
+  }
+  return region;
 }
 
 }  // namespace lamina::csg

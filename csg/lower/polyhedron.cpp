@@ -38,9 +38,6 @@ std::vector<std::uint32_t> read_face(const PolyhedronParams& polyhedron,
 
 Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
                      Diagnostics& diagnostics) {
-  if (!check_points(polyhedron.wrong_point, "vec3", range, diagnostics)) {
-    return {};
-  }
   Mesh mesh;
   for (const Vec3& point : polyhedron.points) {
     // What is not finite stands in no face. 0 · x is NaN there.
@@ -67,9 +64,6 @@ Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
 
 Mesh make_corners(const PolyhedronParams& polyhedron, SourceRange range,
                   Diagnostics& diagnostics) {
-  if (!check_points(polyhedron.wrong_point, "vec3", range, diagnostics)) {
-    return {};
-  }
   Mesh mesh;
   for (std::size_t face = 0; face < polyhedron.faces.size(); ++face) {
     for (const std::uint32_t corner :

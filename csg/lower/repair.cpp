@@ -257,23 +257,6 @@ std::vector<ClosedHole> close_holes(Mesh& mesh) {
   return holes;
 }
 
-// Leaves out what no triangle names.
-void drop_unused_vertices(Mesh& mesh) {
-  constexpr std::uint32_t kUnused = ~std::uint32_t{0};
-  std::vector<std::uint32_t> renamed(mesh.vertices.size(), kUnused);
-  std::vector<Vec3> used;
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& corner : t) {
-      if (renamed[corner] == kUnused) {
-        renamed[corner] = static_cast<std::uint32_t>(used.size());
-        used.push_back(mesh.vertices[corner]);
-      }
-      corner = renamed[corner];
-    }
-  }
-  mesh.vertices = std::move(used);
-}
-
 // What is needed where a mesh is not closed.
 void repair_open(Mesh& mesh, Repairs& repairs) {
   if (EdgeTable::of(mesh).is_open()) {
@@ -336,7 +319,7 @@ Repairs repair(Mesh& mesh, Vertices vertices) {
   if (!was_closed) repair_open(mesh, repairs);
   const bool is_joined = vertices == Vertices::kJoined && was_closed &&
                          repairs.dropped_triangles == 0;
-  if (!is_joined) drop_unused_vertices(mesh);
+  if (!is_joined) keep_named_points(mesh.vertices, mesh.triangles);
   if (signed_volume(mesh) < 0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }

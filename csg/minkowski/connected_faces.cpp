@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "csg/boundary/leaf_box.h"
+
 namespace lamina::csg {
 namespace {
 
@@ -37,11 +39,6 @@ Box3 box_of(const Convex& face) {
   box.low -= kTouchDistance;
   box.high += kTouchDistance;
   return box;
-}
-
-bool boxes_meet(const Box3& a, const Box3& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
-         b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
 bool lies_on(const Vec3& point, const Convex& face) {
@@ -85,7 +82,7 @@ std::vector<Vec3> points_of_components(std::span<const Convex> faces) {
     std::erase_if(
         open, [&](std::size_t k) { return boxes[k].high.x < boxes[i].low.x; });
     for (const std::size_t k : open) {
-      if (boxes_meet(boxes[i], boxes[k]) &&
+      if (!intersect_boxes(boxes[i], boxes[k]).is_empty() &&
           components.find(i) != components.find(k) &&
           touch(faces[i], faces[k])) {
         components.join(i, k);

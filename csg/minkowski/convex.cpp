@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/edge_table.h"
+#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -124,21 +125,6 @@ void aim_needles(Convex& body) {
   }
 }
 
-// Leaves out vertices that no facet names.
-void drop_unused_vertices(Convex& body) {
-  constexpr std::uint32_t kUnused = ~std::uint32_t{0};
-  std::vector<std::uint32_t> renamed(body.vertices.size(), kUnused);
-  std::vector<Vec3> used;
-  for (std::uint32_t& corner : body.corners) {
-    if (renamed[corner] == kUnused) {
-      renamed[corner] = static_cast<std::uint32_t>(used.size());
-      used.push_back(body.vertices[corner]);
-    }
-    corner = renamed[corner];
-  }
-  body.vertices = std::move(used);
-}
-
 }  // namespace
 
 void find_edges(Convex& body) {
@@ -212,7 +198,8 @@ Convex make_solid(std::vector<Vec3> vertices,
     const double size = glm::length(area);
     body.add_facet(loop, size > 0 ? area / size : Vec3(0));
   }
-  drop_unused_vertices(body);
+  std::span facets(&body.corners, 1);
+  keep_named_points(body.vertices, facets);
   find_edges(body);
   aim_needles(body);
   return body;

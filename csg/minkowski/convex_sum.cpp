@@ -28,14 +28,13 @@ Vec2 unit(Vec2 v) {
 class FlatSum {
  public:
   FlatSum(const Convex& flat, const Convex& body)
-      : polygon_(flat.vertices), body_(body), normal_(flat.normals[0]) {
-    lay_out();
-    aim_facets();
-    turns_.assign(body.vertices.size(), 0);
-    names_.assign(body.vertices.size() * corner_count(), kNone);
-  }
+      : polygon_(flat.vertices), body_(body), normal_(flat.normals[0]) {}
 
   Convex make() {
+    lay_out();
+    aim_facets();
+    turns_.assign(body_.vertices.size(), 0);
+    names_.assign(body_.vertices.size() * corner_count(), kNone);
     for (std::size_t f = 0; f < body_.facet_count(); ++f) move_facet(f);
     for (const Edge& edge : body_.edges) sweep_edge(edge);
     for (std::uint32_t v = 0; v < turns_.size(); ++v) carry_polygon(v);

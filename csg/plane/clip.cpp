@@ -2,14 +2,13 @@
 
 #include <cmath>
 #include <cstddef>
-#include <mutex>
-#include <new>
-#include <stdexcept>
 #include <vector>
 
 #include <clipper.hpp>
 
 #include "base/check.h"
+#include "base/memory_end.h"
+#include "csg/limits.h"
 #include "csg/plane/link_edges.h"
 
 namespace lamina::planar {
@@ -17,9 +16,9 @@ namespace {
 
 constexpr double kGridPerMm = 1e8;
 
-// Clipper multiplies coordinates in 128 bits; this leaves it all the room that
-// it asks for (2^62 grid units).
-constexpr double kGreatestCoordinate = 1e9;
+// Clipper multiplies coordinates in 128 bits; it asks for no more than 2^62
+// grid units.
+static_assert(csg::kGreatestCoordinate * kGridPerMm < 0x1p62);
 
 // Two grid diagonals: closer to the line between its neighbours, or to one of
 // them, a vertex is the clipper's rounding, not the design's.
@@ -31,13 +30,8 @@ constexpr double kMiterLimit = 1000000;
 // Its limit for those of strokes [half widths].
 constexpr double kStrokeMiterLimit = 2;
 
-[[noreturn]] void fail_range_check() {
-  throw std::range_error(
-      "Coordinates beyond 1e9 mm: too large for exact layers");
-}
-
 ClipperLib::cInt to_grid(double x) {
-  if (!(std::abs(x) <= kGreatestCoordinate)) fail_range_check();
+  if (csg::is_too_far(x)) csg::fail_too_far();
   return std::llround(x * kGridPerMm);
 }
 
@@ -88,37 +82,6 @@ Region to_region(const ClipperLib::Paths& paths) {
   return region;
 }
 
-// Clipper keeps to itself whatever is thrown inside of it, and what it then
-// gives back is empty. That memory ended it cannot hide: operator new tells
-// that to its handler first, on the thread that asked.
-thread_local bool has_memory_ended = false;
-std::new_handler next_handler = nullptr;
-
-void note_end_of_memory() {
-  has_memory_ended = true;
-  if (next_handler == nullptr) throw std::bad_alloc();
-  next_handler();
-}
-
-void hear_of_memory() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    next_handler = std::get_new_handler();
-    std::set_new_handler(note_end_of_memory);
-  });
-}
-
-// Calls clip(), which lets Clipper work.
-//
-// throws  std::bad_alloc where memory ended within
-template <typename Clip>
-void watch_memory(const Clip& clip) {
-  hear_of_memory();
-  has_memory_ended = false;
-  clip();
-  if (has_memory_ended) throw std::bad_alloc();
-}
-
 ClipperLib::Paths clip(ClipperLib::ClipType type,
                        const ClipperLib::Paths& subject,
                        const ClipperLib::Paths& other,
@@ -133,7 +96,8 @@ ClipperLib::Paths clip(ClipperLib::ClipType type,
   if (!has_subject && !has_other) return result;
   bool is_clipped = false;
   watch_memory([&] { is_clipped = clipper.Execute(type, result, fill, fill); });
-  // Else it found no order of crossings in which only neighbours cross.
+  // It fails where it finds no order of crossings in which only neighbours
+  // cross.
   LAMINA_CHECK_EQ(is_clipped, true);
   return result;
 }
@@ -214,7 +178,7 @@ Region offset(const Region& region, double amount, Join join,
     });
   } catch (const ClipperLib::clipperException&) {
     // A sharp corner's spike went too far.
-    fail_range_check();
+    csg::fail_too_far();
   }
   return to_region(result);
 }

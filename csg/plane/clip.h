@@ -14,7 +14,8 @@
 
 namespace lamina::planar {
 
-// All of these throw std::range_error for coordinates beyond 1e9 mm.
+// All of these throw csg::LimitExceeded for coordinates beyond
+// csg::kGreatestCoordinate.
 
 Region unite(std::span<const Region> regions);
 

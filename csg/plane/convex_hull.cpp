@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "csg/plane/orientation.h"
+#include "base/plane.h"
 
 namespace lamina::planar {
 namespace {
@@ -30,9 +30,7 @@ void append_half(Iterator begin, Iterator end, Contour& contour) {
 // Andrew's monotone chain: "Another efficient algorithm for convex hulls in two
 // dimensions", Information Processing Letters, 1979.
 Region convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
-  });
+  std::sort(points.begin(), points.end(), precedes);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return {};
   Contour contour;

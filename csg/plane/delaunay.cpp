@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "csg/plane/orientation.h"
+#include "base/plane.h"
 #include "csg/plane/triangulate.h"
 
 namespace lamina::planar {
@@ -27,7 +27,7 @@ struct Side {
 double angle_at(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 u = a - p;
   const Vec2 v = b - p;
-  return std::atan2(std::abs(u.x * v.y - u.y * v.x), u.x * v.x + u.y * v.y);
+  return std::atan2(std::abs(cross(u, v)), dot(u, v));
 }
 
 class Flipper {

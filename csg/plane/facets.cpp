@@ -22,7 +22,7 @@ int to_count(double x) {
   return static_cast<int>(x);
 }
 
-// As many slices are none that no int can count, as $fs = 0 asks for.
+// More slices than an int can count, as $fs = 0 asks for, count as none.
 int to_slices(double x) {
   return std::abs(x) <= std::numeric_limits<int>::max() ? static_cast<int>(x)
                                                         : 0;

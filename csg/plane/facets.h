@@ -22,7 +22,7 @@ int curve_segment_count(double size, const csg::Facets& facets);
 // (cos, sin) of 360° · i / n, counter-clockwise from +x.
 std::vector<Vec2> unit_circle(int n);
 
-// Number of slices of a linear_extrude that says none.
+// Number of slices of a linear_extrude that names none.
 //
 // max_radius  greatest distance of a vertex of the outline from the axis [mm]
 // max_shift   greatest distance that a vertex moves in x, y without twist [mm]

@@ -4,33 +4,25 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <utility>
 
-#include "csg/plane/detail/drawing.h"
-#include "csg/plane/orientation.h"
+#include "base/cell_grid.h"
+#include "base/loop_area.h"
+#include "base/plane.h"
+#include "csg/plane/detail/planar_graph.h"
 
 namespace lamina::planar {
 namespace {
-
-bool is_in_upper_half(Vec2 d) { return d.y > 0 || (d.y == 0 && d.x > 0); }
-
-// By angle from +x, in [0, 360°).
-bool is_before(Vec2 a, Vec2 b) {
-  const bool is_upper = is_in_upper_half(a);
-  if (is_upper != is_in_upper_half(b)) return is_upper;
-  return orientation(Vec2(0), a, b) > 0;
-}
 
 // Each edge ends in two darts: number 2·edge where it begins, 2·edge + 1 where
 // it ends. The darts of a point stand counter-clockwise around it; there is an
 // even number of them.
 class Linker {
  public:
-  explicit Linker(const Drawing& drawing)
-      : points_(drawing.points), edges_(drawing.edges) {
-    gather_darts();
+  explicit Linker(const PlanarGraph& graph)
+      : points_(graph.points), edges_(graph.edges) {
+    list_darts();
     sort_darts();
   }
 
@@ -64,7 +56,7 @@ class Linker {
     return points_[origin(dart ^ 1)] - points_[origin(dart)];
   }
 
-  void gather_darts() {
+  void list_darts() {
     begins_.assign(points_.size() + 1, 0);
     for (std::uint32_t dart = 0; dart < 2 * edges_.size(); ++dart) {
       ++begins_[origin(dart) + 1];
@@ -87,7 +79,7 @@ class Linker {
       const auto begin = at(begins_[point]);
       const auto end = at(begins_[point + 1]);
       std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
-        return is_before(direction(a), direction(b));
+        return compare_angles(direction(a), direction(b)) < 0;
       });
       const auto leaves = [](std::uint32_t dart) { return dart % 2 == 0; };
       const auto first = std::find_if(begin, end, leaves);
@@ -147,20 +139,23 @@ Line widest_edge(const Contour& contour) {
   return widest;
 }
 
-// Tells on which side of loops it is solid. The plane is cut into strips, so
+// Finds on which side of loops it is solid. The plane is cut into strips, so
 // that few edges have to be looked at.
 class SideFinder {
  public:
   explicit SideFinder(const std::vector<Contour>& loops) {
+    if (loops.empty()) return;
+    double low = loops[0][0].x;
+    double high = low;
     for (const Contour& loop : loops) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const Line edge = {loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]};
-        low_ = std::min(low_, edge.from.x);
-        high_ = std::max(high_, edge.from.x);
+        low = std::min(low, edge.from.x);
+        high = std::max(high, edge.from.x);
         edges_.push_back(edge);
       }
     }
-    fill_strips();
+    fill_strips(low, high);
   }
 
   bool is_solid_on_the_left(const Contour& loop) const {
@@ -172,31 +167,28 @@ class SideFinder {
   }
 
  private:
-  void fill_strips() {
+  // Columns of one cell.
+  void fill_strips(double low, double high) {
     // Wide edges stand in all of them.
     constexpr double kMostStrips = 256;
     const double root = std::sqrt(static_cast<double>(edges_.size()));
-    strips_.resize(static_cast<std::size_t>(std::min(root, kMostStrips)) + 1);
-    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-      const auto [from, to] = std::minmax(edges_[i].from.x, edges_[i].to.x);
-      const std::size_t last = strip_of(to);
-      for (std::size_t k = strip_of(from); k <= last; ++k) {
-        strips_[k].push_back(i);
+    const double count = std::max(std::floor(std::min(root, kMostStrips)), 1.0);
+    grid_ = {{low, 0}, {high, 0}, high > low ? count / (high - low) : 0};
+    strips_.fill(grid_.size(), [&](const auto& list) {
+      for (const Line& edge : edges_) {
+        const auto [from, to] = std::minmax(edge.from.x, edge.to.x);
+        const std::uint32_t last = grid_.column_of(to);
+        for (std::uint32_t k = grid_.column_of(from); k <= last; ++k) {
+          list(k, edge);
+        }
       }
-    }
-  }
-
-  std::size_t strip_of(double x) const {
-    if (!(low_ < high_)) return 0;
-    const auto last = static_cast<double>(strips_.size() - 1);
-    return static_cast<std::size_t>((x - low_) / (high_ - low_) * last);
+    });
   }
 
   // Just above this point of an edge.
   bool is_solid_above(Vec2 p, const Line& its_edge) const {
     bool is_solid = false;
-    for (const std::uint32_t i : strips_[strip_of(p.x)]) {
-      const Line& edge = edges_[i];
+    for (const Line& edge : strips_[grid_.column_of(p.x)]) {
       const bool is_own = edge.from == its_edge.from && edge.to == its_edge.to;
       if (!is_own && stands_above(edge, p)) is_solid = !is_solid;
     }
@@ -210,17 +202,16 @@ class SideFinder {
   }
 
   std::vector<Line> edges_;
-  double low_ = std::numeric_limits<double>::infinity();  // of x
-  double high_ = -std::numeric_limits<double>::infinity();
-  std::vector<std::vector<std::uint32_t>> strips_;  // edges in each
+  CellGrid grid_;  // of one row
+  CellLists<Line> strips_;
 };
 
 }  // namespace
 
 std::vector<Contour> link_edges(std::span<const Contour> contours,
                                 double snap) {
-  const Drawing drawing = draw(contours, snap);
-  std::vector<Contour> loops = Linker(drawing).link();
+  const PlanarGraph graph = snap_round(contours, snap);
+  std::vector<Contour> loops = Linker(graph).link();
   if (loops.size() == 1) {
     if (signed_area(loops[0]) < 0)
       std::reverse(loops[0].begin(), loops[0].end());

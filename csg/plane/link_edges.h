@@ -2,11 +2,11 @@
 // Contours from the edges of contours that touch.
 //
 // The clipper finds the right edges, but where many of them end in one point it
-// may join them to contours that cross there, or take a hole for an outline:
-// 300 of 6000 random polygons that touch themselves as often as they can came
-// out so. So only its edges are believed. Around a point it is solid and empty
-// by turns; contours that go from an edge to one beside it do not cross. Which
-// side of them is solid a count of edges tells.
+// may join them to contours that cross there, or take a hole for an outline, as
+// it did in 300 of 6000 random polygons that touch themselves as often as they
+// can. So only its edges are believed. Around a point solid and empty sectors
+// alternate; contours that go from an edge to one beside it do not cross. A
+// count of the edges above shows which side of a contour is solid.
 
 #include <span>
 #include <vector>

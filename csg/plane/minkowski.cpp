@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/loop_area.h"
+#include "base/plane.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/convex_faces.h"
-#include "csg/plane/orientation.h"
 #include "csg/plane/triangulate.h"
 
 namespace lamina::planar {
@@ -24,16 +25,6 @@ std::size_t lowest(const Contour& contour) {
 
 Vec2 at(const Contour& contour, std::size_t i) {
   return contour[i % contour.size()];
-}
-
-// Whether `a` points into the upper half of the plane or along +x.
-bool is_in_upper_half(Vec2 a) { return a.y > 0 || (a.y == 0 && a.x > 0); }
-
-// Compares directions by angle from +x, in [0, 360°): -1, 0 or 1.
-int compare_angles(Vec2 a, Vec2 b) {
-  const bool is_upper = is_in_upper_half(a);
-  if (is_upper != is_in_upper_half(b)) return is_upper ? -1 : 1;
-  return -orientation(Vec2(0), a, b);
 }
 
 }  // namespace

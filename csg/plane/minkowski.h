@@ -18,8 +18,7 @@ std::vector<Contour> cut_into_convex(const Region& region);
 // by direction. Polygons of one or two points are fine.
 Contour add_convex(const Contour& a, const Contour& b);
 
-// The sum of two regions; empty if one is. Throws std::range_error for
-// coordinates beyond 1e9 mm.
+// The sum of two regions; empty if one is. Throws as unite() does.
 Region add(const Region& a, const Region& b);
 
 // The region without its holes.

@@ -1,26 +1,11 @@
 #include "csg/plane/region.h"
 
 #include <cmath>
-#include <cstddef>
 
-#include <glm/geometric.hpp>
-
-#include "base/plane.h"
+#include "base/loop_area.h"
 #include "csg/plane/facets.h"
 
 namespace lamina::planar {
-
-double signed_area(std::span<const Vec2> contour) {
-  // Taken from the first point, so that a small contour far from the origin
-  // loses no digits.
-  double sum = 0;
-  for (std::size_t i = 2; i < contour.size(); ++i) {
-    const Vec2 a = contour[i - 1] - contour[0];
-    const Vec2 b = contour[i] - contour[0];
-    sum += cross(a, b);
-  }
-  return sum / 2;
-}
 
 double area(const Region& region) {
   double sum = 0;
@@ -30,11 +15,7 @@ double area(const Region& region) {
 
 void drop_hairlines(Region& region, double width) {
   std::erase_if(region.contours, [&](const Contour& contour) {
-    double perimeter = 0;
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      perimeter += glm::distance(contour[i], contour[(i + 1) % contour.size()]);
-    }
-    return std::abs(signed_area(contour)) < 0.5 * width * perimeter;
+    return std::abs(signed_area(contour)) < 0.5 * width * perimeter(contour);
   });
 }
 

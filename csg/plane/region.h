@@ -1,13 +1,12 @@
 #pragma once
 // A region of the plane, bounded by polygons.
 //
-// Who takes a region apart takes it contour by contour: an extrusion makes each
-// one a solid or a cavity of its own, fill() drops those that are holes,
-// triangles need an owner for each hole. So each contour has to be a simple
-// polygon for itself, and its direction has to say what it is. Where contours
-// touch the clipper keeps neither promise; see link_edges.h.
+// A region is taken apart contour by contour: an extrusion makes each one a
+// solid or a cavity of its own, fill() drops those that are holes, triangles
+// need an owner for each hole. So each contour is a simple polygon by itself,
+// and its direction shows what it is. Where contours touch the clipper keeps
+// neither promise; see link_edges.h.
 
-#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -22,16 +21,14 @@ using Contour = std::vector<Vec2>;
 // through a point twice. Contours may touch in points; they never cross, but
 // for the rounding of the clipper (1e-8 mm).
 //
-// What is said to be contours with winding numbers keeps none of this.
+// Contours that a comment calls contours with winding numbers keep none of
+// this.
 struct Region {
   std::vector<Contour> contours;
 
   bool is_empty() const { return contours.empty(); }
   bool operator==(const Region&) const = default;
 };
-
-// Positive where the contour runs counter-clockwise [mm²].
-double signed_area(std::span<const Vec2> contour);
 
 // Of all contours: holes count negative [mm²].
 double area(const Region& region);

@@ -15,9 +15,8 @@
 #include <limits>
 #include <numeric>
 
-#include <glm/geometric.hpp>
-
-#include "csg/plane/orientation.h"
+#include "base/loop_area.h"
+#include "base/plane.h"
 
 namespace lamina::planar {
 namespace {
@@ -215,8 +214,7 @@ class EarClipper {
     const Vec2 a = corners_[c.previous].point;
     const Vec2 b = corners_[c.next].point;
     if (a == c.point || b == c.point) return true;
-    return orientation(a, c.point, b) == 0 &&
-           glm::dot(a - c.point, b - c.point) > 0;
+    return orientation(a, c.point, b) == 0 && dot(a - c.point, b - c.point) > 0;
   }
 
   // Only reflex corners can stand inside another corner's triangle first; a
@@ -281,19 +279,6 @@ class EarClipper {
   std::vector<std::array<std::uint32_t, 3>>& triangles_;
 };
 
-// Even-odd; the border may count either way.
-bool is_inside(const Contour& contour, Vec2 p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = contour.size() - 1; i < contour.size(); j = i++) {
-    const Vec2 a = contour[i];
-    const Vec2 b = contour[j];
-    if ((a.y > p.y) == (b.y > p.y)) continue;
-    const double x = a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-    if (p.x < x) inside = !inside;
-  }
-  return inside;
-}
-
 // The middle of an edge: unlike a vertex it does not lie on a contour that
 // only touches this one.
 Vec2 typical_point(const Contour& contour) {
@@ -317,7 +302,7 @@ std::vector<std::size_t> find_owners(const Region& region) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t outer = 0; outer < contours.size(); ++outer) {
       if (areas[outer] > 0 && areas[outer] < least &&
-          is_inside(contours[outer], p)) {
+          winding_number(contours[outer], p) != 0) {
         least = areas[outer];
         owners[hole] = outer;
       }

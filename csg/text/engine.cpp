@@ -16,7 +16,8 @@ namespace {
 
 class FontEngine : public Engine {
  public:
-  explicit FontEngine(const FontFiles& files) : fonts_(files) {}
+  explicit FontEngine(const FontFiles& files)
+      : fonts_(FontCache::open(files)) {}
 
   AddedFont add_font(const char* path) noexcept override {
     try {

@@ -205,15 +205,16 @@ bool has_symbols(FT_FaceRec& face) {
 
 }  // namespace
 
-FontCache::FontCache(const FontFiles& files)
-    : files_(files),
-      config_(files.is_confined() ? load_rules() : shared_config()),
-      own_fonts_(FcFontSetCreate()) {
-  require(own_fonts_ != nullptr);
+FontCache FontCache::open(const FontFiles& files) {
+  FontCache cache(files);
+  cache.config_ = files.is_confined() ? load_rules() : shared_config();
+  cache.own_fonts_.reset(FcFontSetCreate());
+  require(cache.own_fonts_ != nullptr);
   FT_Library library = nullptr;
   require(FT_Init_FreeType(&library) == 0);
-  library_.reset(library);
-  if (files.is_confined()) add_permitted_folders();
+  cache.library_.reset(library);
+  if (files.is_confined()) cache.add_permitted_folders();
+  return cache;
 }
 
 void FontCache::add_permitted_folders() {

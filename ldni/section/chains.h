@@ -19,7 +19,7 @@ namespace lamina::ldni {
 // coordinate (2e-12 mm at 1e4 mm), small against every feature.
 inline constexpr double kClusterWidth = 1e-9;
 
-// An x-monotone stretch of a leaf's contour in a layer, stored by increasing x.
+// An x-monotone part of a leaf's contour in a layer, stored by increasing x.
 struct Chain {
   std::uint32_t first_point = 0;  // into ChainBlock::points
   std::uint32_t point_count = 0;  // ≥ 2

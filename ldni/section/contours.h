@@ -34,11 +34,4 @@ struct Contours {
   }
 };
 
-// Signed area [mm²]: positive where the loop runs counter-clockwise.
-double signed_area(std::span<const Vec2> loop);
-double perimeter(std::span<const Vec2> loop);
-
-// Of all coordinates, in magnitude; 0 of none.
-double greatest_coordinate(std::span<const Vec2> points);
-
 }  // namespace lamina::ldni

@@ -1,7 +1,6 @@
 #include "ldni/section/leaf_section.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <mutex>
 #include <unordered_map>
@@ -90,7 +89,6 @@ struct LeafSectioner::State {
   // Made by the first block that reaches the instance.
   struct IndexedMeshes {
     std::mutex making;
-    std::atomic<bool> is_made = false;
     std::vector<detail::MeshIndex> indices;  // one a mesh
   };
 
@@ -136,17 +134,16 @@ void LeafSectioner::State::cut_instance(std::uint32_t number,
 const std::vector<detail::MeshIndex>& LeafSectioner::State::index_meshes(
     std::uint32_t number) const {
   IndexedMeshes& indexed = meshes.at(number);
-  if (indexed.is_made.load(std::memory_order_acquire)) return indexed.indices;
   // Not by std::call_once: an exception that passes through it aborts where no
   // memory is left, since glibc then loads a library to unwind the stack.
   const std::lock_guard lock(indexed.making);
-  if (indexed.is_made.load(std::memory_order_relaxed)) return indexed.indices;
-  indexed.indices.clear();  // of what an earlier call did not end
+  if (!indexed.indices.empty()) return indexed.indices;
+  std::vector<detail::MeshIndex> indices;
   const csg::Instance& instance = scene.instances[number];
   for (const csg::Mesh& mesh : scene.leaves[instance.leaf].meshes) {
-    indexed.indices.emplace_back(mesh, instance.world_from_leaf, grid);
+    indices.push_back(detail::index_mesh(mesh, instance.world_from_leaf, grid));
   }
-  indexed.is_made.store(true, std::memory_order_release);
+  indexed.indices = std::move(indices);
   return indexed.indices;
 }
 

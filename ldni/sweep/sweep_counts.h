@@ -20,7 +20,19 @@ struct SweepCounts {
   std::uint64_t repaired_clusters = 0;    // I4: an end found no partner
   std::uint64_t capped_clusters = 0;      // I6: swaps reached their cap
 
-  SweepCounts& operator+=(const SweepCounts& other);
+  SweepCounts& operator+=(const SweepCounts& other) {
+    layers += other.layers;
+    chains += other.chains;
+    points += other.points;
+    slabs += other.slabs;
+    event_points += other.event_points;
+    evaluations += other.evaluations;
+    resolved_layers += other.resolved_layers;
+    unbalanced_clusters += other.unbalanced_clusters;
+    repaired_clusters += other.repaired_clusters;
+    capped_clusters += other.capped_clusters;
+    return *this;
+  }
 };
 
 }  // namespace lamina::ldni

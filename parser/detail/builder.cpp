@@ -89,7 +89,7 @@ void Builder::add_assignment(SourceRange name, Tree value, SourceRange range) {
   const auto [place, is_new] =
       assigned_.try_emplace(ScopedName{scope_, text}, range);
   if (is_new) return;
-  // After an error the scopes are not what they seem.
+  // After an error the scopes may be wrong.
   if (!file_ended_ && errors_.is_empty()) {
     warn_overwritten(text, place->second, range);
   }

@@ -40,7 +40,7 @@ class Reader {
            (rest_[0] == ' ' || rest_[0] == '(' || rest_[0] == ')')) {
       rest_.remove_prefix(1);
     }
-    // A lone tab is blank, one at the edge of a word belongs to the word.
+    // A lone tab is a blank; one at the edge of a word belongs to the word.
     if (rest_ == "\t" || rest_.starts_with("\t ")) {
       rest_.remove_prefix(1);
       return advance();

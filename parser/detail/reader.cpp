@@ -34,7 +34,7 @@ Reader::Reader(const Source& source, Arena& arena, Loader& loader,
 }
 
 void Reader::open_file(const Source& source) {
-  // A zero byte ends a text, in OpenSCAD without a word.
+  // A zero byte ends a text; OpenSCAD does not say so.
   const std::size_t zero = source.text().find('\0');
   if (zero != std::string::npos) {
     const auto place = static_cast<std::uint32_t>(zero);
@@ -149,15 +149,15 @@ void Reader::report_syntax_error(SourceRange range, std::string_view symbol,
   const std::string_view text = range.text();
   const bool is_end = symbol.starts_with("end of");
   std::vector<Note> hints;
-  // The end is behind the line breaks that end the text: show the text.
+  // The end stands behind the last line breaks: show the text before them.
   hints.push_back({is_end ? last_text(range) : SourceRange{},
                    describe_syntax_error(symbol, text, std::move(expected))});
   const bool is_closing = text == ")" || text == "]" || text == "}";
   SourceRange opening;
   if (is_end && !brackets_.empty()) opening = brackets_.back();
   if (is_closing) opening = closed_bracket_;
-  // A bracket that the token closes is no news, and after an error the count
-  // is not to be trusted.
+  // A bracket that the token closes needs no hint, and after an error the count
+  // may be wrong.
   const std::string pair = std::string(opening.text()) + std::string(text);
   const bool is_pair = pair == "()" || pair == "[]" || pair == "{}";
   if (opening.is_known() && !is_pair && errors_.is_empty()) {

@@ -32,7 +32,7 @@ class Reader {
   // Up to `most` bytes of the current text, 0 at its end.
   std::size_t feed(char* buffer, std::size_t most);
 
-  // The next `size` bytes are read: their range.
+  // Reads the next `size` bytes and returns their range.
   SourceRange take(std::uint32_t size) {
     File& file = files_.back();
     const std::uint32_t begin = file.position;
@@ -53,13 +53,13 @@ class Reader {
 
   Text plain_string(SourceRange range) const;
   void add_to_string(std::string_view part) { string_ += part; }
-  // Hexadecimal digits; what is no character becomes a blank.
+  // Takes hexadecimal digits; what is no character becomes a blank.
   void add_code_point(const char* digits);
   // OpenSCAD places a string of several lines on its last one.
   void break_string(SourceRange range);
   Text take_string();
 
-  // Brackets are counted to tell which one a text lacks.
+  // Brackets are counted to find the one that a text lacks.
   void open_bracket(SourceRange range) { brackets_.push_back(range); }
   void close_bracket();
 
@@ -71,8 +71,9 @@ class Reader {
   void report_syntax_error(SourceRange range, std::string_view symbol,
                            std::vector<std::string_view> expected);
 
-  // A text ended in a string or comment; OpenSCAD places that at the end, but
-  // names of files (in `use` and `include`) where they begin.
+  // Report a text that ends in a string or comment. OpenSCAD places that error
+  // at the end, but for names of files (in `use` and `include`) where they
+  // begin.
   void report_unterminated(const char* what);
   void report_unterminated_name(const char* what);
 

@@ -21,16 +21,17 @@ class SyntaxErrors {
 
   void report(SourceRange range, std::string_view message,
               std::vector<Note> hints);
-  // A text that ends within what opened at `range`: OpenSCAD adds a line.
+  // Reports a text that ends within what opened at `range`. OpenSCAD adds a
+  // line.
   void report_unterminated(SourceRange range, const char* what,
                            std::vector<Note> hints);
-  // Nested beyond kDeepestTree: reported once.
+  // Reports, once, that a tree is deeper than kDeepestTree.
   void report_depth(SourceRange range);
 
   bool is_empty() const { return count_ == 0; }
   // Whether a text has so many errors that reading on tells nothing new.
   bool are_too_many() const;
-  // There must be one.
+  // Throws the first error; there must be one.
   [[noreturn]] void throw_first() const;
 
  private:

@@ -94,7 +94,7 @@ std::string describe_expected(Symbols symbols) {
 
 std::string describe_syntax_error(std::string_view symbol,
                                   std::string_view text, Symbols expected) {
-  // What no text may hold says enough.
+  // A character that no text may hold says enough by itself.
   if (symbol == "invalid character") {
     return "unexpected " + explain_invalid(text);
   }

@@ -2,8 +2,8 @@
 // What to say about a syntax error besides OpenSCAD's two words.
 //
 // Bison knows all tokens that could stand where the error is; after an operand
-// these are two dozen. Told to a person they are few: operators go without
-// saying, and what begins an expression is "an expression".
+// these are two dozen. A person needs few of them: operators go without saying,
+// and all that begins an expression is "an expression".
 
 #include <string>
 #include <string_view>

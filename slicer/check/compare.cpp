@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
+#include "base/loop_area.h"
 #include "base/parallel.h"
 #include "slicer/contour/layer_measures.h"
 
@@ -21,8 +22,7 @@ LoopCount count_loops(const ldni::Contours& contours) {
 }
 
 bool is_sliver(std::span<const Vec2> loop) {
-  return 2 * std::abs(ldni::signed_area(loop)) <=
-         kSliverWidth * ldni::perimeter(loop);
+  return 2 * std::abs(signed_area(loop)) <= kSliverWidth * perimeter(loop);
 }
 
 ldni::Contours without_slivers(const ldni::Contours& contours) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/plane.h"
 #include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
@@ -67,8 +68,8 @@ class EdgeTree {
   const std::vector<Segment>& segments() const { return segments_; }
 
   double distance(std::size_t segment, Vec2 point) const {
-    return distance_to_line(point, segments_[segment].from,
-                            segments_[segment].to);
+    return distance_to_segment(point, segments_[segment].from,
+                               segments_[segment].to);
   }
 
   // The nearest edge, or any that is no farther than `enough`.

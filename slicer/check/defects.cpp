@@ -8,6 +8,9 @@
 
 #include <glm/common.hpp>
 
+#include "base/cell_grid.h"
+#include "base/loop_area.h"
+#include "base/plane.h"
 #include "ldni/section/contours.h"
 
 namespace lamina::slicer {
@@ -20,38 +23,12 @@ struct Edge {
   std::uint32_t next;  // the edge that follows
 };
 
-// Relative rounding of a difference of two products of doubles, with room.
-constexpr double kTurnRounding = 4e-16;
-
-// Sign of a * b - c * d, exact for factors that are exact themselves.
-int exact_sign(double a, double b, double c, double d) {
-  const double left = a * b;
-  const double right = c * d;
-  const double high = left - right;
-  const double low = std::fma(a, b, -left) - std::fma(c, d, -right);
-  const double sum = high + low;
-  return (sum > 0) - (sum < 0);
-}
-
-// +1: c lies left of the line from a to b; -1: right; 0: on it.
-int turn(Vec2 a, Vec2 b, Vec2 c) {
-  const Vec2 u = b - a;
-  const Vec2 v = c - a;
-  const double left = u.x * v.y;
-  const double right = u.y * v.x;
-  const double value = left - right;
-  if (std::abs(value) > kTurnRounding * (std::abs(left) + std::abs(right))) {
-    return value > 0 ? 1 : -1;
-  }
-  return exact_sign(u.x, v.y, u.y, v.x);
-}
-
 // Whether the direction at→c lies strictly between at→a and at→b,
 // counter-clockwise from a.
 bool is_in_sector(Vec2 at, Vec2 a, Vec2 b, Vec2 c) {
-  const int ab = turn(at, a, b);
-  const int ac = turn(at, a, c);
-  const int cb = turn(at, c, b);
+  const int ab = orientation(at, a, b);
+  const int ac = orientation(at, a, c);
+  const int cb = orientation(at, c, b);
   if (ab > 0) return ac > 0 && cb > 0;
   return ac > 0 || cb > 0;  // a reflex sector
 }
@@ -80,51 +57,25 @@ class EdgeGrid {
  private:
   void collect_edges(std::span<const WrittenLoop> loops);
   void choose_cells();
-  std::uint32_t column_of(double x) const {
-    return cell_of((x - low_.x) * cells_per_mm_.x, columns_);
-  }
-  std::uint32_t row_of(double y) const {
-    return cell_of((y - low_.y) * cells_per_mm_.y, rows_);
-  }
-  static std::uint32_t cell_of(double place, std::uint32_t count) {
-    return static_cast<std::uint32_t>(
-        std::clamp(place, 0.0, static_cast<double>(count - 1)));
-  }
   template <typename Visit>
   void visit_cells(const Edge& edge, const Visit& visit) const;
   bool cross(const Edge& a, const Edge& b) const;
   std::vector<EdgePair> crossing_edges() const;
   bool passes_through(const Edge& at, const Edge& other) const;
-  std::span<const std::uint32_t> members(std::size_t cell) const {
-    return {members_.data() + starts_[cell], starts_[cell + 1] - starts_[cell]};
-  }
 
   std::vector<Edge> edges_;
-  Vec2 low_ = Vec2(0);
-  Vec2 high_ = Vec2(0);
-  Vec2 cells_per_mm_ = Vec2(1);
-  std::uint32_t columns_ = 1;
-  std::uint32_t rows_ = 1;
-  std::vector<std::uint32_t> starts_;  // of each cell, in members_
-  std::vector<std::uint32_t> members_;
+  CellGrid grid_;
+  CellLists<std::uint32_t> members_;
 };
 
 EdgeGrid::EdgeGrid(std::span<const WrittenLoop> loops) {
   collect_edges(loops);
   choose_cells();
-  // Sort by counting: sizes first, then places.
-  const std::size_t cells = std::size_t{columns_} * rows_;
-  starts_.assign(cells + 1, 0);
-  for (const Edge& edge : edges_) {
-    visit_cells(edge, [&](std::size_t cell) { ++starts_[cell + 1]; });
-  }
-  for (std::size_t i = 0; i < cells; ++i) starts_[i + 1] += starts_[i];
-  members_.resize(starts_[cells]);
-  std::vector<std::uint32_t> fill(starts_.begin(), starts_.end() - 1);
-  for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-    visit_cells(edges_[i],
-                [&](std::size_t cell) { members_[fill[cell]++] = i; });
-  }
+  members_.fill(grid_.size(), [this](const auto& list) {
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+      visit_cells(edges_[i], [&](std::size_t cell) { list(cell, i); });
+    }
+  });
 }
 
 void EdgeGrid::collect_edges(std::span<const WrittenLoop> loops) {
@@ -146,52 +97,34 @@ void EdgeGrid::collect_edges(std::span<const WrittenLoop> loops) {
 void EdgeGrid::choose_cells() {
   constexpr double kMostCells = 64;
   if (edges_.empty()) return;
-  low_ = high_ = edges_.front().from;
+  Vec2 low = edges_.front().from;
+  Vec2 high = low;
   Vec2 way(0);
   for (const Edge& edge : edges_) {
-    low_ = glm::min(low_, glm::min(edge.from, edge.to));
-    high_ = glm::max(high_, glm::max(edge.from, edge.to));
+    low = glm::min(low, glm::min(edge.from, edge.to));
+    high = glm::max(high, glm::max(edge.from, edge.to));
     way += glm::abs(edge.to - edge.from);
   }
   // A layer without width has one column.
   constexpr double kNoSize = 1e-150;
-  const Vec2 size = glm::max(high_ - low_, Vec2(kNoSize));
+  const Vec2 size = glm::max(high - low, Vec2(kNoSize));
   const auto wanted = static_cast<double>(edges_.size());
   const Vec2 most = kMostCells * wanted * size / glm::max(way, size);
   const double columns = std::clamp(std::sqrt(wanted * size.x / size.y), 1.0,
                                     std::min(wanted, most.x));
   const double rows = std::clamp(wanted / columns, 1.0, most.y);
-  columns_ = static_cast<std::uint32_t>(columns);
-  rows_ = static_cast<std::uint32_t>(rows);
-  cells_per_mm_ = Vec2(columns_, rows_) / size;
+  const auto column_count = static_cast<std::uint32_t>(columns);
+  const auto row_count = static_cast<std::uint32_t>(rows);
+  grid_ = {low, Vec2(column_count, row_count) / size, column_count, row_count};
 }
 
 // Calls visit(cell) for every cell that the edge meets, and perhaps a few
 // beside them.
 template <typename Visit>
 void EdgeGrid::visit_cells(const Edge& edge, const Visit& visit) const {
-  const Vec2 lower = edge.from.y <= edge.to.y ? edge.from : edge.to;
-  const Vec2 upper = edge.from.y <= edge.to.y ? edge.to : edge.from;
-  const double slope =
-      upper.y > lower.y ? (upper.x - lower.x) / (upper.y - lower.y) : 0;
   // Far above rounding, far below a cell.
-  const Vec2 margin = 1e-6 / cells_per_mm_;
-  const std::uint32_t last_row = row_of(upper.y + margin.y);
-  for (std::uint32_t row = row_of(lower.y - margin.y); row <= last_row; ++row) {
-    double x0 = lower.x;
-    double x1 = upper.x;
-    if (upper.y > lower.y) {
-      const double bottom = low_.y + row / cells_per_mm_.y - margin.y;
-      const double top = low_.y + (row + 1) / cells_per_mm_.y + margin.y;
-      x0 = lower.x + slope * (std::clamp(bottom, lower.y, upper.y) - lower.y);
-      x1 = lower.x + slope * (std::clamp(top, lower.y, upper.y) - lower.y);
-    }
-    const std::uint32_t last_column = column_of(std::max(x0, x1) + margin.x);
-    for (std::uint32_t column = column_of(std::min(x0, x1) - margin.x);
-         column <= last_column; ++column) {
-      visit(std::size_t{row} * columns_ + column);
-    }
-  }
+  const Vec2 margin = 1e-6 / grid_.cells_per_mm();
+  grid_.visit_cells(edge.from, edge.to, margin, visit);
 }
 
 // Whether the loop of `at` passes, at the end of that edge, from one side of
@@ -206,9 +139,10 @@ bool EdgeGrid::passes_through(const Edge& at, const Edge& other) const {
     return is_in_sector(p, other.from, other_after, before) !=
            is_in_sector(p, other.from, other_after, after);
   }
-  if (turn(other.from, other.to, p) != 0 || !is_within(other, p)) return false;
-  return turn(other.from, other.to, before) *
-             turn(other.from, other.to, after) <
+  if (orientation(other.from, other.to, p) != 0 || !is_within(other, p))
+    return false;
+  return orientation(other.from, other.to, before) *
+             orientation(other.from, other.to, after) <
          0;
 }
 
@@ -219,8 +153,8 @@ bool EdgeGrid::cross(const Edge& a, const Edge& b) const {
       std::max(b.from.y, b.to.y) < std::min(a.from.y, a.to.y)) {
     return false;
   }
-  const int b_from = turn(a.from, a.to, b.from);
-  const int b_to = turn(a.from, a.to, b.to);
+  const int b_from = orientation(a.from, a.to, b.from);
+  const int b_to = orientation(a.from, a.to, b.to);
   if (b_from * b_to > 0) return false;
   if (b_from == 0 && b_to == 0) {
     // On one line: they may share a point but no length.
@@ -232,8 +166,8 @@ bool EdgeGrid::cross(const Edge& a, const Edge& b) const {
     const double high = std::max(place(b.from), place(b.to));
     return std::min(high, place(a.to)) > std::max(low, 0.0);
   }
-  const int a_from = turn(b.from, b.to, a.from);
-  const int a_to = turn(b.from, b.to, a.to);
+  const int a_from = orientation(b.from, b.to, a.from);
+  const int a_to = orientation(b.from, b.to, a.to);
   if (a_from * a_to > 0) return false;
   if (b_from * b_to < 0 && a_from * a_to < 0) return true;
   if (&edges_[a.next] == &b || &edges_[b.next] == &a) return false;
@@ -250,8 +184,8 @@ std::vector<EdgePair> EdgeGrid::crossing_edges() const {
   // Two edges may meet in several cells.
   constexpr std::size_t kMostRepeated = 4 * kMostCrossings;
   std::vector<EdgePair> crossing;
-  for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) {
-    const auto edges = members(cell);
+  for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
+    const auto edges = members_[cell];
     for (std::size_t i = 0; i < edges.size(); ++i) {
       for (std::size_t j = i + 1; j < edges.size(); ++j) {
         if (!cross(edges_[edges[i]], edges_[edges[j]])) continue;
@@ -279,23 +213,22 @@ void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
 std::optional<int> EdgeGrid::winding_around(Vec2 point,
                                             std::uint32_t loop) const {
   int winding = 0;
-  const std::uint32_t column = column_of(point.x);
-  const std::uint32_t last_row = row_of(point.y);
+  const std::uint32_t column = grid_.column_of(point.x);
+  const std::uint32_t last_row = grid_.row_of(point.y);
   for (std::uint32_t row = 0; row <= last_row; ++row) {
-    for (const std::uint32_t i :
-         members(std::size_t{row} * columns_ + column)) {
+    for (const std::uint32_t i : members_[grid_.cell(column, row)]) {
       const Edge& edge = edges_[i];
       if (edge.loop == loop) continue;
       const bool begins_left = edge.from.x <= point.x;
       if (begins_left == (edge.to.x <= point.x)) continue;
       const Vec2 left = begins_left ? edge.from : edge.to;
       const Vec2 right = begins_left ? edge.to : edge.from;
-      const int side = turn(left, right, point);
+      const int side = orientation(left, right, point);
       if (side == 0) return std::nullopt;
       // An edge stands in several cells: that of the crossing counts it.
       const double y =
           left.y + (point.x - left.x) * (right.y - left.y) / (right.x - left.x);
-      if (side > 0 && std::min(row_of(y), last_row) == row) {
+      if (side > 0 && std::min(grid_.row_of(y), last_row) == row) {
         winding += begins_left ? 1 : -1;
       }
     }
@@ -308,7 +241,7 @@ std::optional<int> EdgeGrid::winding_around(Vec2 point,
 bool is_turned_wrongly(const EdgeGrid& grid, std::span<const Vec2> points,
                        std::uint32_t loop) {
   constexpr std::size_t kTries = 16;
-  const int wanted = ldni::signed_area(points) < 0 ? 1 : 0;
+  const int wanted = signed_area(points) < 0 ? 1 : 0;
   for (std::size_t i = 0; i + 1 < std::min(points.size(), kTries); ++i) {
     const Vec2 middle = (points[i] + points[i + 1]) / 2.0;
     const std::optional<int> winding = grid.winding_around(middle, loop);
@@ -332,7 +265,7 @@ bool find_own_defects(const WrittenLoop& loop, std::uint32_t index,
       defects.push_back({DefectKind::kRepeat, index, points[i]});
     }
   }
-  if (points.size() < 4 || ldni::signed_area(points) == 0) {
+  if (points.size() < 4 || signed_area(points) == 0) {
     defects.push_back({DefectKind::kZeroArea, index, place});
     return false;
   }

@@ -68,13 +68,13 @@ void FacingCells::build(std::span<const LayerEdge> edges, double width) {
 }
 
 void FacingCells::choose_cells() {
-  low_ = edges_.front().from;
-  Vec2 high = low_;
+  Vec2 low = edges_.front().from;
+  Vec2 high = low;
   for (const LayerEdge& edge : edges_) {
-    low_ = {std::min(low_.x, edge.from.x), std::min(low_.y, edge.from.y)};
-    high = {std::max(high.x, edge.from.x), std::max(high.y, edge.from.y)};
+    low = glm::min(low, edge.from);
+    high = glm::max(high, edge.from);
   }
-  // Long edges must not be listed in too many cells.
+  // Where all edges are long they would stand in too many cells.
   constexpr double kMostCells = 64;
   double way = 0;
   for (const LayerEdge& edge : edges_) {
@@ -82,52 +82,21 @@ void FacingCells::choose_cells() {
     way += along.x + along.y;
   }
   const auto count = static_cast<double>(edges_.size());
-  const Vec2 size = high - low_;
+  const Vec2 size = high - low;
   const double wanted = kCellsPerEdge * count;
   const double cell =
       std::max({2 * margin_, std::sqrt(size.x * size.y / wanted),
                 std::max(size.x, size.y) / wanted, way / (kMostCells * count)});
-  cells_per_mm_ = 1 / cell;
-  columns_ = 1 + static_cast<std::uint32_t>(size.x * cells_per_mm_);
-  rows_ = 1 + static_cast<std::uint32_t>(size.y * cells_per_mm_);
-}
-
-std::uint32_t FacingCells::cell_of(double distance, std::uint32_t count) const {
-  return static_cast<std::uint32_t>(std::clamp(distance * cells_per_mm_, 0.0,
-                                               static_cast<double>(count - 1)));
+  grid_ = {low, high, 1 / cell};
 }
 
 template <typename Visit>
 void FacingCells::visit_cells(const LayerEdge& edge, const Visit& visit) const {
-  const Vec2 end = edge.to();
-  const Vec2 lower = (edge.from.y <= end.y ? edge.from : end) - low_;
-  const Vec2 upper = (edge.from.y <= end.y ? end : edge.from) - low_;
-  const std::uint32_t first_row = cell_of(lower.y - margin_, rows_);
-  const std::uint32_t last_row = cell_of(upper.y + margin_, rows_);
-  const bool is_short = last_row - first_row < 2;
-  const double slope =
-      upper.y > lower.y ? (upper.x - lower.x) / (upper.y - lower.y) : 0;
-  for (std::uint32_t row = first_row; row <= last_row; ++row) {
-    double x0 = lower.x;
-    double x1 = upper.x;
-    if (!is_short) {
-      // The part of the edge that comes near to this row.
-      const double bottom = row / cells_per_mm_ - margin_;
-      const double top = (row + 1) / cells_per_mm_ + margin_;
-      x0 += slope * (std::clamp(bottom, lower.y, upper.y) - lower.y);
-      x1 = lower.x + slope * (std::clamp(top, lower.y, upper.y) - lower.y);
-    }
-    const std::uint32_t last_column =
-        cell_of(std::max(x0, x1) + margin_, columns_);
-    for (std::uint32_t column = cell_of(std::min(x0, x1) - margin_, columns_);
-         column <= last_column; ++column) {
-      visit(std::size_t{row} * columns_ + column);
-    }
-  }
+  grid_.visit_cells(edge.from, edge.to(), Vec2(margin_), visit);
 }
 
 void FacingCells::mark_directions() {
-  directions_.assign(std::size_t{columns_} * rows_, 0);
+  directions_.assign(grid_.size(), 0);
   edge_directions_.resize(edges_.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const std::uint64_t sectors =
@@ -142,22 +111,13 @@ void FacingCells::mark_directions() {
   }
 }
 
-// Sorts by counting: sizes first, then places.
 void FacingCells::list_members() {
-  starts_.assign(directions_.size() + 1, 0);
-  const auto visit_kept = [&](const auto& visit) {
+  members_.fill(directions_.size(), [this](const auto& list) {
     for (std::uint32_t i = 0; i < edges_.size(); ++i) {
       visit_cells(edges_[i], [&](std::size_t cell) {
-        if (directions_[cell] != 0) visit(cell, i);
+        if (directions_[cell] != 0) list(cell, i);
       });
     }
-  };
-  visit_kept([&](std::size_t cell, std::uint32_t) { ++starts_[cell]; });
-  std::uint32_t sum = 0;
-  for (std::uint32_t& start : starts_) start = sum += start;
-  members_.resize(sum);
-  visit_kept([&](std::size_t cell, std::uint32_t edge) {
-    members_[--starts_[cell]] = edge;
   });
 }
 
@@ -168,20 +128,12 @@ void FacingCells::gather(std::uint32_t edge,
   const std::uint64_t wanted = facing(edge_directions_[edge]);
   visit_cells(edges_[edge], [&](std::size_t cell) {
     if ((directions_[cell] & wanted) == 0) return;
-    for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
-      const std::uint32_t member = members_[i];
+    for (const std::uint32_t member : members_[cell]) {
       if (last_gather_[member] == gather_) continue;
       last_gather_[member] = gather_;
       neighbours.push_back(member);
     }
   });
-}
-
-std::span<const std::uint32_t> FacingCells::near(Vec2 centre) const {
-  const std::size_t cell =
-      std::size_t{cell_of(centre.y - low_.y, rows_)} * columns_ +
-      cell_of(centre.x - low_.x, columns_);
-  return {members_.data() + starts_[cell], starts_[cell + 1] - starts_[cell]};
 }
 
 }  // namespace lamina::slicer

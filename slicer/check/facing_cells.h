@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cell_grid.h"
 #include "base/vec.h"
 #include "slicer/contour/layer_edges.h"
 
@@ -42,13 +43,14 @@ class FacingCells {
 
   // All edges, and perhaps more, that touch a disk thinner than the width
   // around that centre, if it touches two that face each other.
-  std::span<const std::uint32_t> near(Vec2 centre) const;
+  std::span<const std::uint32_t> near(Vec2 centre) const {
+    return members_[grid_.cell_of(centre)];
+  }
 
  private:
   void choose_cells();
   void mark_directions();
   void list_members();
-  std::uint32_t cell_of(double distance, std::uint32_t count) const;
   // Calls visit(cell) for every cell within half the width of the edge, and
   // perhaps a few beside them.
   template <typename Visit>
@@ -56,15 +58,11 @@ class FacingCells {
 
   std::span<const LayerEdge> edges_;
   double margin_ = 0;
-  Vec2 low_ = Vec2(0);
-  double cells_per_mm_ = 1;
-  std::uint32_t columns_ = 1;
-  std::uint32_t rows_ = 1;
+  CellGrid grid_;
   bool has_facing_ = false;
   std::vector<std::uint64_t> edge_directions_;
-  std::vector<std::uint64_t> directions_;  // of a cell; 0: passed over
-  std::vector<std::uint32_t> starts_;      // of each cell, in members_
-  std::vector<std::uint32_t> members_;
+  std::vector<std::uint64_t> directions_;   // of a cell; 0: passed over
+  CellLists<std::uint32_t> members_;        // edges, of cells not passed over
   std::vector<std::uint32_t> last_gather_;  // that each edge was in
   std::uint32_t gather_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "base/loop_area.h"
 #include "slicer/check/defects.h"
 
 namespace lamina::slicer {
@@ -49,11 +50,11 @@ void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
     found_.box.low = glm::min(found_.box.low, Vec3(point, layer.bottom));
     found_.box.high = glm::max(found_.box.high, Vec3(point, layer.top));
   }
-  found_.greatest_coordinate =
-      std::max(found_.greatest_coordinate,
-               ldni::greatest_coordinate(layer.contours.points));
-  found_.layers.push_back(
-      {layer.bottom, layer.top - layer.bottom, measure(layer.contours)});
+  found_.greatest_coordinate = std::max(
+      found_.greatest_coordinate, greatest_coordinate(layer.contours.points));
+  found_.layers.push_back({layer.bottom, layer.top - layer.bottom,
+                           measure(layer.contours),
+                           total_perimeter(layer.contours)});
   found_.volume +=
       found_.layers.back().measures.area * found_.layers.back().thickness;
   found_.top = layer.top;

@@ -22,6 +22,7 @@ struct Inspection {
     double bottom = 0;     // [mm]
     double thickness = 0;  // [mm]
     LayerMeasures measures;
+    double perimeter = 0;  // [mm]
   };
 
   std::string name;  // of the file or the design

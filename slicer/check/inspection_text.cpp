@@ -106,10 +106,10 @@ class Text : PrintedText {
     const std::size_t listed = lists_all ? count : kListedLayers;
     for (std::size_t i = 0; i < listed; ++i) {
       const std::size_t index = lists_all ? i : i * (count - 1) / (listed - 1);
-      const auto& [bottom, thickness, of] = found_.layers[index];
+      const auto& [bottom, thickness, of, perimeter] = found_.layers[index];
       print("{:>7} {:>12.6g} {:>10.4g} {:>7} {:>7} {:>9} {:>13.6f} {:>13.6f}\n",
             index + 1, bottom, thickness, of.loops, of.holes, of.vertices,
-            of.area, of.perimeter);
+            of.area, perimeter);
     }
     if (!lists_all) {
       print("({} of {} layers; --all lists them all)\n", listed, count);
@@ -185,14 +185,14 @@ ordered_json box_json(const Box3& box) {
 
 ordered_json layers_json(const Inspection& found) {
   ordered_json layers = ordered_json::array();
-  for (const auto& [bottom, thickness, of] : found.layers) {
+  for (const auto& [bottom, thickness, of, perimeter] : found.layers) {
     layers.push_back({{"z", bottom},
                       {"thickness", thickness},
                       {"loops", of.loops},
                       {"holes", of.holes},
                       {"vertices", of.vertices},
                       {"area_mm2", of.area},
-                      {"perimeter_mm", of.perimeter}});
+                      {"perimeter_mm", perimeter}});
   }
   return layers;
 }

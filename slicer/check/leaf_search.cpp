@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/plane.h"
 #include "csg/tie_distance.h"
 #include "slicer/contour/layer_edges.h"
 
@@ -51,10 +52,7 @@ void LeafSearch::find(const ldni::ChainBlock& block, std::uint32_t layer,
 // Upright edges belong to no chain: they stand between endpoints of chains at
 // one x, which pair up from below.
 void LeafSearch::look_between_endpoints(std::uint32_t instance) {
-  std::sort(endpoints_.begin(), endpoints_.end(),
-            [](const Vec2& a, const Vec2& b) {
-              return a.x < b.x || (a.x == b.x && a.y < b.y);
-            });
+  std::sort(endpoints_.begin(), endpoints_.end(), precedes);
   for (std::size_t i = 1; i < endpoints_.size(); i += 2) {
     if (endpoints_[i].y > endpoints_[i - 1].y) {
       look_along(endpoints_[i - 1], endpoints_[i], instance);
@@ -65,7 +63,7 @@ void LeafSearch::look_between_endpoints(std::uint32_t instance) {
 
 void LeafSearch::look_along(Vec2 from, Vec2 to, std::uint32_t instance) {
   grid_.has_near(from, to, kSearchDistance, [&](std::uint32_t i) {
-    const double away = distance_to_line(places_[i], from, to);
+    const double away = distance_to_segment(places_[i], from, to);
     if (away < distances_[i] - kSameDistance) {
       distances_[i] = away;
       instances_[i] = instance;

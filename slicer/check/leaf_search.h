@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "base/point_grid.h"
 #include "base/vec.h"
 #include "ldni/section/leaf_section.h"
 #include "slicer/check/thin_finder.h"
-#include "slicer/contour/point_grid.h"
 
 namespace lamina::slicer {
 

@@ -95,28 +95,26 @@ class Areas {
 
 class Sweep {
  public:
-  Sweep(const ldni::Contours& a, const ldni::Contours& b) {
-    edges_.reserve(a.points.size() + b.points.size());
-    add(a, false);
-    add(b, true);
-    // Sums of small numbers: y counts from the middle.
-    shift_to_middle();
-    std::sort(edges_.begin(), edges_.end(),
-              [](const Edge& p, const Edge& q) { return p.left.x < q.left.x; });
-    for (const Edge& edge : edges_) {
-      event_points_.push_back(edge.left.x);
-      event_points_.push_back(edge.right.x);
-    }
-    std::sort(event_points_.begin(), event_points_.end());
-    event_points_.erase(std::unique(event_points_.begin(), event_points_.end()),
-                        event_points_.end());
+  void add(const ldni::Contours& contours, bool is_of_b) {
+    visit_edges(contours, [&](Vec2 from, Vec2 to) {
+      if (from.x == to.x) return;
+      const bool runs_right = from.x < to.x;
+      edges_.push_back({runs_right ? from : to, runs_right ? to : from,
+                        (to.y - from.y) / (to.x - from.x), runs_right ? 1 : -1,
+                        is_of_b});
+    });
   }
 
   RegionAreas run() {
+    // Sum up small numbers: y counts from the middle.
+    shift_to_middle();
+    std::sort(edges_.begin(), edges_.end(),
+              [](const Edge& p, const Edge& q) { return p.left.x < q.left.x; });
+    const std::vector<double> event_points = list_event_points();
     std::size_t next = 0;  // of edges_
-    for (std::size_t i = 0; i + 1 < event_points_.size(); ++i) {
-      const double left = event_points_[i];
-      const double right = event_points_[i + 1];
+    for (std::size_t i = 0; i + 1 < event_points.size(); ++i) {
+      const double left = event_points[i];
+      const double right = event_points[i + 1];
       std::erase_if(crossed_, [&](const Crossed& crossed) {
         return edges_[crossed.edge].right.x <= left;
       });
@@ -129,14 +127,16 @@ class Sweep {
   }
 
  private:
-  void add(const ldni::Contours& contours, bool is_of_b) {
-    visit_edges(contours, [&](Vec2 from, Vec2 to) {
-      if (from.x == to.x) return;
-      const bool runs_right = from.x < to.x;
-      edges_.push_back({runs_right ? from : to, runs_right ? to : from,
-                        (to.y - from.y) / (to.x - from.x), runs_right ? 1 : -1,
-                        is_of_b});
-    });
+  // x of all ends, ascending.
+  std::vector<double> list_event_points() const {
+    std::vector<double> points;
+    for (const Edge& edge : edges_) {
+      points.push_back(edge.left.x);
+      points.push_back(edge.right.x);
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
   }
 
   void shift_to_middle() {
@@ -246,8 +246,7 @@ class Sweep {
     }
   }
 
-  std::vector<Edge> edges_;           // by their left ends
-  std::vector<double> event_points_;  // x of all ends, ascending
+  std::vector<Edge> edges_;       // by their left ends
   std::vector<Crossed> crossed_;  // in the strip, from below at its left side
   Areas areas_;
   std::uint64_t steps_ = 0;
@@ -261,7 +260,10 @@ class Sweep {
 }  // namespace
 
 RegionAreas measure_regions(const ldni::Contours& a, const ldni::Contours& b) {
-  return Sweep(a, b).run();
+  Sweep sweep;
+  sweep.add(a, false);
+  sweep.add(b, true);
+  return sweep.run();
 }
 
 }  // namespace lamina::slicer

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/plane.h"
 #include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
@@ -54,8 +55,8 @@ bool cross_each_other(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 double distance_of_lines(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   if (cross_each_other(a, b, c, d)) return 0;
-  return std::min({distance_to_line(a, c, d), distance_to_line(b, c, d),
-                   distance_to_line(c, a, b), distance_to_line(d, a, b)});
+  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d),
+                   distance_to_segment(c, a, b), distance_to_segment(d, a, b)});
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/loop_area.h"
+#include "base/plane.h"
 #include "csg/plane/clip.h"
 #include "csg/tie_distance.h"
 #include "slicer/contour/regions.h"
@@ -19,27 +21,12 @@ using planar::Region;
 // asked for is 1.5² times as far from the circle.
 constexpr double kArcExcess = 2.25;
 
-bool encloses(const Contour& contour, Vec2 point) {
-  bool is_inside = false;
-  Vec2 a = contour.back();
-  for (const Vec2& b : contour) {
-    if ((a.y <= point.y) != (b.y <= point.y)) {
-      const double side =
-          (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x);
-      if ((side > 0) == (b.y > a.y)) is_inside = !is_inside;
-    }
-    a = b;
-  }
-  return is_inside;
-}
-
 // Finds the innermost loop of a region around a point.
 class Nesting {
  public:
   explicit Nesting(const Region& region) : region_(region) {
     for (const Contour& contour : region.contours) {
-      Box box{contour.front(), contour.front(),
-              std::abs(planar::signed_area(contour))};
+      Box box{contour.front(), contour.front(), std::abs(signed_area(contour))};
       for (const Vec2& p : contour) {
         box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
@@ -57,7 +44,8 @@ class Nesting {
       if (i == skipped) continue;
       if ((result == kNone || box.area < boxes_[result].area) &&
           point.x > box.low.x && point.x < box.high.x && point.y > box.low.y &&
-          point.y < box.high.y && encloses(region_.contours[i], point)) {
+          point.y < box.high.y &&
+          winding_number(region_.contours[i], point) != 0) {
         result = i;
       }
     }
@@ -86,7 +74,7 @@ struct Losses {
 // those of the other sign bound components that grow and can meet.
 Losses find_losses(const Region& before, const Region& after, int sign) {
   const auto shrinks = [sign](const Contour& contour) {
-    return (planar::signed_area(contour) > 0) == (sign > 0);
+    return (signed_area(contour) > 0) == (sign > 0);
   };
   const Nesting nesting(before);
   std::vector<char> is_left(before.contours.size(), 0);

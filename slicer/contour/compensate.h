@@ -34,7 +34,7 @@ inline constexpr double kArcTolerance = 1e-4;
 
 // Moves contours into the solid by `amount` [mm], or out of it where that is
 // negative. Returns what is lost. Simple, disjoint loops stay so. Throws
-// std::range_error for coordinates beyond 1e9 mm.
+// csg::LimitExceeded for coordinates beyond 1e9 mm.
 CompensationCounts compensate(ldni::Contours& contours, double amount);
 
 }  // namespace lamina::slicer

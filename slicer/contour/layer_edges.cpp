@@ -5,17 +5,6 @@
 
 namespace lamina::slicer {
 
-double distance_to_line(Vec2 point, Vec2 from, Vec2 to) {
-  const Vec2 along = to - from;
-  const double squared_length = dot(along, along);
-  const double share =
-      squared_length > 0
-          ? std::clamp(dot(point - from, along) / squared_length, 0.0, 1.0)
-          : 0.0;
-  const Vec2 away = point - (from + share * along);
-  return std::sqrt(dot(away, away));
-}
-
 void collect_edges(const ldni::Contours& contours,
                    std::vector<LayerEdge>& edges) {
   edges.clear();

@@ -24,12 +24,6 @@ struct LayerEdge {
   Vec2 to() const { return from + length * along; }
 };
 
-inline Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
-
-// Distance of the point from the segment between two points, which may be the
-// same.
-double distance_to_line(Vec2 point, Vec2 from, Vec2 to);
-
 // Calls visit(from, to) for every edge, loop by loop.
 template <typename Visit>
 void visit_edges(const ldni::Contours& contours, const Visit& visit) {

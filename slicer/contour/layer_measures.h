@@ -1,5 +1,8 @@
 #pragma once
 // Counts and measures of one layer.
+//
+// Every layer of a job is counted, so perimeters, whose roots would cost a job
+// some percent of its time, are for those who ask.
 
 #include <cstddef>
 
@@ -11,10 +14,12 @@ struct LayerMeasures {
   std::size_t loops = 0;
   std::size_t holes = 0;
   std::size_t vertices = 0;
-  double area = 0;       // holes count negative [mm²]
-  double perimeter = 0;  // of all loops [mm]
+  double area = 0;  // holes count negative [mm²]
 };
 
 LayerMeasures measure(const ldni::Contours& contours);
+
+// The length of all loops [mm].
+double total_perimeter(const ldni::Contours& contours);
 
 }  // namespace lamina::slicer

@@ -7,6 +7,9 @@
 
 #include <glm/common.hpp>
 
+#include "base/loop_area.h"
+#include "base/plane.h"
+
 namespace lamina::slicer {
 namespace {
 
@@ -34,20 +37,6 @@ bool may_hold(const Outer& outer, Vec2 place) {
          place.y >= outer.low.y && place.y <= outer.high.y;
 }
 
-// Counts the edges to the right of the place.
-bool holds(const Outer& outer, Vec2 place) {
-  bool is_inside = false;
-  Vec2 a = outer.loop.back();
-  for (const Vec2& b : outer.loop) {
-    if ((a.y > place.y) != (b.y > place.y) &&
-        place.x < a.x + (place.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
-      is_inside = !is_inside;
-    }
-    a = b;
-  }
-  return is_inside;
-}
-
 // The innermost outer loop around a hole that begins at `place`; null if there
 // is none.
 Outer* find_around(std::vector<Outer>& outers, Vec2 place) {
@@ -60,7 +49,7 @@ Outer* find_around(std::vector<Outer>& outers, Vec2 place) {
   Outer* innermost = nullptr;
   for (Outer* outer : candidates) {
     if ((innermost == nullptr || outer->whole < innermost->whole) &&
-        holds(*outer, place)) {
+        winding_number(outer->loop, place) != 0) {
       innermost = outer;
     }
   }
@@ -72,11 +61,11 @@ Outer* find_around(std::vector<Outer>& outers, Vec2 place) {
 std::vector<double> areas_of_regions(const ldni::Contours& contours) {
   std::vector<Outer> outers;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const double area = ldni::signed_area(contours.loop(i));
+    const double area = signed_area(contours.loop(i));
     if (area > 0) outers.push_back(measure(contours.loop(i), area));
   }
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const double area = ldni::signed_area(contours.loop(i));
+    const double area = signed_area(contours.loop(i));
     if (area >= 0) continue;
     Outer* const outer = find_around(outers, contours.loop(i).front());
     if (outer != nullptr) outer->area += area;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/loop_area.h"
 #include "base/plane.h"
 
 namespace lamina::slicer {
@@ -51,7 +52,7 @@ void LoopRounder::round(ldni::Contours& contours, double clearance) {
 
 void LoopRounder::measure(const ldni::Contours& contours) {
   int exponent = 0;
-  std::frexp(ldni::greatest_coordinate(contours.points), &exponent);
+  std::frexp(greatest_coordinate(contours.points), &exponent);
   spacing_ = std::ldexp(1.0, exponent - kFloatDigits);
 }
 
@@ -167,10 +168,7 @@ bool LoopRounder::route_through_hot_pixels(ldni::Contours& contours) {
     hot_pixels_.push_back(middle);
   }
   const std::vector<Vec2> snapped = hot_pixels_;
-  std::sort(hot_pixels_.begin(), hot_pixels_.end(),
-            [](const Vec2& a, const Vec2& b) {
-              return a.x < b.x || (a.x == b.x && a.y < b.y);
-            });
+  std::sort(hot_pixels_.begin(), hot_pixels_.end(), precedes);
   hot_pixels_.erase(std::unique(hot_pixels_.begin(), hot_pixels_.end()),
                     hot_pixels_.end());
   members_.resize(hot_pixels_.size());

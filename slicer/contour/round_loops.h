@@ -25,10 +25,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/point_grid.h"
 #include "ldni/section/contours.h"
 #include "ldni/sweep/loop_resolver.h"
 #include "slicer/contour/loop_tree.h"
-#include "slicer/contour/point_grid.h"
 
 namespace lamina::slicer {
 

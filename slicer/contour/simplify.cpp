@@ -4,9 +4,9 @@
 #include <cmath>
 #include <span>
 
+#include "base/loop_area.h"
 #include "base/plane.h"
-#include "ldni/section/loop_area_and_box.h"
-#include "slicer/contour/farthest_reach.h"
+#include "slicer/contour/detail/farthest_reach.h"
 
 namespace lamina::slicer {
 namespace {
@@ -76,16 +76,16 @@ void Simplifier::simplify(ldni::Contours& contours) {
 void Simplifier::copy_loops(const ldni::Contours& contours) {
   points_.clear();
   loops_.clear();
-  ldni::LoopBox box;
+  Reach reach;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);
     const Vec2* first = loop.data();
-    ldni::DoubledArea doubled_area(loop.front(), loop.back());
+    DoubledArea doubled_area(loop.front(), loop.back());
     for (const Vec2& point : loop) {
       if (point.x <= first->x && (point.x < first->x || point.y < first->y)) {
         first = &point;
       }
-      box.add(point);
+      reach.add(point);
       doubled_area.add(point);
     }
     const auto begin = static_cast<std::uint32_t>(points_.size());
@@ -94,7 +94,7 @@ void Simplifier::copy_loops(const ldni::Contours& contours) {
     loops_.push_back({begin, static_cast<std::uint32_t>(points_.size() - 1),
                       doubled_area.value()});
   }
-  clearance_ = kClearance * box.greatest_coordinate();
+  clearance_ = kClearance * reach.value();
 }
 
 // Chooses the vertices of a loop as if it were alone.
@@ -257,15 +257,9 @@ void Simplifier::write_kept(ldni::Contours& contours) const {
 
 // Twice the area of the loop that stands at [begin, end) in vertices_.
 double Simplifier::doubled_area_kept(std::size_t begin, std::size_t end) const {
-  const Vec2 origin = points_[vertices_[begin]];
-  double sum = 0;
-  Vec2 before(0);
-  for (std::size_t k = begin + 1; k < end; ++k) {
-    const Vec2 here = points_[vertices_[k]] - origin;
-    sum += cross(before, here);
-    before = here;
-  }
-  return sum;
+  DoubledArea area(points_[vertices_[begin]], points_[vertices_[end - 1]]);
+  for (std::size_t k = begin + 1; k < end; ++k) area.add(points_[vertices_[k]]);
+  return area.value();
 }
 
 Simplifier::Shortcut Simplifier::measure(std::uint32_t first,

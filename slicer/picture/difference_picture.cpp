@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/loop_area.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/region.h"
 #include "slicer/contour/regions.h"
@@ -134,8 +135,8 @@ class DifferencePicture {
     Coverage lines(field.width, field.height);
     for (std::size_t i = 0; i < contours.loop_count(); ++i) {
       const auto loop = contours.loop(i);
-      const double width = 2 * std::abs(ldni::signed_area(loop)) * map.per_x.x /
-                           ldni::perimeter(loop);
+      const double width =
+          2 * std::abs(signed_area(loop)) * map.per_x.x / perimeter(loop);
       if (width < least) continue;
       for (std::size_t k = 0; k < loop.size(); ++k) {
         stroke_inside(lines, map(loop[k]), map(loop[(k + 1) % loop.size()]));

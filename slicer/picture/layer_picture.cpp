@@ -112,8 +112,8 @@ class LayerPicture {
     const std::string words = fmt::format(
         "area {:.4f} mm²    loops {}, holes {}    perimeter {:.3f} mm    "
         "{:.2f} × {:.2f} mm",
-        measures.area, measures.loops, measures.holes, measures.perimeter,
-        size.x, size.y);
+        measures.area, measures.loops, measures.holes,
+        total_perimeter(layer_.contours), size.x, size.y);
     draw_text(image_, words, {kMargin, 62},
               fitting_size(words, kTextSize, room));
   }

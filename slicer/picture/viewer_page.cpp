@@ -170,7 +170,7 @@ class PageMaker {
       rows.push_back({layer.section_z, layer.bottom, layer.top, measures.loops,
                       measures.holes, measures.vertices,
                       rounded(measures.area, 1e-6),
-                      rounded(measures.perimeter, 1e-6)});
+                      rounded(total_perimeter(layer.contours), 1e-6)});
     }
     return {{"layers", std::move(rows)},
             {"volume", volume},

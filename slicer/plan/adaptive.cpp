@@ -16,7 +16,7 @@
 #include "csg/boundary/boundary_faces.h"
 #include "csg/tie_distance.h"
 #include "csg/vertex_table.h"
-#include "slicer/plan/stacking.h"
+#include "slicer/plan/detail/stacking.h"
 #include "slicer/plan/surface_heights.h"
 
 namespace lamina::slicer {

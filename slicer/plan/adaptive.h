@@ -16,9 +16,9 @@
 // A ply is as high as the thinnest layer; plies are counted from the lowest
 // point. The normals that come into a ply limit the layers with it (normals of
 // boundary faces, so that what the Boolean hides has no say), and layers are
-// stacked from plies (stacking.h). Flat faces, peaks and pits make no steps:
-// where one lies on a border of plies a layer ends there, else its ply is a
-// layer of its own.
+// stacked from plies (detail/stacking.h). Flat faces, peaks and pits make no
+// steps: where one lies on a border of plies a layer ends there, else its ply
+// is a layer of its own.
 
 #include <cstddef>
 #include <limits>
@@ -33,7 +33,7 @@ struct AdaptiveThickness {
   double thinnest = 0;  // layers are multiples of it
   double thickest = 0;  // 0: four times the thinnest
   double cusp = 0;      // greatest distance of a step's corner from the surface
-  // Runs of layers of equal thickness, at most (stacking.h).
+  // Runs of layers of equal thickness, at most (detail/stacking.h).
   std::size_t most_runs = std::numeric_limits<std::size_t>::max();
 };
 

@@ -12,8 +12,8 @@
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/regions.h"
 #include "slicer/plan/adaptive.h"
-#include "slicer/slice/block_slicer.h"
-#include "slicer/slice/slice_job.h"
+#include "slicer/slice/detail/block_slicer.h"
+#include "slicer/slice/detail/slice_job.h"
 
 namespace lamina::slicer {
 namespace {

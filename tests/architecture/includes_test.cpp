@@ -184,8 +184,8 @@ TEST(Includes, PackagesKeepToTheirHomes) {
     std::vector<std::string> places;  // prefixes of files that may use it
   };
   const std::vector<Home> homes = {
-      {"polyclipping/", {"csg/planar/"}},
-      {"clipper.hpp", {"csg/planar/"}},
+      {"polyclipping/", {"csg/plane/"}},
+      {"clipper.hpp", {"csg/plane/"}},
       {"libqhull", {"csg/solid/"}},
       {"GL/", {"ldni/gl/gl_platforms.cpp", "ldni/gl/detail/gl_functions.h"}},
       {"EGL/", {"ldni/gl/gl_platforms.cpp"}},

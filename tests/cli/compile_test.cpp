@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <signal.h>
 
+#include "base/loop_area.h"
 #include "ldni/section/contours.h"
 #include "slicer/formats/slc_reader.h"
 #include "tests/cli/lamina.h"
@@ -33,7 +34,7 @@ double volume(const std::vector<slicer::SlcLayer>& layers) {
   double sum = 0;
   for (const slicer::SlcLayer& layer : layers) {
     for (const auto& boundary : layer.boundaries) {
-      sum += layer.thickness * ldni::signed_area(boundary.points);
+      sum += layer.thickness * signed_area(boundary.points);
     }
   }
   return sum;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "ldni/section/contours.h"
 #include "tests/support/design.h"
 
@@ -233,8 +234,8 @@ TEST(AdaptiveLayers, HoldTheVolumeOfTheSolid) {
     }
     top = layer.top;
     for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
-      volume += ldni::signed_area(layer.contours.loop(i)) *
-                (layer.top - layer.bottom);
+      volume +=
+          signed_area(layer.contours.loop(i)) * (layer.top - layer.bottom);
     }
   }
   EXPECT_NEAR(volume / (4.0 / 3 * M_PI * 125), 1, 1e-3);

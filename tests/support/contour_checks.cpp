@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/loop_area.h"
 #include "base/plane.h"
 #include "tests/support/edge_grid.h"
 
@@ -124,8 +125,7 @@ class Inspection {
         {kind, loop, place,
          fmt::format(
              "loop {} ({} points, area {:.9g}) {} at ({:.12g}, {:.12g})", loop,
-             points.size(), ldni::signed_area(points), what, place.x,
-             place.y)});
+             points.size(), signed_area(points), what, place.x, place.y)});
   }
 
   // Points and area of one loop.
@@ -140,7 +140,7 @@ class Inspection {
       return add(Kind::kTooFewPoints, l, place, "is no polygon");
     }
     for (std::size_t i = 0; i < loop.size(); ++i) check_point(l, i);
-    if (std::abs(ldni::signed_area(loop)) < rules_.least_area) {
+    if (std::abs(signed_area(loop)) < rules_.least_area) {
       add(Kind::kZeroArea, l, loop[0], "has no area");
     }
   }
@@ -230,7 +230,7 @@ class Inspection {
       const Edge& edge = edges_[longest];
       const Vec2 place = edge.from + kShare * (edge.to - edge.from);
       const int around = grid.winding_number(place, l);
-      const bool is_outer = ldni::signed_area(contours_.loop(l)) > 0;
+      const bool is_outer = signed_area(contours_.loop(l)) > 0;
       if (around != (is_outer ? 0 : 1)) {
         add(Kind::kWrongOrientation, l, place,
             fmt::format("runs {}clockwise where the other loops wind {} times",
@@ -271,7 +271,7 @@ std::vector<ContourDefect> find_defects(const ldni::Contours& contours,
 LoopCounts count_loops(const ldni::Contours& contours) {
   LoopCounts counts;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
-    ++(ldni::signed_area(contours.loop(l)) > 0 ? counts.outer : counts.holes);
+    ++(signed_area(contours.loop(l)) > 0 ? counts.outer : counts.holes);
   }
   return counts;
 }
@@ -305,7 +305,7 @@ bool contains(const ldni::Contours& contours, Vec2 point) {
 double total_area(const ldni::Contours& contours) {
   double area = 0;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
-    area += ldni::signed_area(contours.loop(l));
+    area += signed_area(contours.loop(l));
   }
   return area;
 }
@@ -313,7 +313,7 @@ double total_area(const ldni::Contours& contours) {
 double total_perimeter(const ldni::Contours& contours) {
   double sum = 0;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
-    sum += ldni::perimeter(contours.loop(l));
+    sum += perimeter(contours.loop(l));
   }
   return sum;
 }

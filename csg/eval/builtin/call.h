@@ -1,5 +1,5 @@
 #pragma once
-// What built-in functions do with their arguments.
+// What built-in functions have in common: reading arguments, warning of them.
 
 #include <cstddef>
 #include <string>
@@ -13,7 +13,7 @@ inline Value argument(const CallCode& code, std::size_t i, Frame& frame) {
   return run(code.arguments[i].value, frame);
 }
 
-// Warnings; the result of the call is undef.
+// Warn and return undef, the result of the call.
 Value warn(const CallCode& code, Frame& frame, std::string message);
 Value wrong_count(const CallCode& code, Frame& frame);
 Value wrong_type(const CallCode& code, Frame& frame);

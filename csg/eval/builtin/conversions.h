@@ -15,15 +15,16 @@ namespace lamina::csg {
 std::optional<Vec2> to_vec2(const Value& value);
 // A vector of exactly three numbers.
 std::optional<Vec3> to_vec3(const Value& value);
-// The same, or of two numbers, with `z` for the third.
+// A vector of three numbers, or of two with `z` for the third.
 std::optional<Vec3> to_vec3(const Value& value, double z);
-// Any vector and what of it can be taken: OpenSCAD writes the elements that
-// are numbers before it finds the one that is none.
+// Reads a vector of two or three elements into `target`. False for anything
+// else; elements that come before one that is no number are written all the
+// same, as OpenSCAD does.
 bool read_vec3(const Value& value, double default_z, Vec3& target);
 
 std::optional<double> to_finite(const Value& value);
 
-// true itself, not what `if` takes for it.
+// Whether the value is `true` itself, not just what `if` takes for it.
 inline bool is_set(const Value& value) {
   return value.is_bool() && value.as_bool();
 }
@@ -36,10 +37,10 @@ inline std::string_view string_or(const Value& value,
   return value.is_string() ? value.as_string() : fallback;
 }
 
-// A number cut to an int as OpenSCAD does it; 0 for what is no number.
+// The number cut to an int as OpenSCAD cuts it; 0 for any other value.
 int to_int(const Value& value);
 
-// `$fn $fa $fs` at this moment.
+// `$fn $fa $fs` as in force now.
 Facets current_facets(Interpreter& in);
 
 }  // namespace lamina::csg

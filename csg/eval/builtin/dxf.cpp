@@ -44,7 +44,7 @@ std::string folder_of(const Frame& frame) {
 
 enum class Kind : std::uint8_t { kDim, kCross };
 
-// All arguments go by name.
+// Reads the arguments, which all go by name.
 Query read_query(Kind kind, const CallCode& code, Frame& frame) {
   Query query;
   for (const WrittenArgument& argument : code.arguments) {
@@ -88,7 +88,7 @@ bool can_open(const Query& query, const CallCode& code, Frame& frame) {
   return false;
 }
 
-// What cannot be read measures nothing.
+// Reads the drawing; it is empty where the file cannot be read.
 DxfDrawing read_drawing(const Query& query, const CallCode& code,
                         Frame& frame) {
   DxfOptions options{query.layer, query.origin, query.scale, {}, query.path};
@@ -112,7 +112,7 @@ DxfDrawing read_drawing(const Query& query, const CallCode& code,
   return drawing;
 }
 
-// The measured value; nothing for a kind of dimension without one.
+// The measured value; no value for a kind of dimension that measures nothing.
 std::optional<double> length_of(const DxfDimension& dimension) {
   const auto& p = dimension.points;
   const auto distance = [](Vec2 d) { return std::sqrt(d.x * d.x + d.y * d.y); };

@@ -11,17 +11,17 @@
 
 namespace lamina::csg {
 
-// Absolute path of the file `name` as a module call means it: from the folder
-// of the file that holds the call or, deprecated, from the design's folder.
-// Empty for an empty name. The file need not exist; the design depends on it
-// all the same. Throws AccessError where it may not be read.
+// The absolute path of the file that a module call names: in the folder of the
+// file that holds the call or, deprecated, in the design's folder. Empty for an
+// empty name. The file need not exist; the design depends on it all the same.
+// Throws AccessError where it may not be read.
 std::string find_file(std::string_view name, const BuiltinModuleCode& code,
                       Frame& frame);
 // The same for a file that code of the folder `from` names at `place`.
 std::string find_file(std::string_view name, const std::string& from,
                       SourceRange place, Interpreter& in);
 
-// The path relative to the design's folder, as it is and quoted.
+// The path relative to the design's folder, plain and in quotes.
 std::string relative_path(const std::string& path, Frame& frame);
 std::string relative_quoted(const std::string& path, Frame& frame);
 

@@ -77,7 +77,7 @@ void text(const BuiltinModuleCode& code, Frame& frame) {
   params.valign = in.keep_text(string_or(arguments[kValign], "baseline"));
   params.facets = current_facets(in);
   std::string csg = "text(";
-  // Quoted, but not escaped: so OpenSCAD has it.
+  // OpenSCAD quotes these strings without escaping anything.
   const auto append_string = [&csg](std::string_view name,
                                     std::string_view value) {
     csg += name;
@@ -120,8 +120,8 @@ void surface(const BuiltinModuleCode& code, Frame& frame) {
 
 // --- import -----------------------------------------------------------------
 
-// As the file's extension says, whatever its case; import_stl() and its like
-// name the format themselves.
+// The format by the file's extension, in any letter case. import_stl() and its
+// like name the format themselves.
 ImportFormat import_format(std::string_view module, const std::string& path) {
   constexpr std::string_view kPrefix = "import_";
   std::string extension =

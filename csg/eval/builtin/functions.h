@@ -17,7 +17,7 @@ struct BuiltinFunctionRow {
 // Null where there is no such function.
 const BuiltinFunctionRow* find_builtin_function(std::string_view name);
 
-// Known by address: its argument is resolved without a warning.
+// The resolver knows it by its address, since its argument does not warn.
 Value builtin_is_undef(const CallCode& code, Frame& frame);
 
 // --- For the files that define them ---

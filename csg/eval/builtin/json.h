@@ -1,7 +1,6 @@
 #pragma once
-// JSON files as values: objects with their members in the order of their
-// names, as OpenSCAD has them (of one name twice the last counts), null as
-// undef, every number as a number of the language.
+// JSON files as values. As in OpenSCAD, the members of objects are in the order
+// of their names; of members of one name the last counts; null is undef.
 
 #include <string>
 
@@ -13,7 +12,7 @@ namespace lamina::csg {
 struct JsonResult {
   Value value;
   bool can_read = true;
-  std::string fault;  // why it is no JSON; empty: it is
+  std::string fault;  // what is wrong with the text; empty: nothing
 };
 
 JsonResult read_json(const std::string& path,

@@ -22,7 +22,7 @@ namespace lamina::csg {
 
 namespace {
 
-// Without a size, text is as large as an em of 100/72 of this.
+// The size without an argument. An em is 100/72 of it.
 constexpr double kDefaultSize = 10;
 constexpr double kSizePerEm = 0.72;
 
@@ -123,7 +123,7 @@ Value make_object(Members... members) {
   return builder.finish();
 }
 
-// Asks for metrics by `measure`; no value where nobody can tell.
+// Asks the measurer for metrics by `measure`; no value where there is none.
 template <typename Measure>
 auto ask(const CallCode& code, Frame& frame, const Measure& measure)
     -> decltype(measure(std::declval<TextMeasurer&>(),

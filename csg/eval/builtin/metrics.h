@@ -5,7 +5,7 @@
 
 namespace lamina::csg {
 
-// Both give an object; undef where there is no font.
+// Both return an object; undef where there is no font.
 Value builtin_textmetrics(const CallCode& code, Frame& frame);
 Value builtin_fontmetrics(const CallCode& code, Frame& frame);
 

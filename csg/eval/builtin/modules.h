@@ -35,7 +35,7 @@ class ModuleArguments {
   Value values_[kMost];
 };
 
-// A warning at the call.
+// Warns at the call.
 void warn(const BuiltinModuleCode& code, Frame& frame, std::string message);
 
 // Entries of one file: name, handler, positional parameters, further ones.

@@ -106,8 +106,7 @@ Value builtin_log(const CallCode& code, Frame& frame) {
   return Value(std::log(x) / std::log(base));
 }
 
-// min and max: of one vector by `<`, else of numbers. `is_better(a, b)`: take
-// a over b.
+// min and max: of the elements of one vector by `<`, else of numbers.
 template <bool is_max>
 Value extreme(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
@@ -191,7 +190,7 @@ Value builtin_rands(const CallCode& code, Frame& frame) {
     if (!seed.is_number()) return Value();
     frame.in.random.seed(hash_number(seed.as_number()));
   }
-  // No memory holds that many, and the list says so.
+  // No memory holds so many: making the list fails.
   constexpr double kFarTooMany = 0x1p60;
   const auto results = static_cast<std::size_t>(std::min(count, kFarTooMany));
   VectorBuilder out(results);

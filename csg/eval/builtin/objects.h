@@ -5,8 +5,9 @@
 
 namespace lamina::csg {
 
-// object(…): members one after the other. `name = value` sets one, an object
-// sets all of its own, a list of [name, value] and [name] sets and removes.
+// object(…) makes an object member by member. `name = value` sets one, an
+// object sets all of its own, a list of [name, value] and [name] sets and
+// removes.
 Value builtin_object(const CallCode& code, Frame& frame);
 Value builtin_has_key(const CallCode& code, Frame& frame);
 Value builtin_is_object(const CallCode& code, Frame& frame);

@@ -1,5 +1,5 @@
-// Modules that do something to their children: Booleans, hull and its kin,
-// extrusions, offset, projection, color, render.
+// Modules that change their children: Booleans, hull and its kin, extrusions,
+// offset, projection, color, render.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 
 // --- Booleans ---------------------------------------------------------------
 
-// Modules that do not look at their arguments, not even to evaluate them.
+// Runs a module that does not even evaluate its arguments.
 template <typename Op>
 void plain_operation(const BuiltinModuleCode& code, Frame& frame) {
   const std::size_t mark = frame.in.node_mark();
@@ -183,8 +183,8 @@ ImportParams import_drawing(const Value& file, const Value& layer, Vec2 origin,
   return params;
 }
 
-// Puts the drawing below the extrusion that comes next. What tells it from
-// others is the extrusion's text.
+// Puts the drawing below the extrusion that comes next. The extrusion's text
+// identifies it.
 void make_drawing(ImportParams drawing, std::string_view csg_text,
                   const BuiltinModuleCode& code, Frame& frame) {
   Interpreter& in = frame.in;

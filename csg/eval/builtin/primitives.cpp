@@ -45,7 +45,8 @@ void make_leaf(decltype(Node::op) op, const BuiltinModuleCode& code,
   frame.in.make_node(op, code, frame.in.node_mark());
 }
 
-// Radius from a diameter, which goes first, or a radius; undef if neither.
+// The radius by a diameter, which counts first, or by a radius; undef where
+// neither is a number.
 Value radius(const Value& d, const Value& r, std::string_view d_name,
              std::string_view r_name, const BuiltinModuleCode& code,
              Frame& frame) {
@@ -149,8 +150,8 @@ void cylinder(const BuiltinModuleCode& code, Frame& frame) {
   make_leaf(cylinder, code, frame);
 }
 
-// An index as geometry uses it. Whatever cannot be one is out of bounds
-// everywhere: negative numbers count down from 2³², all others are -1.
+// An index of a point. What cannot be one becomes an index out of bounds:
+// negative numbers count down from 2³², anything else becomes -1.
 std::uint32_t to_index(const Value& value) {
   constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
   const double number = value.number_or_zero();
@@ -165,7 +166,7 @@ bool is_plain_index(const Value& value) {
 
 using IndexLists = std::span<const std::span<const std::uint32_t>>;
 
-// Faces or paths. `is_plain` turns false where the numbers alone do not tell
+// Faces or paths. Sets `is_plain` to false where the indices alone do not show
 // what was written.
 IndexLists to_index_lists(const Value& value, Interpreter& in, bool& is_plain) {
   std::vector<std::span<const std::uint32_t>> lists;

@@ -7,8 +7,8 @@
 
 namespace lamina::csg {
 
-// ISO 15924 tag: the one asked for, else that of the text's characters; empty
-// where those tell nothing (digits, blanks) or several things.
+// The ISO 15924 tag: the one asked for, else that of the text's characters;
+// empty where these have no script (digits, blanks) or several.
 std::string text_script(std::string_view text, std::string_view asked);
 
 // "ltr", "rtl", "ttb" or "btt": as asked, else by the script.

@@ -20,7 +20,7 @@ struct SearchLimits {
   std::uint32_t column = 0;
 };
 
-// What `search` gives for the matches of one value of a list.
+// Appends the result for one value of a list.
 void push_matches(std::vector<Value> matches, const SearchLimits& limits,
                   bool keeps_empty, VectorBuilder& out) {
   if (limits.matches != 1) {
@@ -76,7 +76,7 @@ Value search_in_string(const Value& wanted, const Value& text,
   return out.finish();
 }
 
-// The characters of a string, each among the first characters of a column.
+// Looks for each character of a string among the first characters of a column.
 Value search_in_table(const Value& wanted, const Value& table,
                       const SearchLimits& limits, const CallCode& code,
                       Frame& frame) {

@@ -14,7 +14,7 @@ namespace lamina::csg {
 namespace {
 
 Value builtin_str(const CallCode& code, Frame& frame) {
-  // Mostly the first argument is what was built so far: append to it.
+  // Append to the first argument: mostly it is what was built so far.
   if (code.arguments.empty()) return Value::string("");
   Value result = argument(code, 0, frame);
   std::string text;
@@ -81,7 +81,7 @@ Value builtin_ord(const CallCode& code, Frame& frame) {
                             "string",
                             to_echo(value)));
   }
-  // OpenSCAD sees a string end at its first zero byte.
+  // To OpenSCAD a string ends at its first zero byte.
   std::string_view text = value.as_string();
   text = text.substr(0, text.find('\0'));
   if (!is_valid_utf8(text)) {

@@ -173,7 +173,8 @@ Mat4 translation_matrix(const Value& v, const BuiltinModuleCode& code,
   return matrix;
 }
 
-// What the rows give, in an identity; divided by the last element.
+// The identity with the elements that the rows give, divided by the last
+// element.
 Mat4 given_matrix(const Value& m) {
   Mat4 matrix(1.0);
   if (!m.is_vector()) return matrix;
@@ -194,8 +195,8 @@ Mat4 given_matrix(const Value& m) {
   return matrix;
 }
 
-// OpenSCAD multiplies these matrices by the identity: a number that is not
-// finite spoils its column.
+// OpenSCAD multiplies these matrices by the identity, which makes a column NaN
+// where a number in it is not finite.
 Mat4 times_identity(const Mat4& matrix) {
   Mat4 product = matrix;
   for (int column = 0; column < 3; ++column) {

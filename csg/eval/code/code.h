@@ -12,11 +12,12 @@
 //
 // Names are gone: a variable is a slot in the frame of its activation (a file,
 // a call of a module or function), found by a number of hops along the static
-// links. OpenSCAD assigns in order and a variable not assigned yet does not
-// hide the one outside. What cannot be decided while resolving stays a check
-// for an unset slot, with the next outer variable behind it (`otherwise`).
-// `$` variables have dynamic scope: one value per name, saved and restored
-// around scopes (shallow binding), so that looking one up is one load.
+// links. OpenSCAD assigns in order, and a variable that is not assigned yet
+// does not hide the one outside. What the resolver cannot decide is checked at
+// run time: where the slot is unset, the next outer variable is read
+// (`otherwise`). `$` variables have dynamic scope: one value per name, saved
+// and restored around scopes (shallow binding), so that looking one up is one
+// load.
 //
 // Resolved code is frozen: running it changes nothing in it. What the
 // interpreter wants to remember about a node it keeps in tables of its own,
@@ -61,8 +62,8 @@ class Frame {
   Frame* children_frame = nullptr;
 };
 
-// A variable while resolving; the code refers to it for `is_boxed`, which may
-// be decided by a closure that comes later in the text.
+// A variable as the resolver sees it. Code refers to it for `is_boxed`, which a
+// closure further down the text may decide.
 struct Variable {
   std::uint32_t slot = 0;
   bool is_boxed = false;
@@ -118,7 +119,7 @@ struct Constant : Expression {
   const Value* value = nullptr;
 };
 
-// A number that was warned of each time it is looked at.
+// A number that is not quite what was written: each look at it warns.
 struct InexactLiteral : Expression {
   double value = 0;
   std::string_view warning;
@@ -162,7 +163,7 @@ struct RangeCode : Expression {
   bool is_literal = false;
 };
 
-// An element of a vector or comprehension: gives any number of values.
+// An element of a vector or comprehension. It emits any number of values.
 struct Element {
   using Emit = void (*)(const Element&, Frame&, VectorBuilder&);
   Emit emit = nullptr;
@@ -245,7 +246,7 @@ struct Parameter {
   bool is_extra = false;            // only given by callers that were warned
 };
 
-// One argument that goes somewhere.
+// An argument and the parameter or variable that it sets.
 struct BoundArgument {
   Target target;
   std::uint32_t written = 0;  // index in the call's arguments
@@ -314,17 +315,18 @@ struct CallCode : Expression {
   std::uint32_t hops = 0;       // from the caller's frame to the callee's link
   bool is_foreign = false;      // defined in another file: by `use`
   ArgumentPlan* plan = nullptr;
-  // A variable of that name, which goes first if it holds a function; or the
-  // callee, if it is not a plain name.
+  // A variable of that name: if it holds a function, it is called. Or the
+  // callee, where that is not a plain name.
   const Expression* callee = nullptr;
   bool is_name = true;
   std::uint32_t number = 0;  // among the calls that have a `callee`
-  // A function's call of itself in tail position: OpenSCAD looks at its
-  // arguments' names once, so that their warnings come once.
+  // Whether a function calls itself in tail position. OpenSCAD looks at the
+  // names of the arguments once, so their warnings come once.
   bool is_self_call = false;
-  // Such a call is a jump: the arguments without those that pass a parameter on
-  // to itself; the fallbacks, which OpenSCAD evaluates once per call site, in
-  // the scope of the call.
+  // Such a call is a jump (`is_jump`) where it names the parameters of this
+  // version only. It leaves out arguments that pass a parameter on to itself,
+  // and its fallbacks are evaluated once per call site, in the scope of the
+  // call, as in OpenSCAD.
   struct TailDefault {
     Target target;
     const Expression* value = nullptr;
@@ -352,7 +354,7 @@ struct InstantiationCode {
 struct Block {
   Bindings assignments;
   std::span<const InstantiationCode* const> statements;
-  // Variables of the block that something may look at before they are set.
+  // Variables of the block that code may read before they are set.
   std::span<const std::uint32_t> resets;
 };
 
@@ -414,7 +416,7 @@ struct BuiltinModuleCode : InstantiationCode {
   ArgumentPlan* plan = nullptr;
   std::uint32_t parameter_count = 0;
   const Unit* unit = nullptr;
-  // linear_extrude: its first argument, as it is seen from inside its block.
+  // The first argument of linear_extrude, resolved inside its block.
   const Expression* late_argument = nullptr;
   std::string_view deprecated_for;  // what to use instead; mostly empty
 };

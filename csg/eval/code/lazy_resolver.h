@@ -11,7 +11,8 @@
 
 namespace lamina::csg {
 
-// How many numbers the nodes have that the interpreter remembers something of.
+// How many numbers were given out: the interpreter's tables have that many
+// rows.
 struct CodeCounts {
   std::uint32_t units = 0;
   std::uint32_t calls = 0;          // CallCode::number
@@ -22,12 +23,13 @@ class LazyResolver {
  public:
   virtual ~LazyResolver() = default;
 
-  // Fills in the body of what has none yet.
+  // Resolves a body for the first time; for a file that is resolved already it
+  // does nothing.
   virtual void resolve(const Unit& unit) = 0;
   virtual void resolve(const Function& function) = 0;
   virtual void resolve(const Module& module) = 0;
 
-  // Made once for each pair.
+  // The plan for a call of a literal. Made once for each pair.
   virtual const LiteralCall& plan_for(const CallCode& call,
                                       const FunctionLiteral& literal) = 0;
 

@@ -118,7 +118,7 @@ const Module& Resolver::with_extras(
   return *known;
 }
 
-// The literal's closures are made: its versions know what these captured.
+// Closures of the literal exist: its versions can use only what these captured.
 const FunctionLiteral& Resolver::with_extras(
     const FunctionLiteral& literal,
     std::span<const WrittenArgument> arguments) {
@@ -137,7 +137,7 @@ const FunctionLiteral& Resolver::with_extras(
   activation.captured = literal.activation->captured;
   activation.version = &activation;
   version.activation = &activation;
-  // Go back to where the literal is written.
+  // Enter the scopes around the literal once more.
   std::vector<Scope*> around;
   for (Scope* s = literal.scope; !s->is_home(); s = s->parent) {
     around.push_back(s);

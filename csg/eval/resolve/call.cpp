@@ -41,7 +41,7 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
             ? std::get_if<ast::Variable>(&call.arguments[0].value->node)
             : nullptr;
     if (plain != nullptr && code->builtin == builtin_is_undef) {
-      // Asking whether a variable is undefined is no offence.
+      // is_undef() of an unknown variable does not warn.
       std::vector<WrittenArgument> asked = {
           {call.arguments[0].name,
            this->variable(plain->name, range, Unknown::kSilent)}};
@@ -72,7 +72,7 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
   return code;
 }
 
-// A call of the function whose body this is, as its last act, is a jump.
+// Makes a jump of a call by which a function calls itself last.
 void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
   Activation& here = *scope_->activation;
   if (here.callable == nullptr || !code.is_name) return;
@@ -83,7 +83,7 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
       return;
     }
     code.is_self_call = true;
-    // What the caller of this version named besides stays what it is.
+    // Variables that callers of this version named besides keep their values.
     if (&resolver_.with_extras(self, code.arguments) != &self) return;
     code.function = &self;
     *code.plan =

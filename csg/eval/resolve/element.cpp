@@ -96,7 +96,7 @@ const Element* ExpressionResolver::for_c_element(const ast::ForCElements& loop,
     updated.back()->is_repeated = true;
   }
   code->init = sequential_bindings(loop.head->init, range, false);
-  // What only the update names is a variable from the second round on.
+  // A variable that only the update names has a value from the second round on.
   for (Variable* variable : updated) {
     if (!variable->is_set) variable->may_be_unset = true;
   }

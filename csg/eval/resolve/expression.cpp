@@ -19,7 +19,7 @@ const Value* constant_value(const Expression* code) {
              : nullptr;
 }
 
-// Of the literals, those whose evaluation warns of nothing.
+// Holds for literals whose evaluation warns of nothing.
 struct SilentTest {
   const ast::Expr& expr;
 
@@ -184,7 +184,7 @@ const Expression* ExpressionResolver::resolve(const ast::Expr& expr,
 
 const Expression* ExpressionResolver::binary(const ast::Binary& written,
                                              SourceRange range) {
-  // A chain a + b + c + … leans to the left; go down it in a loop.
+  // Go down a chain a + b + c + …, which leans to the left, in a loop.
   struct Step {
     const ast::Binary* binary;
     SourceRange range;
@@ -303,7 +303,7 @@ const AssertCode* ExpressionResolver::assertion(ast::Arguments written,
       code->message = given[bound.written].value;
     }
   }
-  // OpenSCAD looks for what is not given among the variables around.
+  // Where an argument is missing, OpenSCAD reads the variable of that name.
   if (code->condition == nullptr) {
     code->condition = variable("condition", range, Unknown::kWarn);
   }

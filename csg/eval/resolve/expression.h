@@ -10,8 +10,9 @@
 
 namespace lamina::csg {
 
-// Whether evaluating an expression certainly goes unnoticed: for simple
-// literals. `-"a"` and `[2 : 1]` are literals of which OpenSCAD warns.
+// Whether evaluating an expression certainly has no effect that shows. That
+// holds for simple literals; `-"a"` and `[2 : 1]` are literals of which
+// OpenSCAD warns.
 bool is_silent(const ast::Expr& expr);
 
 // Resolves the expressions of one scope. Cheap to make.
@@ -24,7 +25,8 @@ class ExpressionResolver {
   const Expression* resolve(const ast::Expr& expr,
                             Position position = Position::kInner);
 
-  // A variable by name; silently undef instead of a warning if asked to be.
+  // Resolves a variable by name. Where there is none, the code warns or is
+  // silently undef.
   enum class Unknown : std::uint8_t { kWarn, kSilent };
   const Expression* variable(std::string_view name, SourceRange range,
                              Unknown unknown);
@@ -33,8 +35,8 @@ class ExpressionResolver {
   const AssertCode* assertion(ast::Arguments written, const ast::Expr* body,
                               SourceRange range, Position position);
 
-  // Bindings that take effect one after the other, in the scope at hand, to
-  // variables that it has or now gets.
+  // Resolves bindings that take effect one after the other. The variables are
+  // those of the scope at hand; it gets those that it lacks.
   Bindings sequential_bindings(ast::Arguments written, SourceRange range,
                                bool is_statement_level);
   // Declares a variable of the scope at hand (a slot of its activation).

@@ -2,9 +2,10 @@
 // Hexadecimal and binary numbers: 0x and digits of either case, 0b and zeros
 // and ones.
 //
-// To OpenSCAD 2021.01 `0xff` is a name like any other that begins with a digit.
-// So it stays one here, and a variable of that name is found first; only where
-// there is none is it the number. OpenSCAD has read 0x since; 0b is lamina's.
+// To OpenSCAD 2021.01 `0xff` is a name, like any other that begins with a
+// digit. It stays a name here, and a variable of that name counts; only where
+// there is none is it a number. Later OpenSCAD reads 0x as well; 0b is lamina's
+// own.
 
 #include <string>
 #include <string_view>

@@ -44,8 +44,8 @@ struct Activation {
   FunctionLiteral* literal = nullptr;
   // Their places among the captures of `literal`.
   std::unordered_map<const Variable*, std::uint32_t> captured;
-  // The nearest activation, this one included, of a further version of a
-  // literal: its closures exist, captures are settled.
+  // The nearest activation, this one included, that is a further version of a
+  // literal. Closures of that literal exist, so its captures are settled.
   const Activation* version = nullptr;
   std::uint32_t depth = 0;
   std::uint32_t next_slot = 0;
@@ -71,7 +71,8 @@ struct Scope {
   std::unordered_map<std::string_view, Variable*> variables;
   std::unordered_map<std::string_view, Function*> functions;
   std::unordered_map<std::string_view, Module*> modules;
-  // Slots of a block that code of another activation may see unset.
+  // Slots of a block that code of another activation may read before they are
+  // set.
   std::vector<std::uint32_t> resets;
 
   bool is_home() const { return home == this; }
@@ -81,17 +82,17 @@ struct Scope {
   }
 };
 
-// The variables of the scopes that are being resolved, by name: nested a
-// thousand deep, they need not be climbed through. Those of files and modules
+// The variables of the scopes that are being resolved, by name, so that nobody
+// climbs through scopes nested a thousand deep. Variables of files and modules
 // stay in their scopes, since most of the code that sees them is resolved
 // later.
 class OpenVariables {
  public:
-  // Scopes are left in the reverse order.
+  // Scopes must be left in the reverse order.
   void enter(Scope& scope);
   void leave(Scope& scope);
-  // A new variable of a scope; of a scope that is not a home, the last one
-  // entered.
+  // Adds a variable of a scope, which is the last one entered unless it is a
+  // home.
   void declare(std::string_view name, Variable& variable);
 
   // The innermost variable of the name that `scope`, the last one entered,
@@ -122,7 +123,8 @@ class Resolver : public LazyResolver {
     return declared_unit(program);
   }
 
-  // Of the main file the instantiations too.
+  // Resolves the assignments of a file, of the main file the instantiations
+  // too.
   void resolve(const Unit& unit) override;
   void resolve(const Function& function) override;
   void resolve(const Module& module) override;
@@ -156,11 +158,11 @@ class Resolver : public LazyResolver {
     return arena_.copy(text);
   }
   void declare(Scope& scope, ast::Statements statements);
-  // Names and targets from `first_slot` on; fallbacks are resolved with the
-  // body.
+  // Gives parameters slots from `first_slot` on. Their fallbacks are resolved
+  // with the body.
   std::span<Parameter> make_parameters(ast::Arguments written,
                                        std::uint32_t first_slot);
-  // Makes the parameters variables of the scope.
+  // Declares the parameters as variables of the scope.
   void declare_parameters(std::span<const Parameter> parameters, Scope& scope);
 
   template <typename Named>
@@ -174,8 +176,9 @@ class Resolver : public LazyResolver {
   DeclaredUnit* used_unit(const ast::Use& use);
   Callee<Function> find_function(const Scope& scope, std::string_view name);
   Callee<Module> find_module(const Scope& scope, std::string_view name);
-  // A callee with further parameters for what a caller names although it is no
-  // parameter: OpenSCAD warns, but the callee sees those variables.
+  // A version of the callee with further parameters, for arguments whose names
+  // are no parameters: OpenSCAD warns of them, but the callee sees those
+  // variables.
   const Function& with_extras(const Function& function,
                               std::span<const WrittenArgument> arguments);
   const Module& with_extras(const Module& module,
@@ -183,12 +186,12 @@ class Resolver : public LazyResolver {
   const FunctionLiteral& with_extras(
       const FunctionLiteral& literal,
       std::span<const WrittenArgument> arguments);
-  // What is said of arguments that a user's module has no parameter for.
+  // Whether to warn of arguments for which a user's module has no parameter.
   Surplus module_surplus() const {
     return options_.check_parameters ? Surplus::kWarn : Surplus::kSilent;
   }
 
-  // Things that live as long as the code.
+  // Copies that live as long as the code.
   Value& keep_constant(Value value) {
     return constants_.emplace_back(std::move(value));
   }

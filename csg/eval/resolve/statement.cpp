@@ -50,7 +50,7 @@ void StatementResolver::module(Module& module) {
   module.body.statements = instantiations(module.definition->body);
 }
 
-// The last value of a name counts, at the place of the first.
+// The last value of a name counts; it is assigned where the first one stands.
 Bindings StatementResolver::assignments(ast::Statements statements,
                                         Module* module) {
   ExpressionResolver resolver = expressions();

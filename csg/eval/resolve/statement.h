@@ -16,7 +16,7 @@ class StatementResolver {
 
   // Statements of a file, in its scope.
   Block body(ast::Statements statements);
-  // Of a used file, whose instantiations nobody sees.
+  // Statements of a used file, whose instantiations make nothing.
   Block assignments_only(ast::Statements statements);
   // Parameters and body of a module, in its own scope.
   void module(Module& module);

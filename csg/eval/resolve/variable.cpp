@@ -27,8 +27,8 @@ Target ExpressionResolver::target(std::string_view name, Variable* variable) {
   return {Target::Kind::kSlot, variable->slot, variable};
 }
 
-// Index of a captured variable in the closures of `literal`; literals between
-// it and the variable's home pass it on.
+// Returns the index of a captured variable in the closures of `literal`.
+// Literals between it and the variable's home capture the variable as well.
 std::uint32_t ExpressionResolver::capture(Activation& literal,
                                           Variable& variable) {
   const auto known = literal.captured.find(&variable);
@@ -59,8 +59,9 @@ const Activation* version_between(const Activation& here,
              : nullptr;
 }
 
-// Variables that a literal's closures have not captured are of no use to its
-// versions: they came later, or a nearer one certainly has a value.
+// Whether code of a version can reach a variable. It cannot reach what the
+// literal's closures have not captured; such a variable came later, or a nearer
+// one certainly has a value.
 bool is_within_reach(const Activation& here, const Variable& variable) {
   if (variable.is_statement_level) return true;
   const Activation* version = version_between(here, variable);
@@ -88,8 +89,8 @@ const Expression* ExpressionResolver::load(Variable& variable,
     code->run = code->hops == 1 ? run_outer : run_far_outer;
     if (code->hops == 1) code->kind = Expression::Kind::kOuter;
   } else {
-    // Code that boxes a variable, or does not, may have run by the time that a
-    // version is made.
+    // By the time that a version is made, code may have run that boxes the
+    // variable or does not: leave it as it is.
     const bool is_settled = version_between(here, variable) != nullptr;
     *is_certain = variable.is_set && !variable.may_be_unset && !is_settled;
     if (!is_settled && (!variable.is_set || variable.is_repeated)) {
@@ -113,7 +114,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
     code->is_silent = unknown == Unknown::kSilent;
     return code;
   }
-  // From the innermost scope outwards, until one certainly has the variable.
+  // Go from the innermost scope outwards, until one certainly has the variable.
   std::vector<const Expression*> candidates;
   bool is_certain = false;
   for (Variable* found = resolver_.open_variables.find(*scope_, name);

@@ -61,8 +61,8 @@ void pass_arguments(const ArgumentPlan& plan,
 
 namespace {
 
-// `$` variables that a tail call's arguments and enclosing lets bind stay
-// bound; everything else of the frame is overwritten.
+// Overwrites the frame with the arguments of a tail call. `$` variables that
+// the arguments and enclosing lets bind stay bound.
 void jump(const CallCode& call, const ArgumentPlan& plan,
           std::span<const BoundArgument> bound, std::size_t trail_mark,
           Frame& frame) {
@@ -92,8 +92,8 @@ void jump(const CallCode& call, const ArgumentPlan& plan,
   }
 }
 
-// A tail call of a function literal by the name that it was called by is a
-// jump if that name still means the same literal.
+// Jumps if a tail call names the function literal by which this call got here,
+// and the name still means that literal.
 bool jump_to_literal(const CallCode& call, const Callable& callable,
                      std::string_view name, std::size_t trail_mark,
                      Frame& frame) {
@@ -111,7 +111,8 @@ bool jump_to_literal(const CallCode& call, const Callable& callable,
   return true;
 }
 
-// Follows the tail positions of a body. True: start again.
+// Follows the tail positions of a body. Returns true where it is to start
+// again.
 bool run_round(const Callable& callable, std::string_view name,
                std::size_t trail_mark, Frame& frame, Value& result) {
   const Expression* code = callable.body;
@@ -178,7 +179,8 @@ Value run_body(const Callable& callable, std::string_view name,
 
 // --- Calls ------------------------------------------------------------------
 
-// Made when it is asked for: in f(1)(2)(3)… every callee holds all before it.
+// Made only when a message needs it: in f(1)(2)(3)… each callee holds all
+// before it.
 std::string shown_name(const CallCode& code) {
   return code.callee_text == nullptr
              ? std::string(code.name)
@@ -209,7 +211,8 @@ Value call_function(const CallCode& code, Frame& frame) {
   return run_body(function, function.name, function.range, callee);
 }
 
-// The parameter `this` of a method is its object, whatever else was given.
+// Sets the parameter `this` of a method to its object, whatever was passed for
+// it.
 [[gnu::noinline]] void pass_this(const Closure& closure, Frame& callee) {
   for (const Parameter& parameter : literal_of(closure).parameters) {
     if (parameter.name != "this") continue;
@@ -217,7 +220,7 @@ Value call_function(const CallCode& code, Frame& frame) {
   }
 }
 
-// The callee holds a function; `function` keeps it alive.
+// Calls a function value, which `function` keeps alive.
 Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
   const Closure& closure = function.as_function();
   const auto& [literal, plan] = frame.in.plan_for(code, literal_of(closure));

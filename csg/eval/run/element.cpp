@@ -30,7 +30,7 @@ void emit(const Element& element, Frame& frame, VectorBuilder& out) {
   }
 }
 
-// How many values that will be, as far as it is cheap to know.
+// How many values there will be, where that is cheap to know; else a guess.
 std::size_t count_values(const Value& values) {
   if (values.is_vector()) return values.as_vector().size();
   if (values.is_range()) {

@@ -1,5 +1,5 @@
 #pragma once
-// What an evaluation may take and how it behaves.
+// The limits of an evaluation and its choices.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +21,8 @@ struct EvaluateOptions {
   // may be nested. Where either ends, so does the evaluation, with OpenSCAD's
   // error. Callers should run evaluate() on a thread with a large stack.
   std::size_t stack_bytes = std::size_t{6} << 20;
-  // Calls and turns of loops that the evaluation may take. For fuzzers, which
-  // end no process; the program has --max-time.
+  // Calls and turns of loops that the evaluation may take. Fuzzers set it; the
+  // program has --max-time.
   std::uint64_t max_steps = UINT64_MAX;
   // Calls of functions and modules that may be nested (`--max-depth`), as far
   // as the stack goes.
@@ -30,12 +30,13 @@ struct EvaluateOptions {
   // Nodes without children that may be made, left out later or not
   // (`--max-leaves`). On their way to the layers they take about 1 kB each.
   std::uint32_t max_leaves = 10'000'000;
-  // Arguments that a user's module has no parameter for are warned of
-  // (`--check-parameters`); those of functions and built-in modules always.
+  // Whether to warn of arguments for which a user's module has no parameter
+  // (`--check-parameters`). Functions and built-in modules always warn.
   bool check_parameters = true;
-  // For textmetrics() and fontmetrics(), which are undef without.
+  // For textmetrics() and fontmetrics(), which give undef without it.
   TextMeasurer* text_measurer = nullptr;
-  // Numbers outside their range (`--check-parameter-ranges`) are warned of.
+  // Whether to warn of numbers outside their range
+  // (`--check-parameter-ranges`).
   bool check_ranges = false;
 };
 

@@ -21,7 +21,7 @@ Value run_constant(const Expression& expression, Frame&) {
 }
 
 namespace {
-// A slot that is unset or boxed.
+// Loads a variable whose slot is unset or boxed.
 [[gnu::noinline]] Value load_unusual(const VariableLoad& code,
                                      const Value& value, Frame& frame) {
   if (value.type() == Type::kBox && !value.as_box().value.is_unset()) {
@@ -85,7 +85,7 @@ Value run_conditional(const Expression& expression, Frame& frame) {
 }
 
 namespace {
-// An element of a vector that stands in memory; otherwise as `look`.
+// Like `look`, for an element of a vector.
 const Value& look_at_element(const BinaryCode& code, Frame& frame,
                              Value& spill) {
   Value spill_object;

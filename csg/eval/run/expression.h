@@ -31,8 +31,8 @@ Expression::Runner unary_runner(ast::UnaryOp op);
 Expression::Runner binary_runner(ast::BinaryOp op, const Expression& left,
                                  const Expression& right);
 
-// A call by a name that only a function can have: a user's function, a
-// built-in one of one number, any other built-in one, none.
+// Calls by a name that no variable has: of a user's function, of a built-in
+// function of one number, of any other built-in function, of an unknown one.
 Value run_call_function(const Expression& expression, Frame& frame);
 Value run_call_math(const Expression& expression, Frame& frame);
 Value run_call_builtin(const Expression& expression, Frame& frame);

@@ -11,7 +11,7 @@ namespace lamina::csg {
 
 namespace {
 std::uintptr_t lowest_stack(std::uintptr_t highest, std::size_t bytes) {
-  // What building a message needs below the last frame that passed the check.
+  // Stack for building a message, below the last frame that passed the check.
   constexpr std::size_t kReserve = 64 << 10;
   const std::size_t usable = bytes > 2 * kReserve ? bytes - kReserve : kReserve;
   return highest > usable ? highest - usable : 0;
@@ -37,7 +37,7 @@ Interpreter::Interpreter(LazyResolver& resolver, DynamicNames& names,
   make_room();
 }
 
-// Boxes in cycles die here: empty each, and the closures inside let go.
+// Frees boxes in cycles: once a box is empty, the closures that it held let go.
 Interpreter::~Interpreter() {
   while (boxes_.next != nullptr) {
     Box* box = boxes_.next;
@@ -46,7 +46,7 @@ Interpreter::~Interpreter() {
       box->value = Value();
     }
     if (boxes_.next != box) continue;
-    // Still held by someone: take it out of the list only.
+    // Another value still holds it: only take it out of the list.
     boxes_.next = box->next;
     if (box->next != nullptr) box->next->previous = &boxes_;
     box->previous = box->next = nullptr;
@@ -68,7 +68,7 @@ void Interpreter::warn(SourceRange range, std::string message,
   diagnostics_.report(std::move(diagnostic));
 }
 
-// Once for each place and text.
+// Reports each text once for each place.
 void Interpreter::deprecate(SourceRange range, std::string message,
                             const Source* document) {
   ++effects_;
@@ -109,8 +109,8 @@ void Interpreter::fail(SourceRange range, std::string message,
 }
 
 void Interpreter::end_with(Diagnostic diagnostic) {
-  // AddressSanitizer does not see that an exception leaves the frames of a
-  // stack as large as that of the evaluation; else this does nothing.
+  // Tell AddressSanitizer that the exception leaves these frames: on a stack as
+  // large as this one it does not see that. In other builds this does nothing.
   void* const here = __builtin_frame_address(0);
   ASAN_UNPOISON_MEMORY_REGION(
       here, stack_begin_ - reinterpret_cast<std::uintptr_t>(here));

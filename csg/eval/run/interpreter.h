@@ -24,7 +24,7 @@
 
 namespace lamina::csg {
 
-// What messages call a call.
+// A call's name in messages.
 inline std::string shown_name(const InstantiationCode& code) {
   return std::string(code.name);
 }
@@ -35,7 +35,7 @@ struct EvaluationFailure {};
 
 class Interpreter {
  public:
-  // The parts outlive it.
+  // All that it refers to must outlive it.
   //
   // names   of the `$` variables, which resolving may add to
   // arena   for nodes
@@ -48,8 +48,8 @@ class Interpreter {
   Interpreter& operator=(const Interpreter&) = delete;
 
   // --- Messages
-  // document: of the frame where OpenSCAD takes the context of the code; null
-  // where it takes that of the design.
+  // `document` is that of the frame where OpenSCAD shows places relative to the
+  // code's file, and null where it shows them relative to the design.
   void warn(SourceRange range, std::string message,
             const Source* document = nullptr);
   void deprecate(SourceRange range, std::string message,
@@ -67,7 +67,7 @@ class Interpreter {
   // warning.
   Diagnostic take_failure() { return std::move(*failure_); }
 
-  // Of each call and each turn of a loop: throws at one too many.
+  // Counts a call or a turn of a loop. Throws at one too many.
   void count_step() {
     if (steps_left_-- == 0) [[unlikely]]
       fail_steps();
@@ -80,7 +80,7 @@ class Interpreter {
            reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
                stack_limit_;
   }
-  // Throws OpenSCAD's error where that is so.
+  // Throws OpenSCAD's error in that case.
   void check_depth(SourceRange range, std::string_view kind,
                    std::string_view name, const Source* document) {
     if (is_too_deep()) fail_recursion(range, kind, name, document);
@@ -96,7 +96,7 @@ class Interpreter {
   }
 
   // --- Variables
-  // Value of a `$` variable; unset if nothing gave it one.
+  // The value of a `$` variable; unset where nothing set it.
   const Value& dynamic(std::uint32_t index) {
     ++effects_;
     return dynamic_[index];
@@ -125,7 +125,7 @@ class Interpreter {
     return dynamic(index).number_or_zero();
   }
 
-  // Gives `$parent_modules` the number of modules being instantiated.
+  // Sets `$parent_modules` to the number of modules being instantiated.
   void bind_module_depth();
 
   // --- Calls
@@ -153,7 +153,7 @@ class Interpreter {
   void set_tail_value(std::uint32_t number, Value value) {
     tail_values_[number] = std::move(value);
   }
-  // Whether this is the first time that the call at `range` asks.
+  // Whether the call at `range` asks for the first time.
   bool is_first_of_call(SourceRange range) {
     return calls_seen_.emplace(range.source, range.begin, range.end).second;
   }
@@ -169,7 +169,7 @@ class Interpreter {
   std::span<const Node* const> nodes_since(std::size_t mark) const {
     return {nodes_.data() + mark, nodes_.size() - mark};
   }
-  // As long as the tree.
+  // Copies that live as long as the tree.
   template <typename T>
   const T* keep(const T& value) {
     return arena_.make(value);
@@ -194,12 +194,10 @@ class Interpreter {
   // --- Modules being instantiated
   std::vector<std::string_view>
       module_names;  // of user modules, innermost last
-  const CallFrame* current_call = nullptr;
-  const CallFrame* keep_call(const CallFrame& call) {
-    return calls_.make(call);
-  }
+  const CallSite* current_call = nullptr;
+  const CallSite* keep_call(const CallSite& call) { return calls_.make(call); }
 
-  // For rands() and everything else that is not a function of its arguments.
+  // For rands().
   MersenneTwister random;
   std::uint64_t& effects() { return effects_; }
   const EvaluateOptions& options() const { return options_; }
@@ -227,7 +225,7 @@ class Interpreter {
   }
   const LiteralCall& find_plan(const CallCode& call,
                                const FunctionLiteral& literal);
-  // For what resolving brought up.
+  // Extends the tables to what resolving brought up.
   void make_room();
 
   LazyResolver& resolver_;
@@ -245,8 +243,8 @@ class Interpreter {
   std::string design_folder_;
   std::vector<Value> dynamic_;
   std::vector<Saved> trail_;
-  // Counts all that makes an evaluation more than a function of the text:
-  // messages, reads of `$` variables, random numbers.
+  // Counts what makes a result depend on more than the text: messages, reads of
+  // `$` variables, random numbers.
   std::uint64_t effects_ = 0;
   std::vector<const Node*> nodes_;
   std::uint32_t leaf_count_ = 0;
@@ -262,8 +260,8 @@ class Interpreter {
     std::vector<Value> slots;
   };
   std::deque<UnitFrame> unit_frames_;
-  // Of a file whose assignments depend on nothing outside: its variables, and
-  // what it binds `$` variables to.
+  // The variables of a file whose assignments depend on nothing outside, and
+  // the values that it gives to `$` variables.
   struct UnitValues {
     Frame* frame = nullptr;
     std::vector<std::pair<std::uint32_t, Value>> dynamic_values;
@@ -278,9 +276,9 @@ class Interpreter {
   std::vector<Value> tail_values_;
 };
 
-// A call while it runs. A failure that passes by takes a note of it, as
-// OpenSCAD's TRACE lines do; a destructor does that without the cost that
-// catching and throwing again has a hundred thousand calls deep.
+// A call while it runs. A failure that passes by is given a note of it, as in
+// OpenSCAD's TRACE lines. A destructor adds that note: to catch and throw again
+// would cost too much a hundred thousand calls deep.
 template <typename Code>
 class ActiveCall {
  public:
@@ -340,13 +338,14 @@ class FrameSlots {
 inline Value run(const Expression* code, Frame& frame) {
   return code->run(*code, frame);
 }
-// Most messages are never made: this keeps their code out of the hot functions.
+// Not inline: most messages are never made, and their code would slow the hot
+// functions.
 void warn(Frame& frame, SourceRange range, std::string message);
 inline bool is_plain(const Value& value) {
   return !value.is_unset() && value.type() != Type::kBox;
 }
-// The value of an expression without a copy, where it stands in memory;
-// otherwise runs it into `spill`. Nothing that runs in the meantime moves it:
+// Finds the value of an expression in memory, without a copy, or runs the
+// expression into `spill`. Nothing that runs in the meantime moves the value:
 // variables of inner scopes have slots of their own, and vectors do not change.
 const Value& look_further(const Expression* code, Frame& frame, Value& spill);
 [[gnu::always_inline]] inline const Value& look(const Expression* code,
@@ -371,13 +370,14 @@ inline bool is_true(const Expression* code, Frame& frame) {
 Value run_body(const Callable& callable, std::string_view name,
                SourceRange range, Frame& frame);
 
-// Runs `{ … }`: assignments, then instantiations; nodes pile up.
+// Run the parts of `{ … }`, or both: assignments, then instantiations, whose
+// nodes go on top of the list.
 void run_assignments(const Block& block, Frame& frame);
 void run_statements(const Block& block, Frame& frame);
 void run_block(const Block& block, Frame& frame);
 void instantiate(const InstantiationCode& code, Frame& frame);
 
-// A fresh box for a variable that closures share.
+// Gives a variable that closures share a fresh box.
 inline void prepare(const Target& target, Frame& frame) {
   if (target.variable != nullptr && target.variable->is_boxed) {
     frame.slots[target.index] = frame.in.make_box();
@@ -387,7 +387,7 @@ inline void prepare(const Target& target, Frame& frame) {
 // Evaluates let-like bindings one after the other.
 void run_bindings(Bindings bindings, Frame& frame);
 
-// Whether a call's further rounds repeat the warnings of its arguments.
+// Whether a call warns of its arguments each time or only the first time.
 enum class Repeats : std::uint8_t { kTold, kSilent };
 
 // Stores arguments and defaults of a call into the callee's frame.

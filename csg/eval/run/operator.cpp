@@ -12,7 +12,7 @@ namespace {
 
 using ast::BinaryOp;
 
-// What `look` found: itself if it is the spill, else a copy.
+// The value that `look` found: moved if it is in the spill, else copied.
 Value take(const Value& value, Value& spill) {
   if (&value == &spill) return std::move(spill);
   return value;
@@ -89,8 +89,9 @@ Value on_numbers(double a, double b) {
   }
 }
 
-// An operand, by the way its value is reached. Most are plain variables,
-// constants and results; knowing which while resolving saves the question.
+// How the value of an operand is reached. Most operands are plain variables,
+// constants and results; the resolver knows which, so that running need not
+// ask.
 enum class Reach : std::uint8_t { kLooked, kLocal, kConstant, kComputed };
 
 Reach reach_of(const Expression& code) {
@@ -155,7 +156,7 @@ class Operand<Reach::kComputed> {
   Value value_;
 };
 
-// Operands that are not both numbers, or bits.
+// Applies a binary operator to operands that are not both numbers, or to bits.
 template <typename Left, typename Right>
 [[gnu::noinline]] Value run_binary_any(const BinaryCode& code, Left& left,
                                        Right& right, Frame& frame) {
@@ -168,8 +169,8 @@ template <typename Left, typename Right>
   return result;
 }
 
-// The right operand goes first, as in the released openscad: messages of both
-// come in that order.
+// Evaluates the right operand first, as the released openscad does: that is the
+// order of their messages.
 template <BinaryOp op, Reach left_reach, Reach right_reach>
 Value run_binary(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);

@@ -4,8 +4,8 @@
 // Source: Matsumoto and Nishimura, "Mersenne Twister", ACM TOMACS 8 (1998),
 // with the seeding of their 2002 version. Departure: state words are seeded and
 // twisted one by one, as they are needed. Noise functions of libraries seed
-// anew for two numbers at a time, where making all 624 words twice was most of
-// a run.
+// anew for every two numbers; making all 624 words each time took most of the
+// evaluation.
 
 #include <algorithm>
 #include <array>

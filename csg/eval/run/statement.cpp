@@ -53,12 +53,13 @@ void instantiate(const InstantiationCode& code, Frame& frame) {
 
 namespace {
 
-// The call chain and the names that parent_module() shows, for one call.
+// Keeps the call chain, and the names that parent_module() shows, during one
+// call.
 class ModuleCall {
  public:
   ModuleCall(const UserModuleCode& code, Interpreter& in)
       : in_(in), outer_(in.current_call) {
-    CallFrame call;
+    CallSite call;
     call.caller = outer_;
     call.name = code.name;
     call.range = code.range;
@@ -74,7 +75,7 @@ class ModuleCall {
 
  private:
   Interpreter& in_;
-  const CallFrame* outer_;
+  const CallSite* outer_;
 };
 
 void run_module_body(const Module& module, Frame& frame) {
@@ -99,7 +100,7 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
   in.check_depth(module.range, "module", code.name, module.unit->document);
   in.ensure_resolved(module);
   const std::size_t mark = in.node_mark();
-  // The children's assignments come first: arguments may use them.
+  // Run the children's assignments first: arguments may use them.
   run_assignments(*code.block, frame);
   Frame callee{in};
   if (code.is_foreign) {
@@ -162,7 +163,7 @@ void run_if(const InstantiationCode& instantiation, Frame& frame) {
 
 namespace {
 
-// One loop inside the other, for the bindings from `level` on.
+// Runs the loops over the bindings from `level` on, one inside the other.
 void run_loop(const ForCode& code, std::size_t level, Frame& frame) {
   Interpreter& in = frame.in;
   if (level == code.bindings.size()) {

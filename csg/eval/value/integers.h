@@ -1,6 +1,6 @@
 #pragma once
-// Numbers cut to integers. What does not fit is the least integer, as x86
-// converts it; C++ leaves open what it is.
+// Numbers cut to integers. What does not fit becomes the least integer, as on
+// x86; C++ leaves that undefined.
 
 #include <cmath>
 #include <cstdint>

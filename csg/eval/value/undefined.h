@@ -1,5 +1,5 @@
 #pragma once
-// What operators say where an operation has no meaning.
+// The warnings of operations that have no meaning.
 
 #include <string>
 

@@ -19,13 +19,11 @@ class DxfGrid {
   // The point that stands for `point`: that of its cell of the grid, or else of
   // the nearest of the eight cells around it; a new one where none has any.
   //
-  // point  no further than kFarthest from the origin
+  // point  no farther than kGreatestCoordinate from the origin
   std::uint32_t snap(Vec2 point);
 
   Vec2 operator[](std::uint32_t i) const { return points_[i]; }
   std::size_t size() const { return points_.size(); }
-
-  static constexpr double kFarthest = 1e9;  // mm
 
  private:
   using Cell = std::pair<std::int64_t, std::int64_t>;

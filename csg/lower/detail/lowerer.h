@@ -69,8 +69,12 @@ class Lowerer {
   Shape lower_op(const Op&, const Node& node, const Affine& world) {
     return lower_children(node, world, BooleanOp::kUnion);
   }
-  Shape lower_op(const Difference&, const Node& node, const Affine& world);
-  Shape lower_op(const Intersection&, const Node& node, const Affine& world);
+  Shape lower_op(const Difference&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kDifference);
+  }
+  Shape lower_op(const Intersection&, const Node& node, const Affine& world) {
+    return lower_children(node, world, BooleanOp::kIntersection);
+  }
   Shape lower_op(const Transform& op, const Node& node, const Affine& world);
 
   // Treats the parts above the mark, of this shape, as a singular matrix that
@@ -189,6 +193,11 @@ class Lowerer {
   std::array<KeptBox, 64> kept_boxes_;
   std::map<std::string, FileShape> file_shapes_;  // by path and csg_text
 };
+
+// Applies the part of the matrix that acts in the plane. Outer contours stay
+// counter-clockwise.
+planar::Region transform_region(planar::Region region, const Mat4& matrix,
+                                SourceRange range, Diagnostics& diagnostics);
 
 // Throws GeometryError, with the node's chain of calls.
 [[noreturn]] void fail_unsupported(const Node& node, std::string_view module);

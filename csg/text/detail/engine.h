@@ -28,8 +28,8 @@ struct Message {
 struct Typeset {
   bool has_font = false;
   std::span<const Message> messages;
-  // Of all polygons, one after another, and the end of each. Inside is where
-  // they wind other than 0 times.
+  // The points of all polygons, one polygon after another, and where each ends.
+  // Inside is where they wind other than 0 times.
   std::span<const Vec2> points;
   std::span<const std::uint32_t> ends;
   csg::TextMetrics text_metrics;

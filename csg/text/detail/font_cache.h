@@ -22,6 +22,7 @@
 #include <ft2build.h>
 #include <hb.h>
 #include FT_FREETYPE_H
+#include FT_GLYPH_H
 
 #include "csg/text/detail/engine.h"
 
@@ -34,6 +35,7 @@ struct Release {
   void operator()(FcPattern* pattern) const { FcPatternDestroy(pattern); }
   void operator()(FT_Library library) const { FT_Done_FreeType(library); }
   void operator()(FT_Face face) const { FT_Done_Face(face); }
+  void operator()(FT_Glyph glyph) const { FT_Done_Glyph(glyph); }
   void operator()(hb_font_t* font) const { hb_font_destroy(font); }
   void operator()(hb_buffer_t* buffer) const { hb_buffer_destroy(buffer); }
 };
@@ -56,8 +58,11 @@ struct Font {
 // All caches share what Fontconfig finds.
 class FontCache {
  public:
+  // Loads Fontconfig's configuration; where only some files may be read, also
+  // every font among them.
+  //
   // files  outlives the cache
-  explicit FontCache(const FontFiles& files);
+  static FontCache open(const FontFiles& files);
 
   // To be called before the first find(). False if the file holds no font.
   bool add_font(const char* path);
@@ -66,6 +71,8 @@ class FontCache {
   const Font& find(const std::string& name);
 
  private:
+  explicit FontCache(const FontFiles& files) : files_(files) {}
+
   Font load(const std::string& name) const;
   void add_permitted_folders();
   void add_pattern(FT_FaceRec& face, const char* path, unsigned index);

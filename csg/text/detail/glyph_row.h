@@ -1,17 +1,12 @@
 #pragma once
 // A text as a row of glyphs: shaped by HarfBuzz, loaded by FreeType.
 
-#include <memory>
 #include <vector>
-
-#include <ft2build.h>
-#include <hb.h>
 
 #include "base/vec.h"
 #include "csg/text/detail/engine.h"
 #include "csg/text/detail/font_cache.h"
 #include "csg/tree.h"
-#include FT_GLYPH_H
 
 namespace lamina::text {
 
@@ -20,10 +15,7 @@ struct Box {
   Vec2 high = Vec2(0);
 };
 
-struct ReleaseGlyph {
-  void operator()(FT_Glyph glyph) const { FT_Done_Glyph(glyph); }
-};
-using OwnedGlyph = std::unique_ptr<FT_GlyphRec_, ReleaseGlyph>;
+using OwnedGlyph = Owned<FT_GlyphRec_>;
 
 // Lengths are in units of text(size = 1).
 struct Glyph {

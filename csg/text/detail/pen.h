@@ -24,7 +24,7 @@ class Pen {
   // origin  where the outline's origin lies, before scaling
   void draw(FT_Outline& outline, Vec2 origin);
 
-  // Of all polygons, one after another, and the end of each.
+  // The points of all polygons, one after another, and where each ends.
   const std::vector<Vec2>& points() const { return points_; }
   const std::vector<std::uint32_t>& ends() const { return ends_; }
 

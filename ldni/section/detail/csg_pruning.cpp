@@ -15,7 +15,7 @@
 namespace lamina::ldni::detail {
 namespace {
 
-// Leaves are told apart only by more than this [mm]: ten ties.
+// Leaves count as apart only by more than this [mm]: ten ties.
 constexpr double kMargin = 1e-5;
 
 // Operators with more children are not looked into, and for one instance no
@@ -105,7 +105,8 @@ struct CsgPruning::Body {
   double outer = 0;
 };
 
-CsgPruning::CsgPruning(const csg::Scene& scene) : scene_(scene) {
+CsgPruning::CsgPruning(const csg::Scene& scene)
+    : scene_(scene), program_(scene, csg::Ternary::kUnknown) {
   list_children();
 }
 
@@ -122,94 +123,73 @@ void CsgPruning::list_children() {
     if (is_listed(i)) sum += scene_.program[i].child_count;
   }
   children_.resize(sum);
-  const auto add = [&](std::uint32_t parent, Child child, bool is_minuend) {
-    if (!is_listed(parent)) return;
-    child.is_subtrahend =
-        scene_.program[parent].op == csg::BooleanOp::kDifference && !is_minuend;
-    children_[ends_[parent]++] = child;
+  const auto add = [&](std::uint32_t parent, Child child) {
+    if (is_listed(parent)) children_[ends_[parent]++] = child;
   };
   for (std::uint32_t i = 1; i < node_count; ++i) {
-    const csg::BooleanNode& node = scene_.program[i];
-    add(node.parent, {i, false, false}, node.is_minuend);
+    add(scene_.program[i].parent, {i, false});
   }
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-    const csg::Instance& instance = scene_.instances[i];
-    add(instance.parent, {i, true, false}, instance.is_minuend);
+    add(scene_.instances[i].parent, {i, true});
   }
 }
 
 bool CsgPruning::matters(std::uint32_t instance) {
-  const csg::Instance& leaf = scene_.instances[instance];
-  Box3 box = leaf.box;
+  Box3 box = scene_.instances[instance].box;
   box.low -= kMargin;
   box.high += kMargin;
   last_question_ = questions_ + kMostQuestions;
-  Child branch{instance, true, false};
-  std::uint32_t node = leaf.parent;
-  bool is_minuend = leaf.is_minuend;
+  const bool matters = !is_decided_above(instance, box);
+  for (const std::uint32_t other : asked_) {
+    program_.set(other, csg::Ternary::kUnknown);
+  }
+  asked_.clear();
+  return matters;
+}
+
+// Goes from the instance to the root and asks what stands beside its branch,
+// until an operator is decided.
+bool CsgPruning::is_decided_above(std::uint32_t instance, const Box3& box) {
+  Child branch{instance, true};
+  std::uint32_t node = scene_.instances[instance].parent;
   for (;;) {
-    const csg::BooleanNode& op = scene_.program[node];
-    branch.is_subtrahend = op.op == csg::BooleanOp::kDifference && !is_minuend;
-    if (op.child_count <= kMostChildren) {
-      const Count without = count(node, branch, box);
-      Count with = without;
-      with.add({1, 1}, branch.weight());
-      const std::int32_t needed = threshold(node);
-      if (std::min(without.low, with.low) >= needed ||
-          std::max(without.high, with.high) < needed) {
-        return false;
-      }
-    }
-    if (node == 0 || questions_ == last_question_) return true;
+    ask(node, branch, box);
+    if (program_.is_decided(node)) return true;
+    if (node == 0 || questions_ == last_question_) return false;
     ++questions_;
-    branch = {node, false, false};
-    is_minuend = op.is_minuend;
-    node = op.parent;
+    branch = {node, false};
+    node = scene_.program[node].parent;
   }
 }
 
-std::int32_t CsgPruning::threshold(std::uint32_t node) const {
-  const csg::BooleanNode& op = scene_.program[node];
-  return op.op == csg::BooleanOp::kIntersection
-             ? static_cast<std::int32_t>(op.child_count)
-             : 1;
-}
-
-// Of the children of an operator that hold, but for one.
-CsgPruning::Count CsgPruning::count(std::uint32_t node, const Child& left_out,
-                                    const Box3& box) {
-  Count sum;
+// Asks the children of an operator, but for one of them, and theirs.
+void CsgPruning::ask(std::uint32_t node, const Child& but, const Box3& box) {
   const std::uint32_t begin = node == 0 ? 0 : ends_[node - 1];
   for (std::uint32_t i = begin; i < ends_[node]; ++i) {
     const Child& child = children_[i];
-    if (!(child == left_out)) sum.add(value(child, box), child.weight());
+    if (child == but) continue;
+    if (questions_ == last_question_) return;
+    ++questions_;
+    if (child.is_instance) {
+      program_.set(child.number, value_of(child.number, box));
+      asked_.push_back(child.number);
+    } else {
+      ask(child.number, {kNoInstance, true}, box);
+    }
   }
-  return sum;
 }
 
-// 0, 1, or from 0 to 1.
-CsgPruning::Count CsgPruning::value(const Child& child, const Box3& box) {
-  if (questions_ == last_question_) return {0, 1};
-  ++questions_;
-  if (child.is_instance) return value_of_leaf(child.number, box);
-  if (scene_.program[child.number].child_count > kMostChildren) return {0, 1};
-  const Count sum = count(child.number, {kNoInstance, true, false}, box);
-  const std::int32_t needed = threshold(child.number);
-  return {sum.low >= needed ? 1 : 0, sum.high >= needed ? 1 : 0};
-}
-
-CsgPruning::Count CsgPruning::value_of_leaf(std::uint32_t number,
-                                            const Box3& box) {
+csg::Ternary CsgPruning::value_of(std::uint32_t number, const Box3& box) {
   const csg::Instance& instance = scene_.instances[number];
   for (int axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > instance.box.high[axis] ||
         box.high[axis] < instance.box.low[axis]) {
-      return {0, 0};
+      return csg::Ternary::kFalse;
     }
   }
   const csg::Leaf& leaf = scene_.leaves[instance.leaf];
   const Body& body = bodies_.try_emplace(number, instance, leaf).first->second;
-  if (body.loft == nullptr) return {0, 1};
+  if (body.loft == nullptr) return csg::Ternary::kUnknown;
 
   // The box around the box, in coordinates of the leaf.
   const Vec3 middle =
@@ -222,13 +202,14 @@ CsgPruning::Count CsgPruning::value_of_leaf(std::uint32_t number,
   const double low = middle.z - half.z;
   const double high = middle.z + half.z;
   const auto [least, greatest] = body.scales_between(low, high);
-  if (greatest < least || nearest > body.outer * greatest) return {0, 0};
+  if (greatest < least || nearest > body.outer * greatest)
+    return csg::Ternary::kFalse;
   const std::vector<Vec2>& profile = body.loft->profile;
   if (farthest < body.inner * least && low > profile.front().y &&
       high < profile.back().y) {
-    return {1, 1};
+    return csg::Ternary::kTrue;
   }
-  return {0, 1};
+  return csg::Ternary::kUnknown;
 }
 
 }  // namespace lamina::ldni::detail

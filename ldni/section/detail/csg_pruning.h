@@ -5,16 +5,14 @@
 // of a pattern of drills many meet nothing. Within the box of such a leaf other
 // leaves decide the Boolean, and the leaf need not be cut in any layer.
 //
-// To see that, the program is evaluated over the box in three values. A leaf
-// gives them by its box, and a body that is round or straight by bounds of its
-// scale, in O(its rings): empty where the box lies outside of it, full where
-// the box lies inside, else open. Every operator is the test of
-// csg/program_state.h, here with the least and the greatest count that its
-// children can have. Where an operator on the way from a leaf to the root has
-// one value whether the branch of the leaf holds or not, the leaf is left out.
+// To see that, the ternary program is evaluated over the box. A leaf is
+// judged by its box, and a body that is round or straight by bounds of its
+// scale, in O(its rings): false where the box lies outside of it, true where
+// the box lies inside, else unknown. A leaf below an operator that is decided
+// while the leaf is unknown is left out.
 //
 // All answers keep a distance that ties of faces do not bridge. Leaves that are
-// left out may decide about others: a leaf is full only over boxes smaller than
+// left out may decide about others: a leaf is true only over boxes smaller than
 // its own, so larger leaves decide about smaller ones and never in a circle.
 
 #include <cstdint>
@@ -22,6 +20,7 @@
 #include <vector>
 
 #include "csg/scene.h"
+#include "csg/ternary_program.h"
 
 namespace lamina::ldni::detail {
 
@@ -45,31 +44,21 @@ class CsgPruning {
   struct Child {
     std::uint32_t number = 0;
     bool is_instance = false;
-    bool is_subtrahend = false;
 
     bool operator==(const Child&) const = default;
-    std::int32_t weight() const { return is_subtrahend ? -1 : 1; }
-  };
-  // Least and greatest.
-  struct Count {
-    std::int32_t low = 0;
-    std::int32_t high = 0;
-
-    void add(const Count& other, std::int32_t weight) {
-      low += weight * (weight > 0 ? other.low : other.high);
-      high += weight * (weight > 0 ? other.high : other.low);
-    }
   };
   // A leaf as it is asked about.
   struct Body;
 
   void list_children();
-  std::int32_t threshold(std::uint32_t node) const;
-  Count count(std::uint32_t node, const Child& left_out, const Box3& box);
-  Count value(const Child& child, const Box3& box);
-  Count value_of_leaf(std::uint32_t instance, const Box3& box);
+  bool is_decided_above(std::uint32_t instance, const Box3& box);
+  void ask(std::uint32_t node, const Child& but, const Box3& box);
+  csg::Ternary value_of(std::uint32_t instance, const Box3& box);
 
   const csg::Scene& scene_;
+  // All is unknown but what is asked for the instance in hand.
+  csg::TernaryProgram program_;
+  std::vector<std::uint32_t> asked_;
   // Of the operators with few children; operator i: [ends[i-1], ends[i]).
   std::vector<Child> children_;
   std::vector<std::uint32_t> ends_;

@@ -191,6 +191,27 @@ void LoftSectioner::cut_runs() {
   }
 }
 
+// Leads the loop from the edge where a ring crosses the layer to that of a
+// neighbour, and returns the latter: over descending edges, which start above,
+// to the next ring, or over ascending ones back to the previous one.
+template <bool kStartsAbove>
+std::uint32_t LoftSectioner::pass_edge(std::uint32_t ring, std::uint32_t edge) {
+  const std::uint32_t to = kStartsAbove ? next_ring(ring) : previous_ring(ring);
+  const std::uint32_t lower = kStartsAbove ? ring : to;
+  const std::uint32_t upper = kStartsAbove ? to : ring;
+  if (is_above(to, edge) == kStartsAbove) {
+    while (is_above(to, edge + 1) == kStartsAbove) {
+      add_side_point(lower, upper, ++edge);
+    }
+  } else {
+    while (is_above(to, edge) != kStartsAbove) {
+      add_side_point(lower, upper, edge--);
+    }
+  }
+  add_ring_point({to, edge});
+  return edge;
+}
+
 // The loop over the rings from `first` on that the layer crosses: along the
 // descending edges to the last of them, and back along the ascending ones.
 void LoftSectioner::cut_run(std::uint32_t first, std::uint32_t layer) {
@@ -206,7 +227,7 @@ void LoftSectioner::cut_run(std::uint32_t first, std::uint32_t layer) {
   std::uint32_t ring = first;
   for (; has_next(ring) && ranges_[next_ring(ring)].holds(layer);
        ring = next_ring(ring)) {
-    descending = pass_descending(ring, descending);
+    descending = pass_edge<true>(ring, descending);
   }
   if (ring != first) ascending = find_ascending_edge(ring);
   if (has_next(ring)) {
@@ -216,7 +237,7 @@ void LoftSectioner::cut_run(std::uint32_t first, std::uint32_t layer) {
   }
   add_ring_point({ring, ascending});
   for (; ring != first; ring = previous_ring(ring)) {
-    ascending = pass_ascending(ring, ascending);
+    ascending = pass_edge<false>(ring, ascending);
   }
   close(layer);
 }
@@ -225,74 +246,26 @@ void LoftSectioner::cut_run(std::uint32_t first, std::uint32_t layer) {
 void LoftSectioner::cut_round(std::uint32_t layer) {
   std::uint32_t descending = find_descending_edge(0);
   for (std::uint32_t i = 0; i < ring_count_; ++i) {
-    descending = pass_descending(i, descending);
+    descending = pass_edge<true>(i, descending);
   }
   close(layer);
   std::uint32_t ascending = find_ascending_edge(0);
   for (std::uint32_t i = ring_count_; i-- > 0;) {
-    ascending = pass_ascending(next_ring(i), ascending);
+    ascending = pass_edge<false>(next_ring(i), ascending);
   }
   close(layer);
 }
 
-// Leads the loop from the descending edge of a ring to that of the next ring
-// and returns the latter.
-std::uint32_t LoftSectioner::pass_descending(std::uint32_t ring,
-                                             std::uint32_t from) {
-  const std::uint32_t next = next_ring(ring);
-  std::uint32_t descending = from;
-  if (is_above(next, descending)) {
-    while (is_above(next, descending + 1)) {
-      add_side_point(ring, next, ++descending);
-    }
-  } else {
-    while (!is_above(next, descending)) {
-      add_side_point(ring, next, descending--);
-    }
+// The one edge between corners `first` and `last` of a ring that crosses the
+// layer.
+std::uint32_t LoftSectioner::find_edge(std::uint32_t ring, std::uint32_t first,
+                                       std::uint32_t last,
+                                       bool starts_above) const {
+  while (last - first > 1) {
+    const std::uint32_t middle = (first + last) / 2;
+    (is_above(ring, middle) == starts_above ? first : last) = middle;
   }
-  add_ring_point({next, descending});
-  return descending;
-}
-
-// Leads the loop from the ascending edge of a ring to that of the previous
-// ring and returns the latter.
-std::uint32_t LoftSectioner::pass_ascending(std::uint32_t ring,
-                                            std::uint32_t from) {
-  const std::uint32_t previous = previous_ring(ring);
-  std::uint32_t ascending = from;
-  if (is_above(previous, ascending)) {
-    while (is_above(previous, ascending)) {
-      add_side_point(previous, ring, ascending--);
-    }
-  } else {
-    while (!is_above(previous, ascending + 1)) {
-      add_side_point(previous, ring, ++ascending);
-    }
-  }
-  add_ring_point({previous, ascending});
-  return ascending;
-}
-
-// The edge where a ring ascends through the layer: its first corner is below.
-std::uint32_t LoftSectioner::find_ascending_edge(std::uint32_t ring) const {
-  std::uint32_t below = 0;
-  std::uint32_t above = highest_;
-  while (above - below > 1) {
-    const std::uint32_t middle = (below + above) / 2;
-    (is_above(ring, middle) ? above : below) = middle;
-  }
-  return below;
-}
-
-// The edge where a ring descends through the layer: its first corner is above.
-std::uint32_t LoftSectioner::find_descending_edge(std::uint32_t ring) const {
-  std::uint32_t above = highest_;
-  std::uint32_t below = outline_size_;
-  while (below - above > 1) {
-    const std::uint32_t middle = (above + below) / 2;
-    (is_above(ring, middle) ? above : below) = middle;
-  }
-  return above;
+  return first;
 }
 
 }  // namespace lamina::ldni::detail

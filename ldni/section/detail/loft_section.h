@@ -118,10 +118,16 @@ class LoftSectioner {
   void cut_runs();
   void cut_run(std::uint32_t first, std::uint32_t layer);
   void cut_round(std::uint32_t layer);
-  std::uint32_t pass_descending(std::uint32_t ring, std::uint32_t from);
-  std::uint32_t pass_ascending(std::uint32_t ring, std::uint32_t from);
-  std::uint32_t find_ascending_edge(std::uint32_t ring) const;
-  std::uint32_t find_descending_edge(std::uint32_t ring) const;
+  template <bool kStartsAbove>
+  std::uint32_t pass_edge(std::uint32_t ring, std::uint32_t edge);
+  std::uint32_t find_edge(std::uint32_t ring, std::uint32_t first,
+                          std::uint32_t last, bool starts_above) const;
+  std::uint32_t find_ascending_edge(std::uint32_t ring) const {
+    return find_edge(ring, 0, highest_, false);
+  }
+  std::uint32_t find_descending_edge(std::uint32_t ring) const {
+    return find_edge(ring, highest_, outline_size_, true);
+  }
 
   // The walk (loft_walk.cpp).
   void cut_all_crossings();

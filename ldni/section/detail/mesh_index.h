@@ -37,11 +37,11 @@ struct HeightRange {
 // Runs of as many things as stand in the mesh together, the last one shorter.
 class LayerRuns {
  public:
-  // heights_of(i) is what thing i of `count` spans.
+  // Groups `count` things; thing i has the heights heights_of(i).
   template <typename HeightsOf>
-  LayerRuns(std::size_t count, const LayerGrid& grid,
-            const HeightsOf& heights_of)
-      : count_(count) {
+  void group(std::size_t count, const LayerGrid& grid,
+             const HeightsOf& heights_of) {
+    count_ = count;
     spans_.reserve(count / kLength + 1);
     for (std::size_t begin = 0; begin < count; begin += kLength) {
       HeightRange whole = heights_of(begin);
@@ -71,21 +71,17 @@ class LayerRuns {
     return std::min(begin + kLength, count_);
   }
 
-  std::size_t count_;
+  std::size_t count_ = 0;
   std::vector<LayerSpan> spans_;
 };
 
 // Of one mesh of one instance.
 struct MeshIndex {
-  MeshIndex(const csg::Mesh& mesh, const Affine& world_from_leaf,
-            const LayerGrid& grid);
-
   LayerRuns vertices;
   LayerRuns triangles;
-
- private:
-  MeshIndex(const csg::Mesh& mesh, const std::vector<double>& heights,
-            const LayerGrid& grid);
 };
+
+MeshIndex index_mesh(const csg::Mesh& mesh, const Affine& world_from_leaf,
+                     const LayerGrid& grid);
 
 }  // namespace lamina::ldni::detail

@@ -11,17 +11,18 @@ void MeshSectioner::cut(const csg::Mesh& mesh, const MeshIndex& index,
                         const Affine& world_from_leaf, std::uint32_t instance,
                         std::int32_t orientation, const BlockLayers& layers,
                         ChainBuilder& builder) {
+  mesh_ = &mesh;
   world_from_leaf_ = world_from_leaf;
   layers_ = &layers;
   builder_ = &builder;
   instance_ = instance;
   orientation_ = orientation;
-  count_layers_below(mesh, index);
-  find_crossed(mesh, index);
+  count_layers_below(index);
+  find_crossed(index);
   if (crossed_.empty()) return;
-  const bool is_closed = pair_edges(mesh);
-  if (!is_closed) trace_all(mesh, true);
-  trace_all(mesh, false);
+  const bool is_closed = pair_edges();
+  if (!is_closed) trace_all(true);
+  trace_all(false);
 }
 
 bool MeshSectioner::meets_block(LayerSpan layers) const {
@@ -30,8 +31,8 @@ bool MeshSectioner::meets_block(LayerSpan layers) const {
          layers.first < layers_->first + count;
 }
 
-void MeshSectioner::count_layers_below(const csg::Mesh& mesh,
-                                       const MeshIndex& index) {
+void MeshSectioner::count_layers_below(const MeshIndex& index) {
+  const csg::Mesh& mesh = *mesh_;
   layers_below_.resize(mesh.vertices.size());
   const std::uint32_t end_layer =
       layers_->first + static_cast<std::uint32_t>(layers_->heights.size());
@@ -51,8 +52,8 @@ void MeshSectioner::count_layers_below(const csg::Mesh& mesh,
   });
 }
 
-void MeshSectioner::find_crossed(const csg::Mesh& mesh,
-                                 const MeshIndex& index) {
+void MeshSectioner::find_crossed(const MeshIndex& index) {
+  const csg::Mesh& mesh = *mesh_;
   crossed_.clear();
   flag_count_ = 0;
   index.triangles.for_each(
@@ -74,7 +75,8 @@ void MeshSectioner::find_crossed(const csg::Mesh& mesh,
 }
 
 // Whether every half-edge found its partner.
-bool MeshSectioner::pair_edges(const csg::Mesh& mesh) {
+bool MeshSectioner::pair_edges() {
+  const csg::Mesh& mesh = *mesh_;
   // Of a triangle that one layer crosses two edges are crossed, each of them
   // shared; of any triangle three at most. So a quarter of the slots is free.
   slots_.assign(std::bit_ceil(2 * crossed_.size()), {});
@@ -123,34 +125,32 @@ void MeshSectioner::pair_edge(std::uint32_t from, std::uint32_t to,
   }
 }
 
-void MeshSectioner::trace_all(const csg::Mesh& mesh, bool only_open) {
+void MeshSectioner::trace_all(bool only_open) {
   for (std::uint32_t i = 0; i < crossed_.size(); ++i) {
     const CrossedTriangle& crossed = crossed_[i];
     for (std::uint32_t l = crossed.layers.first; l < crossed.layers.last; ++l) {
       if (is_passed_[crossed.first_flag + l - crossed.layers.first]) continue;
-      if (only_open && !is_entered_openly(mesh, i, l)) continue;
+      if (only_open && !is_entered_openly(i, l)) continue;
       if (only_open) ++open_paths_;
-      trace(mesh, i, l);
+      trace(i, l);
     }
   }
 }
 
 // Corner whose edge to the next corner rises through the layer: the walk
 // leaves there, with vertices above on its left as seen from outside.
-std::uint32_t MeshSectioner::exit_corner(const csg::Mesh& mesh,
-                                         std::uint32_t crossed,
+std::uint32_t MeshSectioner::exit_corner(std::uint32_t crossed,
                                          std::uint32_t layer) const {
-  const auto& corners = mesh.triangles[crossed_[crossed].triangle];
+  const auto& corners = mesh_->triangles[crossed_[crossed].triangle];
   const bool a = is_above(corners[0], layer);
   const bool b = is_above(corners[1], layer);
   const bool c = is_above(corners[2], layer);
   return !a && b ? 0 : (!b && c ? 1 : 2);
 }
 
-bool MeshSectioner::is_entered_openly(const csg::Mesh& mesh,
-                                      std::uint32_t crossed,
+bool MeshSectioner::is_entered_openly(std::uint32_t crossed,
                                       std::uint32_t layer) const {
-  const auto& corners = mesh.triangles[crossed_[crossed].triangle];
+  const auto& corners = mesh_->triangles[crossed_[crossed].triangle];
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t next = k == 2 ? 0 : k + 1;
     if (is_above(corners[k], layer) && !is_above(corners[next], layer)) {
@@ -160,8 +160,7 @@ bool MeshSectioner::is_entered_openly(const csg::Mesh& mesh,
   return false;
 }
 
-void MeshSectioner::trace(const csg::Mesh& mesh, std::uint32_t start,
-                          std::uint32_t layer) {
+void MeshSectioner::trace(std::uint32_t start, std::uint32_t layer) {
   height_ = layers_->heights[layer];
   below_.vertex = kNone;
   above_.vertex = kNone;
@@ -169,9 +168,9 @@ void MeshSectioner::trace(const csg::Mesh& mesh, std::uint32_t start,
   do {
     const CrossedTriangle& crossed = crossed_[current];
     is_passed_[crossed.first_flag + layer - crossed.layers.first] = true;
-    const std::uint32_t corner = exit_corner(mesh, current, layer);
-    const auto& corners = mesh.triangles[crossed.triangle];
-    add_point(mesh, corners[corner], corners[corner == 2 ? 0 : corner + 1]);
+    const std::uint32_t corner = exit_corner(current, layer);
+    const auto& corners = mesh_->triangles[crossed.triangle];
+    add_point(corners[corner], corners[corner == 2 ? 0 : corner + 1]);
     const std::uint32_t twin = twins_[3 * current + corner];
     if (twin == kNone) break;
     current = twin / 3;
@@ -182,11 +181,10 @@ void MeshSectioner::trace(const csg::Mesh& mesh, std::uint32_t start,
 // Interpolates from the lower to the higher vertex number, so that an edge
 // used by several triangles gives one point. One end is that of the edge
 // before.
-void MeshSectioner::add_point(const csg::Mesh& mesh, std::uint32_t below,
-                              std::uint32_t above) {
+void MeshSectioner::add_point(std::uint32_t below, std::uint32_t above) {
   const auto place = [&](End& end, std::uint32_t vertex) {
     if (end.vertex == vertex) return;
-    end = {vertex, world_from_leaf_ * Vec4(mesh.vertices[vertex], 1)};
+    end = {vertex, world_from_leaf_ * Vec4(mesh_->vertices[vertex], 1)};
   };
   place(below_, below);
   place(above_, above);

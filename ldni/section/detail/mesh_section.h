@@ -50,23 +50,21 @@ class MeshSectioner {
 
   // Whether a layer of the block passes there.
   bool meets_block(LayerSpan layers) const;
-  void count_layers_below(const csg::Mesh& mesh, const MeshIndex& index);
-  void find_crossed(const csg::Mesh& mesh, const MeshIndex& index);
-  bool pair_edges(const csg::Mesh& mesh);
+  void count_layers_below(const MeshIndex& index);
+  void find_crossed(const MeshIndex& index);
+  bool pair_edges();
   void pair_edge(std::uint32_t from, std::uint32_t to, std::uint32_t half_edge);
-  bool is_entered_openly(const csg::Mesh& mesh, std::uint32_t crossed,
-                         std::uint32_t layer) const;
-  void trace_all(const csg::Mesh& mesh, bool only_open);
-  void trace(const csg::Mesh& mesh, std::uint32_t crossed, std::uint32_t layer);
-  std::uint32_t exit_corner(const csg::Mesh& mesh, std::uint32_t crossed,
-                            std::uint32_t layer) const;
-  void add_point(const csg::Mesh& mesh, std::uint32_t below,
-                 std::uint32_t above);
+  bool is_entered_openly(std::uint32_t crossed, std::uint32_t layer) const;
+  void trace_all(bool only_open);
+  void trace(std::uint32_t crossed, std::uint32_t layer);
+  std::uint32_t exit_corner(std::uint32_t crossed, std::uint32_t layer) const;
+  void add_point(std::uint32_t below, std::uint32_t above);
 
   bool is_above(std::uint32_t vertex, std::uint32_t layer) const {
     return layers_below_[vertex] > layer;
   }
 
+  const csg::Mesh* mesh_ = nullptr;
   Affine world_from_leaf_{1.0};
   const BlockLayers* layers_ = nullptr;
   ChainBuilder* builder_ = nullptr;

@@ -3,7 +3,7 @@
 // Hershberger 1997): how two neighbours stand to each other, and how long.
 //
 // Between successive vertices of either chain both are straight. On such a
-// stretch their relation is one of three, by their distances at its two ends:
+// part their relation is one of three, by their distances at its two ends:
 //   both within the tie distance: tied, as good as one curve;
 //   beyond it with opposite signs: they cross where the distance is 0, and on
 //     each side of the crossing are apart;

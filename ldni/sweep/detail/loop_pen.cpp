@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/loop_area.h"
 #include "base/plane.h"
 
 namespace lamina::ldni::detail {

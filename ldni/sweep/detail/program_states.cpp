@@ -99,11 +99,19 @@ ProgramStates::State ProgramStates::find_or_add(const Hash& hash, State base,
   for (; index_[i] != kNone; i = (i + 1) & mask) {
     if (records_[index_[i]].hash == hash) return index_[i];
   }
+  return add({hash, base, crossing}, Value::kUnknown);
+}
+
+ProgramStates::State ProgramStates::add(const Record& record, Value value) {
   const auto state = static_cast<State>(records_.size());
-  index_[i] = state;
-  records_.push_back({hash, base, crossing});
-  values_.push_back(Value::kUnknown);
-  if (2 * records_.size() > index_.size()) grow_index();
+  records_.push_back(record);
+  values_.push_back(value);
+  if (2 * records_.size() <= index_.size()) {
+    add_to_index(state);
+  } else {
+    index_.assign(2 * index_.size(), kNone);
+    for (State each = 0; each <= state; ++each) add_to_index(each);
+  }
   return state;
 }
 
@@ -112,11 +120,6 @@ void ProgramStates::add_to_index(State state) {
   std::size_t i = records_[state].hash.slot() & mask;
   while (index_[i] != kNone) i = (i + 1) & mask;
   index_[i] = state;
-}
-
-void ProgramStates::grow_index() {
-  index_.assign(2 * index_.size(), kNone);
-  for (State state = 0; state < records_.size(); ++state) add_to_index(state);
 }
 
 // Turns the program's present set into this one; neighbours on the ray differ
@@ -203,31 +206,25 @@ void ProgramStates::grow_crossings() {
   ++crossing_count_;  // the one about to come
 }
 
-void ProgramStates::keep_only(std::vector<State>& live) {
-  for (const State state : live) is_solid(state);
+void ProgramStates::keep_only(std::span<State* const> live) {
+  for (const State* state : live) is_solid(*state);
   const std::vector<Record> old_records = std::move(records_);
   const std::vector<Value> old_values = std::move(values_);
   const std::vector<Member> old_members = std::move(members_);
   std::vector<State> new_states(old_records.size(), kNone);
   new_states[kOutside] = kOutside;
   clear();
-  for (State& state : live) {
-    if (new_states[state] == kNone) {
-      new_states[state] = static_cast<State>(records_.size());
-      Record record = old_records[state];
+  for (State* state : live) {
+    State& kept = new_states[*state];
+    if (kept == kNone) {
+      Record record = old_records[*state];
       const auto begin = old_members.begin() +
                          static_cast<std::ptrdiff_t>(record.first_member);
       record.first_member = members_.size();
       members_.insert(members_.end(), begin, begin + record.size);
-      records_.push_back(record);
-      values_.push_back(old_values[state]);
-      if (2 * records_.size() > index_.size()) {
-        grow_index();
-      } else {
-        add_to_index(new_states[state]);
-      }
+      kept = add(record, old_values[*state]);
     }
-    state = new_states[state];
+    *state = kept;
   }
   most_cost_ = std::max(kMostCost, kGrowthOfCost * cost());
 }

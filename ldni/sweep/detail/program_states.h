@@ -21,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "csg/program_state.h"
@@ -70,9 +71,9 @@ class ProgramStates {
   void begin_layer();
   // Whether it is time to call keep_only().
   bool is_full() const { return cost() > most_cost_; }
-  // Forgets every state but kOutside and those in `live`, and renumbers them
-  // there.
-  void keep_only(std::vector<State>& live);
+  // Forgets every state but kOutside and those that `live` points to, and
+  // renumbers them there.
+  void keep_only(std::span<State* const> live);
 
  private:
   struct Member {
@@ -118,8 +119,8 @@ class ProgramStates {
   State make_state(State below, Crossing crossing);
   Hash hash_above(State state, Crossing crossing) const;
   State find_or_add(const Hash& hash, State base, Crossing crossing);
+  State add(const Record& record, Value value);
   void add_to_index(State state);
-  void grow_index();
   void evaluate(State state);
   void write_members(State state);
   void count(std::uint32_t instance, std::int32_t change);

@@ -13,25 +13,15 @@ void RayBoundary::begin_layer() {
   stitcher_.begin();
 }
 
-void RayBoundary::begin_cluster(const EventCluster& cluster) {
-  if (states_.is_full()) forget_unused_states();
-  cluster_ = cluster;
-}
-
 // Keeps the states of the entries on the ray, where thousands of leaves
 // overlap.
 void RayBoundary::forget_unused_states() {
-  std::vector<ProgramStates::State> live;
+  std::vector<ProgramStates::State*> live;
   for (std::uint32_t e = status_.first(); e != status_.sentinel();
        e = status_[e].above) {
-    live.push_back(status_[e].state);
+    live.push_back(&status_[e].state);
   }
   states_.keep_only(live);
-  auto state = live.begin();
-  for (std::uint32_t e = status_.first(); e != status_.sentinel();
-       e = status_[e].above) {
-    status_[e].state = *state++;
-  }
 }
 
 void RayBoundary::add_lone_loop(const Chain& lower, const Chain& upper,

@@ -35,7 +35,10 @@ class RayBoundary {
   void begin_layer();
 
   // In this order, for each event cluster:
-  void begin_cluster(const EventCluster& cluster);
+  void begin_cluster(const EventCluster& cluster) {
+    if (states_.is_full()) forget_unused_states();
+    cluster_ = cluster;
+  }
   // A lone loop begins in the cluster; its two chains. It is boundary as a
   // whole or not at all.
   void add_lone_loop(const Chain& lower, const Chain& upper,

@@ -48,21 +48,6 @@ void RayOrder::renew_certificates(double next_event_point) {
   });
 }
 
-void RayOrder::begin_cluster(double x) {
-  assert(x > cluster_.right);  // I6
-  cluster_ = {cluster_.number + 1, x, x};
-  swaps_ = 0;
-  changes_.stale.clear();
-  changes_.unsure.clear();
-  changes_.touches.clear();
-}
-
-void RayOrder::settle() {
-  do {
-    settle_pairs();
-  } while (take_failures());
-}
-
 // --- Chains -----------------------------------------------------------------
 
 void RayOrder::remove(std::uint32_t chain) {

@@ -12,7 +12,7 @@
 // after the other, would leave a wall of no thickness. What the order does in a
 // cluster, the boundary learns afterwards from OrderChanges.
 
-#include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -64,18 +64,28 @@ class RayOrder {
   // Renews certificates on the way.
   double next_event_point(double next_endpoint);
 
-  // A cluster begins at event point x, takes endpoints that it holds, and ends
-  // with settle().
-  void begin_cluster(double x);
-  void take_endpoint(double x) { cluster_.right = std::max(cluster_.right, x); }
-  // Endpoints inside the cluster: a chain leaves the ray, or enters it. All
-  // endpoints are taken before the first chain enters.
+  // A cluster begins at event point x, takes the endpoints inside it from left
+  // to right, and ends with settle(). At an endpoint a chain leaves the ray, or
+  // enters it; all endpoints are taken before the first chain enters.
+  void begin_cluster(double x) {
+    assert(x > cluster_.right);  // I6
+    cluster_ = {cluster_.number + 1, x, x};
+    swaps_ = 0;
+    changes_.stale.clear();
+    changes_.unsure.clear();
+    changes_.touches.clear();
+  }
+  void take_endpoint(double x) { cluster_.right = x; }
   void remove(std::uint32_t chain);
   void insert(std::uint32_t chain, std::span<const Vec2> points,
               ProgramStates::Crossing crossing);
   // Restores the order right of the cluster, which may bring up failures
   // inside it: again until there are none.
-  void settle();
+  void settle() {
+    do {
+      settle_pairs();
+    } while (take_failures());
+  }
 
   // Clusters in which swaps reached their cap, since construction: always 0.
   std::uint64_t capped_clusters() const { return capped_clusters_; }

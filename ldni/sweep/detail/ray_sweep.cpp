@@ -66,34 +66,39 @@ void RaySweep::process_cluster(double x) {
   ++counts_.event_points;
   order_.begin_cluster(x);
   boundary_.begin_cluster(order_.cluster());
-  pass_lone_loops();
-  take_endpoints();
+  const std::span<const ChainEndpoint> endpoints = next_endpoints();
+  // Around lone loops the cluster changes nothing, so the order on its left
+  // will do for them.
+  for (const ChainEndpoint& endpoint : endpoints) {
+    if (lone_loops_.is_lone(endpoint.chain())) pass_lone_loop(endpoint.chain());
+  }
+  take(endpoints);
   order_.settle();
   boundary_.update(order_.cluster(), order_.changes());
 }
 
-// Around lone loops the cluster changes nothing, so the order on its left will
-// do for them.
-void RaySweep::pass_lone_loops() {
+// Those inside the cluster.
+std::span<const ChainEndpoint> RaySweep::next_endpoints() {
   const double end = order_.cluster().end();
-  for (std::size_t i = next_endpoint_;
-       i < endpoints_.size() && endpoints_[i].x <= end; ++i) {
-    const std::uint32_t chain = endpoints_[i].chain();
-    if (!lone_loops_.is_lone(chain)) continue;
-    const bool is_lower = lone_loops_.is_lower(chain);
-    boundary_.add_lone_loop(chains_[is_lower ? chain : chain + 1],
-                            chains_[is_lower ? chain + 1 : chain], points_);
+  const std::size_t first = next_endpoint_;
+  while (next_endpoint_ < endpoints_.size() &&
+         endpoints_[next_endpoint_].x <= end) {
+    ++next_endpoint_;
   }
+  return endpoints_.subspan(first, next_endpoint_ - first);
+}
+
+void RaySweep::pass_lone_loop(std::uint32_t chain) {
+  const std::uint32_t lower = lone_loops_.is_lower(chain) ? chain : chain + 1;
+  const std::uint32_t upper = lone_loops_.is_lower(chain) ? chain + 1 : chain;
+  boundary_.add_lone_loop(chains_[lower], chains_[upper], points_);
 }
 
 // Chains that begin and end inside the cluster are passed over.
-void RaySweep::take_endpoints() {
+void RaySweep::take(std::span<const ChainEndpoint> endpoints) {
   const double end = order_.cluster().end();
   begun_.clear();
-  for (; next_endpoint_ < endpoints_.size() &&
-         endpoints_[next_endpoint_].x <= end;
-       ++next_endpoint_) {
-    const ChainEndpoint& endpoint = endpoints_[next_endpoint_];
+  for (const ChainEndpoint& endpoint : endpoints) {
     const std::uint32_t chain = endpoint.chain();
     if (lone_loops_.is_lone(chain)) continue;
     order_.take_endpoint(endpoint.x);

@@ -4,7 +4,7 @@
 // An event point gathers its event cluster, all that lies within 1e-9 mm, and
 // is handled in this order:
 //
-//   1. take_endpoints       ended chains leave the status, begun ones enter it,
+//   1. take                 ended chains leave the status, begun ones enter it,
 //                           and lone loops are passed over;
 //   2. RayOrder::settle     new neighbours are put in the order right of the
 //                           cluster, which may bring up failures inside it:
@@ -88,8 +88,9 @@ class RaySweep {
   void begin_layer(const ChainBlock& block, std::uint32_t layer);
   std::uint32_t slab_count(double width, std::size_t point_count) const;
   void process_cluster(double x);
-  void pass_lone_loops();
-  void take_endpoints();
+  std::span<const ChainEndpoint> next_endpoints();
+  void pass_lone_loop(std::uint32_t chain);
+  void take(std::span<const ChainEndpoint> endpoints);
   std::span<const Vec2> points_of(std::uint32_t chain) const {
     return chains_[chain].points_in(points_);
   }

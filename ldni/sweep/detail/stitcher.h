@@ -3,7 +3,7 @@
 // 1992).
 //
 // Where a chain is boundary of the Boolean between two event points, that
-// stretch of it is an arc. An arc has the solid on one side and is walked with
+// part of it is an arc. An arc has the solid on one side and is walked with
 // the solid on the left: to the right where the solid is above, to the left
 // where it is below. At an event point arcs end and begin. Their ends, sorted
 // by y and joined two by two, are the symmetric difference of the solid

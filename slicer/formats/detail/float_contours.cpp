@@ -19,7 +19,7 @@ constexpr double kCoarse = 0x1p-10;
 }  // namespace
 
 void FloatContours::take(const Layer& layer) {
-  reach_ = std::max(reach_, ldni::greatest_coordinate(layer.contours.points));
+  reach_ = std::max(reach_, greatest_coordinate(layer.contours.points));
   rounded_ = layer.contours;
   rounder_.round(rounded_, layer.clearance);
   const std::size_t loops = rounded_.loop_count();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/loop_area.h"
 #include "ldni/section/contours.h"
 #include "slicer/contour/layer.h"
 #include "slicer/contour/round_loops.h"
@@ -39,7 +40,7 @@ class FloatContours {
     return loop(i).first(loop(i).size() - 1);
   }
   bool is_hole(std::size_t i) const {
-    return ldni::signed_area(rounded_.loop(i)) < 0;
+    return signed_area(rounded_.loop(i)) < 0;
   }
 
   // Box of all layers taken; (0, 0) to (0, 0) where no layer had a loop.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/loop_area.h"
 #include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
@@ -219,7 +220,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
 
   void finish_contour() {
     // Where the file does not say, the sense in which the loop runs decides.
-    const bool is_hole = is_hole_.value_or(ldni::signed_area(points_) < 0);
+    const bool is_hole = is_hole_.value_or(signed_area(points_) < 0);
     add_loop(points_, is_hole ? LoopKind::kHole : LoopKind::kOuter,
              layer_.contours);
   }

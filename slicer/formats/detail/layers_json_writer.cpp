@@ -10,6 +10,7 @@
 #include <span>
 
 #include "base/file/text_output.h"
+#include "base/loop_area.h"
 #include "slicer/formats/detail/file_writer.h"
 #include "slicer/formats/detail/writers.h"
 
@@ -42,7 +43,7 @@ class LayersJsonWriter : public FileWriter {
 
  private:
   void write_loop(std::span<const Vec2> loop) {
-    const bool is_hole = ldni::signed_area(loop) < 0;
+    const bool is_hole = signed_area(loop) < 0;
     print(output_, FMT_COMPILE("{{\"hole\":{},\"points\":["), is_hole);
     for (std::size_t i = 0; i < loop.size(); ++i) {
       if (i != 0) output_.write(",");

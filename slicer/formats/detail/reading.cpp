@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
+#include "base/loop_area.h"
 
 namespace lamina::slicer {
 
@@ -64,7 +65,7 @@ void add_loop(std::span<const Vec2> points, LoopKind kind,
     points = points.first(points.size() - 1);
   }
   if (points.size() < 3) return;
-  const bool is_clockwise = ldni::signed_area(points) < 0;
+  const bool is_clockwise = signed_area(points) < 0;
   auto& all = contours.points;
   if (is_clockwise == (kind == LoopKind::kHole)) {
     all.insert(all.end(), points.begin(), points.end());

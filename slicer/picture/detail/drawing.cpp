@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "slicer/contour/layer_edges.h"
 #include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
@@ -113,13 +114,9 @@ void draw_layer(Image& image, const ldni::Contours& contours,
   blend(image, solid, area.x, area.y, kSolid);
 
   Coverage outline(area.width, area.height);
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    for (std::size_t j = 0; j < loop.size(); ++j) {
-      outline.add_stroke(map(loop[j]), map(loop[(j + 1) % loop.size()]),
-                         outline_width);
-    }
-  }
+  visit_edges(contours, [&](Vec2 from, Vec2 to) {
+    outline.add_stroke(map(from), map(to), outline_width);
+  });
   blend(image, outline, area.x, area.y, kOutline);
 }
 

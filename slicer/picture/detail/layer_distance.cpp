@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/plane.h"
+#include "slicer/contour/layer_edges.h"
+
 namespace lamina::slicer {
 namespace {
 
@@ -24,57 +27,32 @@ LayerDistance::LayerDistance(const ldni::Contours& contours, double reach)
   row_height_ = std::max((highest->y - low_) / static_cast<double>(rows),
                          std::numeric_limits<double>::min());
 
-  std::vector<std::uint32_t> counts(rows);
-  row_ends_.resize(rows);
-  const auto for_edges = [&](const auto& visit) {
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      const auto loop = contours.loop(i);
-      for (std::size_t j = 0; j < loop.size(); ++j) {
-        const Edge edge = {loop[j], loop[(j + 1) % loop.size()]};
-        const auto [first, last] =
-            std::minmax({row_of(edge.from.y), row_of(edge.to.y)});
-        for (int row = first; row <= last; ++row) {
-          visit(edge, static_cast<std::size_t>(row));
-        }
+  row_count_ = static_cast<int>(rows);
+  edges_.fill(rows, [&](const auto& list) {
+    visit_edges(contours, [&](Vec2 from, Vec2 to) {
+      const auto [first, last] = std::minmax({row_of(from.y), row_of(to.y)});
+      for (int row = first; row <= last; ++row) {
+        list(static_cast<std::size_t>(row), Edge{from, to});
       }
-    }
-  };
-  for_edges([&](const Edge&, std::size_t row) { ++row_ends_[row]; });
-  for (std::size_t row = 1; row < rows; ++row) {
-    row_ends_[row] += row_ends_[row - 1];
-  }
-  edges_.resize(row_ends_.back());
-  for_edges([&](const Edge& edge, std::size_t row) {
-    const std::uint32_t begin = row == 0 ? 0 : row_ends_[row - 1];
-    edges_[begin + counts[row]++] = edge;
+    });
   });
 }
 
 int LayerDistance::row_of(double y) const {
-  const double row = (y - low_) / row_height_;
   return static_cast<int>(
-      std::clamp(row, 0.0, static_cast<double>(row_ends_.size()) - 1));
-}
-
-std::span<const LayerDistance::Edge> LayerDistance::edges_of(int row) const {
-  const auto number = static_cast<std::size_t>(row);
-  const std::uint32_t begin = number == 0 ? 0 : row_ends_[number - 1];
-  return {edges_.data() + begin, row_ends_[number] - begin};
+      std::clamp((y - low_) / row_height_, 0.0, row_count_ - 1.0));
 }
 
 bool LayerDistance::is_inside(Vec2 place) const {
   int winding = 0;
   for (const auto& [from, to] : edges_of(row_of(place.y))) {
-    if ((from.y <= place.y) == (to.y <= place.y)) continue;
-    const double x =
-        from.x + (to.x - from.x) * (place.y - from.y) / (to.y - from.y);
-    if (x < place.x) winding += from.y < to.y ? 1 : -1;
+    winding += crossing(from, to, place);
   }
   return winding != 0;
 }
 
 LayerDistance::Depth LayerDistance::at(Vec2 place) const {
-  if (edges_.empty()) return {-reach_, Vec2(0)};
+  if (row_count_ == 0) return {-reach_, Vec2(0)};
   double nearest = reach_ * reach_;
   Vec2 away(0);
   Vec2 along(0);
@@ -82,15 +60,8 @@ LayerDistance::Depth LayerDistance::at(Vec2 place) const {
     for (const auto& [from, to] : edges_of(row)) {
       const Vec2 step = to - from;
       const Vec2 to_place = place - from;
-      const double length = step.x * step.x + step.y * step.y;
-      const double share =
-          length == 0
-              ? 0
-              : std::clamp((to_place.x * step.x + to_place.y * step.y) / length,
-                           0.0, 1.0);
-      const Vec2 from_edge = to_place - share * step;
-      const double distance =
-          from_edge.x * from_edge.x + from_edge.y * from_edge.y;
+      const Vec2 from_edge = to_place - nearest_share(place, from, to) * step;
+      const double distance = dot(from_edge, from_edge);
       if (distance < nearest) {
         nearest = distance;
         away = from_edge;
@@ -99,7 +70,6 @@ LayerDistance::Depth LayerDistance::at(Vec2 place) const {
     }
   };
   // From the row of the place outwards, while a row can hold a nearer edge.
-  const int rows = static_cast<int>(row_ends_.size());
   const int middle = row_of(place.y);
   look(middle);
   for (int row = middle - 1; row >= 0; --row) {
@@ -107,7 +77,7 @@ LayerDistance::Depth LayerDistance::at(Vec2 place) const {
     if (gap > 0 && gap * gap >= nearest) break;
     look(row);
   }
-  for (int row = middle + 1; row < rows; ++row) {
+  for (int row = middle + 1; row < row_count_; ++row) {
     const double gap = low_ + row * row_height_ - place.y;
     if (gap > 0 && gap * gap >= nearest) break;
     look(row);
@@ -120,7 +90,7 @@ LayerDistance::Depth LayerDistance::at(Vec2 place) const {
   constexpr double kOnEdge = 1e-6;  // [mm]
   if (distance < kOnEdge) {
     const double length = std::hypot(along.x, along.y);
-    return {sign * distance, Vec2(-along.y, along.x) / length};
+    return {sign * distance, left_of(along) / length};
   }
   return {sign * distance, sign * away / distance};
 }

@@ -6,10 +6,11 @@
 // row of the place first and then in those beside it, as far as they could hold
 // a nearer one; the edges of its own row decide whether the place is inside.
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
-#include <vector>
 
+#include "base/cell_grid.h"
+#include "base/vec.h"
 #include "ldni/section/contours.h"
 
 namespace lamina::slicer {
@@ -34,14 +35,16 @@ class LayerDistance {
   };
 
   int row_of(double y) const;
-  std::span<const Edge> edges_of(int row) const;
+  std::span<const Edge> edges_of(int row) const {
+    return edges_[static_cast<std::size_t>(row)];
+  }
   bool is_inside(Vec2 place) const;
 
   double reach_;
   double low_ = 0;
   double row_height_ = 1;
-  std::vector<Edge> edges_;  // row by row; some in several
-  std::vector<std::uint32_t> row_ends_;
+  int row_count_ = 0;      // 0: nothing is drawn
+  CellLists<Edge> edges_;  // row by row; some in several
 };
 
 }  // namespace lamina::slicer

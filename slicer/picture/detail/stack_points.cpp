@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
+#include "slicer/contour/layer_edges.h"
 #include "slicer/picture/detail/trapezoids.h"
 
 namespace lamina::slicer {
@@ -53,15 +54,10 @@ class StackDrawer {
   }
 
   void add_sides(const ldni::Contours& contours, const Plate& plate) {
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      const auto loop = contours.loop(i);
-      for (std::size_t j = 0; j < loop.size(); ++j) {
-        const Vec2& a = loop[j];
-        const Vec2& b = loop[(j + 1) % loop.size()];
-        add_quad({Vec3(a, plate.bottom), Vec3(b, plate.bottom),
-                  Vec3(b, plate.top), Vec3(a, plate.top)});
-      }
-    }
+    visit_edges(contours, [&](Vec2 a, Vec2 b) {
+      add_quad({Vec3(a, plate.bottom), Vec3(b, plate.bottom),
+                Vec3(b, plate.top), Vec3(a, plate.top)});
+    });
   }
 
   // The height of the plate's level side that the viewer can see, if any.

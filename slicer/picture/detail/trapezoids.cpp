@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "slicer/contour/layer_edges.h"
+
 namespace lamina::slicer {
 namespace {
 
@@ -33,12 +35,7 @@ class TrapezoidSweep {
   TrapezoidSweep(const ldni::Contours& contours,
                  std::vector<Trapezoid>& trapezoids)
       : trapezoids_(trapezoids) {
-    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-      const auto loop = contours.loop(i);
-      for (std::size_t j = 0; j < loop.size(); ++j) {
-        add_edge(loop[j], loop[(j + 1) % loop.size()]);
-      }
-    }
+    visit_edges(contours, [&](Vec2 from, Vec2 to) { add_edge(from, to); });
     std::sort(edges_.begin(), edges_.end(),
               [](const Edge& a, const Edge& b) { return a.low.y < b.low.y; });
     std::sort(heights_.begin(), heights_.end());

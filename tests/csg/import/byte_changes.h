@@ -1,5 +1,5 @@
 #pragma once
-// What may befall a file on its way: it is cut off, or a byte is another one.
+// Damages files: cuts them off, or replaces a byte.
 
 #include <functional>
 #include <string>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file/format_error.h"
-#include "csg/import/raw_mesh.h"
+#include "csg/import/mesh_readers.h"
 
 namespace lamina::csg {
 

@@ -1,4 +1,5 @@
-// What is read from files, against the installed openscad: the same vertices.
+// Compares what is read from files with the installed openscad: the vertices
+// must be the same.
 //
 // openscad writes single precision, so vertices are equal within a float's
 // spacing. A vertex in the middle of a straight edge may be there in one and

@@ -93,7 +93,7 @@ TEST(ParseDat, AWordThatIsNoNumberEndsIt) {
   EXPECT_NE(field.fault, "");
 }
 
-// Made as long as the longest these rows would take 7 GB.
+// Filled up to the length of the longest one, these rows would take 7 GB.
 TEST(ParseDat, OneLongRowDoesNotMakeAllLong) {
   std::string text;
   for (int i = 0; i < 30000; ++i) text += "0 ";

@@ -82,7 +82,7 @@ TEST_F(LowerPlanarTest, PointsThatAreNoneMakeAnEmptyPolygon) {
                 "Unable to convert points[2] = [0] to a vec2 of numbers"}));
 }
 
-// OpenSCAD gives the contours to its clipper until one has no place.
+// OpenSCAD takes the contours until one has a coordinate that is no number.
 TEST_F(LowerPlanarTest, ContoursWithoutNumbersAreLeftOut) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Vec2> points{{0, 0}, {2, 0}, {0, 2}, {nan, 5},

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/plane.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/minkowski.h"
-#include "csg/plane/orientation.h"
 #include "tests/csg/plane/lattice_walks.h"
 
 namespace lamina::planar {

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
+#include "csg/limits.h"
+
 namespace lamina::planar {
 namespace {
 
@@ -79,7 +82,7 @@ TEST(Clip, GivesDecimalsBackAsTheyWere) {
 
 TEST(Clip, RefusesCoordinatesBeyondItsRange) {
   const Contour contour[] = {{{0, 0}, {1e12, 0}, {0, 1}}};
-  EXPECT_THROW(from_contours(contour), std::range_error);
+  EXPECT_THROW(from_contours(contour), csg::LimitExceeded);
 }
 
 TEST(Offset, GrowsByAreaPlusBorderPlusCorners) {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/plane/orientation.h"
+#include "base/plane.h"
 
 namespace lamina::planar {
 namespace {

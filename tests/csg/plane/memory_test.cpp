@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/memory_end.h"
 #include "csg/plane/clip.h"
 
 namespace {
@@ -37,6 +38,12 @@ void* operator new(std::size_t size) {
 namespace lamina::planar {
 namespace {
 
+class LackOfMemory : public testing::Test {
+ protected:
+  LackOfMemory() { std::set_new_handler(note_memory_end); }
+  ~LackOfMemory() override { std::set_new_handler(nullptr); }
+};
+
 // Lets each allocation within `make` fail, one in each call.
 template <typename Make>
 void expect_all_or_nothing(const Make& make) {
@@ -59,7 +66,7 @@ void expect_all_or_nothing(const Make& make) {
   EXPECT_GT(failures, 20U);
 }
 
-TEST(LackOfMemory, LeavesNoBooleanHalf) {
+TEST_F(LackOfMemory, LeavesNoBooleanHalf) {
   const Region squares[] = {square({4, 4}, true), square({6, 2}, true),
                             circle(1, 9)};
   expect_all_or_nothing([&] { return unite(squares); });
@@ -69,7 +76,7 @@ TEST(LackOfMemory, LeavesNoBooleanHalf) {
 
 // Of outlines that do not cross on the way: where memory ends while Clipper
 // works on a second crossing, it frees the first one twice.
-TEST(LackOfMemory, LeavesNoOffsetEmpty) {
+TEST_F(LackOfMemory, LeavesNoOffsetEmpty) {
   const Region part = square({4, 3}, true);
   expect_all_or_nothing([&] { return offset(part, -1, Join::kMiter, 0.1); });
   expect_all_or_nothing([&] { return offset(part, 1, Join::kRound, 0.1); });

@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
+#include "base/plane.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/convex_faces.h"
 #include "csg/plane/facets.h"
-#include "csg/plane/orientation.h"
 #include "csg/plane/triangulate.h"
 
 namespace lamina::planar {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "csg/plane/clip.h"
 #include "tests/csg/plane/lattice_walks.h"
 

@@ -1,4 +1,4 @@
-// Laws of text. That outlines are OpenSCAD's is the oracles' matter.
+// Laws of text. The oracles check that outlines are those of OpenSCAD.
 
 #include "csg/text/typesetter.h"
 
@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "base/loop_area.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/region.h"
 #include "tests/support/process.h"
@@ -100,8 +101,7 @@ TEST_F(TypesetterTest, AnOHasAHole) {
   const auto region =
       planar::from_contours(set("O"), planar::FillRule::kNonZero);
   ASSERT_EQ(region.contours.size(), 2U);
-  EXPECT_LT(planar::signed_area(region.contours[0]) *
-                planar::signed_area(region.contours[1]),
+  EXPECT_LT(signed_area(region.contours[0]) * signed_area(region.contours[1]),
             0);
 }
 

@@ -80,16 +80,15 @@ double y_on(const Polyline& chain, double x) {
   return a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x);
 }
 
-// Stretches of x on which both chains are straight and do not cross.
-struct Stretch {
+// Parts of x on which both chains are straight and do not cross.
+struct Part {
   double left = 0;
   double right = 0;
   int relation = 0;
   bool touches = false;  // at its left end
 };
 
-std::vector<Stretch> stretches_of(const Polyline& lower,
-                                  const Polyline& upper) {
+std::vector<Part> parts_of(const Polyline& lower, const Polyline& upper) {
   std::vector<double> places;
   for (const Polyline* chain : {&lower, &upper}) {
     for (const Vec2& point : *chain) places.push_back(point.x);
@@ -99,23 +98,23 @@ std::vector<Stretch> stretches_of(const Polyline& lower,
   const auto distance = [&](double x) {
     return y_on(upper, x) - y_on(lower, x);
   };
-  std::vector<Stretch> stretches;
+  std::vector<Part> parts;
   for (std::size_t i = 1; i < places.size(); ++i) {
     const double left = places[i - 1];
     const double right = places[i];
     const double a = distance(left);
     const double b = distance(right);
     if (std::abs(a) <= kTie && std::abs(b) <= kTie) {
-      stretches.push_back({left, right, 0, false});
+      parts.push_back({left, right, 0, false});
     } else if (a * b < 0 && std::min(std::abs(a), std::abs(b)) > kTie) {
       const double crossing = left + (right - left) * a / (a - b);
-      stretches.push_back({left, crossing, a > 0 ? 1 : -1, false});
-      stretches.push_back({crossing, right, a > 0 ? -1 : 1, false});
+      parts.push_back({left, crossing, a > 0 ? 1 : -1, false});
+      parts.push_back({crossing, right, a > 0 ? -1 : 1, false});
     } else {
-      stretches.push_back({left, right, a + b >= 0 ? 1 : -1, a < 1e-9});
+      parts.push_back({left, right, a + b >= 0 ? 1 : -1, a < 1e-9});
     }
   }
-  return stretches;
+  return parts;
 }
 
 class RandomChains {
@@ -153,8 +152,8 @@ TEST(Certificate, OfRandomChainsKeepsItsDefinition) {
     const double x = random.place();
     const double limit = random.limit();
     const Certificate certificate = certify_chains(lower, upper, x, limit);
-    const std::vector<Stretch> stretches = stretches_of(lower, upper);
-    auto here = stretches.begin();
+    const std::vector<Part> parts = parts_of(lower, upper);
+    auto here = parts.begin();
     while (here->right <= x) ++here;
     ASSERT_EQ(certificate.relation, here->relation) << seed;
     if (here->relation < 0) {
@@ -162,11 +161,11 @@ TEST(Certificate, OfRandomChainsKeepsItsDefinition) {
       continue;
     }
     const auto next =
-        std::find_if(here + 1, stretches.end(), [&](const Stretch& stretch) {
-          return stretch.relation != here->relation ||
-                 (stretch.relation > 0 && stretch.touches);
+        std::find_if(here + 1, parts.end(), [&](const Part& part) {
+          return part.relation != here->relation ||
+                 (part.relation > 0 && part.touches);
         });
-    const double failure = next == stretches.end() ? kNever : next->left;
+    const double failure = next == parts.end() ? kNever : next->left;
     if (certificate.failure < kNever) {
       ++failures;
       ASSERT_NEAR(certificate.failure, failure, 1e-12) << seed;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
@@ -239,7 +240,7 @@ TEST(KineticRay, TheContoursAreTheSameBitsAtEveryPitch) {
 }
 
 TEST(KineticRay, ManyLeavesOverOnePointCountLikeFew) {
-  // 300 discs about one axis: sets of 300 leaves in the middle.
+  // 300 discs about one axis: 300 leaves in the middle.
   SceneBuilder builder;
   for (int i = 0; i < 300; ++i) {
     builder.add(cylinder_leaf(1 + 0.01 * i, 1 + 0.01 * i, 1, 24),
@@ -254,7 +255,7 @@ TEST(KineticRay, ManyLeavesOverOnePointCountLikeFew) {
 
 TEST(KineticRay, ThousandsOfCrossingsUnderHundredsOfLeavesKeepTheOutline) {
   // Discs of radius 3 with centres strewn over a disc of radius 2: every two
-  // cross. So many sets occur that old ones have to be forgotten on the way.
+  // cross. So many states occur that old ones have to be forgotten on the way.
   const auto discs = [](bool is_reversed) {
     SceneBuilder builder;
     for (int i = 0; i < 200; ++i) {
@@ -272,7 +273,7 @@ TEST(KineticRay, ThousandsOfCrossingsUnderHundredsOfLeavesKeepTheOutline) {
               1e-9);
 }
 
-// Sets between chains that tie do not matter and are not evaluated: n leaves
+// States between chains that tie do not matter and are not evaluated: n leaves
 // with two faces in common make n² of them.
 TEST(KineticRay, HundredsOfLeavesWithCommonFacesCostAFewEvaluationsEach) {
   constexpr std::uint32_t kCount = 400;

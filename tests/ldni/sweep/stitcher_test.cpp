@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "ldni/section/contours.h"
 
 namespace lamina::ldni::detail {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "base/loop_area.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::slicer {
@@ -63,8 +64,7 @@ ldni::Contours ring(Vec2 middle, double radius) {
 }
 
 double area_of(const ldni::Contours& contours) {
-  return ldni::signed_area(contours.loop(0)) +
-         ldni::signed_area(contours.loop(1));
+  return signed_area(contours.loop(0)) + signed_area(contours.loop(1));
 }
 
 TEST(DrawGreyPng, AnEmptyLayerIsBlack) {

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "slicer/picture/camera.h"
 #include "slicer/picture/detail/layer_distance.h"
 #include "slicer/picture/detail/trapezoids.h"
@@ -42,7 +43,7 @@ ldni::Contours make_stars(std::mt19937& random) {
 double area_of(const ldni::Contours& contours) {
   double area = 0;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    area += ldni::signed_area(contours.loop(i));
+    area += signed_area(contours.loop(i));
   }
   return area;
 }

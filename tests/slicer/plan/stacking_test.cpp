@@ -1,4 +1,4 @@
-#include "slicer/plan/stacking.h"
+#include "slicer/plan/detail/stacking.h"
 
 #include <algorithm>
 #include <map>

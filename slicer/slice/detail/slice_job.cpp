@@ -1,4 +1,4 @@
-#include "slicer/slice/slice_job.h"
+#include "slicer/slice/detail/slice_job.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,35 +1,31 @@
-#include "csg/boundary/program_range.h"
+#include "csg/ternary_program.h"
 
-#include <algorithm>
+#include "csg/program_state.h"
 
 namespace lamina::csg {
 
-ProgramRange::ProgramRange(const Scene& scene) {
-  const auto is_subtrahend = [&](std::uint32_t parent, bool is_minuend) {
-    return scene.program[parent].op == BooleanOp::kDifference && !is_minuend;
-  };
+TernaryProgram::TernaryProgram(const Scene& scene, Ternary initial) {
   nodes_.reserve(scene.program.size());
   for (const BooleanNode& node : scene.program) {
     Node& own = nodes_.emplace_back();
-    if (node.op == BooleanOp::kIntersection) {
-      own.threshold = std::max(1, static_cast<std::int32_t>(node.child_count));
-    }
+    own.threshold = threshold_of(node);
     own.parent = node.parent;
-    own.is_subtrahend = is_subtrahend(node.parent, node.is_minuend);
+    own.is_subtrahend = is_subtrahend(scene, node);
   }
   members_.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances) {
-    members_.push_back({instance.parent,
-                        is_subtrahend(instance.parent, instance.is_minuend),
-                        Knowledge::kOutside});
+    members_.push_back(
+        {instance.parent, is_subtrahend(scene, instance), Ternary::kFalse});
   }
+  if (initial == Ternary::kFalse) return;
+  for (std::uint32_t i = 0; i < members_.size(); ++i) set(i, initial);
 }
 
-void ProgramRange::set(std::uint32_t instance, Knowledge knowledge) {
+void TernaryProgram::set(std::uint32_t instance, Ternary value) {
   Member& member = members_[instance];
-  Range before = range_of(member.knowledge);
-  Range after = range_of(knowledge);
-  member.knowledge = knowledge;
+  Range before = range_of(member.value);
+  Range after = range_of(value);
+  member.value = value;
   bool is_subtrahend = member.is_subtrahend;
   std::uint32_t index = member.parent;
   while (before.surely != after.surely || before.maybe != after.maybe) {
@@ -46,8 +42,8 @@ void ProgramRange::set(std::uint32_t instance, Knowledge knowledge) {
   }
 }
 
-bool ProgramRange::matters(std::uint32_t instance) const {
-  if (members_[instance].knowledge != Knowledge::kUnknown) return false;
+bool TernaryProgram::matters(std::uint32_t instance) const {
+  if (members_[instance].value != Ternary::kUnknown) return false;
   std::uint32_t node = members_[instance].parent;
   while (node != 0 && !is_decided(node)) node = nodes_[node].parent;
   return !is_decided(node);

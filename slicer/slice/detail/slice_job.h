@@ -4,7 +4,7 @@
 
 #include "ldni/section/grid.h"
 #include "slicer/check/thin_features.h"
-#include "slicer/slice/block_slicer.h"
+#include "slicer/slice/detail/block_slicer.h"
 #include "slicer/slice/settings.h"
 #include "slicer/slice/slice.h"
 

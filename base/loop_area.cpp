@@ -1,10 +1,9 @@
-#include "ldni/section/contours.h"
+#include "base/loop_area.h"
 
 #include <cmath>
+#include <cstddef>
 
-#include "ldni/section/loop_area_and_box.h"
-
-namespace lamina::ldni {
+namespace lamina {
 
 double signed_area(std::span<const Vec2> loop) {
   if (loop.empty()) return 0;
@@ -23,9 +22,9 @@ double perimeter(std::span<const Vec2> loop) {
 }
 
 double greatest_coordinate(std::span<const Vec2> points) {
-  LoopBox box;
-  for (const Vec2& point : points) box.add(point);
-  return box.greatest_coordinate();
+  Reach reach;
+  for (const Vec2& point : points) reach.add(point);
+  return reach.value();
 }
 
-}  // namespace lamina::ldni
+}  // namespace lamina

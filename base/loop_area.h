@@ -1,12 +1,17 @@
 #pragma once
-// The area and the box of a loop, summed up in one pass over its points.
+// Area, length and reach of loops of points.
+//
+// A loop is a closed polygon; whether its first point is repeated at its end
+// makes no difference. Those who need several of these in one pass past the
+// points add them up themselves; the functions do it for a loop at hand.
 
 #include <algorithm>
+#include <span>
 
 #include "base/lanes.h"
 #include "base/vec.h"
 
-namespace lamina::ldni {
+namespace lamina {
 
 // Adds up twice the signed area of a loop [mm²], point by point.
 class DoubledArea {
@@ -29,15 +34,14 @@ class DoubledArea {
   Lanes products_ = both_lanes(0);
 };
 
-// The box of the points added and of the origin [mm].
-class LoopBox {
+// The greatest coordinate of points, in magnitude [mm]; 0 of none.
+class Reach {
  public:
   void add(const Vec2& point) {
     low_ = least(low_, lanes_of(point));
     high_ = greatest(high_, lanes_of(point));
   }
-  // In magnitude; 0 of no points.
-  double greatest_coordinate() const {
+  double value() const {
     const Lanes reach = greatest(high_, -low_);
     return std::max(reach[0], reach[1]);
   }
@@ -47,4 +51,12 @@ class LoopBox {
   Lanes high_ = both_lanes(0);
 };
 
-}  // namespace lamina::ldni
+// Positive where the loop runs counter-clockwise [mm²]; 0 of none.
+double signed_area(std::span<const Vec2> loop);
+
+double perimeter(std::span<const Vec2> loop);
+
+// As Reach has it.
+double greatest_coordinate(std::span<const Vec2> points);
+
+}  // namespace lamina

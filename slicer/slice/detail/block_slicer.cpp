@@ -1,4 +1,4 @@
-#include "slicer/slice/block_slicer.h"
+#include "slicer/slice/detail/block_slicer.h"
 
 #include <algorithm>
 

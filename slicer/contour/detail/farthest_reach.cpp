@@ -1,4 +1,4 @@
-#include "slicer/contour/farthest_reach.h"
+#include "slicer/contour/detail/farthest_reach.h"
 
 #include <algorithm>
 #include <cmath>

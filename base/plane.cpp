@@ -1,9 +1,9 @@
-#include "csg/plane/orientation.h"
+#include "base/plane.h"
 
 #include <cmath>
 #include <limits>
 
-namespace lamina::planar {
+namespace lamina {
 namespace {
 
 int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
@@ -20,6 +20,8 @@ int sign_of_difference(double p, double q, double r, double s) {
   return sign(std::fma(p, q, -pq) - std::fma(r, s, -rs));
 }
 
+bool is_in_upper_half(Vec2 a) { return a.y > 0 || (a.y == 0 && a.x > 0); }
+
 }  // namespace
 
 int orientation(Vec2 a, Vec2 b, Vec2 c) {
@@ -35,4 +37,27 @@ int orientation(Vec2 a, Vec2 b, Vec2 c) {
   return sign_of_difference(ab.x, ac.y, ab.y, ac.x);
 }
 
-}  // namespace lamina::planar
+int compare_angles(Vec2 a, Vec2 b) {
+  const bool is_upper = is_in_upper_half(a);
+  if (is_upper != is_in_upper_half(b)) return is_upper ? -1 : 1;
+  return -orientation(Vec2(0), a, b);
+}
+
+int winding_number(std::span<const Vec2> loop, Vec2 point) {
+  if (loop.empty()) return 0;
+  int sum = 0;
+  Vec2 from = loop.back();
+  for (const Vec2 to : loop) {
+    sum += crossing(from, to, point);
+    from = to;
+  }
+  return sum;
+}
+
+double distance_to_segment(Vec2 point, Vec2 from, Vec2 to) {
+  const Vec2 away =
+      point - (from + nearest_share(point, from, to) * (to - from));
+  return std::sqrt(dot(away, away));
+}
+
+}  // namespace lamina

@@ -1,0 +1,41 @@
+#include "base/text.h"
+
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace lamina {
+namespace {
+
+std::string of_value(double number) {
+  std::string text;
+  append_number(number, text);
+  return text;
+}
+std::string of_stream(double number) {
+  std::string text;
+  append_stream_number(number, text);
+  return text;
+}
+
+TEST(NumberText, ValuesAndStreamsDifferInExponentsAndZero) {
+  EXPECT_EQ(of_value(1.0 / 3), "0.333333");
+  EXPECT_EQ(of_stream(1.0 / 3), "0.333333");
+  EXPECT_EQ(of_value(1e6), "1e+6");
+  EXPECT_EQ(of_stream(1e6), "1e+06");
+  EXPECT_EQ(of_value(-0.0), "0");
+  EXPECT_EQ(of_stream(-0.0), "-0");
+  EXPECT_EQ(of_value(-std::numeric_limits<double>::infinity()), "-inf");
+  EXPECT_EQ(of_stream(std::numeric_limits<double>::infinity()), "inf");
+  EXPECT_EQ(of_value(-999999), "-999999");
+}
+
+TEST(QuotedText, EscapesWhatALiteralCannotHold) {
+  std::string text;
+  append_quoted("a\t\"b\"\\\n", text);
+  EXPECT_EQ(text, R"("a\t\"b\"\\\n")");
+}
+
+}  // namespace
+}  // namespace lamina
