@@ -111,7 +111,7 @@ class Workshop {
                     {context_.temporary_files, stack, context_.watch}, &inbox);
     compiler::Compilation& compilation = session.compilation;
     const int status = session.run([&] {
-      if (!piece.fault.empty()) refuse_geometry(piece.fault);
+      if (!piece.fault.empty()) throw GeometryError(piece.fault);
       make_folder_of(request.output, context_.file_access());
       return compiler::compile(compilation) ? kDone : kFault;
     });

@@ -112,14 +112,14 @@ std::size_t find_layer(const std::vector<slicer::Layer>& layers,
                        const ViewOptions& options) {
   if (options.layer_number) {
     if (*options.layer_number > layers.size()) {
-      refuse_geometry(fmt::format("there is no layer {}: there are {}",
-                                  *options.layer_number, layers.size()));
+      throw GeometryError(fmt::format("there is no layer {}: there are {}",
+                                      *options.layer_number, layers.size()));
     }
     return *options.layer_number - 1;
   }
   const double z = *options.layer_height;
   if (!(z >= layers.front().bottom && z <= layers.back().top)) {
-    refuse_geometry(fmt::format(
+    throw GeometryError(fmt::format(
         "there is no layer at z {} mm: the layers reach from {:.6g} to {:.6g}",
         z, layers.front().bottom, layers.back().top));
   }
@@ -154,7 +154,8 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   if (std::all_of(layers->begin(), layers->end(), [](const auto& layer) {
         return layer.contours.points.empty();
       })) {
-    refuse_geometry(fmt::format("{} has no contour to draw", request.design));
+    throw GeometryError(
+        fmt::format("{} has no contour to draw", request.design));
   }
   const std::string title = std::filesystem::path(request.design).filename();
   if (is_page(request.output)) {
