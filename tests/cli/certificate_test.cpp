@@ -1,5 +1,5 @@
-// What a run reports about its own layers: how far they can be from the design, and
-// what in them is thin.
+// What a run reports about its own layers: how far they can be from the design,
+// and what in them is thin.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -132,7 +132,7 @@ TEST(Certificate, TheBoundIsTheSumOfItsParts) {
   EXPECT_GT(plain.at("rounding").get<double>(), 0);
   double sum = 0;
   for (const char* const part :
-       {"ties", "columns", "compensation", "simplification", "rounding"}) {
+       {"ties", "clusters", "compensation", "simplification", "rounding"}) {
     sum += plain.at(part).get<double>();
   }
   EXPECT_DOUBLE_EQ(plain.at("from_section").get<double>(), sum);
