@@ -123,7 +123,7 @@ std::string zsh_function(const CommandPage& page) {
 // --- fish -------------------------------------------------------------------
 
 std::string fish_quoted(const std::string& text) {
-  return "'" + escaped(text, "'\\") + "'";
+  return fmt::format("'{}'", escaped(text, "'\\"));
 }
 
 std::string fish_value(const OptionPage& option) {
