@@ -158,7 +158,7 @@ undef                   { return TOKEN_UNDEF; }
                                      ? TOKEN_NUMBER : TOKEN_INVALID;
                         }
  /* 0xff is a name too, as in 2021.01; where nothing has that name, it is a
-    number (csg/eval/literals.h). */
+    number (csg/eval/resolve/prefixed_literal.h). */
 "$"?[a-zA-Z0-9_]+       { return TOKEN_NAME; }
 
 "<="                    { return TOKEN_LESS_EQUAL; }

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Include {
-  std::string file;    // relative to the project, "ldni/ray.cpp"
+  std::string file;    // relative to the project, "csg/tree.h"
   std::string target;  // as written, "base/vec.h" or "fmt/format.h"
   bool is_quoted = false;
 };
@@ -186,7 +186,7 @@ TEST(Includes, PackagesKeepToTheirHomes) {
   const std::vector<Home> homes = {
       {"polyclipping/", {"csg/plane/"}},
       {"clipper.hpp", {"csg/plane/"}},
-      {"libqhull", {"csg/solid/"}},
+      {"libqhull", {"csg/boundary/"}},
       {"GL/", {"ldni/gl/gl_platforms.cpp", "ldni/gl/detail/gl_functions.h"}},
       {"EGL/", {"ldni/gl/gl_platforms.cpp"}},
       {"CGAL/", {}},

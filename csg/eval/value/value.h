@@ -101,7 +101,7 @@ struct Range : Counted {
 
 struct Box;
 struct Closure;
-struct Members;  // of an object: csg/eval/object.h
+struct Members;  // of an object: csg/eval/value/object.h
 
 class Value {
  public:

@@ -159,7 +159,7 @@ TEST(SliceOutline, CountsTheHolesAndTheArea) {
   EXPECT_DOUBLE_EQ(report.greatest_area, 12 - 1 - 0.25);
 }
 
-// Lowering mends every mesh, so this is a fault of ours, which must not pass
+// Lowering repairs every mesh, so this is a fault of ours, which must not pass
 // in silence.
 TEST(Slice, WarnsWhereALeafIsOpen) {
   csg::Scene scene = drilled_ball();
