@@ -210,9 +210,13 @@ struct Design::State {
                                            compiler::Request request) {
     auto state = std::make_unique<State>(options, std::move(request));
     state->messages.run([&](Diagnostics&) {
-      auto lowered = compiler::make_geometry(state->compilation);
-      if (!lowered) state->messages.fail();
-      state->lowered = std::move(*lowered);
+      compiler::Compilation& compilation = state->compilation;
+      // Errors of files that the design uses end it here, too.
+      if (!compiler::make_tree(compilation) ||
+          compilation.diagnostics.has_errors()) {
+        state->messages.fail();
+      }
+      state->lowered = compiler::lower_tree(compilation);
     });
     for (const CustomizerEntry& entry :
          list_parameters(state->compilation.program)) {

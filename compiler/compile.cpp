@@ -116,9 +116,7 @@ bool compile(Compilation& c) {
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
   // leaves. The scene is turned and placed here, while it is still one thing.
-  const csg::Lowered lowered = lower(c);
-  c.tree.drop_nodes();
-  require_sliceable(c, lowered);
+  const csg::Lowered lowered = lower_tree(c);
 
   // Plan, and slice layer by layer into the output.
   make_layers(c, lowered, settings_of(c.request), output.sink());
@@ -133,14 +131,22 @@ bool compile(Compilation& c) {
   return true;
 }
 
-std::optional<csg::Lowered> make_geometry(Compilation& c) {
+bool make_tree(Compilation& c) {
   c.program = load(c);
   c.tree = evaluate(c, c.program);
-  if (c.has_failed) return std::nullopt;
+  return !c.has_failed;
+}
+
+csg::Lowered lower_tree(Compilation& c) {
   csg::Lowered lowered = lower(c);
   c.tree.drop_nodes();
   require_sliceable(c, lowered);
   return lowered;
+}
+
+std::optional<csg::Lowered> make_geometry(Compilation& c) {
+  if (!make_tree(c)) return std::nullopt;
+  return lower_tree(c);
 }
 
 void make_layers(Compilation& c, const csg::Lowered& lowered,

@@ -18,8 +18,15 @@ namespace lamina::compiler {
 // false where a pass failed.
 bool compile(Compilation& compilation);
 
-// The passes from the text to what can be sliced. No value where one failed.
-// Throws GeometryError where that is nothing at all. Drops the tree's nodes.
+// The passes from the text to the tree. Returns false where one failed.
+bool make_tree(Compilation& compilation);
+
+// The pass from the tree to what can be sliced; drops the tree's nodes. Throws
+// GeometryError where that is nothing, or an outline that the format of the
+// output cannot hold.
+csg::Lowered lower_tree(Compilation& compilation);
+
+// Both of these. No value where the tree could not be made.
 std::optional<csg::Lowered> make_geometry(Compilation& compilation);
 
 // The passes from there to layers in `sink`; completes the report's `slice` and

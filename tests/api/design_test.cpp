@@ -121,6 +121,15 @@ TEST(Design, FaultsAreThrownWithTheirPlace) {
             std::string::npos);
 }
 
+TEST(Design, AFaultInAUsedFileIsThrown) {
+  const lamina::support::TemporaryFolder folder;
+  folder.write("used.scad", "cube(;");
+  const std::string design =
+      folder.write("a.scad", "use <used.scad>\ncube(1);");
+  EXPECT_NE(fault_of([&] { Design::from_file(design); }).find("used.scad"),
+            std::string::npos);
+}
+
 TEST(Design, RefusesWhatCannotBeSliced) {
   const Design cube = Design::from_text("cube(1);");
   EXPECT_THROW(cube.slice(layers_of(0)), std::runtime_error);
