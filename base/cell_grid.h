@@ -54,7 +54,8 @@ class CellGrid {
 
   // Calls visit(first, last) row by row, upwards, for the cells within `reach`
   // [mm] of the segment in x and in y, and for some beyond; ends where it
-  // returns true. Whether one did.
+  // returns true. Whether one did. Of a segment that leaves the box of the
+  // cells only the part within counts for sure.
   template <typename Visit>
   bool visit_rows(Vec2 a, Vec2 b, Vec2 reach, const Visit& visit) const;
 

@@ -20,36 +20,25 @@ namespace {
 // other places it shows relative to the design.
 constexpr std::string_view kParserError = "Parser error: ";
 
-std::string_view openscad_prefix(Severity severity) {
-  switch (severity) {
-    case Severity::kPlain:
-      return "";
-    case Severity::kEcho:
-      return "ECHO: ";
-    case Severity::kDeprecated:
-      return "DEPRECATED: ";
-    case Severity::kWarning:
-      return "WARNING: ";
-    case Severity::kError:
-      return "ERROR: ";
-  }
-  return "";
-}
+struct Prefix {
+  std::string_view openscad;
+  std::string_view terminal;
+};
 
-std::string_view terminal_prefix(Severity severity) {
+Prefix prefix_of(Severity severity) {
   switch (severity) {
     case Severity::kPlain:
-      return "";
+      return {"", ""};
     case Severity::kEcho:
-      return "ECHO: ";
+      return {"ECHO: ", "ECHO: "};
     case Severity::kDeprecated:
-      return "deprecated: ";
+      return {"DEPRECATED: ", "deprecated: "};
     case Severity::kWarning:
-      return "warning: ";
+      return {"WARNING: ", "warning: "};
     case Severity::kError:
-      return "error: ";
+      return {"ERROR: ", "error: "};
   }
-  return "";
+  return {};
 }
 
 void append_openscad_place(std::string& text, const Source& source,
@@ -158,7 +147,7 @@ std::vector<std::string> openscad_lines(const Diagnostic& diagnostic,
     return document == nullptr ? base_folder : folder_of(document->path());
   };
   std::vector<std::string> lines;
-  std::string text(openscad_prefix(diagnostic.severity));
+  std::string text(prefix_of(diagnostic.severity).openscad);
   text += diagnostic.message;
   const SourceRange range = diagnostic.range;
   if (range.is_known()) {
@@ -226,7 +215,7 @@ std::string caret_text(const Diagnostic& diagnostic) {
   }
   if (diagnostic.severity == Severity::kPlain) return diagnostic.message + "\n";
   append_terminal_text(text, diagnostic.range,
-                       terminal_prefix(diagnostic.severity),
+                       prefix_of(diagnostic.severity).terminal,
                        diagnostic.message);
   for (const Note& note : diagnostic.notes) {
     append_terminal_text(text, note.range, "note: ", note.message);

@@ -386,7 +386,7 @@ class StatementPrinter {
 
 std::string print(const Program& program) {
   std::string text;
-  const Customizer customizer(program);
+  const Customizer customizer = Customizer::read(program);
   StatementPrinter(text, customizer).print_scope(program.statements, "");
   return text;
 }

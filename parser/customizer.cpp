@@ -60,8 +60,10 @@ std::string read_group(std::string_view comment) {
 
 }  // namespace
 
-Customizer::Customizer(const ast::Program& program) : source_(*program.source) {
-  scan();
+Customizer Customizer::read(const ast::Program& program) {
+  Customizer customizer(*program.source);
+  customizer.scan();
+  return customizer;
 }
 
 // Finds the groups and the first '{'. Like OpenSCAD's scan it does not know the
@@ -131,7 +133,7 @@ ParameterComment Customizer::comment_of(
 }
 
 std::vector<CustomizerEntry> list_parameters(const ast::Program& program) {
-  const Customizer customizer(program);
+  const Customizer customizer = Customizer::read(program);
   std::vector<CustomizerEntry> parameters;
   for (const ast::Statement* statement : program.statements) {
     const auto* variable = std::get_if<ast::Assignment>(&statement->node);

@@ -29,8 +29,9 @@ struct ParameterComment {
 
 class Customizer {
  public:
-  // The program must outlive the Customizer. Cost: one pass over the text.
-  explicit Customizer(const ast::Program& program);
+  // Reads the comments of a program, which must outlive the result. Cost: one
+  // pass over the text.
+  static Customizer read(const ast::Program& program);
 
   // assignment  a statement of the program that holds an ast::Assignment
   ParameterComment comment_of(const ast::Statement& assignment) const;
@@ -41,6 +42,7 @@ class Customizer {
     std::uint32_t line;
   };
 
+  explicit Customizer(const Source& source) : source_(source) {}
   std::size_t skip_comment(std::size_t place, std::uint32_t& line);
   void scan();
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
-#include <type_traits>
 
 #include <fmt/format.h>
 #include <minizip/unzip.h>

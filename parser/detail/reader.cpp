@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <span>
 #include <system_error>
 #include <utility>
 

@@ -42,8 +42,7 @@ struct ThinFeature {
   double height = 0;
 };
 
-// For each instance, a number for the text that made it: equal texts of the
-// design have equal numbers.
+// A number for each instance: equal where one place in the design made them.
 std::vector<std::uint32_t> source_ids(const csg::Scene& scene);
 
 class FeatureCollector {

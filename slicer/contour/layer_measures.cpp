@@ -19,7 +19,7 @@ LayerMeasures measure(const ldni::Contours& contours) {
 double total_perimeter(const ldni::Contours& contours) {
   double length = 0;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    length += ldni::perimeter(contours.loop(i));
+    length += perimeter(contours.loop(i));
   }
   return length;
 }

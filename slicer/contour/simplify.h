@@ -18,12 +18,10 @@
 //    strip between them; no vertex that stays may lie in a strip. The first is
 //    so by the choice. A tree of boxes separates nearly all strips at once
 //    (loop_tree.h); the others are looked at one by one.
-// 3. Repair. A run that fails is split at its farthest vertex, until none
-// fails.
+// 3. Repair. A run that fails is split at its farthest vertex until none does.
 // 4. Thin out. A vertex is left out where the runs before and behind it pass
-// the
-//    proof as one: a split, or a choice within less than the tolerance, kept
-//    it.
+//    the proof as one: a split, or a choice within less than the tolerance,
+//    kept it.
 //
 // Why the topology stays. Prick the plane at all vertices that stay. Runs can
 // be moved to their shortcuts without crossing a prick, and runs are disjoint.

@@ -13,7 +13,7 @@ namespace {
 // taken from openscad 2021.01; openscad_parser_test compares whole files.)
 std::string values(const std::string& comment) {
   const Parsed parsed("x = 1; //" + comment + "\n");
-  const Customizer customizer(parsed.program());
+  const Customizer customizer = Customizer::read(parsed.program());
   return customizer.comment_of(*parsed.program().statements[0]).values;
 }
 

@@ -43,8 +43,11 @@ TEST(ChooseOrientation, APlateLiesFlat) {
   EXPECT_EQ(best_of("cube([20, 30, 2]);"), "z");
   EXPECT_EQ(best_of("cube([2, 30, 20]);"), "x");
   EXPECT_EQ(best_of("cube([30, 2, 20]);"), "y");
+}
+
+TEST(ChooseOrientation, HeightDecidesWhereNothingSteps) {
   const OrientationChoice choice = choice_of("cube([20, 30, 2]);");
-  // All its faces are flat or upright: nothing steps, and the height decides.
+  // All faces of a plate are flat or upright.
   for (const Orientation& o : choice.all) EXPECT_NEAR(o.cusp_error, 0, 1e-12);
   EXPECT_NEAR(of_axis(choice, "-y").height, 30, 1e-12);
   EXPECT_EQ(choice.reason, "the least height");
@@ -70,9 +73,20 @@ TEST(ChooseOrientation, CuspErrorOfAConeIsThatOfTheFormula) {
   EXPECT_NEAR(of_axis(choice, "z").cusp_error, 0.1 * base, 1e-9);
   // Along x: twice the shadow of the whole, a triangle.
   EXPECT_NEAR(of_axis(choice, "x").cusp_error, 0.1 * 3 * 4 * 2, 0.01);
-  // No side is flatter than 45°; on its tip it hangs over with the side.
+}
+
+TEST(ChooseOrientation, AConeOnItsBaseHangsOverNowhere) {
+  const OrientationChoice choice =
+      choice_of("cylinder(r1 = 3, r2 = 0, h = 4, $fn = 200);");
+  // No side is flatter than 45°.
   EXPECT_NEAR(of_axis(choice, "z").overhang, 0, 1e-9);
+}
+
+TEST(ChooseOrientation, HeightIsTheSizeAlongTheAxis) {
+  const OrientationChoice choice =
+      choice_of("cylinder(r1 = 3, r2 = 0, h = 4, $fn = 200);");
   EXPECT_NEAR(of_axis(choice, "x").height, 6, 1e-9);
+  EXPECT_NEAR(of_axis(choice, "z").height, 4, 1e-9);
 }
 
 TEST(ChooseOrientation, OverhangIsWhatLooksDownSteeplyAndLiesNotOnTheBed) {
@@ -116,10 +130,16 @@ TEST(ChooseOrientation, TurningTheDesignTurnsTheChoice) {
   }
 }
 
-TEST(ChooseOrientation, TurnsAreRightHandedAndLiftTheirAxis) {
+TEST(TurnToAxis, IsRightHanded) {
   for (const std::string_view axis : kAxes) {
     const glm::dmat3 turn(slicer::turn_to_axis(axis));
     EXPECT_NEAR(glm::determinant(turn), 1, 1e-12) << axis;
+  }
+}
+
+TEST(TurnToAxis, LiftsItsAxis) {
+  for (const std::string_view axis : kAxes) {
+    const glm::dmat3 turn(slicer::turn_to_axis(axis));
     Vec3 up(0);
     up[axis.back() - 'x'] = axis.front() == '-' ? -1 : 1;
     EXPECT_EQ(turn * up, Vec3(0, 0, 1)) << axis;
@@ -134,6 +154,9 @@ TEST(SurfaceHeights, AreThoseOfTheResultNotOfItsLeaves) {
       slicer::surface_heights(design.scene());
   EXPECT_NEAR(heights.low, -1.5, 1e-7);
   EXPECT_NEAR(heights.high, 3.25, 1e-7);
+}
+
+TEST(SurfaceHeights, AreEmptyWhereNothingIsSolid) {
   const Design nothing =
       Design::from_text("difference() { cube(1); cube(2); }");
   EXPECT_TRUE(slicer::surface_heights(nothing.scene()).is_empty());
@@ -149,6 +172,13 @@ TEST(PlaceOnBed, PutsTheLowestPointAtHeight0) {
   EXPECT_NEAR(heights.low, 0, 1e-12);
   EXPECT_EQ(scene.box.low.z, 0);
   EXPECT_EQ(scene.box.low.x, design.scene().box.low.x);
+}
+
+TEST(PlaceOnBed, LetsTheFirstLayerLieOnTheBed) {
+  const Design design =
+      Design::from_text("translate([3, 4, 5]) sphere(5, $fn = 40);");
+  csg::Scene scene = design.scene();
+  slicer::place_on_bed(scene);
   const auto layers = support::slice_layers(scene, slicer::Settings());
   EXPECT_EQ(layers.front().bottom, 0);
   EXPECT_FALSE(layers.front().contours.is_empty());

@@ -1,6 +1,7 @@
 #include "csg/eval/builtin/colors.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 
 namespace lamina::csg {
@@ -164,13 +165,6 @@ constexpr NamedColor kColors[] = {
     {"yellowgreen", 0x9ACD32},
 };
 
-std::optional<std::uint32_t> hex_digit(char c) {
-  if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0');
-  if (c >= 'a' && c <= 'f') return static_cast<std::uint32_t>(c - 'a' + 10);
-  if (c >= 'A' && c <= 'F') return static_cast<std::uint32_t>(c - 'A' + 10);
-  return std::nullopt;
-}
-
 std::optional<std::array<float, 4>> parse_hex(std::string_view digits) {
   const std::size_t count = digits.size();
   if (count != 3 && count != 4 && count != 6 && count != 8) {
@@ -180,11 +174,9 @@ std::optional<std::array<float, 4>> parse_hex(std::string_view digits) {
   std::array<float, 4> rgba = {0, 0, 0, 1};
   for (std::size_t i = 0; i < count / width; ++i) {
     std::uint32_t channel = 0;
-    for (std::size_t k = 0; k < width; ++k) {
-      const auto digit = hex_digit(digits[i * width + k]);
-      if (!digit) return std::nullopt;
-      channel = channel * 16 + *digit;
-    }
+    const std::string_view part = digits.substr(i * width, width);
+    const auto read = std::from_chars(part.begin(), part.end(), channel, 16);
+    if (read.ptr != part.end()) return std::nullopt;
     rgba[i] = static_cast<float>(channel) / (width == 1 ? 15.0F : 255.0F);
   }
   return rgba;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 // Resolving parameters and the arguments that meet them (see resolver.h).
 
 #include <algorithm>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "csg/eval/code/argument_plan.h"

@@ -2,7 +2,6 @@
 // Resolving expressions (see resolver.h).
 
 #include <string_view>
-#include <vector>
 
 #include "csg/eval/code/code.h"
 #include "csg/eval/resolve/resolver.h"

@@ -1,6 +1,5 @@
 #include "csg/eval/resolve/statement.h"
 
-#include <algorithm>
 #include <string>
 #include <variant>
 

@@ -1,6 +1,5 @@
 // Resolving names of variables (see expression.h).
 
-#include <algorithm>
 #include <numbers>
 
 #include "csg/eval/resolve/expression.h"

@@ -1,6 +1,5 @@
 #include "csg/eval/run/interpreter.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 

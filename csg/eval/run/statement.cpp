@@ -1,6 +1,5 @@
 #include "csg/eval/run/statement.h"
 
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>

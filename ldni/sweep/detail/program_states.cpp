@@ -99,27 +99,21 @@ ProgramStates::State ProgramStates::find_or_add(const Hash& hash, State base,
   for (; index_[i] != kNone; i = (i + 1) & mask) {
     if (records_[index_[i]].hash == hash) return index_[i];
   }
-  return add({hash, base, crossing}, Value::kUnknown);
-}
-
-ProgramStates::State ProgramStates::add(const Record& record, Value value) {
   const auto state = static_cast<State>(records_.size());
-  records_.push_back(record);
-  values_.push_back(value);
-  if (2 * records_.size() <= index_.size()) {
-    add_to_index(state);
-  } else {
-    index_.assign(2 * index_.size(), kNone);
-    for (State each = 0; each <= state; ++each) add_to_index(each);
-  }
+  index_[i] = state;
+  records_.push_back({hash, base, crossing});
+  values_.push_back(Value::kUnknown);
+  if (2 * records_.size() > index_.size()) index_records(2 * index_.size());
   return state;
 }
 
-void ProgramStates::add_to_index(State state) {
-  const std::size_t mask = index_.size() - 1;
-  std::size_t i = records_[state].hash.slot() & mask;
-  while (index_[i] != kNone) i = (i + 1) & mask;
-  index_[i] = state;
+void ProgramStates::index_records(std::size_t capacity) {
+  index_.assign(capacity, kNone);
+  for (State state = 0; state < records_.size(); ++state) {
+    std::size_t i = records_[state].hash.slot() & (capacity - 1);
+    while (index_[i] != kNone) i = (i + 1) & (capacity - 1);
+    index_[i] = state;
+  }
 }
 
 // Turns the program's present set into this one; neighbours on the ray differ
@@ -222,10 +216,13 @@ void ProgramStates::keep_only(std::span<State* const> live) {
                          static_cast<std::ptrdiff_t>(record.first_member);
       record.first_member = members_.size();
       members_.insert(members_.end(), begin, begin + record.size);
-      kept = add(record, old_values[*state]);
+      kept = static_cast<State>(records_.size());
+      records_.push_back(record);
+      values_.push_back(old_values[*state]);
     }
     *state = kept;
   }
+  index_records(std::max(index_.size(), std::bit_ceil(2 * records_.size())));
   most_cost_ = std::max(kMostCost, kGrowthOfCost * cost());
 }
 

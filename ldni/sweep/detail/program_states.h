@@ -119,8 +119,7 @@ class ProgramStates {
   State make_state(State below, Crossing crossing);
   Hash hash_above(State state, Crossing crossing) const;
   State find_or_add(const Hash& hash, State base, Crossing crossing);
-  State add(const Record& record, Value value);
-  void add_to_index(State state);
+  void index_records(std::size_t capacity);
   void evaluate(State state);
   void write_members(State state);
   void count(std::uint32_t instance, std::int32_t change);

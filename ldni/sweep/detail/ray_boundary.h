@@ -2,7 +2,7 @@
 // The boundary of the solid along the moving ray: states of the program,
 // boundary sides and arcs.
 //
-// The order (ray_order.h) tells which entries an event cluster touched. From
+// The order (ray_order.h) reports which entries an event cluster touched. From
 // there states are updated upwards until they are what they were; entries whose
 // state differs in value from the one below are boundary, and where that
 // changes, an arc ends or begins. The stitcher links what ended and began.

@@ -26,8 +26,7 @@ struct Plies {
 // one. Of all stacks with so few runs it has the fewest layers, or nearly so.
 //
 // greatest   the most plies of a layer, at least 1; time and memory grow with
-// it
-//            times the plies
+//            it times the plies
 // most_runs  at least 1
 std::vector<std::uint32_t> stack_layers(const Plies& plies,
                                         std::uint16_t greatest,

@@ -1,4 +1,5 @@
-// Compares lamina's tessellation with the installed openscad, vertex for vertex.
+// Compares lamina's tessellation with the installed openscad, vertex for
+// vertex.
 //
 // openscad writes single precision, so vertices are equal within a float's
 // spacing; regions that went through its polygon clipper lie on a grid of
