@@ -1,6 +1,5 @@
-// The program lamina: finds the command, has its words read, and runs it. In
-// cli/, and only here, messages are printed, exceptions caught, and exit
-// statuses chosen.
+// The program lamina: finds the command, has its words read, and runs it.
+// Messages are printed, faults shown and exit statuses chosen in cli/ alone.
 
 #include <exception>
 #include <memory>
@@ -20,7 +19,7 @@
 #include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
-#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
 #include "cli/process/landlock.h"
 #include "cli/process/process_watch.h"
 #include "cli/process/run_on_stack.h"

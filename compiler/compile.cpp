@@ -18,10 +18,6 @@ namespace {
 
 using slicer::OutputFormat;
 
-[[noreturn]] void fail(const std::string& words) {
-  throw GeometryError({Severity::kError, {}, words});
-}
-
 // The rule for make; null where none is asked for. It is written before the
 // output, which a fault of it ends, and gets its name after the output.
 std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
@@ -49,9 +45,10 @@ bool holds_outlines(OutputFormat format) {
 }
 
 void require_sliceable(const Compilation& c, const csg::Lowered& lowered) {
-  if (lowered.is_empty()) fail("Current top level object is empty.");
+  if (lowered.is_empty())
+    throw GeometryError("Current top level object is empty.");
   if (lowered.outline() != nullptr && !holds_outlines(c.request.format)) {
-    fail("Current top level object is not a 3D object.");
+    throw GeometryError("Current top level object is not a 3D object.");
   }
 }
 

@@ -29,11 +29,9 @@ void require_name(const std::string& path) {
   std::string shown = path;
   std::replace_if(shown.begin(), shown.end(), is_control, '?');
   throw FileError(
-      {Severity::kError,
-       {},
-       fmt::format("Can't write a rule for make (-d): it cannot hold the name "
-                   "'{}'",
-                   shown)});
+      fmt::format("Can't write a rule for make (-d): it cannot hold the name "
+                  "'{}'",
+                  shown));
 }
 
 std::string escaped(const std::string& path, std::string_view marked) {

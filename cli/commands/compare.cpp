@@ -14,7 +14,6 @@
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
-#include "cli/options/usage_error.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
 #include "cli/report/compared.h"
@@ -183,12 +182,13 @@ class CompareCommand : public Command {
 
   void draw(const Comparison& comparison, const ComparisonResult& result,
             TemporaryFiles& temporary_files) const {
-    if (result.layers.empty()) refuse_geometry("there is no layer to draw");
+    if (result.layers.empty()) throw GeometryError("there is no layer to draw");
     const std::size_t index =
         layer_number_ ? *layer_number_ - 1 : *result.totals.worst;
     if (index >= result.layers.size()) {
-      refuse_geometry(fmt::format("there is no layer {} to draw: there are {}",
-                                  index + 1, result.layers.size()));
+      throw GeometryError(
+          fmt::format("there is no layer {} to draw: there are {}", index + 1,
+                      result.layers.size()));
     }
     const slicer::Image picture = slicer::draw_difference(
         comparison.layer_a(index).contours, comparison.layer_b(index).contours,

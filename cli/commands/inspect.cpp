@@ -27,13 +27,13 @@ constexpr std::string_view kInspectHelp =
 Shows the header, the layers, the box, the volume and the weight in usual
 metals of a file of layers (.slc, .cli, .svg, .layers.json), or of a .scad or
 .csg design with any option that slicing has. Checks the loops: closed, without
-repeats, crossings and empty loops, turned as their nesting asks for, layers
-rising. Ends with 1 if there is a defect.
+repeats, crossings and empty loops, in the direction that their nesting asks
+for, layers rising. Ends with 1 if there is a defect.
 
   --all       list every layer of a long file
   --json      print all of it as JSON
   --min-feature MM
-              tell of walls and gaps thinner than this
+              report walls and gaps thinner than this
   -h, --help  print this help
 )";
 

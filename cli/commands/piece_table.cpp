@@ -25,8 +25,7 @@ const Source& read_table(const std::string& path, const FileAccess& access,
   access.require(path);
   std::optional<std::string> text = access.read(path);
   if (!text) {
-    throw FileError(
-        {Severity::kError, {}, fmt::format("Can't open table '{}'", path)});
+    throw FileError(fmt::format("Can't open table '{}'", path));
   }
   return sources.add(path, std::move(*text));
 }
@@ -155,10 +154,6 @@ class TableReader {
     return piece;
   }
 
-  [[noreturn]] static void refuse(std::string words) {
-    throw FileError({Severity::kError, {}, std::move(words)});
-  }
-
   void check_width(const CsvRow& row) const {
     const std::size_t wanted = columns_.size();
     const bool has_more =
@@ -167,8 +162,8 @@ class TableReader {
                     row.cells.end(),
                     [](const std::string& cell) { return !cell.empty(); });
     if (row.cells.size() >= wanted && !has_more) return;
-    refuse(fmt::format("the row has {} cells, the header has {}",
-                       row.cells.size(), wanted));
+    throw FileError(fmt::format("the row has {} cells, the header has {}",
+                                row.cells.size(), wanted));
   }
 
   // Empty where the row has none.
@@ -189,7 +184,7 @@ class TableReader {
             "{}={};\n", column.name,
             value_of_cell(row.cells[i], *column.variable, decimal_));
       } catch (const FileError& error) {
-        refuse(fmt::format("{}: {}", column.name, error.what()));
+        throw FileError(fmt::format("{}: {}", column.name, error.what()));
       }
     }
     return text;
@@ -204,8 +199,9 @@ class TableReader {
           std::string cell = cell_of(row, word);
           const std::string fault = fault_of_name(cell);
           if (fault.empty()) return cell;
-          refuse(fmt::format("{}: '{}' {} and can be no part of a file's name",
-                             word, cell, fault));
+          throw FileError(
+              fmt::format("{}: '{}' {} and can be no part of a file's name",
+                          word, cell, fault));
         });
   }
 

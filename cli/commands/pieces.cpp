@@ -111,7 +111,7 @@ class Workshop {
                     {context_.temporary_files, stack, context_.watch}, &inbox);
     compiler::Compilation& compilation = session.compilation;
     const int status = session.run([&] {
-      if (!piece.fault.empty()) refuse_geometry(piece.fault);
+      if (!piece.fault.empty()) throw GeometryError(piece.fault);
       make_folder_of(request.output, context_.file_access());
       return compiler::compile(compilation) ? kDone : kFault;
     });
@@ -122,7 +122,7 @@ class Workshop {
       }
       if (!options_.report.empty()) outcome.json = report_json(compilation);
     }
-    // Under hard warnings no error tells.
+    // Under hard warnings the last warning is the fault.
     outcome.error = inbox.first_error;
     if (status != kDone && outcome.error.empty()) {
       outcome.error = compilation.diagnostics.all().back().message;

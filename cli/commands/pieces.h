@@ -1,11 +1,13 @@
 #pragma once
-// Several runs in one: the designs of a command line, the rows of a table.
+// Several pieces in one run: the designs of a command line, the rows of a
+// table.
 //
 // One bad piece never stops the rest. Where there are at least as many pieces
 // as threads, each is made by one thread and as many are under way as there are
 // threads, so that memory does not grow with the table; where there are fewer,
-// one follows the other and has all threads. The bytes are those of single runs
-// either way, and messages and the closing table keep the order of the pieces.
+// one follows the other and has all threads. The bytes are those of single
+// runs either way, and messages and the closing table keep the order of the
+// pieces.
 
 #include <cstdint>
 #include <span>

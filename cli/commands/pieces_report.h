@@ -1,5 +1,5 @@
 #pragma once
-// What came of several runs: the closing table, and `--report`.
+// What came of all pieces: the closing table, and `--report`.
 
 #include <cstdint>
 #include <span>

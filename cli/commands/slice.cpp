@@ -13,7 +13,6 @@
 #include "cli/options/design_options.h"
 #include "cli/options/output_options.h"
 #include "cli/options/output_pattern.h"
-#include "cli/options/usage_error.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
 #include "compiler/imported_design.h"
@@ -30,7 +29,7 @@ Usage:
   lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
                                           a piece for every row of a table
   lamina inspect FILE [OPTION]...         check layers, list and weigh them
-  lamina compare A B [OPTION]...          tell two files or designs apart
+  lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
 
 Output:
@@ -115,7 +114,7 @@ For comparison, the method of Zeng et al. 2011:
                       (by depth peeling, as published) [scanline]
 
 Checks:
-  --min-feature MM    tell of walls and gaps thinner than this, and of what
+  --min-feature MM    report walls and gaps thinner than this, and what
                       made them
   --report FILE       write times, counts, memory, the bound on what contours
                       deviate by, and thin features, as JSON
@@ -231,7 +230,7 @@ class SliceCommand : public Command {
           "'out/', or a pattern, such as 'out/{name}.slc'");
     }
     if (!request_.dependencies.empty()) {
-      throw UsageError("-d tells of one design");
+      throw UsageError("-d needs one design");
     }
     choose_format(request_, output_, output_of(designs_.front()));
     std::set<std::string> outputs;

@@ -17,7 +17,6 @@
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
-#include "cli/options/usage_error.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
@@ -74,7 +73,7 @@ bool is_page(const std::string& output) { return output.ends_with(".html"); }
 enum class Style { kSheet, kStack };
 
 struct ViewOptions {
-  std::optional<Style> style;  // a sheet, unless told
+  std::optional<Style> style;  // empty: a sheet
   std::optional<unsigned> layer_count;
   slicer::LayerPictureOptions layer;
   slicer::StackOptions stack;
@@ -113,14 +112,14 @@ std::size_t find_layer(const std::vector<slicer::Layer>& layers,
                        const ViewOptions& options) {
   if (options.layer_number) {
     if (*options.layer_number > layers.size()) {
-      refuse_geometry(fmt::format("there is no layer {}: there are {}",
-                                  *options.layer_number, layers.size()));
+      throw GeometryError(fmt::format("there is no layer {}: there are {}",
+                                      *options.layer_number, layers.size()));
     }
     return *options.layer_number - 1;
   }
   const double z = *options.layer_height;
   if (!(z >= layers.front().bottom && z <= layers.back().top)) {
-    refuse_geometry(fmt::format(
+    throw GeometryError(fmt::format(
         "there is no layer at z {} mm: the layers reach from {:.6g} to {:.6g}",
         z, layers.front().bottom, layers.back().top));
   }
@@ -155,7 +154,8 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   if (std::all_of(layers->begin(), layers->end(), [](const auto& layer) {
         return layer.contours.points.empty();
       })) {
-    refuse_geometry(fmt::format("{} has no contour to draw", request.design));
+    throw GeometryError(
+        fmt::format("{} has no contour to draw", request.design));
   }
   const std::string title = std::filesystem::path(request.design).filename();
   if (is_page(request.output)) {
@@ -227,7 +227,7 @@ class ViewCommand : public Command {
     if (is_page(request_.output) && options_.are_for_pictures()) {
       throw UsageError("of view's own options a page takes --min-feature only");
     }
-    // What a design's thin places are made of is told on the page.
+    // The page shows what made the thin places of a design.
     if (is_page(request_.output)) {
       request_.settings.min_feature = options_.layer.min_feature;
     }

@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "base/version.h"
 #include "cli/options/option_values.h"
-#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
 
 namespace lamina::cli {
 namespace {

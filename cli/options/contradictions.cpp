@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
 #include "compiler/imported_design.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"

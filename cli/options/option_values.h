@@ -1,7 +1,6 @@
 #pragma once
-// Options of the command line whose values are checked as they are read. What
-// is wrong with a value is thrown as CLI::ValidationError, which names the
-// option.
+// Options of the command line whose values are checked as they are read. A
+// faulty value throws CLI::ValidationError, which names the option.
 
 #include <functional>
 #include <string>
@@ -39,10 +38,10 @@ void add_choice(CLI::App& app, const std::string& name,
 // An option that takes what openscad takes for true and false.
 void add_switch(CLI::App& app, const std::string& name, bool& target);
 
-// --min-feature: the width of walls and gaps to be told of.
+// --min-feature: walls and gaps thinner than this are reported.
 void add_thin_width(CLI::App& app, double& width);
 
-// --layers: which of them are written.
+// --layers: which layers are written.
 void add_layer_range(CLI::App& app, slicer::LayerNumbers& range);
 
 }  // namespace lamina::cli

@@ -2,7 +2,7 @@
 
 #include "cli/options/contradictions.h"
 #include "cli/options/option_values.h"
-#include "cli/options/usage_error.h"
+#include "cli/process/exit_status.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {

@@ -23,11 +23,11 @@ std::string fill_pattern(
 // Empty if it can.
 std::string fault_of_name(std::string_view text);
 
-// Makes the folder of an output, and those around it. Where that cannot be,
-// opening the output tells why.
+// Makes the folder of an output, and those around it. Where that fails,
+// opening the output reports why.
 void make_folder_of(const std::string& output, const FileAccess& access);
 
-// The same for two paths if they name the same file in the same words.
+// The path without "." and "..": equal for two ways to write one path.
 std::string normal_path(const std::string& path);
 
 // The last part of a path without its extension: "ring" of "in/ring.scad".

@@ -1,9 +1,7 @@
 #include "cli/pages/man_page.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,24 +12,14 @@ namespace {
 
 // Text as troff prints it: dashes that can be copied, and no requests.
 std::string escaped(std::string_view text) {
-  constexpr std::pair<char, const char*> kWords[] = {{'\\', "\\e"},
-                                                     {'-', "\\-"},
-                                                     {'\'', "\\(aq"},
-                                                     {'^', "\\(ha"},
-                                                     {'~', "\\(ti"}};
-  std::string result;
-  if (text.starts_with('.') || text.starts_with('\'')) result += "\\&";
-  for (const char letter : text) {
-    const auto word = std::find_if(
-        std::begin(kWords), std::end(kWords),
-        [letter](const auto& pair) { return pair.first == letter; });
-    if (word != std::end(kWords)) {
-      result += word->second;
-    } else {
-      result += letter;
-    }
-  }
-  return result;
+  std::string result(text);
+  replace(result, "\\", "\\e");
+  replace(result, "-", "\\-");
+  replace(result, "'", "\\(aq");
+  replace(result, "^", "\\(ha");
+  replace(result, "~", "\\(ti");
+  return text.starts_with('.') || text.starts_with('\'') ? "\\&" + result
+                                                         : result;
 }
 
 // Names in bold, values in italics.

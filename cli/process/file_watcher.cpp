@@ -24,9 +24,7 @@ constexpr int kQuietMilliseconds = 100;
 constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO;
 
 [[noreturn]] void fail() {
-  throw FileError({Severity::kError,
-                   {},
-                   fmt::format("Can't watch files: {}", std::strerror(errno))});
+  throw FileError(fmt::format("Can't watch files: {}", std::strerror(errno)));
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 // Waits until a file changes.
 //
 // Editors write a file in place, or write another one and rename it over the
-// first, or delete it and write it anew. The folder of the file tells of all
-// that, so folders are watched, for files that were closed after writing or
-// moved in. One save can be several of these; a change is told of when nothing
-// more has come for a moment.
+// first, or delete it and write it anew. All that shows in the file's folder,
+// so folders are watched, for files that were closed after writing or moved in.
+// One save can be several of these; a change is reported when nothing more has
+// come for a moment.
 
 #include <filesystem>
 #include <map>

@@ -4,7 +4,7 @@
 //
 // From then on this process can read only in the folders that it may use and in
 // those that it needs itself: shared libraries, Fontconfig's configuration,
-// what /proc and /sys tell of it and of the machine. It writes in the root
+// what /proc and /sys say about it and the machine. It writes in the root
 // alone. So a fault in lamina, or in a library that reads a stranger's file,
 // reaches no further. Landlock does not hide whether a file exists; FileAccess
 // does.

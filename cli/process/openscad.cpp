@@ -29,10 +29,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int kMissingStatus = 127;
 constexpr std::size_t kLastWords = 6;  // lines of a failed run that are shown
 
-[[noreturn]] void fail(const std::string& words) {
-  throw FileError({Severity::kError, {}, words});
-}
-
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -83,12 +79,13 @@ std::optional<int> run_openscad(std::vector<std::string> arguments,
   pointers.push_back(nullptr);
   const pid_t child = ::fork();
   if (child < 0) {
-    fail(fmt::format("openscad cannot be started: {}", std::strerror(errno)));
+    throw FileError(
+        fmt::format("openscad cannot be started: {}", std::strerror(errno)));
   }
   if (child == 0) become(pointers.data(), words.c_str());
   const std::optional<int> status = wait_for(child, limit);
   if (status && WIFEXITED(*status) && WEXITSTATUS(*status) == kMissingStatus) {
-    fail(
+    throw FileError(
         "openscad is not installed: there is no program of that name in the "
         "PATH");
   }
@@ -122,14 +119,14 @@ ScratchFolder::ScratchFolder(TemporaryFiles& temporary_files)
   const std::filesystem::path parent =
       std::filesystem::temp_directory_path(error);
   if (error) {
-    fail(fmt::format("there is no folder for openscad's mesh: TMPDIR: {}",
-                     error.message()));
+    throw FileError(fmt::format(
+        "there is no folder for openscad's mesh: TMPDIR: {}", error.message()));
   }
   const std::string beside = (parent / "lamina").string();
   folder_ = temporary_files_.make_folder(beside);
   if (folder_.lock < 0) {
-    fail(fmt::format("no folder can be made beside '{}': {}", beside,
-                     std::strerror(errno)));
+    throw FileError(fmt::format("no folder can be made beside '{}': {}", beside,
+                                std::strerror(errno)));
   }
 }
 
@@ -164,18 +161,19 @@ OpenScadMesh render_with_openscad(const compiler::Request& request,
       run_openscad(std::move(arguments), words, time_limit);
   mesh.seconds = seconds_since(begin);
   if (!status) {
-    fail(fmt::format(
+    throw FileError(fmt::format(
         "openscad took more than {:g} s on {} and was ended; --time-limit "
         "gives it more",
         time_limit, request.design));
   }
   if (WIFSIGNALED(*status)) {
-    fail(fmt::format("openscad crashed on {} (signal {}){}", request.design,
-                     WTERMSIG(*status), last_words(words)));
+    throw FileError(fmt::format("openscad crashed on {} (signal {}){}",
+                                request.design, WTERMSIG(*status),
+                                last_words(words)));
   }
   if (*status != 0 || !std::filesystem::exists(mesh.path)) {
-    fail(fmt::format("openscad made no mesh of {}{}", request.design,
-                     last_words(words)));
+    throw FileError(fmt::format("openscad made no mesh of {}{}", request.design,
+                                last_words(words)));
   }
   return mesh;
 }

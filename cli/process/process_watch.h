@@ -1,16 +1,16 @@
 #pragma once
 // Keeps a process within its time and memory.
 //
-// The work itself is never asked: it may be deep inside of a library, or in a
-// loop that nobody thought of. The thread that waits for the work looks at the
+// The work itself does not check: it may be deep inside a library, or in a loop
+// that nobody thought of. The thread that waits for the work looks at the
 // clock and at the memory in use, every 20 ms, and ends the process
 // (cli/process/run_on_stack.h). A look costs 2 us, and a run that is over
 // before the first one pays nothing.
 //
-// Between two looks a process could take much, so the system is told a limit,
-// too, from the first look on: somewhat above that of the option, since what is
-// asked for is never in use as a whole. Where it is met an allocation fails,
-// which is told as any lack of memory is.
+// Between two looks a process could take much. So from the first look on the
+// system has a limit, too: somewhat above that of the option, since what is
+// asked for is never in use as a whole. Beyond it an allocation fails, which is
+// reported like any lack of memory.
 
 #include <chrono>
 #include <cstdint>

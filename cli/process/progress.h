@@ -31,8 +31,6 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  bool is_wanted() const { return is_wanted_; }
-
   // Begins to count the time, and says what is counted.
   void begin(std::uint64_t total, std::string_view unit);
 

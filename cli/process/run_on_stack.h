@@ -5,9 +5,9 @@
 // The passes run on a thread of their own (cli/process/large_stack.h). The
 // first thread meanwhile waits for signals and looks at the limits
 // (cli/process/process_watch.h); being an ordinary thread and not a signal
-// handler, it may take locks and remove temporary files. An exception that
-// nobody can catch, such as a failed allocation in a library that cannot pass
-// it on, is told to it as well.
+// handler, it may take locks and remove temporary files. It also ends the
+// process after an exception that nobody can catch, such as a failed allocation
+// in a library that cannot pass it on.
 
 #include <cstddef>
 #include <functional>

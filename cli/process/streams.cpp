@@ -23,9 +23,7 @@ void print_out(std::string_view text) {
   const int error = write_all(STDOUT_FILENO, text);
   if (error == 0) return;
   throw FileError(
-      {Severity::kError,
-       {},
-       fmt::format("Can't write 'standard output': {}", std::strerror(error))});
+      fmt::format("Can't write 'standard output': {}", std::strerror(error)));
 }
 
 void print_error(std::string_view text) { write_all(STDERR_FILENO, text); }

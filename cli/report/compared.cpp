@@ -27,8 +27,8 @@ namespace {
 
 using slicer::Layer;
 
-// What is assumed of files that do not tell: --tolerance of lamina unless it is
-// given [mm].
+// What is assumed of files that do not say their precision: the default of
+// --tolerance [mm].
 const double kUsualSimplification = slicer::Settings().tolerance;
 
 // OpenSCAD unites and offsets outlines on a grid of 2^-16 mm.

@@ -13,7 +13,7 @@
 
 namespace lamina::cli {
 
-// Ends the run; what went wrong has been shown.
+// Ends the comparison; what went wrong has been shown.
 class ShownFault : public std::exception {};
 
 class Compared {

@@ -150,16 +150,16 @@ void Comparison::move_off_faces(ComparisonResult& result) {
     (is_b_cut ? pair.b : pair.a) = &layers[i];
     LayerDifference difference =
         slicer::compare_pair(pair, Vec2(shift_.x, shift_.y));
-    LayerDifference& told = result.layers[rows[i]];
+    LayerDifference& shown = result.layers[rows[i]];
     if (!is_good(difference, result.tolerance) ||
-        is_good(told, result.tolerance)) {
+        is_good(shown, result.tolerance)) {
       continue;
     }
-    difference.number = told.number;
-    difference.z = told.z;
+    difference.number = shown.number;
+    difference.z = shown.z;
     difference.moved = moves[i];
-    difference.thickness = told.thickness;
-    told = difference;
+    difference.thickness = shown.thickness;
+    shown = difference;
     cut_beside_faces_.push_back(std::move(layers[i]));
     (is_b_cut ? pairs_[rows[i]].b : pairs_[rows[i]].a) =
         &cut_beside_faces_.back();

@@ -16,7 +16,7 @@ using slicer::LayerDifference;
 
 constexpr std::size_t kListedLayers = 10;
 
-// As short as tells lengths from each other: 3 digits.
+// Three digits are enough to compare lengths by.
 std::string length(double mm) {
   return std::isinf(mm) ? "missing" : fmt::format("{:.3g}", mm);
 }
@@ -49,6 +49,25 @@ std::vector<std::size_t> choose_rows(const std::vector<LayerDifference>& layers,
   rows.resize(kListedLayers);
   std::sort(rows.begin(), rows.end());
   return rows;
+}
+
+std::string verdict(const ComparisonResult& result) {
+  const slicer::ComparisonTotals& totals = result.totals;
+  if (result.is_equal()) {
+    return fmt::format("equal     within {:.4g} mm in all {} layers",
+                       result.tolerance, totals.layers);
+  }
+  std::string words = fmt::format(
+      "different in {} of {} layers, beyond {:.4g} "
+      "mm",
+      totals.outside, totals.layers, result.tolerance);
+  if (result.hint != Vec3(0)) {
+    words += fmt::format(
+        "; equal if b is moved by ({:.6g}, {:.6g}, {:.6g}) "
+        "mm: --align",
+        result.hint.x, result.hint.y, result.hint.z);
+  }
+  return words;
 }
 
 class Writer : slicer::PrintedText {
@@ -195,25 +214,6 @@ nlohmann::ordered_json layer_json(const LayerDifference& layer) {
 
 std::string comparison_text(const ComparisonResult& result, bool lists_all) {
   return Writer(result).write(lists_all);
-}
-
-std::string verdict(const ComparisonResult& result) {
-  const slicer::ComparisonTotals& totals = result.totals;
-  if (result.is_equal()) {
-    return fmt::format("equal     within {:.4g} mm in all {} layers",
-                       result.tolerance, totals.layers);
-  }
-  std::string words = fmt::format(
-      "different in {} of {} layers, beyond {:.4g} "
-      "mm",
-      totals.outside, totals.layers, result.tolerance);
-  if (result.hint != Vec3(0)) {
-    words += fmt::format(
-        "; equal if b is moved by ({:.6g}, {:.6g}, {:.6g}) "
-        "mm: --align",
-        result.hint.x, result.hint.y, result.hint.z);
-  }
-  return words;
 }
 
 std::string comparison_json(const ComparisonResult& result) {

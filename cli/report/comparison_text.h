@@ -1,5 +1,5 @@
 #pragma once
-// What `lamina compare` tells: a table of layers, totals, a verdict; the same
+// What `lamina compare` prints: a table of layers, totals, a verdict; the same
 // as JSON.
 
 #include <string>
@@ -24,7 +24,6 @@ struct ComparisonResult {
   std::vector<slicer::LayerDifference> layers;
   slicer::ComparisonTotals totals;
   double tolerance = 0;  // [mm]
-  bool is_tolerance_given = false;
   Vec3 shift = Vec3(0);  // of b, by --align [mm]
   // Other than 0: this shift would bring all layers within the tolerance.
   Vec3 hint = Vec3(0);
@@ -35,9 +34,6 @@ struct ComparisonResult {
 // Ended by '\n'. With lists_all a row for each layer, else those that differ
 // most.
 std::string comparison_text(const ComparisonResult& result, bool lists_all);
-
-// The last line of it alone, without '\n'.
-std::string verdict(const ComparisonResult& result);
 
 std::string comparison_json(const ComparisonResult& result);
 

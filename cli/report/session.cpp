@@ -68,10 +68,6 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
   return kFault;
 }
 
-void refuse_geometry(const std::string& words) {
-  throw GeometryError({Severity::kError, {}, words});
-}
-
 void write_file(const std::string& path, std::string_view text,
                 TemporaryFiles& temporary_files) {
   OutputFile output(path, temporary_files);

@@ -31,9 +31,6 @@ struct Session {
 int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
                const std::function<int()>& work);
 
-// Throws GeometryError.
-[[noreturn]] void refuse_geometry(const std::string& words);
-
 // Writes a whole file.
 void write_file(const std::string& path, std::string_view text,
                 TemporaryFiles& temporary_files);

@@ -89,7 +89,8 @@ void Terminal::end_echoes() {
 
 void Terminal::write(std::string_view text) {
   if (inbox_ != nullptr) {
-    // A place in the design that the prefix names tells as much by itself.
+    // Where the message itself begins with the place in the prefix, that is
+    // enough.
     std::string_view place = inbox_->prefix;
     place.remove_suffix(std::min<std::size_t>(place.size(), 1));
     if (place.empty() || !text.starts_with(place)) {

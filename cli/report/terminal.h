@@ -12,11 +12,11 @@
 
 namespace lamina::cli {
 
-// Takes the messages of a run that is one of several, instead of standard
+// Takes the messages of one compilation among several, instead of standard
 // error: they are shown together when it has ended.
 struct Inbox {
   std::string prefix;         // of every message: "orders.csv:17: "
-  bool has_progress = false;  // nothing else runs: it may draw its progress
+  bool has_progress = false;  // it is alone and may draw its progress
   std::string text;
   std::string first_error;  // its words alone
 };
@@ -39,10 +39,10 @@ class Terminal {
 
   bool is_quiet() const { return is_quiet_; }
 
-  // The line that tells how far the run is; messages are written above it.
+  // The line that shows how far the work is; messages are written above it.
   ProgressLine& progress() { return progress_; }
 
-  // Tells how often messages were repeated.
+  // Writes how often messages were repeated.
   void finish();
 
  private:

@@ -193,7 +193,7 @@ TEST(Design, AutomaticAxisSaysWhatItChose) {
   options.axis = "auto";
   options.show = [&](std::string_view message) { shown += message; };
   const Design bar = Design::from_text("cube([8, 2, 3]);", options);
-  EXPECT_NE(shown.find("y"), std::string::npos);
+  EXPECT_NE(shown.find("building direction y"), std::string::npos) << shown;
   EXPECT_EQ(bar.slice(layers_of(1)).size(), 2U);
 }
 

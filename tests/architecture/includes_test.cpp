@@ -83,7 +83,6 @@ const std::vector<std::string> kRooms = {"base",
                                          "compiler",
                                          "api/lamina",
                                          "api",
-
                                          "cli/process",
                                          "cli/options",
                                          "cli/report",

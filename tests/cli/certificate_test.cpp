@@ -1,5 +1,5 @@
-// What a run tells of its own layers: how far they can be from the design, and
-// what in them is thin.
+// What a run reports about its own layers: how far they can be from the design,
+// and what in them is thin.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

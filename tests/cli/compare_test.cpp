@@ -100,8 +100,8 @@ TEST_F(Compare, ShowsWhatSimplificationDid) {
                      "--report", "r.json"})
                 .status,
             1);
-  const nlohmann::json told = report();
-  for (const auto& layer : told["layers"]) {
+  const nlohmann::json shown = report();
+  for (const auto& layer : shown["layers"]) {
     EXPECT_GT(layer["distance"], 5e-4);
     EXPECT_LE(layer["distance"], 0.001002);
   }

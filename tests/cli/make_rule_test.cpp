@@ -126,7 +126,7 @@ TEST(MakeRule, ThatCannotBeWrittenEndsTheRun) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.slc")));
 }
 
-// It would tell make that the output is made.
+// To make it would mean that the output is made.
 TEST(MakeRule, ComesWithTheOutputOrNotAtAll) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cylinder(r1 = 30, r2 = 20, h = 60, $fn = 500);");

@@ -1,4 +1,4 @@
-// What is wrong with a design's geometry is told in OpenSCAD's words: all
+// What is wrong with a design's geometry is reported in OpenSCAD's words: all
 // messages of both programs, for one mistake each.
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The line that tells how far a long run is.
+// The line that shows how far a long run is.
 
 #include "cli/process/progress.h"
 

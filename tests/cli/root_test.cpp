@@ -148,7 +148,7 @@ TEST_P(RootNaming, LeadsNowhereElseAndTellsNothing) {
     fs::remove(beyond(file_name()));
     const auto missing = run_naming(file, output);
     EXPECT_EQ(missing.status, 1) << file;
-    EXPECT_EQ(missing.errors, there.errors) << "tells whether it is there";
+    EXPECT_EQ(missing.errors, there.errors) << "shows whether it is there";
     EXPECT_EQ(missing.output, there.output);
   }
 }
@@ -304,7 +304,7 @@ TEST_F(Root, CellsOfATableOpenNothing) {
       const std::string there = error_of_cell();
       EXPECT_NE(there.find("a vector such as"), std::string::npos) << there;
       fs::remove(beyond("f.scad"));
-      EXPECT_EQ(error_of_cell(), there) << "tells whether it is there";
+      EXPECT_EQ(error_of_cell(), there) << "shows whether it is there";
     }
   }
 }
@@ -395,7 +395,7 @@ TEST_F(Root, DoesNotGoWithWatchingAndOpenscad) {
 }
 
 TEST_F(Root, IsReadAsOnesOwnFolderIs) {
-  // What is missing inside is told of as ever, and the run goes on.
+  // What is missing inside is reported as ever, and the run goes on.
   all_.write("root/d.scad",
              "include <none.scad>\nimport(\"none.stl\");\ncube(1);\n");
   const auto confined = run_confined({"d.scad", "-o", "a.slc", "-q"});
