@@ -186,7 +186,7 @@ TEST(Design, RefusesOptionsThatMeanNothing) {
 
 TEST(Design, AxisTurnsTheDesignAndTheBedLiftsIt) {
   DesignOptions options;
-  options.axis = "x";
+  options.axis = std::string("x");
   options.place_on_bed = true;
   const Design bar =
       Design::from_text("translate([5, 0, 0]) cube([8, 2, 3]);", options);
