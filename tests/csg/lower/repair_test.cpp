@@ -1,5 +1,9 @@
 #include "csg/lower/detail/repair.h"
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "csg/boundary/leaf_mesh.h"
@@ -27,6 +31,23 @@ Mesh apart(const Mesh& mesh, double shift = 0) {
     soup.triangles.push_back({first, first + 1, first + 2});
   }
   return soup;
+}
+
+// The triangles by their corners, in an order that neither numbering nor the
+// first corner decides.
+std::vector<std::array<std::array<double, 3>, 3>> faces_of(const Mesh& mesh) {
+  std::vector<std::array<std::array<double, 3>, 3>> faces;
+  for (const auto& triangle : mesh.triangles) {
+    auto& face = faces.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& corner = mesh.vertices[triangle[i]];
+      face[i] = {corner.x, corner.y, corner.z};
+    }
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()),
+                face.end());
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
 }
 
 bool is_clean(const Repairs& repairs) {
@@ -64,14 +85,14 @@ TEST(Repair, DropsTrianglesWithACornerTwice) {
   Mesh mesh = tetrahedron();
   mesh.triangles.push_back({1, 1, 2});
   EXPECT_EQ(repair(mesh).dropped_triangles, 1U);
-  EXPECT_EQ(mesh, tetrahedron());
+  EXPECT_EQ(faces_of(mesh), faces_of(tetrahedron()));
 }
 
 TEST(Repair, TurnsTheMinority) {
   Mesh mesh = tetrahedron();
   std::swap(mesh.triangles[1][1], mesh.triangles[1][2]);
   EXPECT_EQ(repair(mesh).turned_triangles, 1U);
-  EXPECT_EQ(mesh, tetrahedron());
+  EXPECT_EQ(faces_of(mesh), faces_of(tetrahedron()));
 }
 
 TEST(Repair, TurnsAMeshThatIsInsideOut) {
@@ -85,7 +106,7 @@ TEST(Repair, DropsATriangleThatIsThereTwice) {
   Mesh mesh = tetrahedron();
   mesh.triangles.push_back({2, 3, 1});
   EXPECT_EQ(repair(mesh).repeated_triangles, 1U);
-  EXPECT_EQ(mesh, tetrahedron());
+  EXPECT_EQ(faces_of(mesh), faces_of(tetrahedron()));
 }
 
 TEST(Repair, ClosesAHoleAndSaysWhereItWas) {
@@ -110,7 +131,7 @@ TEST(Repair, KeepsTwoSolidsThatShareAnEdge) {
   }
   const Mesh before = mesh;
   EXPECT_TRUE(is_clean(repair(mesh)));
-  EXPECT_EQ(mesh, before);
+  EXPECT_EQ(faces_of(mesh), faces_of(before));
 }
 
 TEST(Repair, LeavesOutVerticesThatNoTriangleNames) {
