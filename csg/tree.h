@@ -118,7 +118,7 @@ struct PolyhedronParams {
   // "points = …, faces = …" as written, where that is not just the numbers
   // above (points of two numbers, undef, …); else empty.
   std::string_view csg_text = {};
-  // "points[3] = [0, \"a\"]", the first point of a face that is none; else
+  // "points[3] = [0, \"a\"]", the first malformed point of a face; else
   // empty. Such points may be [0, 0, 0], or not finite.
   std::string_view wrong_point = {};
 };

@@ -3,12 +3,12 @@
 // other file.
 //
 // The page is a template (slicer/picture/viewer) with two things put in. A JSON
-// object holds the measures of the part and of each layer, so that the page shows
-// the numbers of `lamina inspect`, not sums of its own. The contours are a stream
-// of integers: steps from one corner to the next in units of 1e-4 mm, in zigzag
-// form and 7 bits a byte, so that small numbers take one byte; deflated and in
-// base64. That is some 3 bytes a corner, and every browser since 2023 inflates it
-// by itself.
+// object holds the measures of the part and of each layer, so that the page
+// shows the numbers of `lamina inspect`, not sums of its own. The contours are
+// a stream of integers: steps from one corner to the next in units of 1e-4 mm,
+// in zigzag form and 7 bits a byte, so that small numbers take one byte;
+// deflated and in base64. That is some 3 bytes a corner, and every browser
+// since 2023 inflates it by itself.
 
 #include <string>
 #include <vector>
