@@ -140,10 +140,10 @@ bool CsgPruning::matters(std::uint32_t instance) {
   box.high += kMargin;
   last_question_ = questions_ + kMostQuestions;
   const bool matters = !is_decided_above(instance, box);
-  for (const std::uint32_t other : asked_) {
+  for (const std::uint32_t other : known_) {
     program_.set(other, csg::Ternary::kUnknown);
   }
-  asked_.clear();
+  known_.clear();
   return matters;
 }
 
@@ -171,8 +171,10 @@ void CsgPruning::ask(std::uint32_t node, const Child& but, const Box3& box) {
     if (questions_ == last_question_) return;
     ++questions_;
     if (child.is_instance) {
-      program_.set(child.number, value_of(child.number, box));
-      asked_.push_back(child.number);
+      const csg::Ternary value = value_of(child.number, box);
+      if (value == csg::Ternary::kUnknown) continue;
+      program_.set(child.number, value);
+      known_.push_back(child.number);
     } else {
       ask(child.number, {kNoInstance, true}, box);
     }

@@ -58,7 +58,7 @@ class CsgPruning {
   const csg::Scene& scene_;
   // All is unknown but what is asked for the instance in hand.
   csg::TernaryProgram program_;
-  std::vector<std::uint32_t> asked_;
+  std::vector<std::uint32_t> known_;  // instances whose value is not unknown
   // Of the operators with few children; operator i: [ends[i-1], ends[i]).
   std::vector<Child> children_;
   std::vector<std::uint32_t> ends_;
