@@ -8,8 +8,13 @@
 namespace lamina {
 
 double signed_area(std::span<const Vec2> loop) {
-  // Triangles from the first point. Those of a sliver are small, and so is
-  // their rounding: even then the sign is right.
+  if (loop.empty()) return 0;
+  DoubledArea area(loop.front(), loop.back());
+  for (const Vec2& point : loop) area.add(point);
+  return area.value() / 2;
+}
+
+double sliver_area(std::span<const Vec2> loop) {
   double doubled = 0;
   for (std::size_t i = 2; i < loop.size(); ++i) {
     doubled += cross(loop[i - 1] - loop[0], loop[i] - loop[0]);

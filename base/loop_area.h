@@ -54,6 +54,11 @@ class Reach {
 // Positive where the loop runs counter-clockwise [mm²]; 0 of none.
 double signed_area(std::span<const Vec2> loop);
 
+// The same, added up by triangles from the first point. Those of a sliver are
+// small, and so is their rounding: for regions of the plane, where slivers come
+// from rounding and the sign of one decides.
+double sliver_area(std::span<const Vec2> loop);
+
 double perimeter(std::span<const Vec2> loop);
 
 // As Reach has it.

@@ -68,7 +68,7 @@ planar::Contour project(std::span<const Vec3> vertices,
     contour.push_back(
         {vertices[i][(drop + 1) % 3], vertices[i][(drop + 2) % 3]});
   }
-  if (signed_area(contour) < 0) {
+  if (sliver_area(contour) < 0) {
     for (Vec2& point : contour) point.y = -point.y;
   }
   return contour;

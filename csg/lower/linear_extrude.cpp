@@ -82,7 +82,7 @@ Leaf loft_contours(const Region& region, double low, double high,
                    double scale) {
   Leaf leaf;
   for (const Contour& contour : region.contours) {
-    const bool is_hole = signed_area(contour) < 0;
+    const bool is_hole = sliver_area(contour) < 0;
     auto outline = std::make_shared<std::vector<Vec2>>(contour);
     if (is_hole) std::reverse(outline->begin(), outline->end());
     leaf.lofts.push_back(
@@ -122,7 +122,7 @@ class TwistedExtruder {
     for (int i = 0; i <= slices_; ++i) add_ring(slice_at(i));
     std::uint32_t first = 0;
     for (const Contour& contour : region_.contours) {
-      const bool is_hole = signed_area(contour) < 0;
+      const bool is_hole = sliver_area(contour) < 0;
       for (int i = 0; i < slices_; ++i) {
         add_band(i, first, static_cast<std::uint32_t>(contour.size()), is_hole);
       }

@@ -85,7 +85,7 @@ class FullTurn {
 
  private:
   void add_loft(std::vector<Vec2> profile, bool is_closed) {
-    const bool is_cavity = signed_area(profile) < 0;
+    const bool is_cavity = sliver_area(profile) < 0;
     if (is_cavity) std::reverse(profile.begin(), profile.end());
     leaf_.lofts.push_back({circle_, std::move(profile), is_closed, is_cavity});
   }

@@ -213,7 +213,7 @@ std::vector<Contour> link_edges(std::span<const Contour> contours,
   const PlanarGraph graph = snap_round(contours, snap);
   std::vector<Contour> loops = Linker(graph).link();
   if (loops.size() == 1) {
-    if (signed_area(loops[0]) < 0)
+    if (sliver_area(loops[0]) < 0)
       std::reverse(loops[0].begin(), loops[0].end());
     return loops;
   }

@@ -79,7 +79,7 @@ Region add(const Region& a, const Region& b) {
 Region fill(const Region& region) {
   std::vector<Region> outer;
   for (const Contour& contour : region.contours) {
-    if (signed_area(contour) > 0) outer.push_back({{contour}});
+    if (sliver_area(contour) > 0) outer.push_back({{contour}});
   }
   return outer.empty() ? Region{} : unite(outer);
 }

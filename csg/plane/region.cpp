@@ -9,13 +9,13 @@ namespace lamina::planar {
 
 double area(const Region& region) {
   double sum = 0;
-  for (const Contour& contour : region.contours) sum += signed_area(contour);
+  for (const Contour& contour : region.contours) sum += sliver_area(contour);
   return sum;
 }
 
 void drop_hairlines(Region& region, double width) {
   std::erase_if(region.contours, [&](const Contour& contour) {
-    return std::abs(signed_area(contour)) < 0.5 * width * perimeter(contour);
+    return std::abs(sliver_area(contour)) < 0.5 * width * perimeter(contour);
   });
 }
 

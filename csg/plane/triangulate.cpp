@@ -292,7 +292,7 @@ std::vector<std::size_t> find_owners(const Region& region) {
   std::vector<double> areas;
   areas.reserve(contours.size());
   for (const Contour& contour : contours) {
-    areas.push_back(signed_area(contour));
+    areas.push_back(sliver_area(contour));
   }
   std::vector<std::size_t> owners(contours.size());
   std::iota(owners.begin(), owners.end(), std::size_t{0});

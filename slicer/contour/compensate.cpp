@@ -26,7 +26,7 @@ class Nesting {
  public:
   explicit Nesting(const Region& region) : region_(region) {
     for (const Contour& contour : region.contours) {
-      Box box{contour.front(), contour.front(), std::abs(signed_area(contour))};
+      Box box{contour.front(), contour.front(), std::abs(sliver_area(contour))};
       for (const Vec2& p : contour) {
         box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
@@ -74,7 +74,7 @@ struct Losses {
 // those of the other sign bound components that grow and can meet.
 Losses find_losses(const Region& before, const Region& after, int sign) {
   const auto shrinks = [sign](const Contour& contour) {
-    return (signed_area(contour) > 0) == (sign > 0);
+    return (sliver_area(contour) > 0) == (sign > 0);
   };
   const Nesting nesting(before);
   std::vector<char> is_left(before.contours.size(), 0);

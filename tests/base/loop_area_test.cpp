@@ -38,6 +38,18 @@ TEST(SignedArea, IsTheSameWithTheFirstPointRepeated) {
   EXPECT_EQ(signed_area(loop), 6);
 }
 
+// Up the diagonal and back one to its left: products of coordinates take all 53
+// bits of a double, the area almost none.
+TEST(SliverArea, IsExactForSliversOfWholeNumbers) {
+  constexpr double kStep = 0x1p20;
+  Loop loop;
+  for (int i = 0; i <= 100; ++i) loop.emplace_back(i * kStep + 1, i * kStep);
+  for (int i = 100; i >= 0; --i) loop.emplace_back(i * kStep, i * kStep);
+  EXPECT_EQ(sliver_area(loop), 100 * kStep);
+  const Loop reversed(loop.rbegin(), loop.rend());
+  EXPECT_EQ(sliver_area(reversed), -100 * kStep);
+}
+
 // Products of coordinates would have lost all of it.
 TEST(SignedArea, KeepsItsDigitsFarFromTheOrigin) {
   const Vec2 far(0x1p40, -0x1p41);
