@@ -51,7 +51,7 @@ Json deviation_json(const std::optional<slicer::Deviation>& deviation) {
   return {{"from_section", number(deviation->from_section())},
           {"from_curves", number(deviation->from_curves())},
           {"ties", number(deviation->ties)},
-          {"columns", number(deviation->clusters)},
+          {"clusters", number(deviation->clusters)},
           {"compensation", number(deviation->compensation)},
           {"simplification", number(deviation->simplification)},
           {"rounding", number(deviation->rounding)},

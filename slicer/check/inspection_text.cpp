@@ -241,7 +241,7 @@ std::string inspection_json(const Inspection& found) {
   json["empty_layers"] = totals.empty;
   json["deviation_mm"] = number_or_null(found.file.deviation);
   json["defects"] = found.defects;
-  json["told_defects"] = found.reported_defects;
+  json["reported_defects"] = found.reported_defects;
   if (found.min_feature > 0) json["features"] = features_json(found);
   json["layers"] = layers_json(found);
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) +

@@ -132,7 +132,7 @@ TEST(Certificate, TheBoundIsTheSumOfItsParts) {
   EXPECT_GT(plain.at("rounding").get<double>(), 0);
   double sum = 0;
   for (const char* const part :
-       {"ties", "columns", "compensation", "simplification", "rounding"}) {
+       {"ties", "clusters", "compensation", "simplification", "rounding"}) {
     sum += plain.at(part).get<double>();
   }
   EXPECT_DOUBLE_EQ(plain.at("from_section").get<double>(), sum);
