@@ -29,15 +29,12 @@ ldni::Contours without_slivers(const ldni::Contours& contours) {
   ldni::Contours kept;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
-    if (is_sliver(loop)) continue;
-    kept.add_loop(loop);
+    if (!is_sliver(loop)) kept.add_loop(loop);
   }
   return kept;
 }
 
-[[noreturn]] void fail(const std::string& words) {
-  throw GeometryError({Severity::kError, {}, words});
-}
+[[noreturn]] void fail(const std::string& words) { throw GeometryError(words); }
 
 // A stack of layers, and how far a walk through both has come.
 struct Walk {
@@ -72,8 +69,7 @@ const Layer* take_alone(Walk& walk, const Walk& other) {
     fail(fmt::format(
         "layers of different heights cannot be compared: {} has one at z "
         "{:.6g}, {} has its nearest at z {:.6g}; cut one of them at the "
-        "heights "
-        "of the other, or compare each with the design",
+        "heights of the other, or compare each with the design",
         walk.name, z, other.name, other.height_nearest_to(z)));
   }
   return &layer;

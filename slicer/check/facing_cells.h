@@ -10,7 +10,6 @@
 // two directions of a cell do, the cell is passed over and lists no edge. On a
 // smooth part that is nearly every cell.
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

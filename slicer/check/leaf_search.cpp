@@ -5,7 +5,6 @@
 
 #include "base/plane.h"
 #include "csg/tie_distance.h"
-#include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
 namespace {

@@ -223,10 +223,7 @@ class Sweep {
                       });
     steps_ += cluster.size() * crossings_.size();
     if (steps_ > kMostSteps) {
-      throw GeometryError({Severity::kError,
-                           {},
-                           "contours cross each other too often to be "
-                           "compared"});
+      throw GeometryError("contours cross each other too often to be compared");
     }
     std::sort(crossings_.begin(), crossings_.end());
   }

@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 
 #include "base/plane.h"
-#include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
 namespace {

@@ -26,11 +26,9 @@ void require_layers(const csg::Scene& scene, double thickness) {
   const double count = (scene.box.high.z - scene.box.low.z) / thickness;
   if (count <= kMostLayers) return;
   throw GeometryError(
-      {Severity::kError,
-       {},
-       fmt::format("Too many layers: {:.3g} of {:g} mm, at most {:g} can be; "
-                   "--layer makes them thicker",
-                   count, thickness, kMostLayers)});
+      fmt::format("Too many layers: {:.3g} of {:g} mm, at most {:g} can be; "
+                  "--layer makes them thicker",
+                  count, thickness, kMostLayers));
 }
 
 // Reports faults of our own, which should never happen.
@@ -76,21 +74,16 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 }
 
 [[noreturn]] void throw_empty(const SliceReport& report) {
-  throw GeometryError({Severity::kError,
-                       {},
-                       report.losses.vanished_regions > 0
-                           ? "Nothing is left of the design after compensation."
-                           : "Current top level object is empty.",
-                       {}});
+  throw GeometryError(report.losses.vanished_regions > 0
+                          ? "Nothing is left of the design after compensation."
+                          : "Current top level object is empty.");
 }
 
 [[noreturn]] void throw_out_of_range(const SliceReport& report,
                                      const LayerNumbers& wanted) {
-  throw GeometryError({Severity::kError,
-                       {},
-                       fmt::format("There is no layer {}: the layers are 1 to "
-                                   "{}",
-                                   wanted.first, report.layers_there)});
+  throw GeometryError(
+      fmt::format("There is no layer {}: the layers are 1 to {}", wanted.first,
+                  report.layers_there));
 }
 
 }  // namespace

@@ -14,12 +14,10 @@ static_assert(std::endian::native == std::endian::little,
 
 void FloatWriter::check_rise(float before, double height) const {
   if (static_cast<float>(height) > before) return;
-  throw FileError({Severity::kError,
-                   {},
-                   fmt::format("Can't write '{}': the layers at {} and {} mm "
-                               "are one in {}'s 32-bit numbers",
-                               output_.path(), before, height, format_),
-                   {}});
+  throw FileError(
+      fmt::format("Can't write '{}': the layers at {} and {} mm "
+                  "are one in {}'s 32-bit numbers",
+                  output_.path(), before, height, format_));
 }
 
 }  // namespace lamina::slicer

@@ -172,22 +172,18 @@ class ImageStackWriter : public LayerWriter {
       measures.high = glm::min(measures.high, size);
       return measures;
     }
-    throw GeometryError(
-        {Severity::kError,
-         {},
-         fmt::format(
-             "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
-             "({}): the layer at {:.6g} mm reaches beyond it",
-             panel.width * panel.pixel.x, panel.height * panel.pixel.y,
-             panel.name, layer.section_z)});
+    throw GeometryError(fmt::format(
+        "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
+        "({}): the layer at {:.6g} mm reaches beyond it",
+        panel.width * panel.pixel.x, panel.height * panel.pixel.y, panel.name,
+        layer.section_z));
   }
 
   void note_thickness(double thickness) {
     if (stack_.layers.empty()) stack_.layer_thickness = thickness;
     if (stack_.layer_thickness == thickness) return;
     if (stack_.format != OutputFormat::kPng) {
-      throw GeometryError(
-          {Severity::kError, {}, ".sl1 and .zip need layers of one thickness"});
+      throw GeometryError(".sl1 and .zip need layers of one thickness");
     }
     stack_.layer_thickness = 0;
   }
