@@ -86,7 +86,26 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
                   report.layers_there));
 }
 
+// In the plane z = 0.
+Box3 box_of(const ldni::Contours& contours) {
+  Box3 box;
+  box.low.z = box.high.z = 0;
+  for (const Vec2& point : contours.points) {
+    box.low = glm::min(box.low, Vec3(point, 0));
+    box.high = glm::max(box.high, Vec3(point, 0));
+  }
+  return box;
+}
+
 }  // namespace
+
+std::optional<Deviation> promised_deviation(const Settings& settings) {
+  if (settings.contour == ContourMode::kPaper) return std::nullopt;
+  Deviation deviation;
+  deviation.simplification = settings.tolerance;
+  if (settings.compensation != 0) deviation.compensation = kArcTolerance;
+  return deviation;
+}
 
 ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings) {
   if (scene.box.is_empty() && settings.heights.empty()) throw_empty({});
@@ -138,21 +157,6 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   }
   return report;
 }
-
-namespace {
-
-// In the plane z = 0.
-Box3 box_of(const ldni::Contours& contours) {
-  Box3 box;
-  box.low.z = box.high.z = 0;
-  for (const Vec2& point : contours.points) {
-    box.low = glm::min(box.low, Vec3(point, 0));
-    box.high = glm::max(box.high, Vec3(point, 0));
-  }
-  return box;
-}
-
-}  // namespace
 
 SliceReport slice_outline(const planar::Region& outline,
                           const Settings& settings, LayerSink& sink,

@@ -15,7 +15,6 @@
 #include <pugixml.hpp>
 
 #include "base/file/xml.h"
-#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
