@@ -26,7 +26,7 @@ void RaySweep::sweep(const ChainBlock& block, std::uint32_t layer,
 
 SweepCounts RaySweep::counts() const {
   SweepCounts counts = counts_;
-  counts.evaluations = states_.evaluations();
+  counts.states = states_.states_met();
   counts.unbalanced_clusters = boundary_.unbalanced_clusters();
   counts.repaired_clusters = boundary_.unlinked_ends();
   counts.capped_clusters = order_.capped_clusters();
