@@ -70,6 +70,9 @@ class ProgramStates {
 
   bool is_solid(State state) const { return cells_[state].value > 0; }
 
+  // Whether a state is one number: the sum of the only operator.
+  bool is_simple() const { return parts_.size() == 1; }
+
   // States met since construction; those that were forgotten count again.
   std::uint64_t states_met() const { return states_met_; }
 
