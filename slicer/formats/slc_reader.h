@@ -1,11 +1,10 @@
 #pragma once
 // Reads SLC 2.0 files (docs/formats.md), layer by layer.
 //
-// Files come from anywhere, so nothing in them is trusted: every count is
-// checked against the bytes that really follow before memory is asked for, and
-// whatever breaks the format's frame throws FileError with the byte offset.
-// What merely breaks a rule (an open loop, a repeat) is handed over as it is,
-// so that `lamina inspect` can report it.
+// Nothing in a file is trusted: every count is checked against the bytes that
+// really follow before memory is asked for, and whatever breaks the format's
+// frame throws FileError with the byte offset. What merely breaks a rule (an
+// open loop, a repeat) is handed over, so that `lamina inspect` can report it.
 
 #include <cstdint>
 #include <cstdio>
