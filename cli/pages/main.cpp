@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "cli/pages/command_pages.h"
-#include "cli/pages/completions.h"
-#include "cli/pages/man_page.h"
 
 namespace lamina::cli {
 namespace {
