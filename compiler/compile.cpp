@@ -34,7 +34,7 @@ std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
 // Writes the product of a stage before layers, and the rule.
 bool finish_text(const Compilation& c, std::string_view text,
                  OutputFile* rule) {
-  write_text(c, text);
+  write_file(c.request.output, text, c.temporary_files);
   if (rule != nullptr) rule->commit();
   return true;
 }

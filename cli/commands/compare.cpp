@@ -20,6 +20,7 @@
 #include "cli/report/comparison.h"
 #include "cli/report/comparison_text.h"
 #include "cli/report/session.h"
+#include "compiler/passes.h"
 #include "slicer/picture/difference_picture.h"
 
 namespace lamina::cli {
@@ -127,6 +128,8 @@ class CompareCommand : public Command {
     return run_caught(terminal, Diagnostics(), [&] {
       try {
         const auto a = open_compared(a_, request_, is_quiet_, context);
+        // Faults of the design come before those of openscad.
+        if (is_against_openscad_) a->layers();
         const auto b =
             is_against_openscad_
                 ? open_openscad(a_, request_, time_limit_, is_quiet_, context)
@@ -157,7 +160,7 @@ class CompareCommand : public Command {
     if (!result.is_equal() && !aligns_) result.hint = find_hint(a, b, result);
     if (!is_quiet_) print_out(comparison_text(result, lists_all_));
     if (!report_.empty()) {
-      write_file(report_, comparison_json(result), temporary_files);
+      compiler::write_file(report_, comparison_json(result), temporary_files);
     }
     if (!picture_.empty()) draw(comparison, result, temporary_files);
     return result.is_equal() ? kDone : kFault;

@@ -20,6 +20,7 @@
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
+#include "compiler/passes.h"
 
 namespace lamina::cli {
 namespace {
@@ -176,11 +177,11 @@ int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
   Terminal terminal(options.is_quiet);
   terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
   if (!options.report.empty()) {
-    write_file(options.report,
-               options.report.ends_with(".csv")
-                   ? outcomes_csv(pieces, outcomes)
-                   : outcomes_json(pieces, outcomes, seconds.count()),
-               context.temporary_files);
+    compiler::write_file(options.report,
+                         options.report.ends_with(".csv")
+                             ? outcomes_csv(pieces, outcomes)
+                             : outcomes_json(pieces, outcomes, seconds.count()),
+                         context.temporary_files);
   }
   const bool is_good =
       std::all_of(outcomes.begin(), outcomes.end(),

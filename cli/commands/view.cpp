@@ -164,8 +164,8 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
     page.min_feature = options.layer.min_feature;
     page.features = compilation.report.slice.features;
     page.origins = compiler::origin_texts(compilation.report.origins);
-    write_file(request.output, viewer_page(*layers, page),
-               compilation.temporary_files);
+    compiler::write_file(request.output, viewer_page(*layers, page),
+                         compilation.temporary_files);
     return kDone;
   }
   const slicer::Image picture = draw_picture(*layers, title, options);

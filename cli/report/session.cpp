@@ -68,11 +68,4 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
   return kFault;
 }
 
-void write_file(const std::string& path, std::string_view text,
-                TemporaryFiles& temporary_files) {
-  OutputFile output(path, temporary_files);
-  output.write(text);
-  output.commit();
-}
-
 }  // namespace lamina::cli
