@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/source.h"
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/piece_table.h"
 #include "cli/commands/pieces.h"

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/file/output_file.h"
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"

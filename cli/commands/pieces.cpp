@@ -11,9 +11,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <pthread.h>
 
-#include "cli/commands/pieces_report.h"
+#include "base/csv.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/large_stack.h"
@@ -24,6 +25,16 @@
 
 namespace lamina::cli {
 namespace {
+
+// What came of a piece. Lists of outcomes are in the order of the pieces.
+struct Outcome {
+  bool is_done = false;
+  std::string error;  // the first one
+  std::uint64_t layers = 0;
+  double volume = 0;            // [mm³]
+  double seconds = 0;           // by the clock
+  nlohmann::ordered_json json;  // report_json(), if a report is wanted
+};
 
 class Workshop {
  public:
@@ -116,7 +127,11 @@ class Workshop {
       make_folder_of(request.output, context_.file_access());
       return compiler::compile(compilation) ? kDone : kFault;
     });
-    Outcome outcome = outcome_of(compilation.report, status == kDone);
+    Outcome outcome;
+    outcome.is_done = status == kDone;
+    outcome.layers = compilation.report.slice.layers;
+    outcome.volume = compilation.report.slice.volume;
+    outcome.seconds = compilation.report.wall_seconds;
     if (status == kDone) {
       if (request.settings.min_feature > 0) {
         session.terminal.say(feature_lines(compilation));
@@ -163,6 +178,79 @@ class Workshop {
   std::vector<std::unique_ptr<std::string>> held_back_;
 };
 
+std::size_t count_done(std::span<const Outcome> outcomes) {
+  return static_cast<std::size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(),
+                    [](const Outcome& outcome) { return outcome.is_done; }));
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+// The closing table, without the last '\n'.
+std::string outcome_table(std::span<const Piece> pieces,
+                          std::span<const Outcome> outcomes,
+                          std::string_view unit, double seconds) {
+  std::size_t width = unit.size();
+  for (const Piece& piece : pieces) width = std::max(width, piece.name.size());
+  std::string table =
+      fmt::format("{:<{}}   layers   volume mm3   time s\n", unit, width);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Outcome& outcome = outcomes[i];
+    table += fmt::format("{:<{}}  ", pieces[i].name, width);
+    table += outcome.is_done
+                 ? fmt::format("{:>7}  {:>11.3f}  {:>7.3f}\n", outcome.layers,
+                               outcome.volume, outcome.seconds)
+                 : fmt::format("error: {}\n", first_line(outcome.error));
+  }
+  const std::size_t done = count_done(outcomes);
+  return table + fmt::format("{} of {} {} done, {} failed, in {:.3f} s", done,
+                             pieces.size(), unit, pieces.size() - done,
+                             seconds);
+}
+
+std::string outcomes_csv(std::span<const Piece> pieces,
+                         std::span<const Outcome> outcomes) {
+  std::string text = "line,name,output,layers,volume_mm3,seconds,error\r\n";
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    const Outcome& outcome = outcomes[i];
+    const std::string line =
+        piece.line > 0 ? fmt::format("{}", piece.line) : "";
+    const std::string figures =
+        outcome.is_done ? fmt::format("{},{},{},", outcome.layers,
+                                      outcome.volume, outcome.seconds)
+                        : ",,," + csv_cell(outcome.error);
+    text += fmt::format("{},{},{},{}\r\n", line, csv_cell(piece.name),
+                        csv_cell(piece.request.output), figures);
+  }
+  return text;
+}
+
+std::string outcomes_json(std::span<const Piece> pieces,
+                          std::span<const Outcome> outcomes, double seconds) {
+  using Json = nlohmann::ordered_json;
+  const std::size_t done = count_done(outcomes);
+  Json json = {{"done", done},
+               {"failed", pieces.size() - done},
+               {"total_seconds", process_seconds()},
+               {"wall_seconds", seconds},
+               {"peak_memory_bytes", peak_memory_bytes()},
+               {"pieces", Json::array()}};
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    const Outcome& outcome = outcomes[i];
+    json["pieces"].push_back(
+        {{"line", piece.line > 0 ? Json(piece.line) : Json()},
+         {"name", piece.name},
+         {"output", piece.request.output},
+         {"error", outcome.is_done ? Json() : Json(outcome.error)},
+         {"report", outcome.json}});
+  }
+  return json_text(json);
+}
+
 }  // namespace
 
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
@@ -183,10 +271,7 @@ int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
                              : outcomes_json(pieces, outcomes, seconds.count()),
                          context.temporary_files);
   }
-  const bool is_good =
-      std::all_of(outcomes.begin(), outcomes.end(),
-                  [](const Outcome& outcome) { return outcome.is_done; });
-  return is_good ? kDone : kFault;
+  return count_done(outcomes) == pieces.size() ? kDone : kFault;
 }
 
 }  // namespace lamina::cli

@@ -1,12 +1,12 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
@@ -134,14 +134,6 @@ Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 130 interrupted.
 )";
 
-std::string without_extension(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  const std::size_t dot = path.rfind('.');
-  const bool has_extension = dot != std::string::npos && dot > 0 &&
-                             (slash == std::string::npos || dot > slash + 1);
-  return has_extension ? path.substr(0, dot) : path;
-}
-
 void refuse_layers(const std::string& file) {
   if (!slicer::is_named_as_layers(file) || compiler::is_imported(file)) return;
   throw UsageError(
@@ -213,7 +205,7 @@ class SliceCommand : public Command {
 
   std::string output_of(const std::string& design) const {
     if (request_.output.empty()) {
-      return fmt::format("{}.{}", without_extension(design), extension());
+      return std::filesystem::path(design).replace_extension(extension());
     }
     if (is_folder()) {
       return fmt::format("{}{}.{}", request_.output, stem(design), extension());

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "base/file/output_file.h"
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/contradictions.h"

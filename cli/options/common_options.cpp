@@ -18,21 +18,12 @@ constexpr double kGreatestSeconds = 1e9;
 
 constexpr double kGreatestBytes = 1e18;
 
-// 0: no unit is named so.
-double bytes_of_unit(char unit) {
-  switch (unit) {
-    case 'k':
-    case 'K':
-      return 1024;
-    case 'm':
-    case 'M':
-      return 1024.0 * 1024;
-    case 'g':
-    case 'G':
-      return 1024.0 * 1024 * 1024;
-    default:
-      return 0;
-  }
+// The bytes of a unit; 0 where no unit has this name.
+double bytes_of_unit(char name) {
+  constexpr std::string_view kNames = "kKmMgG";
+  const std::size_t place = kNames.find(name);
+  if (place == std::string_view::npos) return 0;
+  return std::pow(1024, static_cast<double>(place / 2 + 1));
 }
 
 void add_process_limits(CLI::App& app, ProcessLimits& limits) {

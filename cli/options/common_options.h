@@ -7,7 +7,7 @@
 #include <CLI/App.hpp>
 
 #include "base/file/file_access.h"
-#include "cli/process/process_limits.h"
+#include "cli/process/process_watch.h"
 
 namespace lamina::cli {
 

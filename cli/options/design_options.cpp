@@ -1,7 +1,9 @@
 #include "cli/options/design_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include <CLI/App.hpp>
@@ -14,17 +16,11 @@ namespace {
 
 std::vector<double> parse_heights(const std::string& option,
                                   std::string_view text) {
-  std::vector<double> heights;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    heights.push_back(require_number(option, text.substr(0, comma)));
-    const std::size_t count = heights.size();
-    if (count > 1 && !(heights[count - 1] > heights[count - 2])) {
-      throw CLI::ValidationError(option, "heights must rise");
-    }
-    if (comma == std::string_view::npos) return heights;
-    text.remove_prefix(comma + 1);
+  std::vector<double> heights = require_numbers(option, text);
+  if (!std::is_sorted(heights.begin(), heights.end(), std::less_equal<>())) {
+    throw CLI::ValidationError(option, "heights must rise");
   }
+  return heights;
 }
 
 // Finer facets than these are finer than samples that count as one.

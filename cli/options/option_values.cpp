@@ -67,6 +67,17 @@ double require_number(const std::string& option, std::string_view text) {
   return *value;
 }
 
+std::vector<double> require_numbers(const std::string& option,
+                                    std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    numbers.push_back(require_number(option, text.substr(0, comma)));
+    if (comma == std::string_view::npos) return numbers;
+    text.remove_prefix(comma + 1);
+  }
+}
+
 double require_positive(const std::string& option, std::string_view text) {
   const double value = require_number(option, text);
   if (!(value > 0)) {

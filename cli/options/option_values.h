@@ -16,6 +16,10 @@ namespace lamina::cli {
 // A finite number and nothing else.
 double require_number(const std::string& option, std::string_view text);
 
+// Numbers with commas between them.
+std::vector<double> require_numbers(const std::string& option,
+                                    std::string_view text);
+
 // A length of more than 0 mm.
 double require_positive(const std::string& option, std::string_view text);
 

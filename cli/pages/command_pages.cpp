@@ -9,7 +9,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
 #include "slicer/formats/output_format.h"
