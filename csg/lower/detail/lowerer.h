@@ -101,6 +101,10 @@ class Lowerer {
   void report_strays(const Operands& operands);
   Shape lower_children(const Node& node, const Affine& world, BooleanOp op);
 
+  // Leaves a scene that was lowered apart on top of the stack, as the parts of
+  // its program.
+  void place_scene(const Scene& scene, const Affine& world);
+
   // --- lower_leaves.cpp -----------------------------------------------------
   Shape lower_op(const Cube& cube, const Node& node, const Affine& world);
   Shape lower_op(const Sphere& sphere, const Node& node, const Affine& world);
@@ -171,11 +175,6 @@ class Lowerer {
   Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
   std::vector<Scene> take_scenes(const std::vector<std::size_t>& begins);
   void place_sum(const Operand& sum, const Node& node, const Affine& world);
-
-  // --- place_scene.cpp ------------------------------------------------------
-  // Leaves a scene that was lowered apart on top of the stack, as its
-  // program's parts.
-  void place_scene(const Scene& scene, const Affine& world);
 
   struct KeptBox {
     std::uint32_t leaf = 0;
