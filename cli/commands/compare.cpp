@@ -112,9 +112,8 @@ class CompareCommand : public Command {
       }
     }
     if (is_against_openscad_) check_openscad();
-    if (request_.settings.paper.sampler != ldni::SamplerKind::kScanline) {
-      throw UsageError("compare cuts at heights, which --sampler gl cannot");
-    }
+    refuse_if(request_.settings.paper.sampler != ldni::SamplerKind::kScanline,
+              "compare cuts at heights, which --sampler gl cannot");
     if (!picture_.empty() && !picture_.ends_with(".png")) {
       throw UsageError(
           fmt::format("--png draws .png pictures; '{}' is none", picture_));
@@ -142,14 +141,12 @@ class CompareCommand : public Command {
 
  private:
   void check_openscad() const {
-    if (!a_.ends_with(".scad") && !a_.ends_with(".csg")) {
-      throw UsageError("--against openscad compares a design");
-    }
-    if (request_.chordal_error > 0) {
-      throw UsageError(
-          "--chordal-error makes other facets than openscad's: give $fa and "
-          "$fs by -D");
-    }
+    refuse_if(!a_.ends_with(".scad") && !a_.ends_with(".csg"),
+              "--against openscad compares a design");
+    refuse_if(
+        request_.chordal_error > 0,
+        "--chordal-error makes other facets than openscad's: give $fa and "
+        "$fs by -D");
   }
 
   int compare(Compared& a, Compared& b, TemporaryFiles& temporary_files) const {

@@ -159,14 +159,12 @@ class SliceCommand : public Command {
   }
 
   void check() override {
-    if (designs_.empty()) throw UsageError("no design was given");
+    refuse_if(designs_.empty(), "no design was given");
     for (const std::string& design : designs_) refuse_layers(design);
-    if (request_.output == "-" && output_.export_format.empty()) {
-      throw UsageError("-o - needs --export-format");
-    }
-    if (watches_ && (designs_.size() > 1 || request_.output == "-")) {
-      throw UsageError("--watch needs one design and a file to write");
-    }
+    refuse_if(request_.output == "-" && output_.export_format.empty(),
+              "-o - needs --export-format");
+    refuse_if(watches_ && (designs_.size() > 1 || request_.output == "-"),
+              "--watch needs one design and a file to write");
     if (designs_.size() > 1) return check_several();
     request_.design = designs_.front();
     makes_folder_ = is_folder() || is_pattern();
@@ -216,14 +214,11 @@ class SliceCommand : public Command {
   }
 
   void check_several() {
-    if (!request_.output.empty() && !is_folder() && !is_pattern()) {
-      throw UsageError(
-          "-o names one file; for several designs give it a folder, such as "
-          "'out/', or a pattern, such as 'out/{name}.slc'");
-    }
-    if (!request_.dependencies.empty()) {
-      throw UsageError("-d needs one design");
-    }
+    refuse_if(
+        !request_.output.empty() && !is_folder() && !is_pattern(),
+        "-o names one file; for several designs give it a folder, such as "
+        "'out/', or a pattern, such as 'out/{name}.slc'");
+    refuse_if(!request_.dependencies.empty(), "-d needs one design");
     choose_format(request_, output_, output_of(designs_.front()));
     std::set<std::string> outputs;
     for (const std::string& design : designs_) {

@@ -213,19 +213,15 @@ class ViewCommand : public Command {
           request_.output));
     }
     require_readable("view", request_.design);
-    if (options_.layer.min_feature > 0 && !is_page(request_.output) &&
-        !options_.is_of_one_layer()) {
-      throw UsageError("--min-feature needs --layer-number, --at or .html");
-    }
-    if (options_.style == Style::kStack && options_.is_of_one_layer()) {
-      throw UsageError("a stack shows all layers, not one");
-    }
-    if (options_.style == Style::kStack && options_.width) {
-      throw UsageError("a stack needs --imgsize W,H, not --width");
-    }
-    if (is_page(request_.output) && options_.are_for_pictures()) {
-      throw UsageError("of view's own options a page takes --min-feature only");
-    }
+    refuse_if(options_.layer.min_feature > 0 && !is_page(request_.output) &&
+                  !options_.is_of_one_layer(),
+              "--min-feature needs --layer-number, --at or .html");
+    refuse_if(options_.style == Style::kStack && options_.is_of_one_layer(),
+              "a stack shows all layers, not one");
+    refuse_if(options_.style == Style::kStack && options_.width,
+              "a stack needs --imgsize W,H, not --width");
+    refuse_if(is_page(request_.output) && options_.are_for_pictures(),
+              "of view's own options a page takes --min-feature only");
     // The page shows what made the thin places of a design.
     if (is_page(request_.output)) {
       request_.settings.min_feature = options_.layer.min_feature;

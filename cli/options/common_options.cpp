@@ -48,12 +48,9 @@ void add_access_limits(CLI::App& app, FileAccess::Limits& access) {
   root->check([](const std::string& folder) {
     return folder.empty() ? "a folder was expected, not ''" : "";
   });
-  app.add_option("--allow-read", access.readable)
-      ->type_name("folder")
-      ->needs(root)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  make_repeatable(app.add_option("--allow-read", access.readable)
+                      ->type_name("folder")
+                      ->needs(root));
   app.add_flag("--no-import", access.refuses_data);
   // One looks at folders for as long as it runs, the other runs a program that
   // knows no root.

@@ -67,17 +67,14 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
 
 void add_design_options(CLI::App& app, compiler::Request& request,
                         bool& is_quiet) {
-  app.add_option_function<std::vector<std::string>>(
-         "-D",
-         [&request](const std::vector<std::string>& definitions) {
-           for (const std::string& definition : definitions) {
-             request.definitions += definition + ";\n";
-           }
-         })
-      ->type_name("NAME=VALUE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  const auto define = [&request](const std::vector<std::string>& definitions) {
+    for (const std::string& definition : definitions) {
+      request.definitions += definition + ";\n";
+    }
+  };
+  make_repeatable(
+      app.add_option_function<std::vector<std::string>>("-D", define)
+          ->type_name("NAME=VALUE"));
   CLI::Option* set = app.add_option("-P", request.parameter_set);
   CLI::Option* file = app.add_option("-p", request.parameter_file);
   set->type_name("set")->needs(file);

@@ -104,6 +104,11 @@ CLI::Option* add_text(CLI::App& app, const std::string& name,
   return app.add_option_function<std::string>(name, use)->type_name(value);
 }
 
+void make_repeatable(CLI::Option* option) {
+  option->expected(1)->allow_extra_args(false)->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeAll);
+}
+
 void add_choice(CLI::App& app, const std::string& name,
                 const std::vector<std::string>& words,
                 const std::function<void(const std::string&)>& use) {

@@ -34,6 +34,9 @@ CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
                       const std::function<void(const std::string&)>& use);
 
+// Lets an option be given more than once, each time with one value.
+void make_repeatable(CLI::Option* option);
+
 // An option with one of a few words.
 void add_choice(CLI::App& app, const std::string& name,
                 const std::vector<std::string>& words,

@@ -11,7 +11,7 @@ inline constexpr int kFault = 1;  // of the design or of a file
 inline constexpr int kUsageFault = 2;
 inline constexpr int kInterrupted = 130;
 
-// Options that are good each, but not together or not for this output.
+// Options that are each good, but not together or not for this output.
 class UsageError : public std::runtime_error {
  public:
   explicit UsageError(const std::string& message, int status = kUsageFault)
@@ -22,5 +22,9 @@ class UsageError : public std::runtime_error {
  private:
   int status_;
 };
+
+inline void refuse_if(bool is_wrong, const char* words) {
+  if (is_wrong) throw UsageError(words);
+}
 
 }  // namespace lamina::cli

@@ -11,7 +11,6 @@
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/lower/detail/points.h"
 #include "csg/lower/detail/repair.h"
 
 namespace lamina::csg {
@@ -92,6 +91,22 @@ Mesh make_corners(const PolyhedronParams& polyhedron, SourceRange range,
 }
 
 }  // namespace
+
+bool check_points(std::string_view wrong_point, std::string_view type,
+                  SourceRange range, Diagnostics& diagnostics) {
+  if (wrong_point.empty()) return true;
+  diagnostics.error(
+      range, fmt::format("Unable to convert {} to a {} of numbers", wrong_point,
+                         type));
+  return false;
+}
+
+void warn_of_index(std::uint64_t index, std::string_view list, std::size_t i,
+                   std::size_t k, SourceRange range, Diagnostics& diagnostics) {
+  diagnostics.warning(
+      range, fmt::format("Point index {} is out of bounds (from {}[{}][{}])",
+                         index, list, i, k));
+}
 
 Shape Lowerer::lower_op(const Cube& cube, const Node& node,
                         const Affine& world) {

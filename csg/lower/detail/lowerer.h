@@ -198,6 +198,17 @@ class Lowerer {
 planar::Region transform_region(planar::Region region, const Mat4& matrix,
                                 SourceRange range, Diagnostics& diagnostics);
 
+// Reports the first malformed point; returns whether there is none.
+//
+// type  "vec2" or "vec3"
+bool check_points(std::string_view wrong_point, std::string_view type,
+                  SourceRange range, Diagnostics& diagnostics);
+
+// index  as OpenSCAD shows it
+// list   "faces" or "paths"
+void warn_of_index(std::uint64_t index, std::string_view list, std::size_t i,
+                   std::size_t k, SourceRange range, Diagnostics& diagnostics);
+
 // Throws GeometryError, with the node's chain of calls.
 [[noreturn]] void fail_unsupported(const Node& node, std::string_view module);
 
