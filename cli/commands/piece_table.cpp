@@ -186,7 +186,7 @@ class TableReader {
                                 row.cells.size(), wanted));
   }
 
-  // Empty where the row has none.
+  // Empty where the row has no such cell.
   std::string cell_of(const CsvRow& row, const std::string& name) const {
     const Column* column = find_column(name);
     if (column == nullptr) return "";
@@ -228,7 +228,8 @@ class TableReader {
   std::vector<Column> columns_;
 };
 
-// A word of the pattern can be {name} or {row} only.
+// The pieces of a file of parameter sets. Words of the pattern can only be
+// {name} and {row}.
 std::vector<Piece> read_sets(const TableOptions& options,
                              const FileAccess& access,
                              Diagnostics& diagnostics) {

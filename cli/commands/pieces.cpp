@@ -90,7 +90,7 @@ class Workshop {
     return nullptr;
   }
 
-  // What is thrown here comes from no piece: there is no memory to begin one.
+  // What is thrown here is no fault of a piece: memory lacks to begin one.
   std::exception_ptr work_caught(std::size_t stack) noexcept {
     try {
       work(stack);
@@ -102,7 +102,7 @@ class Workshop {
 
   void work(std::size_t stack) {
     while (const Piece* piece = next()) {
-      // With its messages, which may find nobody who reads them.
+      // Its time includes that of its messages, which may find no reader.
       const ProcessWatch::Part timed(context_.watch, piece->prefix);
       const auto index = static_cast<std::size_t>(piece - pieces_.data());
       Inbox inbox{piece->prefix, worker_count_ == 1, "", ""};

@@ -81,7 +81,7 @@ struct ViewOptions {
   std::optional<unsigned> width;            // [pixels]
 
   bool is_of_one_layer() const { return layer_number || layer_height; }
-  // Whether anything is asked for that means nothing to a page.
+  // Whether any option is given that means nothing to a page.
   bool are_for_pictures() const {
     return style || layer_count || is_of_one_layer() || width;
   }

@@ -52,8 +52,8 @@ void add_access_limits(CLI::App& app, FileAccess::Limits& access) {
                       ->type_name("folder")
                       ->needs(root));
   app.add_flag("--no-import", access.refuses_data);
-  // One looks at folders for as long as it runs, the other runs a program that
-  // knows no root.
+  // --watch looks at folders for as long as it runs, and --against runs a
+  // program that knows no root.
   for (const char* name : {"--watch", "--against"}) {
     if (CLI::Option* const option = app.get_option_no_throw(name)) {
       root->excludes(option);

@@ -23,7 +23,8 @@ std::vector<double> parse_heights(const std::string& option,
   return heights;
 }
 
-// Finer facets than these are finer than samples that count as one.
+// Facets that are nearer to the curve than this are finer than the distance
+// below which two samples count as one.
 constexpr double kLeastChordalError = 1e-6;  // mm
 
 // Beyond these a design is not shrunk or enlarged but mistyped.

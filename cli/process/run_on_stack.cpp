@@ -26,7 +26,7 @@ namespace {
 constexpr int kDoneSignal = SIGUSR1;
 constexpr int kLostSignal = SIGUSR2;
 
-// With kLostSignal: what was thrown.
+// What was thrown; sent with kLostSignal.
 enum Lost { kLostMemory, kLostError };
 
 struct Work {
@@ -75,7 +75,7 @@ void exit_soon(int status) {
   ::setitimer(ITIMER_REAL, &time, nullptr);
 }
 
-// Instead of abort(): has the waiting thread end the process.
+// Stands for abort(): has the waiting thread end the process.
 [[noreturn]] void tell_lost_exception() {
   sigval what{};
   what.sival_int = kLostError;
@@ -95,8 +95,8 @@ void exit_soon(int status) {
   ::_exit(kFault);
 }
 
-// The end of a process whose other threads still run. Nothing here may throw,
-// be it for lack of memory.
+// Ends the process while its other threads still run. Nothing here may throw,
+// not even for lack of memory.
 [[noreturn]] void end_process(TemporaryFiles& temporary_files, int status,
                               std::string_view message) noexcept {
   std::set_terminate([] { ::_exit(kFault); });
@@ -120,7 +120,8 @@ std::string lost_text(int what) {
                            "nothing catches");
 }
 
-// What `signals` bring within the time; SI of 0: nothing.
+// Waits for one of the signals, at most so long. The number of the signal is 0
+// where none came.
 siginfo_t wait_for(const sigset_t& signals, std::chrono::nanoseconds time) {
   timespec pause{};
   pause.tv_nsec = time.count();

@@ -81,8 +81,8 @@ class ComparedFile : public Compared {
   std::optional<std::vector<Layer>> layers_;
 };
 
-// How a mesh rounds the coordinates of the design that it came from [mm]; sees
-// the greatest coordinate.
+// How far a mesh with this greatest coordinate rounds the coordinates of the
+// design that it came from [mm].
 using Rounding = double (*)(double greatest);
 
 double no_rounding(double /*greatest*/) { return 0; }
@@ -162,7 +162,7 @@ compiler::Request design_request(const std::string& path,
   return own;
 }
 
-// What goes for a mesh, too.
+// The part of the request that means something for a mesh.
 compiler::Request mesh_request(const std::string& path,
                                const compiler::Request& request) {
   compiler::Request own = design_request(path, request);

@@ -16,7 +16,7 @@ namespace {
 // Recursion of a design's functions ends here, long before memory does.
 constexpr std::size_t kEvaluationStack = std::size_t{128} << 20;
 
-// Passes that report what they throw have had it shown already.
+// Whether it has been shown: some passes report what they throw.
 bool is_reported(const Diagnostics& diagnostics, const Diagnostic& thrown) {
   const auto is_thrown = [&](const Diagnostic& diagnostic) {
     return diagnostic.message == thrown.message &&
