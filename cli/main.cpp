@@ -5,9 +5,7 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <variant>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

@@ -13,7 +13,6 @@
 #include "parser/parameter_set.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/plan/surface_heights.h"
-#include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
 namespace {

@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <pthread.h>
 
 #include "base/csv.h"
 #include "cli/options/output_pattern.h"
@@ -62,13 +61,15 @@ class Workshop {
     std::vector<Worker> workers(others);
     std::size_t started = 0;
     for (Worker& worker : workers) {
-      worker.workshop = this;
-      if (!worker.stack.start(worker.thread, &work_in_thread, &worker)) break;
+      const auto work = [this, &worker] {
+        worker.fault = work_caught(worker.stack.size());
+      };
+      if (!worker.stack.start(work)) break;
       ++started;
     }
     std::exception_ptr fault = work_caught(context_.stack);
     for (std::size_t i = 0; i < started; ++i) {
-      ::pthread_join(workers[i].thread, nullptr);
+      workers[i].stack.join();
       if (!fault) fault = workers[i].fault;
     }
     line_->erase();
@@ -78,17 +79,9 @@ class Workshop {
 
  private:
   struct Worker {
-    Workshop* workshop = nullptr;
     LargeStack stack;
-    pthread_t thread{};
     std::exception_ptr fault;  // what ended its work
   };
-
-  static void* work_in_thread(void* argument) {
-    Worker& worker = *static_cast<Worker*>(argument);
-    worker.fault = worker.workshop->work_caught(worker.stack.size());
-    return nullptr;
-  }
 
   // What is thrown here is no fault of a piece: memory lacks to begin one.
   std::exception_ptr work_caught(std::size_t stack) noexcept {

@@ -4,7 +4,6 @@
 #include <ctime>
 #include <filesystem>
 #include <set>
-#include <string>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #include "cli/options/camera_options.h"
 
-#include <string_view>
-
 #include <fmt/format.h>
 
 #include "cli/options/option_values.h"

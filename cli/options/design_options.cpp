@@ -6,7 +6,6 @@
 #include <functional>
 #include <string_view>
 
-#include <CLI/App.hpp>
 #include <fmt/format.h>
 
 #include "cli/options/option_values.h"

@@ -5,7 +5,6 @@
 #include <optional>
 #include <system_error>
 
-#include <CLI/App.hpp>
 #include <fmt/format.h>
 
 #include "base/number.h"

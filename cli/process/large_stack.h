@@ -7,6 +7,7 @@
 // own.
 
 #include <cstddef>
+#include <functional>
 
 #include <pthread.h>
 
@@ -24,9 +25,10 @@ class LargeStack {
   // What the thread may use.
   std::size_t size() const { return size_ - kGuardSize; }
 
-  // Starts a thread on it, for which pthread_join() must wait. Returns false
-  // where that fails.
-  bool start(pthread_t& thread, void* (*work)(void*), void* argument) const;
+  // Starts a thread on it that runs `work`, which must not throw, and for which
+  // join() must wait. Returns false where that fails.
+  bool start(std::function<void()> work);
+  void join() { ::pthread_join(thread_, nullptr); }
 
   // As large as the stack that every program has.
   static constexpr std::size_t kSmallestSize = std::size_t{8} << 20;
@@ -39,6 +41,8 @@ class LargeStack {
 
   void* begin_;
   std::size_t size_;
+  pthread_t thread_{};
+  std::function<void()> work_;
 };
 
 }  // namespace lamina::cli

@@ -29,20 +29,6 @@ constexpr int kLostSignal = SIGUSR2;
 // What was thrown; sent with kLostSignal.
 enum Lost { kLostMemory, kLostError };
 
-struct Work {
-  const std::function<int(std::size_t)>& function;
-  std::size_t stack_bytes;
-  pthread_t waiting_thread;
-  int status = 0;
-};
-
-void* do_work(void* argument) {
-  Work& work = *static_cast<Work*>(argument);
-  work.status = work.function(work.stack_bytes);
-  ::pthread_kill(work.waiting_thread, kDoneSignal);
-  return nullptr;
-}
-
 // The signals that end a run, save those that the caller wants ignored
 // (nohup).
 sigset_t ending_signals() {
@@ -166,10 +152,14 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
   ::sigaddset(&signals, kLostSignal);
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
-  const LargeStack stack;
-  Work own{work, stack.size(), ::pthread_self()};
-  pthread_t thread{};
-  if (!stack.start(thread, &do_work, &own)) {
+  LargeStack stack;
+  int status = kFault;
+  const pthread_t waiting_thread = ::pthread_self();
+  const bool is_started = stack.start([&] {
+    status = work(stack.size());
+    ::pthread_kill(waiting_thread, kDoneSignal);
+  });
+  if (!is_started) {
     end_process(temporary_files, kFault,
                 "error: the system grants no second thread, or no stack for "
                 "it (ulimit -u, -v)\n");
@@ -179,8 +169,8 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
   } catch (const std::bad_alloc&) {
     end_process(temporary_files, kFault, "error: out of memory\n");
   }
-  ::pthread_join(thread, nullptr);
-  return own.status;
+  stack.join();
+  return status;
 }
 
 }  // namespace lamina::cli

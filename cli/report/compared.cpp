@@ -1,11 +1,7 @@
 #include "cli/report/compared.h"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,5 @@
 #include "csg/lower/detail/program_builder.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 

@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <exception>
-#include <vector>
 
 #include "csg/text/detail/font_cache.h"
 #include "csg/text/detail/glyph_row.h"
