@@ -62,10 +62,9 @@ class BatchCommand : public Command {
   void check() override {
     refuse_if(!table_.request.parameter_file.empty(),
               "batch takes values from --table, not from -p and -P");
-    if (table_.request.output.find('{') == std::string::npos) {
-      throw UsageError(
-          "-o needs a pattern, such as 'out/{name}.slc' or 'out/{row}.slc'");
-    }
+    refuse_if(table_.request.output.find('{') == std::string::npos,
+              "-o needs a pattern, such as 'out/{{name}}.slc' or "
+              "'out/{{row}}.slc'");
     choose_format(table_.request, output_options_, table_.request.output);
     table_.skipped.insert(skipped_.begin(), skipped_.end());
   }

@@ -98,26 +98,21 @@ class CompareCommand : public Command {
   }
 
   void check() override {
-    if (is_against_openscad_ != b_.empty()) {
-      throw UsageError(b_.empty()
-                           ? "compare needs two files, or --against openscad"
-                           : "--against openscad stands for the second file");
-    }
+    refuse_if(b_.empty() && !is_against_openscad_,
+              "compare needs two files, or --against openscad");
+    refuse_if(!b_.empty() && is_against_openscad_,
+              "--against openscad stands for the second file");
     for (const std::string& path : {a_, b_}) {
-      if (!path.empty() && !can_compare(path)) {
-        throw UsageError(fmt::format(
-            "'{}' is no file that compare reads (.slc .cli .svg .layers.json "
-            ".scad .csg .stl .off .obj .amf .3mf .dxf)",
-            path));
-      }
+      refuse_if(!path.empty() && !can_compare(path),
+                "'{}' is no file that compare reads (.slc .cli .svg "
+                ".layers.json .scad .csg .stl .off .obj .amf .3mf .dxf)",
+                path);
     }
     if (is_against_openscad_) check_openscad();
     refuse_if(request_.settings.paper.sampler != ldni::SamplerKind::kScanline,
               "compare cuts at heights, which --sampler gl cannot");
-    if (!picture_.empty() && !picture_.ends_with(".png")) {
-      throw UsageError(
-          fmt::format("--png draws .png pictures; '{}' is none", picture_));
-    }
+    refuse_if(!picture_.empty() && !picture_.ends_with(".png"),
+              "--png draws .png pictures; '{}' is none", picture_);
     refuse_contradictions(request_.settings);
   }
 

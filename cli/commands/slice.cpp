@@ -135,13 +135,12 @@ Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 )";
 
 void refuse_layers(const std::string& file) {
-  if (!slicer::is_named_as_layers(file) || compiler::is_imported(file)) return;
-  throw UsageError(
+  refuse_if(
+      slicer::is_named_as_layers(file) && !compiler::is_imported(file),
+      "'{}' holds layers already{}", file,
       file.ends_with(".slc")
-          ? fmt::format("'{0}' holds layers already; try 'lamina inspect "
-                        "{0}' or 'lamina view {0}'",
-                        file)
-          : fmt::format("'{}' holds layers already", file));
+          ? fmt::format("; try 'lamina inspect {0}' or 'lamina view {0}'", file)
+          : "");
 }
 
 class SliceCommand : public Command {
@@ -217,16 +216,14 @@ class SliceCommand : public Command {
     refuse_if(
         !request_.output.empty() && !is_folder() && !is_pattern(),
         "-o names one file; for several designs give it a folder, such as "
-        "'out/', or a pattern, such as 'out/{name}.slc'");
+        "'out/', or a pattern, such as 'out/{{name}}.slc'");
     refuse_if(!request_.dependencies.empty(), "-d needs one design");
     choose_format(request_, output_, output_of(designs_.front()));
     std::set<std::string> outputs;
     for (const std::string& design : designs_) {
       const std::string output = output_of(design);
-      if (!outputs.insert(normal_path(output)).second) {
-        throw UsageError(
-            fmt::format("two designs have the output '{}'", output));
-      }
+      refuse_if(!outputs.insert(normal_path(output)).second,
+                "two designs have the output '{}'", output);
     }
   }
 

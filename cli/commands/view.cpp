@@ -207,11 +207,9 @@ class ViewCommand : public Command {
     if (camera_.is_given()) options_.style = Style::kStack;
     options_.stack = camera_.stack();
 
-    if (!is_page(request_.output) && !request_.output.ends_with(".png")) {
-      throw UsageError(fmt::format(
-          "view writes .png pictures and .html pages; '{}' is neither",
-          request_.output));
-    }
+    refuse_if(!is_page(request_.output) && !request_.output.ends_with(".png"),
+              "view writes .png pictures and .html pages; '{}' is neither",
+              request_.output);
     require_readable("view", request_.design);
     refuse_if(options_.layer.min_feature > 0 && !is_page(request_.output) &&
                   !options_.is_of_one_layer(),

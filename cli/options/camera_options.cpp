@@ -12,15 +12,10 @@ constexpr double kLargestPicture = 4096;  // either way [pixels]
 
 slicer::Camera parse_camera(const std::string& text) {
   const std::vector<double> numbers = require_numbers("--camera", text);
-  if (numbers.size() != 6 && numbers.size() != 7) {
-    throw CLI::ValidationError(
-        "--camera",
-        fmt::format("6 or 7 numbers were expected, not '{}'", text));
-  }
+  require(numbers.size() == 6 || numbers.size() == 7, "--camera",
+          "6 or 7 numbers were expected, not '{}'", text);
   const slicer::Camera camera = slicer::Camera::from_numbers(numbers);
-  if (!(camera.distance > 0)) {
-    throw CLI::ValidationError("--camera", "the distance must be more than 0");
-  }
+  require(camera.distance > 0, "--camera", "the distance must be more than 0");
   return camera;
 }
 
@@ -30,12 +25,9 @@ std::vector<double> parse_size(const std::string& text) {
     return pixels >= 1 && pixels <= kLargestPicture &&
            pixels == static_cast<unsigned>(pixels);
   };
-  if (size.size() != 2 || !is_good(size[0]) || !is_good(size[1])) {
-    throw CLI::ValidationError(
-        "--imgsize", fmt::format("two whole numbers up to {} were expected, "
-                                 "not '{}'",
-                                 kLargestPicture, text));
-  }
+  require(size.size() == 2 && is_good(size[0]) && is_good(size[1]), "--imgsize",
+          "two whole numbers up to {} were expected, not '{}'", kLargestPicture,
+          text);
   return size;
 }
 

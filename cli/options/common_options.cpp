@@ -32,12 +32,9 @@ void add_process_limits(CLI::App& app, ProcessLimits& limits) {
   });
   add_text(app, "--max-time", "seconds", [&limits](const std::string& text) {
     limits.seconds = require_number("--max-time", text);
-    if (!(limits.seconds > 0 && limits.seconds <= kGreatestSeconds)) {
-      throw CLI::ValidationError(
-          "--max-time", fmt::format("must be more than 0 and at most {:g} s, "
-                                    "not {}",
-                                    kGreatestSeconds, text));
-    }
+    require(limits.seconds > 0 && limits.seconds <= kGreatestSeconds,
+            "--max-time", "must be more than 0 and at most {:g} s, not {}",
+            kGreatestSeconds, text);
   });
 }
 
@@ -78,26 +75,18 @@ MemoryLimit parse_memory_limit(const std::string& text) {
   const double unit = bytes_of_unit(last);
   if (is_share || unit > 0) number.remove_suffix(1);
   const std::optional<double> value = parse_number(number);
-  if (!value) {
-    throw CLI::ValidationError(
-        "--max-memory",
-        fmt::format("a size was expected, such as 500M, 2G or 50%, not '{}'",
-                    text));
-  }
+  require(value.has_value(), "--max-memory",
+          "a size was expected, such as 500M, 2G or 50%, not '{}'", text);
   MemoryLimit limit;
   if (is_share) {
     limit.share = *value / 100;
-    if (limit.share > 0 && limit.share <= 1) return limit;
-    throw CLI::ValidationError(
-        "--max-memory",
-        fmt::format("must be more than 0% and at most 100%, not {}", text));
+    require(limit.share > 0 && limit.share <= 1, "--max-memory",
+            "must be more than 0% and at most 100%, not {}", text);
+    return limit;
   }
   const double bytes = std::floor(*value * (unit > 0 ? unit : 1));
-  if (!(bytes >= 1 && bytes <= kGreatestBytes)) {
-    throw CLI::ValidationError(
-        "--max-memory", fmt::format("must be from 1 to {:g} bytes, not {}",
-                                    kGreatestBytes, text));
-  }
+  require(bytes >= 1 && bytes <= kGreatestBytes, "--max-memory",
+          "must be from 1 to {:g} bytes, not {}", kGreatestBytes, text);
   limit.bytes = static_cast<std::uint64_t>(bytes);
   return limit;
 }

@@ -1,7 +1,5 @@
 #include "cli/options/contradictions.h"
 
-#include <fmt/format.h>
-
 #include "cli/process/exit_status.h"
 #include "compiler/imported_design.h"
 #include "slicer/formats/layer_reader.h"
@@ -55,14 +53,12 @@ void refuse_misfits(const compiler::Request& request, bool has_report) {
 }
 
 void require_readable(std::string_view command, const std::string& file) {
-  if (!slicer::is_named_as_layers(file) ||
-      slicer::is_readable_layer_file(file) || compiler::is_imported(file)) {
-    return;
-  }
-  throw UsageError(
-      fmt::format("{} reads .slc, .cli, .svg and .layers.json, designs and "
-                  "meshes; not '{}'",
-                  command, file));
+  refuse_if(slicer::is_named_as_layers(file) &&
+                !slicer::is_readable_layer_file(file) &&
+                !compiler::is_imported(file),
+            "{} reads .slc, .cli, .svg and .layers.json, designs and meshes; "
+            "not '{}'",
+            command, file);
 }
 
 }  // namespace lamina::cli

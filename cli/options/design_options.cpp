@@ -16,9 +16,9 @@ namespace {
 std::vector<double> parse_heights(const std::string& option,
                                   std::string_view text) {
   std::vector<double> heights = require_numbers(option, text);
-  if (!std::is_sorted(heights.begin(), heights.end(), std::less_equal<>())) {
-    throw CLI::ValidationError(option, "heights must rise");
-  }
+  const auto fall = std::adjacent_find(heights.begin(), heights.end(),
+                                       std::greater_equal<>());
+  require(fall == heights.end(), option, "heights must rise");
   return heights;
 }
 
@@ -34,12 +34,10 @@ constexpr double kGreatestScale = 1000;
 constexpr double kGreatestCompensation = 100;
 
 double parse_scale(const std::string& text) {
-  if (text.ends_with('%')) {
-    throw CLI::ValidationError(
-        "--scale", fmt::format("a factor was expected, such as 1.02 for a "
-                               "print 2% larger, not '{}'",
-                               text));
-  }
+  require(!text.ends_with('%'), "--scale",
+          "a factor was expected, such as 1.02 for a print 2% larger, not "
+          "'{}'",
+          text);
   return require_within("--scale", text, kLeastScale, kGreatestScale, "");
 }
 
@@ -55,10 +53,8 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
                std::uint32_t& target) {
   add_text(app, name, "number", [=, &target](const std::string& text) {
     const double count = require_within(name, text, 1, most, "");
-    if (count != std::floor(count)) {
-      throw CLI::ValidationError(
-          name, fmt::format("a whole number was expected, not '{}'", text));
-    }
+    require(count == std::floor(count), name,
+            "a whole number was expected, not '{}'", text);
     target = static_cast<std::uint32_t>(count);
   });
 }
@@ -106,18 +102,14 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
   });
   add_text(app, "--chordal-error", "length", [&](const std::string& text) {
     request.chordal_error = require_number("--chordal-error", text);
-    if (!(request.chordal_error >= kLeastChordalError)) {
-      throw CLI::ValidationError("--chordal-error",
-                                 "must be at least 0.000001 mm");
-    }
+    require(request.chordal_error >= kLeastChordalError, "--chordal-error",
+            "must be at least 0.000001 mm");
   });
   // Two names of one thing: what simplification is for, and what it promises.
   add_text(
       app, "--tolerance,--simplify", "length", [&](const std::string& text) {
         settings.tolerance = require_number("--tolerance", text);
-        if (settings.tolerance < 0) {
-          throw CLI::ValidationError("--tolerance", "must not be negative");
-        }
+        require(settings.tolerance >= 0, "--tolerance", "must not be negative");
       });
   add_text(app, "--compensate", "length", [&](const std::string& text) {
     settings.compensation =

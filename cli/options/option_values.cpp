@@ -5,8 +5,6 @@
 #include <optional>
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "base/number.h"
 #include "slicer/check/thin_finder.h"
 
@@ -15,13 +13,10 @@ namespace {
 
 double require_thin_width(const std::string& option, std::string_view text) {
   const double value = require_number(option, text);
-  if (!(value >= slicer::kLeastThinWidth &&
-        value <= slicer::kGreatestThinWidth)) {
-    throw CLI::ValidationError(
-        option,
-        fmt::format("must be {} to {} mm, not {}", slicer::kLeastThinWidth,
-                    slicer::kGreatestThinWidth, text));
-  }
+  require(
+      value >= slicer::kLeastThinWidth && value <= slicer::kGreatestThinWidth,
+      option, "must be {} to {} mm, not {}", slicer::kLeastThinWidth,
+      slicer::kGreatestThinWidth, text);
   return value;
 }
 
@@ -32,13 +27,10 @@ slicer::LayerNumbers parse_layers(const std::string& text) {
     std::uint32_t value = 0;
     const auto [end, fault] =
         std::from_chars(word.data(), word.data() + word.size(), value);
-    if (fault != std::errc() || end != word.data() + word.size() ||
-        value == 0) {
-      throw CLI::ValidationError(
-          "--layers", fmt::format("layers from 1 were expected, such as 3:7, "
-                                  "3: or :7, not '{}'",
-                                  text));
-    }
+    require(
+        fault == std::errc() && end == word.data() + word.size() && value > 0,
+        "--layers",
+        "layers from 1 were expected, such as 3:7, 3: or :7, not '{}'", text);
     return value;
   };
   const std::string_view all = text;
@@ -48,10 +40,8 @@ slicer::LayerNumbers parse_layers(const std::string& text) {
   range.last = colon == std::string_view::npos
                    ? range.first
                    : number(all.substr(colon + 1), range.last);
-  if (all.empty() || range.last < range.first) {
-    throw CLI::ValidationError("--layers",
-                               fmt::format("'{}' has no layers", text));
-  }
+  require(!all.empty() && range.first <= range.last, "--layers",
+          "'{}' has no layers", text);
   return range;
 }
 
@@ -59,10 +49,7 @@ slicer::LayerNumbers parse_layers(const std::string& text) {
 
 double require_number(const std::string& option, std::string_view text) {
   const std::optional<double> value = parse_number(text);
-  if (!value) {
-    throw CLI::ValidationError(
-        option, fmt::format("a number was expected, not '{}'", text));
-  }
+  require(value.has_value(), option, "a number was expected, not '{}'", text);
   return *value;
 }
 
@@ -79,21 +66,15 @@ std::vector<double> require_numbers(const std::string& option,
 
 double require_positive(const std::string& option, std::string_view text) {
   const double value = require_number(option, text);
-  if (!(value > 0)) {
-    throw CLI::ValidationError(
-        option, fmt::format("must be more than 0 mm, not {}", text));
-  }
+  require(value > 0, option, "must be more than 0 mm, not {}", text);
   return value;
 }
 
 double require_within(const std::string& option, std::string_view text,
                       double least, double greatest, std::string_view unit) {
   const double value = require_number(option, text);
-  if (!(value >= least && value <= greatest)) {
-    throw CLI::ValidationError(
-        option, fmt::format("must be from {} to {}{}, not {}", least, greatest,
-                            unit, text));
-  }
+  require(value >= least && value <= greatest, option,
+          "must be from {} to {}{}, not {}", least, greatest, unit, text);
   return value;
 }
 

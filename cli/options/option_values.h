@@ -5,13 +5,26 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/App.hpp>
+#include <fmt/format.h>
 
 #include "slicer/slice/settings.h"
 
 namespace lamina::cli {
+
+// Throws CLI::ValidationError unless `holds`.
+//
+// words  a format of fmt
+template <typename... Args>
+void require(bool holds, const std::string& option,
+             fmt::format_string<Args...> words, Args&&... args) {
+  if (holds) return;
+  throw CLI::ValidationError(option,
+                             fmt::format(words, std::forward<Args>(args)...));
+}
 
 // A finite number and nothing else.
 double require_number(const std::string& option, std::string_view text);

@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace lamina::cli {
 
@@ -23,8 +26,12 @@ class UsageError : public std::runtime_error {
   int status_;
 };
 
-inline void refuse_if(bool is_wrong, const char* words) {
-  if (is_wrong) throw UsageError(words);
+// words  a format of fmt
+template <typename... Args>
+void refuse_if(bool is_wrong, fmt::format_string<Args...> words,
+               Args&&... args) {
+  if (!is_wrong) return;
+  throw UsageError(fmt::format(words, std::forward<Args>(args)...));
 }
 
 }  // namespace lamina::cli
