@@ -35,8 +35,7 @@ constexpr double kGreatestCompensation = 100;
 
 double parse_scale(const std::string& text) {
   require(!text.ends_with('%'), "--scale",
-          "a factor was expected, such as 1.02 for a print 2% larger, not "
-          "'{}'",
+          "a factor was expected, such as 1.02 for a print 2% larger, not '{}'",
           text);
   return require_within("--scale", text, kLeastScale, kGreatestScale, "");
 }

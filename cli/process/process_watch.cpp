@@ -132,8 +132,7 @@ std::string out_of_memory_text() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
     return fmt::format(
-        "out of memory: the system grants {} of addresses "
-        "(ulimit -v)",
+        "out of memory: the system grants {} of addresses (ulimit -v)",
         memory_size_text(limit.rlim_cur));
   }
   if (::getrlimit(RLIMIT_DATA, &limit) == 0 &&

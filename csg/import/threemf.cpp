@@ -35,9 +35,8 @@ Number read_number(const pugi::xml_node& node, const char* attribute) {
   const auto number = to_number<Number>(trim(text));
   if (!number) {
     throw FormatError(
-        fmt::format("3MF, expected a number in {} of a {}, "
-                    "not '{}'",
-                    attribute, local_name(node), text));
+        fmt::format("3MF, expected a number in {} of a {}, not '{}'", attribute,
+                    local_name(node), text));
   }
   return *number;
 }
