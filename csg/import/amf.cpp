@@ -3,7 +3,7 @@
 #include "base/file/zip.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/detail/xml.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 
 namespace lamina::csg {
 namespace {

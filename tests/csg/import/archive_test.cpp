@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file/zip.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 #include "tests/base/file/zip_writer.h"
 #include "tests/csg/import/byte_changes.h"
 
