@@ -84,16 +84,17 @@ bool is_vector(std::string_view cell) {
 
 }  // namespace
 
-std::string value_of_cell(std::string_view cell, VariableKind kind,
+std::string value_of_cell(std::string_view cell, ast::ValueType type,
                           DecimalSign decimal) {
   if (is_quoted(cell)) return std::string(cell);
-  if (kind == VariableKind::kString) return quoted(cell);
-  const bool is_any = kind == VariableKind::kAny;
-  if (is_any || kind == VariableKind::kNumber) {
+  if (type == ast::ValueType::kString) return quoted(cell);
+  const bool is_any =
+      type == ast::ValueType::kAny || type == ast::ValueType::kRange;
+  if (is_any || type == ast::ValueType::kNumber) {
     if (auto number = read_number(cell, decimal)) return *number;
     if (!is_any) refuse("a number", cell);
   }
-  if (is_any || kind == VariableKind::kBool) {
+  if (is_any || type == ast::ValueType::kBool) {
     if (auto truth = read_truth(cell)) return *truth;
     if (!is_any) refuse("true or false", cell);
   }

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "parser/variables.h"
+#include "parser/tree_facts.h"
 
 namespace lamina {
 
@@ -25,7 +25,7 @@ enum class DecimalSign : std::uint8_t { kPoint, kPointOrComma };
 //
 // cell    not empty
 // throws  FileError without a place: "a number was expected, not 'x' …"
-std::string value_of_cell(std::string_view cell, VariableKind kind,
+std::string value_of_cell(std::string_view cell, ast::ValueType type,
                           DecimalSign decimal);
 
 }  // namespace lamina

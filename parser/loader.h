@@ -77,7 +77,8 @@ class Loader {
 
  private:
   void load_uses(const ast::Program& program);
-  void note_fonts(const ast::Program& program);
+  ast::Program parse_file(const std::string& path, std::string text,
+                          const Source* user);
   std::optional<ast::Program> load_used(const std::string& path,
                                         const Source& user);
   std::string look_up(SourceRange place, std::string_view name,

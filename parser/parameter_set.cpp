@@ -167,8 +167,8 @@ bool set_value(const ast::Statement*& statement, std::string_view text,
                Arena& arena) {
   const auto& assignment = std::get<ast::Assignment>(statement->node);
   const auto type = ast::type_of(*assignment.value);
-  if (!type) return true;
-  const ast::Expr* value = read_value(text, *type, arena);
+  if (type == ast::ValueType::kAny) return true;
+  const ast::Expr* value = read_value(text, type, arena);
   if (value == nullptr) return type != ast::ValueType::kBool;
   // A variable that was no parameter must not become one, so its value gets no
   // place: comments describe values that have one.
