@@ -54,9 +54,9 @@ class TextArguments {
     params.spacing = number_or((*this)["spacing"], 1);
     params.font = string_or((*this)["font"], "");
     script_ = text_script(params.text, string_or((*this)["script"], ""));
-    direction_ = text_direction(script_, string_or((*this)["direction"], ""));
     params.script = script_;
-    params.direction = direction_;
+    params.direction =
+        text_direction(script_, string_or((*this)["direction"], ""));
     params.language = string_or((*this)["language"], "en");
     params.halign = string_or((*this)["halign"], "left");
     params.valign = string_or((*this)["valign"], "baseline");
@@ -98,7 +98,6 @@ class TextArguments {
   const CallCode& code_;
   Frame& frame_;
   std::string script_;
-  std::string direction_;
 };
 
 Value to_value(Vec2 v) {

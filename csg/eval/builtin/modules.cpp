@@ -10,7 +10,8 @@
 
 namespace lamina::csg {
 
-ModuleArguments::ModuleArguments(const BuiltinModuleCode& code, Frame& frame) {
+ModuleCall::ModuleCall(const BuiltinModuleCode& called, Frame& caller)
+    : code(called), frame(caller), in(caller.in) {
   for (const std::string& warning : code.plan->warnings) {
     frame.in.warn(code.range, warning, frame.document);
   }
@@ -22,10 +23,6 @@ ModuleArguments::ModuleArguments(const BuiltinModuleCode& code, Frame& frame) {
       frame.in.assign(bound.target, std::move(value), frame);
     }
   }
-}
-
-void warn(const BuiltinModuleCode& code, Frame& frame, std::string message) {
-  frame.in.warn(code.range, std::move(message));
 }
 
 namespace {
