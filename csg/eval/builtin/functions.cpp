@@ -6,10 +6,6 @@
 #include <fmt/format.h>
 
 #include "csg/eval/builtin/call.h"
-#include "csg/eval/builtin/dxf.h"
-#include "csg/eval/builtin/metrics.h"
-#include "csg/eval/builtin/objects.h"
-#include "csg/eval/builtin/search.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/integers.h"
 
@@ -52,15 +48,15 @@ Value builtin_parent_module(const CallCode& code, Frame& frame) {
   const auto& names = frame.in.module_names;
   if (n < 0) {
     return warn(code, frame,
-                fmt::format("Negative parent module index ({}) "
-                            "not allowed",
-                            n));
+                "Negative parent module index ({}) "
+                "not allowed",
+                n);
   }
   if (n >= static_cast<int>(names.size())) {
     return warn(code, frame,
-                fmt::format("Parent module index ({}) greater than the number "
-                            "of modules on the stack",
-                            n));
+                "Parent module index ({}) greater than the number "
+                "of modules on the stack",
+                n);
   }
   return Value::string(names[names.size() - 1 - static_cast<std::size_t>(n)]);
 }

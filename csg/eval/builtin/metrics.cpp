@@ -1,4 +1,4 @@
-#include "csg/eval/builtin/metrics.h"
+// textmetrics() and fontmetrics() (see functions.h).
 
 #include <algorithm>
 #include <optional>
@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/conversions.h"
-#include "csg/eval/builtin/named_arguments.h"
+#include "csg/eval/builtin/functions.h"
 #include "csg/eval/builtin/script.h"
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/object.h"
 #include "csg/eval/value/text.h"
 #include "csg/text_measurer.h"
@@ -75,22 +75,20 @@ class TextArguments {
   void check(std::string_view name, Type expected) {
     const Value& value = (*this)[name];
     if (value.is_undef() || value.type() == expected) return;
-    warn(fmt::format("{}(..., {}={}) Invalid type: expected {}, found {}",
-                     code_.name, name, to_echo(value), type_name(expected),
-                     type_name(value.type())));
+    warn_in_file(code_, frame_,
+                 "{}(..., {}={}) Invalid type: expected {}, found {}",
+                 code_.name, name, to_echo(value), type_name(expected),
+                 type_name(value.type()));
   }
 
   double size() {
     const Value& em = (*this)["em"];
     if (em.is_undef()) return number_or((*this)["size"], kDefaultSize);
     if (!(*this)["size"].is_undef()) {
-      warn(fmt::format("{}: \"size\" ignored when \"em\" is set", code_.name));
+      warn_in_file(code_, frame_, "{}: \"size\" ignored when \"em\" is set",
+                   code_.name);
     }
     return em.number_or_zero() * kSizePerEm;
-  }
-
-  void warn(std::string words) {
-    frame_.in.warn(code_.range, std::move(words), frame_.document);
   }
 
   std::span<const std::string_view> names_;
@@ -131,8 +129,8 @@ auto ask(const CallCode& code, Frame& frame, const Measure& measure)
   if (measurer == nullptr) return std::nullopt;
   std::vector<std::string> warnings;
   auto metrics = measure(*measurer, warnings);
-  for (std::string& warning : warnings) {
-    frame.in.warn(code.range, std::move(warning), frame.document);
+  for (const std::string& warning : warnings) {
+    warn_in_file(code, frame, "{}", warning);
   }
   return metrics;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/code/argument_plan.h"
 #include "csg/eval/run/each_value.h"
 #include "csg/eval/value/integers.h"
 #include "csg/eval/value/text.h"
@@ -150,12 +151,7 @@ void add_rows(const std::vector<BuiltinModuleRow>& rows, Table& table) {
     entry.positional_count = row.positional.size();
     std::vector<std::string_view> names = row.positional;
     names.insert(names.end(), row.optional.begin(), row.optional.end());
-    for (std::uint32_t i = 0; i < names.size(); ++i) {
-      Parameter parameter;
-      parameter.name = names[i];
-      parameter.target = {Target::Kind::kSlot, i, nullptr};
-      entry.parameters.push_back(parameter);
-    }
+    entry.parameters = make_parameters(names);
     table[row.name] = std::move(entry);
   }
 }

@@ -70,25 +70,25 @@ Value builtin_ord(const CallCode& code, Frame& frame) {
   if (n == 0) return Value();
   if (n > 1) {
     return warn(code, frame,
-                fmt::format("ord() called with {} arguments, only 1 argument "
-                            "expected",
-                            n));
+                "ord() called with {} arguments, only 1 argument "
+                "expected",
+                n);
   }
   const Value value = argument(code, 0, frame);
   if (!value.is_string()) {
     return warn(code, frame,
-                fmt::format("ord() argument {} is not of type "
-                            "string",
-                            to_echo(value)));
+                "ord() argument {} is not of type "
+                "string",
+                to_echo(value));
   }
   // To OpenSCAD a string ends at its first zero byte.
   std::string_view text = value.as_string();
   text = text.substr(0, text.find('\0'));
   if (!is_valid_utf8(text)) {
     return warn(code, frame,
-                fmt::format("ord() argument '{}' is not a valid "
-                            "utf8 string",
-                            text));
+                "ord() argument '{}' is not a valid "
+                "utf8 string",
+                text);
   }
   if (text.empty()) return Value();
   return Value(static_cast<double>(first_code_point(text)));

@@ -134,9 +134,7 @@ const Expression* ExpressionResolver::function_literal(
   Scope& inner = resolver_.open_scope(*scope_, activation);
   resolver_.resolve_callable(literal, written.parameters, *written.body, inner,
                              *scope_);
-  auto* code = resolver_.make<LiteralCode>();
-  code->run = run_function_literal;
-  code->range = range;
+  auto* code = make<LiteralCode>(run_function_literal, range);
   code->literal = &literal;
   return code;
 }

@@ -13,10 +13,7 @@ struct ElementVisitor {
 
   template <typename T>
   T* make(Element::Emit emit) const {
-    T* code = self.resolver_.make<T>();
-    code->emit = emit;
-    code->range = expr.range;
-    return code;
+    return self.make<T>(emit, expr.range);
   }
 
   const Element* operator()(const ast::ForElements& loop) const {
@@ -64,9 +61,7 @@ const Element* ExpressionResolver::for_element(ast::Arguments bindings,
                                                SourceRange range) {
   if (first == bindings.size()) return element(body);
   const ast::Argument& written = bindings[first];
-  auto* code = resolver_.make<ForElement>();
-  code->emit = emit_for;
-  code->range = range;
+  auto* code = make<ForElement>(emit_for, range);
   code->binding.name = written.name;
   code->binding.range = range;
   code->binding.value = resolve(*written.value);
@@ -85,9 +80,7 @@ const Element* ExpressionResolver::for_element(ast::Arguments bindings,
 const Element* ExpressionResolver::for_c_element(const ast::ForCElements& loop,
                                                  SourceRange range) {
   const NestedScope nested(resolver_, scope_);
-  auto* code = resolver_.make<ForCElement>();
-  code->emit = emit_for_c;
-  code->range = range;
+  auto* code = make<ForCElement>(emit_for_c, range);
   std::vector<Variable*> updated;
   for (const ast::Argument& update : loop.head->update) {
     if (update.name.empty() || is_dynamic_name(update.name)) continue;

@@ -67,6 +67,22 @@ class ExpressionResolver {
   const Expression* load(Variable& variable, SourceRange range,
                          bool* is_certain);
 
+  // Nodes of code, by the function that runs them.
+  template <typename T>
+  T* make(Expression::Runner run, SourceRange range) {
+    T* code = resolver_.make<T>();
+    code->run = run;
+    code->range = range;
+    return code;
+  }
+  template <typename T>
+  T* make(Element::Emit emit, SourceRange range) {
+    T* code = resolver_.make<T>();
+    code->emit = emit;
+    code->range = range;
+    return code;
+  }
+
   Resolver& resolver_;
   Scope* scope_;
 };

@@ -105,9 +105,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
                                                SourceRange range,
                                                Unknown unknown) {
   if (is_dynamic_name(name)) {
-    auto* code = resolver_.make<DynamicVariable>();
-    code->run = run_dynamic;
-    code->range = range;
+    auto* code = make<DynamicVariable>(run_dynamic, range);
     code->index = resolver_.names().number_of(name);
     code->name = name;
     code->is_silent = unknown == Unknown::kSilent;
@@ -137,9 +135,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
     } else if (unknown == Unknown::kSilent) {
       otherwise = constant(Value(), range);
     } else {
-      auto* code = resolver_.make<UnknownVariable>();
-      code->run = run_unknown_variable;
-      code->range = range;
+      auto* code = make<UnknownVariable>(run_unknown_variable, range);
       code->name = name;
       otherwise = code;
     }
@@ -158,9 +154,7 @@ const Expression* ExpressionResolver::prefixed_literal(std::string_view name,
                                                        SourceRange range) {
   const PrefixedLiteral literal = read_prefixed_literal(name);
   if (literal.warning.empty()) return constant(Value(literal.value), range);
-  auto* code = resolver_.make<InexactLiteral>();
-  code->run = run_inexact_literal;
-  code->range = range;
+  auto* code = make<InexactLiteral>(run_inexact_literal, range);
   code->value = literal.value;
   code->warning = resolver_.keep_text(literal.warning);
   return code;

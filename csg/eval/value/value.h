@@ -242,6 +242,8 @@ class Value {
   void release() {
     if (--payload_.counted->references == 0) destroy();
   }
+  template <typename Buffer, typename Elements>
+  Value append(Buffer& old, Elements more, std::size_t long_size) const;
   void destroy();
   void join(VectorBuffer*& dying);
   StringBuffer& string_buffer() const {
