@@ -26,19 +26,13 @@ struct Prefix {
 };
 
 Prefix prefix_of(Severity severity) {
-  switch (severity) {
-    case Severity::kPlain:
-      return {"", ""};
-    case Severity::kEcho:
-      return {"ECHO: ", "ECHO: "};
-    case Severity::kDeprecated:
-      return {"DEPRECATED: ", "deprecated: "};
-    case Severity::kWarning:
-      return {"WARNING: ", "warning: "};
-    case Severity::kError:
-      return {"ERROR: ", "error: "};
-  }
-  return {};
+  // In the order of the severities.
+  constexpr Prefix kPrefixes[] = {{"", ""},
+                                  {"ECHO: ", "ECHO: "},
+                                  {"DEPRECATED: ", "deprecated: "},
+                                  {"WARNING: ", "warning: "},
+                                  {"ERROR: ", "error: "}};
+  return kPrefixes[static_cast<std::size_t>(severity)];
 }
 
 void append_openscad_place(std::string& text, const Source& source,
@@ -210,18 +204,13 @@ std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
 std::string caret_text(const Diagnostic& diagnostic) {
   if (diagnostic.audience == Audience::kEcho) return "";
   std::string text;
-  if (diagnostic.severity == Severity::kEcho) {
-    return "ECHO: " + diagnostic.message + "\n";
-  }
-  if (diagnostic.severity == Severity::kPlain) return diagnostic.message + "\n";
   append_terminal_text(text, diagnostic.range,
                        prefix_of(diagnostic.severity).terminal,
                        diagnostic.message);
-  for (const Note& note : diagnostic.notes) {
-    append_terminal_text(text, note.range, "note: ", note.message);
-  }
-  for (const Note& hint : diagnostic.hints) {
-    append_terminal_text(text, hint.range, "note: ", hint.message);
+  for (const auto* notes : {&diagnostic.notes, &diagnostic.hints}) {
+    for (const Note& note : *notes) {
+      append_terminal_text(text, note.range, "note: ", note.message);
+    }
   }
   return text;
 }

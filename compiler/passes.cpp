@@ -204,7 +204,7 @@ std::string csg_text(Compilation& c) {
 }
 
 void write_text(const Compilation& c, std::string_view text) {
-  OutputFile output(c.request.output, c.temporary_files);
+  OutputFile output = OutputFile::open(c.request.output, c.temporary_files);
   output.write(text);
   output.commit();
 }

@@ -19,10 +19,9 @@ namespace lamina {
 namespace {
 
 [[noreturn]] void refuse(std::string_view expected, std::string_view cell) {
-  throw FileError(
-      fmt::format("{} was expected, not '{}' (text would stand in quotes: "
-                  "\"{}\")",
-                  expected, cell, cell));
+  throw FileError(fmt::format(
+      "{} was expected, not '{}' (text would stand in quotes: \"{}\")",
+      expected, cell, cell));
 }
 
 // A number as OpenSCAD writes it; none if it is none.

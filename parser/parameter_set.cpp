@@ -129,8 +129,7 @@ std::optional<std::vector<Entry>> read_set(const std::string& path,
   if (!reader.is_found()) {
     report_error(
         diagnostics,
-        fmt::format("Cannot apply Parameter Set '{}': '{}' has no such "
-                    "set",
+        fmt::format("Cannot apply Parameter Set '{}': '{}' has no such set",
                     set, path));
     return std::nullopt;
   }
@@ -212,9 +211,9 @@ bool apply_parameter_set(const std::string& path, const std::string& set,
   const auto entries = read_set(path, set, access, diagnostics);
   if (!entries) return false;
   if (set_values(*entries, program)) return true;
-  report_error(diagnostics,
-               "Cannot apply Parameter Set 'conversion of data to type \"b\" "
-               "failed'");
+  report_error(
+      diagnostics,
+      "Cannot apply Parameter Set 'conversion of data to type \"b\" failed'");
   return false;
 }
 

@@ -60,6 +60,8 @@ class FileAccess {
  public:
   // All files that the user of the program may use.
   FileAccess() = default;
+  // No file at all.
+  static FileAccess none();
 
   struct Limits {
     std::string root;  // all files are in it; empty: everywhere
@@ -67,10 +69,7 @@ class FileAccess {
     bool refuses_data = false;          // FileUse::kData
   };
   // Throws AccessError for what is no folder.
-  explicit FileAccess(const Limits& limits);
-
-  // No file at all.
-  static FileAccess none();
+  static FileAccess within(const Limits& limits);
 
   bool is_confined() const { return folders_ != nullptr; }
   // The descriptors of the folders, the root first; none where nothing is

@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/file/file_access.h"
 #include "base/file/temporary_files.h"
@@ -23,7 +24,7 @@ class OutputFile {
  public:
   // path  "-": standard output
   // Throws FileError if the file cannot be made, AccessError if it may not be.
-  OutputFile(std::string path, TemporaryFiles& temporary_files);
+  static OutputFile open(std::string path, TemporaryFiles& temporary_files);
   ~OutputFile();  // discards what was not committed
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -59,10 +60,17 @@ class OutputFile {
   // Large enough that system calls do not show, small beside a program's 12 MB.
   static constexpr std::size_t kBufferSize = 1 << 18;
 
+  OutputFile(std::string path, OutputPlace place,
+             TemporaryFiles& temporary_files, TemporaryFiles::File temporary,
+             std::unique_ptr<char[]> buffer)
+      : path_(std::move(path)),
+        place_(std::move(place)),
+        temporary_files_(temporary_files),
+        temporary_(std::move(temporary)),
+        buffer_(std::move(buffer)) {}
+
   void flush();
   std::string read(std::uint64_t offset, std::size_t size);
-  void copy_to(int target);
-  [[noreturn]] void fail(int error) const;
 
   std::string path_;
   OutputPlace place_;  // what is replaced; no path: nothing is

@@ -169,21 +169,6 @@ bool link_file(int file, const std::string& path) {
                   AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Returns 0 or the error number.
-int copy_bytes(int from, int to) {
-  std::array<char, 1 << 16> buffer;
-  for (off_t offset = 0;;) {
-    const ssize_t count = ::pread(from, buffer.data(), buffer.size(), offset);
-    if (count == 0) return 0;
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
-    const int error =
-        write_all(to, {buffer.data(), static_cast<std::size_t>(count)});
-    if (error != 0) return error;
-    offset += count;
-  }
-}
-
 // Network file systems tell at the end of the writing that there is no room.
 // Returns 0 or the error number.
 int end_writing(int file) {

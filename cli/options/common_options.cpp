@@ -116,7 +116,7 @@ MemoryLimit parse_memory_limit(const std::string& text) {
 
 FileAccess make_file_access(const FileAccess::Limits& limits) {
   try {
-    return FileAccess(limits);
+    return FileAccess::within(limits);
   } catch (const AccessError& error) {
     throw UsageError(error.what());
   }

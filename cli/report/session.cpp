@@ -70,7 +70,7 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
 
 void write_file(const std::string& path, std::string_view text,
                 TemporaryFiles& temporary_files) {
-  OutputFile output(path, temporary_files);
+  OutputFile output = OutputFile::open(path, temporary_files);
   output.write(text);
   output.commit();
 }

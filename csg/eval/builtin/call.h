@@ -14,8 +14,20 @@
 
 namespace lamina::csg {
 
+// Warns and returns undef, as do those below.
+Value wrong_count(const CallCode& code, Frame& frame);
+
 inline Value argument(const CallCode& code, std::size_t i, Frame& frame) {
   return run(code.arguments[i].value, frame);
+}
+
+// What `make_result` makes of the one argument of a function.
+template <typename MakeResult>
+Value with_argument(const CallCode& code, Frame& frame,
+                    const MakeResult& make_result) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  Value spill;
+  return make_result(look(code.arguments[0].value, frame, spill));
 }
 
 // The value of each parameter, undef where none was given, of a function that
@@ -27,7 +39,6 @@ std::vector<Value> run_named_arguments(
     std::span<const std::string_view> parameters, std::size_t positional,
     const CallCode& code, Frame& frame);
 
-// Warn and return undef, the result of the call.
 template <typename... Parts>
 Value warn(const CallCode& code, Frame& frame,
            fmt::format_string<Parts...> words, Parts&&... parts) {
@@ -42,7 +53,6 @@ Value warn_in_file(const CallCode& code, Frame& frame,
                 frame.document);
   return Value();
 }
-Value wrong_count(const CallCode& code, Frame& frame);
 Value wrong_type(const CallCode& code, Frame& frame);
 
 }  // namespace lamina::csg

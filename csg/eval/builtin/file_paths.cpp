@@ -30,10 +30,11 @@ std::string find_file(std::string_view name, const std::string& from,
   if (fs::path(name).is_absolute()) return std::string(name);
   const fs::path fallback = fs::path(in.design_folder()) / name;
   if (!access.is_there(here) && access.is_there(fallback)) {
-    in.deprecate({}, fmt::format("Imported file ({}) found in document root "
-                                 "instead of relative to the importing module. "
-                                 "This behavior is deprecated",
-                                 name));
+    in.deprecate(
+        {}, fmt::format(
+                "Imported file ({}) found in document root instead of relative "
+                "to the importing module. This behavior is deprecated",
+                name));
     return fallback.string();
   }
   return here.string();

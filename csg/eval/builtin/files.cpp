@@ -136,10 +136,11 @@ double read_dpi(const Value& value, const Value& origin,
   // The origin and the second file are wrong in OpenSCAD, too.
   const std::string file =
       relative_path(call.code.range.source->path(), call.frame);
-  call.in.warn({}, fmt::format("Invalid dpi value giving, using default of {} "
-                               "dpi. Value must be positive and >= 0.001, "
-                               "file {}, import() at line {}",
-                               to_echo(origin), file, file));
+  call.in.warn(
+      {},
+      fmt::format("Invalid dpi value giving, using default of {} dpi. Value "
+                  "must be positive and >= 0.001, file {}, import() at line {}",
+                  to_echo(origin), file, file));
   return kDefaultDpi;
 }
 

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/functions.h"

@@ -53,9 +53,9 @@ void child_at(int n, Frame& frame) {
     frame.in.warn({},
                   fmt::format("Negative children index ({}) not allowed", n));
   } else if (static_cast<std::size_t>(n) >= count_children(frame)) {
-    frame.in.warn({}, fmt::format("Children index ({}) out of bounds ({} "
-                                  "children)",
-                                  n, count_children(frame)));
+    frame.in.warn(
+        {}, fmt::format("Children index ({}) out of bounds ({} children)", n,
+                        count_children(frame)));
   } else {
     run_child(static_cast<std::size_t>(n), frame);
   }
@@ -92,10 +92,11 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
       const Range& range = which.as_range();
       const std::uint32_t count = range.count();
       if (count >= kMostStatementElements) {
-        frame.in.warn(code.range,
-                      fmt::format("Bad range parameter for children: too many "
-                                  "elements ({})",
-                                  count));
+        frame.in.warn(
+            code.range,
+            fmt::format(
+                "Bad range parameter for children: too many elements ({})",
+                count));
         return;
       }
       for (std::uint32_t i = 0; range.step != 0 && i < count; ++i) {
@@ -115,25 +116,24 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
 
 // The old child(n), one child only.
 void child(const BuiltinModuleCode& code, Frame& frame) {
-  frame.in.deprecate({},
-                     "child() will be removed in future releases. Use "
-                     "children() instead.");
+  frame.in.deprecate(
+      {},
+      "child() will be removed in future releases. Use children() instead.");
   int n = 0;
   if (!code.arguments.empty()) {
     const Value which = run(code.arguments[0].value, frame);
     if (which.is_number()) n = cut_to_int(which.as_number());
     if (n < 0) {
-      frame.in.warn(code.range, fmt::format("Negative child index ({}) not "
-                                            "allowed",
-                                            n));
+      frame.in.warn(code.range,
+                    fmt::format("Negative child index ({}) not allowed", n));
       return;
     }
   }
   if (frame.children == nullptr) return;
   if (static_cast<std::size_t>(n) >= count_children(frame)) {
-    frame.in.warn(code.range, fmt::format("Child index ({}) out of bounds ({} "
-                                          "children)",
-                                          n, count_children(frame)));
+    frame.in.warn(code.range,
+                  fmt::format("Child index ({}) out of bounds ({} children)", n,
+                              count_children(frame)));
     return;
   }
   run_child(static_cast<std::size_t>(n), frame);

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 
 bool has_count(std::size_t expected, const CallCode& code, Frame& frame) {
   if (code.arguments.size() == expected) return true;
-  warn_in_file(code, frame,
-               "{}() number of parameters does not match: expected {}, "
-               "found {}",
-               code.name, expected, code.arguments.size());
+  warn_in_file(
+      code, frame,
+      "{}() number of parameters does not match: expected {}, found {}",
+      code.name, expected, code.arguments.size());
   return false;
 }
 
@@ -32,8 +32,8 @@ bool has_type(Type expected, std::size_t i, const Value& value,
               const CallCode& code, Frame& frame) {
   if (value.type() == expected) return true;
   warn_in_file(code, frame,
-               "{}() parameter could not be converted: argument {}: "
-               "expected {}, found {} ({})",
+               "{}() parameter could not be converted: argument {}: expected "
+               "{}, found {} ({})",
                code.name, i, type_name(expected), type_name(value.type()),
                to_echo(value));
   return false;

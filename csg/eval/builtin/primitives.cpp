@@ -194,8 +194,8 @@ Polyhedron polyhedron(const ModuleCall& call, const Facets&) {
   if (faces.is_undef() && !call[kTriangles].is_undef()) {
     faces = call[kTriangles];
     in.deprecate({},
-                 "polyhedron(triangles=[]) will be removed in future "
-                 "releases. Use polyhedron(faces=[]) instead.");
+                 "polyhedron(triangles=[]) will be removed in future releases. "
+                 "Use polyhedron(faces=[]) instead.");
   }
   PolyhedronParams polyhedron;
   bool is_plain = call[kPoints].is_vector();

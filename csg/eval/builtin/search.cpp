@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "base/utf8.h"
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
@@ -102,8 +100,8 @@ Value search_in_table(const Value& wanted, const Value& table,
         limits.matches != 0 && matches.size() >= limits.matches;
     if (bad_row < rows.size() && !is_full) {
       warn(code, frame,
-           "Invalid entry in search vector at index {}, required "
-           "number of values in the entry: {}. Invalid entry: {}",
+           "Invalid entry in search vector at index {}, required number of "
+           "values in the entry: {}. Invalid entry: {}",
            bad_row, limits.column + 1, to_echo(rows[bad_row]));
       return Value::vector({});
     }

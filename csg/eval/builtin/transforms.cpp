@@ -42,8 +42,8 @@ Mat4 scale_matrix(const ModuleCall& call) {
       factors = Vec3(v.as_number());
     } else {
       call.warn(
-          "Unable to convert scale({}) parameter to a number, a "
-          "vec3 or vec2 of numbers or a number",
+          "Unable to convert scale({}) parameter to a number, a vec3 or vec2 "
+          "of numbers or a number",
           to_echo(v));
     }
   }
@@ -77,8 +77,8 @@ Mat4 euler_matrix(const Value& a, const Value& v, const ModuleCall& call) {
   const bool has_axis = !v.is_undef();
   if (is_fine && has_axis) {
     call.warn(
-        "When parameter a is supplied as vector, v is ignored "
-        "rotate(a={}, v={})",
+        "When parameter a is supplied as vector, v is ignored rotate(a={}, "
+        "v={})",
         to_echo(a), to_echo(v));
   } else if (!is_fine && has_axis) {
     call.warn("Problem converting rotate(a={}, v={}) parameter", to_echo(a),
@@ -147,8 +147,7 @@ Mat4 mirror_matrix(const ModuleCall& call) {
   Vec3 n(1, 0, 0);
   if (!read_vec3(v, 0.0, n)) {
     call.warn(
-        "Unable to convert mirror({}) parameter to "
-        "a vec3 or vec2 of numbers",
+        "Unable to convert mirror({}) parameter to a vec3 or vec2 of numbers",
         to_echo(v));
   }
   Mat4 matrix(1.0);
@@ -171,8 +170,8 @@ Mat4 translation_matrix(const ModuleCall& call) {
   Mat4 matrix(1.0);
   if (!is_fine) {
     call.warn(
-        "Unable to convert translate({}) parameter "
-        "to a vec3 or vec2 of numbers",
+        "Unable to convert translate({}) parameter to a vec3 or vec2 of "
+        "numbers",
         to_echo(v));
     return matrix;
   }

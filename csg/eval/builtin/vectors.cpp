@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
 #include "csg/eval/run/interpreter.h"

@@ -414,7 +414,6 @@ struct BuiltinModuleCode : InstantiationCode {
   BuiltinModule handler = nullptr;
   std::span<const WrittenArgument> arguments;
   ArgumentPlan* plan = nullptr;
-  std::uint32_t parameter_count = 0;
   const Unit* unit = nullptr;
   // The first argument of linear_extrude, resolved inside its block.
   const Expression* late_argument = nullptr;

@@ -129,9 +129,7 @@ void Resolver::resolve(const Unit& asked) {
   if (unit.is_resolved) return;
   unit.is_resolved = true;
   StatementResolver resolver(*this, *unit.scope);
-  unit.body = unit.document == nullptr
-                  ? resolver.body(unit.program->statements)
-                  : resolver.assignments_only(unit.program->statements);
+  unit.body = resolver.body(unit.program->statements, unit.document != nullptr);
   unit.slot_count = unit.activation.slot_count;
 }
 

@@ -19,16 +19,10 @@ T* StatementResolver::make(InstantiationCode::Runner run, SourceRange range) {
 
 // --- Bodies -----------------------------------------------------------------
 
-Block StatementResolver::body(ast::Statements statements) {
+Block StatementResolver::body(ast::Statements statements, bool is_used) {
   Block block;
   block.assignments = assignments(statements, nullptr);
-  block.statements = instantiations(statements);
-  return block;
-}
-
-Block StatementResolver::assignments_only(ast::Statements statements) {
-  Block block;
-  block.assignments = assignments(statements, nullptr);
+  if (!is_used) block.statements = instantiations(statements);
   return block;
 }
 
@@ -98,10 +92,12 @@ std::span<const InstantiationCode* const> StatementResolver::instantiations(
   return resolver_.keep(codes);
 }
 
-Block* StatementResolver::block(ast::Statements statements) {
+Block* StatementResolver::block(ast::Statements statements,
+                                const std::function<void()>& resolve_between) {
   const NestedScope open(resolver_, scope_);
   auto* block = resolver_.make<Block>();
   block->assignments = assignments(statements, nullptr);
+  if (resolve_between) resolve_between();
   block->statements = instantiations(statements);
   block->resets = resolver_.keep(scope_->resets);
   return block;
@@ -144,16 +140,13 @@ InstantiationCode* StatementResolver::user_module(
     code->hops =
         scope_->activation->count_hops(*callee.code->scope->activation);
   }
-  const NestedScope open(resolver_, scope_);
-  code->block = resolver_.make<Block>();
-  code->block->assignments = assignments(written.children, nullptr);
-  code->arguments = expressions().arguments(written.arguments);
-  code->module = &resolver_.with_extras(*callee.code, code->arguments);
-  code->plan = &resolver_.keep_plan(plan_arguments(
-      code->module->parameters, callee.code->parameters.size(), code->arguments,
-      resolver_.names(), resolver_.module_surplus()));
-  code->block->statements = instantiations(written.children);
-  code->block->resets = resolver_.keep(scope_->resets);
+  code->block = block(written.children, [&] {
+    code->arguments = expressions().arguments(written.arguments);
+    code->module = &resolver_.with_extras(*callee.code, code->arguments);
+    code->plan = &resolver_.keep_plan(plan_arguments(
+        code->module->parameters, callee.code->parameters.size(),
+        code->arguments, resolver_.names(), resolver_.module_surplus()));
+  });
   return code;
 }
 
@@ -256,17 +249,12 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
   code->plan = &resolver_.keep_plan(
       plan_arguments(entry->parameters, entry->positional_count,
                      code->arguments, resolver_.names()));
-  code->parameter_count = static_cast<std::uint32_t>(entry->parameters.size());
-
-  const NestedScope open(resolver_, scope_);
-  code->block = resolver_.make<Block>();
-  code->block->assignments = assignments(written.children, nullptr);
-  if (entry->needs_late_argument && !written.arguments.empty() &&
-      written.arguments[0].name.empty()) {
-    code->late_argument = expressions().resolve(*written.arguments[0].value);
-  }
-  code->block->statements = instantiations(written.children);
-  code->block->resets = resolver_.keep(scope_->resets);
+  code->block = block(written.children, [&] {
+    if (entry->needs_late_argument && !written.arguments.empty() &&
+        written.arguments[0].name.empty()) {
+      code->late_argument = expressions().resolve(*written.arguments[0].value);
+    }
+  });
   return code;
 }
 

@@ -44,9 +44,9 @@ std::size_t count_values(const Value& values) {
 
 void warn_of_long_range(std::uint32_t count, SourceRange place, Frame& frame) {
   warn(frame, place,
-       fmt::format("Bad range parameter in for statement: too many elements "
-                   "({})",
-                   count));
+       fmt::format(
+           "Bad range parameter in for statement: too many elements ({})",
+           count));
 }
 
 void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {

@@ -256,9 +256,9 @@ void Interpreter::make_node(decltype(Node::op) op,
                             const InstantiationCode& code, std::size_t mark) {
   if (mark == nodes_.size() && leaf_count_++ == options_.max_leaves) {
     fail(code.range,
-         fmt::format("Too many leaves: more than the {} that --max-leaves "
-                     "allows",
-                     options_.max_leaves),
+         fmt::format(
+             "Too many leaves: more than the {} that --max-leaves allows",
+             options_.max_leaves),
          nullptr);
   }
   Node* node = arena_.make(Node());

@@ -125,35 +125,31 @@ Value multiply_vectors(std::span<const Value> a, std::span<const Value> b,
   }
   if (first.is_number() && second.is_vector()) {
     if (a.size() == b.size()) return multiply_vector_by_matrix(a, b, reason);
-    return undefined_because(
-        reason,
-        "vector*matrix requires vector length to match matrix row count ({} "
-        "!= {})",
-        a.size(), b.size());
+    return undefined_because(reason,
+                             "vector*matrix requires vector length to match "
+                             "matrix row count ({} != {})",
+                             a.size(), b.size());
   }
   if (first.is_vector() && second.is_number()) {
     const std::size_t columns = first.as_vector().size();
     if (columns == b.size()) return multiply_matrix_by_vector(a, b, reason);
-    return undefined_because(
-        reason,
-        "matrix*vector requires matrix column count to match vector length "
-        "({} != {})",
-        columns, b.size());
+    return undefined_because(reason,
+                             "matrix*vector requires matrix column count to "
+                             "match vector length ({} != {})",
+                             columns, b.size());
   }
   if (first.is_vector() && second.is_vector()) {
     const std::size_t columns = first.as_vector().size();
     if (columns == b.size()) return multiply_matrices(a, b, reason);
-    return undefined_because(
-        reason,
-        "matrix*matrix requires left operand column count to match right "
-        "operand row count ({} != {})",
-        columns, b.size());
+    return undefined_because(reason,
+                             "matrix*matrix requires left operand column count "
+                             "to match right operand row count ({} != {})",
+                             columns, b.size());
   }
-  return undefined_because(
-      reason,
-      "undefined vector*vector multiplication where first elements are types "
-      "{} and {}",
-      type_name(first.type()), type_name(second.type()));
+  return undefined_because(reason,
+                           "undefined vector*vector multiplication where first "
+                           "elements are types {} and {}",
+                           type_name(first.type()), type_name(second.type()));
 }
 
 }  // namespace lamina::csg

@@ -62,7 +62,7 @@ class FolderStack : public StackOutput {
 class ArchiveStack : public StackOutput {
  public:
   ArchiveStack(const std::string& path, TemporaryFiles& files)
-      : file_(path, files), archive_(file_) {}
+      : file_(OutputFile::open(path, files)), archive_(file_) {}
 
   void add_image(const std::string& name, std::string_view bytes) override {
     archive_.add_packed(name, bytes);

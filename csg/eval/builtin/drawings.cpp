@@ -1,15 +1,11 @@
 // dxf_dim() and dxf_cross() (see functions.h).
 
-#include "csg/import/dxf.h"
-
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
@@ -19,6 +15,7 @@
 #include "csg/eval/builtin/file_paths.h"
 #include "csg/eval/builtin/functions.h"
 #include "csg/eval/value/text.h"
+#include "csg/import/dxf.h"
 
 namespace lamina::csg {
 
@@ -58,9 +55,7 @@ Query read_query(Kind kind, const CallCode& code, Frame& frame) {
       const std::optional<Vec2> origin = to_vec2(value);
       if (origin) query.origin = *origin;
       if (!origin || !std::isfinite(origin->x) || !std::isfinite(origin->y)) {
-        warn(code, frame,
-             "{}(..., origin={}) could not be "
-             "converted",
+        warn(code, frame, "{}(..., origin={}) could not be converted",
              code.name, to_echo(value));
       }
     } else if (argument.name == "scale") {
