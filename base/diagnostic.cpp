@@ -104,6 +104,14 @@ Error::Error(Diagnostic diagnostic) : diagnostic_(std::move(diagnostic)) {}
 Error::Error(std::string message, SourceRange range)
     : diagnostic_{Severity::kError, range, std::move(message)} {}
 
+void fail_check(const char* file, int line, const char* claim,
+                const std::string& left, const std::string& right) {
+  throw InternalError(
+      fmt::format("internal error, please report: {}:{}: {} does not hold: {} "
+                  "against {}",
+                  file, line, claim, left, right));
+}
+
 const char* Error::what() const noexcept { return diagnostic_.message.c_str(); }
 
 Diagnostics::Diagnostics(Observer observer) : observer_(std::move(observer)) {}

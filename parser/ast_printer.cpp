@@ -38,7 +38,7 @@ class ExpressionPrinter {
   void operator()(const Undef&) { print("undef"); }
   void operator()(const Bool& node) { print(node.value ? "true" : "false"); }
   void operator()(const Number& node) { append_number(node.value, text_); }
-  void operator()(const String& node) { append_quoted(node.value, text_); }
+  void operator()(const String& node) { print(in_quotes(node.value)); }
   void operator()(const Variable& node) { print(node.name); }
 
   void operator()(const Unary& node) { print(symbol(node.op), *node.operand); }
@@ -169,7 +169,7 @@ class ExpressionPrinter {
 class StatementPrinter {
  public:
   StatementPrinter(std::string& text, const Customizer& customizer)
-      : text_(text), expressions_(text), customizer_(customizer) {}
+      : expressions_(text), customizer_(customizer) {}
 
   enum class Place { kOwnLine, kBehindParent };
 
@@ -226,9 +226,7 @@ class StatementPrinter {
   }
 
   void print_annotation(std::string_view name, const std::string& content) {
-    print("//", name, '(');
-    append_quoted(content, text_);
-    print(")\n");
+    print("//", name, '(', in_quotes(content), ")\n");
   }
 
   void print_instantiation(const Statement& statement,
@@ -266,7 +264,6 @@ class StatementPrinter {
     }
   }
 
-  std::string& text_;
   ExpressionPrinter expressions_;
   const Customizer& customizer_;
 };

@@ -9,7 +9,6 @@
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
 #include "base/letter_case.h"
-#include "base/number.h"
 #include "base/text.h"
 #include "parser/loader.h"
 #include "parser/parser.h"
@@ -66,12 +65,6 @@ bool is_literal(std::string_view cell) {
   }
 }
 
-std::string quoted(std::string_view cell) {
-  std::string text;
-  append_quoted(cell, text);
-  return text;
-}
-
 bool is_quoted(std::string_view cell) {
   return cell.size() > 1 && cell.starts_with('"') && cell.ends_with('"') &&
          is_literal(cell);
@@ -86,7 +79,7 @@ bool is_vector(std::string_view cell) {
 std::string value_of_cell(std::string_view cell, ast::ValueType type,
                           DecimalSign decimal) {
   if (is_quoted(cell)) return std::string(cell);
-  if (type == ast::ValueType::kString) return quoted(cell);
+  if (type == ast::ValueType::kString) return in_quotes(cell);
   const bool is_any =
       type == ast::ValueType::kAny || type == ast::ValueType::kRange;
   if (is_any || type == ast::ValueType::kNumber) {
@@ -100,7 +93,7 @@ std::string value_of_cell(std::string_view cell, ast::ValueType type,
   if (is_vector(cell)) return std::string(cell);
   if (!is_any || cell.starts_with('['))
     refuse("a vector such as [1, 2.5]", cell);
-  return quoted(cell);
+  return in_quotes(cell);
 }
 
 }  // namespace lamina

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/number.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"

@@ -8,7 +8,7 @@
 #include <CLI/App.hpp>
 #include <fmt/format.h>
 
-#include "base/number.h"
+#include "base/text.h"
 #include "slicer/check/thin_finder.h"
 
 namespace lamina::cli {

@@ -71,11 +71,8 @@ Scope Builder::open_scope() {
 }
 
 ast::Statements Builder::close_scope(Scope scope) {
-  const auto statements = arena_.copy(
-      std::span<const ast::Statement* const>(statements_).subspan(scope.begin));
-  statements_.resize(scope.begin);
   scope_ = scope.outer;
-  return statements;
+  return take_top(statements_, scope.begin);
 }
 
 void Builder::add_statement(const ast::Statement* statement) {
@@ -233,10 +230,8 @@ Tree Builder::make_vector(Arena::Mark mark, List elements, SourceRange range) {
     const auto copy = arena_.copy(std::span<const double>(numbers_));
     return make(ast::Numbers{copy}, 1, range);
   }
-  const auto copy = arena_.copy(
-      std::span<const ast::Expr* const>(elements_).subspan(elements.begin));
-  elements_.resize(elements.begin);
-  return make(ast::Vector{copy}, elements.depth + 1, range);
+  return make(ast::Vector{take_top(elements_, elements.begin)},
+              elements.depth + 1, range);
 }
 
 List Builder::start_elements(Tree first) {
@@ -265,13 +260,6 @@ List Builder::start_arguments(std::uint32_t first_depth) const {
 
 List Builder::append_argument(List arguments, std::uint32_t depth) const {
   return {arguments.begin, std::max(arguments.depth, depth)};
-}
-
-ast::Arguments Builder::close_arguments(List arguments) {
-  const auto copy = arena_.copy(
-      std::span<const ast::Argument>(arguments_).subspan(arguments.begin));
-  arguments_.resize(arguments.begin);
-  return copy;
 }
 
 }  // namespace lamina::detail

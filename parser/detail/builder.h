@@ -108,7 +108,16 @@ class Builder {
     return {arena_.make(ast::Expr{node, range}), depth};
   }
 
-  ast::Arguments close_arguments(List arguments);
+  // Moves what stands on a scratch stack from `begin` on to the arena.
+  template <typename T>
+  std::span<const T> take_top(std::vector<T>& stack, std::uint32_t begin) {
+    const auto top = arena_.copy(std::span<const T>(stack).subspan(begin));
+    stack.resize(begin);
+    return top;
+  }
+  ast::Arguments close_arguments(List arguments) {
+    return take_top(arguments_, arguments.begin);
+  }
   ast::Statements close_scope(Scope scope);
   // Fills numbers_ from elements_; false if one is no number literal.
   bool collect_numbers(std::uint32_t begin);

@@ -50,9 +50,7 @@ std::string relative_path(const std::string& path, Frame& frame) {
 }
 
 std::string relative_quoted(const std::string& path, Frame& frame) {
-  std::string text;
-  append_quoted(relative_path(path, frame), text);
-  return text;
+  return in_quotes(relative_path(path, frame));
 }
 
 Vec2 read_origin(const Value& origin, std::string_view shown_name,
@@ -68,11 +66,10 @@ Vec2 read_origin(const Value& origin, std::string_view shown_name,
 }
 
 std::string drawing_text(const ImportParams& drawing, Frame& frame) {
-  std::string layer;
-  append_quoted(drawing.layer, layer);
   return fmt::format("file = {}, layer = {}, origin = [{:g}, {:g}], ",
-                     relative_quoted(std::string(drawing.path), frame), layer,
-                     drawing.origin.x, drawing.origin.y);
+                     relative_quoted(std::string(drawing.path), frame),
+                     in_quotes(drawing.layer), drawing.origin.x,
+                     drawing.origin.y);
 }
 
 std::string timestamp_text(const std::string& path, Frame& frame) {

@@ -35,34 +35,22 @@ void make_leaf(Params params, std::string_view csg_text,
 // --- text -------------------------------------------------------------------
 
 void text(const BuiltinModuleCode& code, Frame& frame) {
-  enum {
-    kText,
-    kSize,
-    kFont,
-    kDirection,
-    kLanguage,
-    kScript,
-    kHalign,
-    kValign,
-    kSpacing
-  };
   const ModuleCall call(code, frame);
-  const auto keep_text = [&](int i, std::string_view fallback) {
-    return call.in.keep_text(
-        string_or(call[static_cast<std::size_t>(i)], fallback));
+  const auto keep_text = [&](std::string_view name, std::string_view fallback) {
+    return call.in.keep_text(string_or(call[name], fallback));
   };
   TextParams params;
-  params.text = keep_text(kText, "");
-  params.size = number_or(call[kSize], 10.0);
-  params.spacing = number_or(call[kSpacing], 1.0);
-  params.font = keep_text(kFont, "");
-  params.script =
-      call.in.keep_text(text_script(params.text, string_or(call[kScript], "")));
+  params.text = keep_text("text", "");
+  params.size = number_or(call["size"], 10.0);
+  params.spacing = number_or(call["spacing"], 1.0);
+  params.font = keep_text("font", "");
+  params.script = call.in.keep_text(
+      text_script(params.text, string_or(call["script"], "")));
   params.direction =
-      text_direction(params.script, string_or(call[kDirection], ""));
-  params.language = keep_text(kLanguage, "en");
-  params.halign = keep_text(kHalign, "left");
-  params.valign = keep_text(kValign, "baseline");
+      text_direction(params.script, string_or(call["direction"], ""));
+  params.language = keep_text("language", "en");
+  params.halign = keep_text("halign", "left");
+  params.valign = keep_text("valign", "baseline");
   params.facets = current_facets(call.in);
   // OpenSCAD quotes these strings without escaping anything.
   std::string csg = fmt::format(
@@ -81,16 +69,15 @@ void text(const BuiltinModuleCode& code, Frame& frame) {
 // --- surface ----------------------------------------------------------------
 
 void surface(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kFile, kCenter, kConvexity, kInvert };
   const ModuleCall call(code, frame);
-  const Value& file = call[kFile];
+  const Value& file = call["file"];
   const std::string path =
       find_file(file.is_undef() ? "" : to_text(file), call);
   SurfaceParams params;
   params.path = frame.in.keep_text(path);
-  params.center = is_set(call[kCenter]);
-  params.invert = is_set(call[kInvert]);
-  params.convexity = std::max(to_int(call[kConvexity]), 1);
+  params.center = is_set(call["center"]);
+  params.invert = is_set(call["invert"]);
+  params.convexity = std::max(to_int(call["convexity"]), 1);
   const std::string csg =
       fmt::format("surface(file = {}, center = {}, invert = {}, {})",
                   relative_quoted(path, frame), params.center, params.invert,
@@ -145,38 +132,25 @@ double read_dpi(const Value& value, const Value& origin,
 }
 
 void import(const BuiltinModuleCode& code, Frame& frame) {
-  enum {
-    kFile,
-    kLayer,
-    kConvexity,
-    kOrigin,
-    kScale,
-    kWidth,
-    kHeight,
-    kFilename,
-    kLayername,
-    kCenter,
-    kDpi
-  };
   const ModuleCall call(code, frame);
   const Value file =
-      renamed(call[kFile], call[kFilename], "filename", "file", frame);
+      renamed(call["file"], call["filename"], "filename", "file", frame);
   const std::string path =
       find_file(file.is_undef() ? "" : to_text(file), call);
   const Value layer =
-      renamed(call[kLayer], call[kLayername], "layername", "layer", frame);
+      renamed(call["layer"], call["layername"], "layername", "layer", frame);
   Interpreter& in = frame.in;
   ImportParams params;
   params.path = in.keep_text(path);
   params.format = import_format(code.name, path);
   params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
   // The name is wrong in OpenSCAD, too.
-  params.origin = read_origin(call[kOrigin], "linear_extrude", call);
-  params.center = is_set(call[kCenter]);
-  params.dpi = read_dpi(call[kDpi], call[kOrigin], call);
-  const double scale = call[kScale].number_or_zero();
+  params.origin = read_origin(call["origin"], "linear_extrude", call);
+  params.center = is_set(call["center"]);
+  params.dpi = read_dpi(call["dpi"], call["origin"], call);
+  const double scale = call["scale"].number_or_zero();
   params.scale = scale <= 0 ? 1 : scale;
-  params.convexity = std::max(to_int(call[kConvexity]), 1);
+  params.convexity = std::max(to_int(call["convexity"]), 1);
   params.facets = current_facets(in);
   std::string csg = "import(" + drawing_text(params, frame);
   if (params.format == ImportFormat::kSvg) {

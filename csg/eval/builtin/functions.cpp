@@ -5,7 +5,7 @@
 
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/run/interpreter.h"
-#include "csg/eval/value/integers.h"
+#include "csg/eval/value/operators.h"
 
 namespace lamina::csg {
 
@@ -42,7 +42,7 @@ Value builtin_parent_module(const CallCode& code, Frame& frame) {
   } else if (code.arguments.size() > 1) {
     return wrong_count(code, frame);
   }
-  const int n = cut_to_int(number);
+  const int n = cut_to<int>(number);
   const auto& names = frame.in.module_names;
   if (n < 0) {
     return warn(code, frame, "Negative parent module index ({}) not allowed",

@@ -27,13 +27,14 @@ const BuiltinModuleEntry* find_builtin_module(std::string_view name);
 
 // --- For the files that define them ---
 
-// A call of a module: by number the values that it gives to the parameters, in
-// the order of the entry, undef where it gives none.
+// A call of a module, and the values that it gives to parameters.
 class ModuleCall {
  public:
   // Runs the arguments.
   ModuleCall(const BuiltinModuleCode& called, Frame& caller);
-  const Value& operator[](std::size_t i) const { return values_[i]; }
+  // The value of a parameter, which must be one of the module's; undef where
+  // the call gives none.
+  const Value& operator[](std::string_view parameter) const;
 
   // Warns at the call.
   template <typename... Values>

@@ -21,16 +21,9 @@ namespace {
 double tan_deg(double x) {
   // Beyond this the fraction of a turn is lost.
   constexpr double kHuge = 360.0 * 0x1p52;
-  const auto cycles = std::fabs(x) < kHuge
-                          ? static_cast<std::int64_t>(std::floor(x / 180.0))
-                          : 0;
-  if (x < 180.0 && x >= 0.0) {
-    // Already in the first half turn.
-  } else if (x < kHuge && x > -kHuge) {
-    x -= 180.0 * static_cast<double>(cycles);
-  } else {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  if (!(std::fabs(x) < kHuge)) return std::numeric_limits<double>::quiet_NaN();
+  const auto cycles = static_cast<std::int64_t>(std::floor(x / 180.0));
+  x -= 180.0 * static_cast<double>(cycles);
   const bool is_even = cycles % 2 == 0;
   const bool is_opposed = x > 90.0;
   if (is_opposed) x = 180.0 - x;

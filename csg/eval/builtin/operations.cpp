@@ -33,10 +33,9 @@ void plain_operation(const BuiltinModuleCode& code, Frame& frame) {
 // --- color, render ----------------------------------------------------------
 
 Color color(const ModuleCall& call) {
-  enum { kColor, kAlpha };
   // OpenSCAD keeps colors in single precision; -1 stands for "none".
   std::array<float, 4> rgba = {-1, -1, -1, 1};
-  const Value& given = call[kColor];
+  const Value& given = call["c"];
   if (given.is_vector()) {
     const std::span<const Value> parts = given.as_vector();
     for (std::size_t i = 0; i < 4; ++i) {
@@ -58,14 +57,15 @@ Color color(const ModuleCall& call) {
       call.in.note("Please see https://en.wikipedia.org/wiki/Web_colors");
     }
   }
-  if (call[kAlpha].is_number()) {
-    rgba[3] = static_cast<float>(call[kAlpha].as_number());
+  if (call["alpha"].is_number()) {
+    rgba[3] = static_cast<float>(call["alpha"].as_number());
   }
   return {Vec4(rgba[0], rgba[1], rgba[2], rgba[3])};
 }
 
 Render render(const ModuleCall& call) {
-  return {call[0].is_number() ? to_int(call[0]) : 1};
+  const Value& convexity = call["convexity"];
+  return {convexity.is_number() ? to_int(convexity) : 1};
 }
 
 // --- hull, fill, minkowski, resize ------------------------------------------
@@ -75,16 +75,17 @@ Outline outline(const ModuleCall&) {
   return {};
 }
 
-Minkowski minkowski(const ModuleCall& call) { return {to_int(call[0])}; }
+Minkowski minkowski(const ModuleCall& call) {
+  return {to_int(call["convexity"])};
+}
 
 Resize resize(const ModuleCall& call) {
-  enum { kNewSize, kAuto, kConvexity };
-  Resize resize{Vec3(0.0), {}, to_int(call[kConvexity])};
-  const std::span<const Value> sizes = call[kNewSize].elements();
+  Resize resize{Vec3(0.0), {}, to_int(call["convexity"])};
+  const std::span<const Value> sizes = call["newsize"].elements();
   for (std::size_t i = 0; i < std::min<std::size_t>(sizes.size(), 3); ++i) {
     resize.new_size[static_cast<int>(i)] = sizes[i].number_or_zero();
   }
-  const Value& automatic = call[kAuto];
+  const Value& automatic = call["auto"];
   for (std::size_t i = 0; i < 3; ++i) {
     const std::span<const Value> flags = automatic.elements();
     if (i < flags.size()) resize.auto_size[i] = flags[i].is_true();
@@ -96,21 +97,19 @@ Resize resize(const ModuleCall& call) {
 // --- From 2D to 3D and back -------------------------------------------------
 
 Projection projection(const ModuleCall& call) {
-  enum { kCut, kConvexity };
-  return {is_set(call[kCut]), to_int(call[kConvexity])};
+  return {is_set(call["cut"]), to_int(call["convexity"])};
 }
 
 Offset offset(const ModuleCall& call) {
-  enum { kR, kDelta, kChamfer };
   Offset offset;
   offset.facets = current_facets(call.in);
   offset.amount = 1;
-  if (call[kR].is_number()) {
-    offset.amount = call[kR].as_number();
-  } else if (call[kDelta].is_number()) {
-    offset.amount = call[kDelta].as_number();
+  if (call["r"].is_number()) {
+    offset.amount = call["r"].as_number();
+  } else if (call["delta"].is_number()) {
+    offset.amount = call["delta"].as_number();
     offset.is_delta = true;
-    offset.chamfer = is_set(call[kChamfer]);
+    offset.chamfer = is_set(call["chamfer"]);
   }
   return offset;
 }
@@ -167,45 +166,34 @@ void deprecate_file(std::string_view module, const ModuleCall& call) {
 }
 
 void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
-  enum {
-    kFile,
-    kLayer,
-    kHeight,
-    kOrigin,
-    kScale,
-    kCenter,
-    kTwist,
-    kSlices,
-    kConvexity
-  };
   Interpreter& in = frame.in;
   const std::size_t mark = in.node_mark();
   const ModuleCall call(code, frame);
   run_assignments(*code.block, frame);
   LinearExtrudeParams params;
   params.facets = current_facets(in);
-  const Value& file = call[kFile];
+  const Value& file = call["file"];
   if (file.is_string()) deprecate_file("linear_extrude", call);
-  if (!call[kHeight].is_undef()) {
-    params.height = to_finite(call[kHeight]).value_or(params.height);
+  if (!call["height"].is_undef()) {
+    params.height = to_finite(call["height"]).value_or(params.height);
   } else if (code.late_argument != nullptr) {
     const Value height = run(code.late_argument, frame);
     params.height = to_finite(height).value_or(params.height);
   }
   if (params.height <= 0) params.height = 0;  // -0 is printed otherwise
   params.convexity =
-      std::max(to_finite(call[kConvexity]) ? to_int(call[kConvexity]) : 1, 1);
-  const Vec2 origin = read_origin(call[kOrigin], "linear_extrude", call);
-  params.scale = read_extrusion_scale(call[kScale], call[kOrigin], call);
-  params.center = is_set(call[kCenter]);
-  if (to_finite(call[kSlices])) {
-    params.slices = std::max(to_int(call[kSlices]), 0);
+      std::max(to_finite(call["convexity"]) ? to_int(call["convexity"]) : 1, 1);
+  const Vec2 origin = read_origin(call["origin"], "linear_extrude", call);
+  params.scale = read_extrusion_scale(call["scale"], call["origin"], call);
+  params.center = is_set(call["center"]);
+  if (to_finite(call["slices"])) {
+    params.slices = std::max(to_int(call["slices"]), 0);
   }
-  params.twist_deg = to_finite(call[kTwist]).value_or(0.0);
+  params.twist_deg = to_finite(call["twist"]).value_or(0.0);
   params.has_twist = params.twist_deg != 0.0;
   if (file.is_string() && !file.as_string().empty()) {
     const ImportParams drawing =
-        import_drawing(file, call[kLayer], origin, params.scale.x, call);
+        import_drawing(file, call["layer"], origin, params.scale.x, call);
     std::string text =
         fmt::format("linear_extrude({}{}, ", drawing_text(drawing, frame),
                     timestamp_text(std::string(drawing.path), frame));
@@ -218,27 +206,26 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
 }
 
 void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
   Interpreter& in = frame.in;
   const std::size_t mark = in.node_mark();
   const ModuleCall call(code, frame);
   run_assignments(*code.block, frame);
   RotateExtrude extrude;
   extrude.facets = current_facets(in);
-  const Value& file = call[kFile];
+  const Value& file = call["file"];
   if (!file.is_undef()) deprecate_file("rotate_extrude", call);
-  extrude.convexity = to_int(call[kConvexity]);
+  extrude.convexity = to_int(call["convexity"]);
   if (extrude.convexity <= 0) extrude.convexity = 2;
-  const Vec2 origin = read_origin(call[kOrigin], "rotate_extrude", call);
-  extrude.angle_deg = to_finite(call[kAngle]).value_or(360.0);
+  const Vec2 origin = read_origin(call["origin"], "rotate_extrude", call);
+  extrude.angle_deg = to_finite(call["angle"]).value_or(360.0);
   if (extrude.angle_deg <= -360 || extrude.angle_deg > 360) {
     extrude.angle_deg = 360;
   }
   if (!file.is_undef() && !to_text(file).empty()) {
-    const double given = call[kScale].number_or_zero();
+    const double given = call["scale"].number_or_zero();
     const double scale = given <= 0 ? 1 : given;
     const ImportParams drawing =
-        import_drawing(file, call[kLayer], origin, scale, call);
+        import_drawing(file, call["layer"], origin, scale, call);
     std::string text = fmt::format(
         "rotate_extrude({}scale = {:g}, {}, ", drawing_text(drawing, frame),
         scale, timestamp_text(std::string(drawing.path), frame));

@@ -63,10 +63,9 @@ bool is_positive(double x) { return x > 0 && std::isfinite(x); }
 // sphere() and circle().
 template <typename Ball>
 Ball ball(const ModuleCall& call, const Facets& facets) {
-  enum { kR, kD };
   Ball ball;
   ball.facets = facets;
-  const Value r = radius(call[kD], call[kR], "d", "r", call);
+  const Value r = radius(call["d"], call["r"], "d", "r", call);
   if (r.is_number()) {
     ball.r = r.as_number();
     if (call.in.options().check_ranges && !is_positive(ball.r)) {
@@ -79,9 +78,8 @@ Ball ball(const ModuleCall& call, const Facets& facets) {
 // --- 3D ---------------------------------------------------------------------
 
 Cube cube(const ModuleCall& call, const Facets&) {
-  enum { kSize, kCenter };
   Cube cube;
-  const Value& size = call[kSize];
+  const Value& size = call["size"];
   if (!size.is_undef()) {
     const bool is_number = size.is_number();
     if (is_number) cube.size = Vec3(size.as_number());
@@ -98,7 +96,7 @@ Cube cube(const ModuleCall& call, const Facets&) {
       call.warn("cube(size={}, ...)", to_echo(size));
     }
   }
-  cube.center = is_set(call[kCenter]);
+  cube.center = is_set(call["center"]);
   return cube;
 }
 
@@ -116,13 +114,12 @@ void check_cylinder(const Cylinder& cylinder, const Value& h, const Value& r1,
 }
 
 Cylinder cylinder(const ModuleCall& call, const Facets& facets) {
-  enum { kH, kR1, kR2, kCenter, kR, kD, kD1, kD2 };
   Cylinder cylinder;
   cylinder.facets = facets;
-  cylinder.h = number_or(call[kH], cylinder.h);
-  const Value r = radius(call[kD], call[kR], "d", "r", call);
-  const Value r1 = radius(call[kD1], call[kR1], "d1", "r1", call);
-  const Value r2 = radius(call[kD2], call[kR2], "d2", "r2", call);
+  cylinder.h = number_or(call["h"], cylinder.h);
+  const Value r = radius(call["d"], call["r"], "d", "r", call);
+  const Value r1 = radius(call["d1"], call["r1"], "d1", "r1", call);
+  const Value r2 = radius(call["d2"], call["r2"], "d2", "r2", call);
   if (r.is_number() && (r1.is_number() || r2.is_number())) {
     call.warn("Cylinder parameters ambiguous");
   }
@@ -131,9 +128,9 @@ Cylinder cylinder(const ModuleCall& call, const Facets& facets) {
   cylinder.r1 = number_or(bottom, cylinder.r1);
   cylinder.r2 = number_or(top, cylinder.r2);
   if (call.in.options().check_ranges) {
-    check_cylinder(cylinder, call[kH], bottom, top, call);
+    check_cylinder(cylinder, call["h"], bottom, top, call);
   }
-  cylinder.center = is_set(call[kCenter]);
+  cylinder.center = is_set(call["center"]);
   return cylinder;
 }
 
@@ -188,20 +185,19 @@ std::string describe_point(const Value& points, std::size_t index) {
 }
 
 Polyhedron polyhedron(const ModuleCall& call, const Facets&) {
-  enum { kPoints, kFaces, kConvexity, kTriangles };
   Interpreter& in = call.in;
-  Value faces = call[kFaces];
-  if (faces.is_undef() && !call[kTriangles].is_undef()) {
-    faces = call[kTriangles];
+  Value faces = call["faces"];
+  if (faces.is_undef() && !call["triangles"].is_undef()) {
+    faces = call["triangles"];
     in.deprecate({},
                  "polyhedron(triangles=[]) will be removed in future releases. "
                  "Use polyhedron(faces=[]) instead.");
   }
   PolyhedronParams polyhedron;
-  bool is_plain = call[kPoints].is_vector();
+  bool is_plain = call["points"].is_vector();
   std::vector<Vec3> points;
   std::set<std::uint32_t> wrong_points;
-  for (const Value& point : call[kPoints].elements()) {
+  for (const Value& point : call["points"].elements()) {
     const std::optional<Vec3> given = to_vec3(point, 0.0);
     if (point.elements().size() != 3 || !given) is_plain = false;
     // 0 · x is NaN where x is not finite.
@@ -214,11 +210,11 @@ Polyhedron polyhedron(const ModuleCall& call, const Facets&) {
   polyhedron.faces = to_index_lists(faces, in, is_plain);
   if (const auto wrong = first_named(polyhedron.faces, wrong_points)) {
     polyhedron.wrong_point =
-        in.keep_text(describe_point(call[kPoints], *wrong));
+        in.keep_text(describe_point(call["points"], *wrong));
   }
-  polyhedron.convexity = std::max(to_int(call[kConvexity]), 1);
+  polyhedron.convexity = std::max(to_int(call["convexity"]), 1);
   if (!is_plain) {
-    polyhedron.csg_text = in.keep_text("points = " + to_echo(call[kPoints]) +
+    polyhedron.csg_text = in.keep_text("points = " + to_echo(call["points"]) +
                                        ", faces = " + to_echo(faces));
   }
   return {in.keep(polyhedron)};
@@ -227,9 +223,8 @@ Polyhedron polyhedron(const ModuleCall& call, const Facets&) {
 // --- 2D ---------------------------------------------------------------------
 
 Square square(const ModuleCall& call, const Facets&) {
-  enum { kSize, kCenter };
   Square square;
-  const Value& size = call[kSize];
+  const Value& size = call["size"];
   if (!size.is_undef()) {
     const bool is_number = size.is_number();
     if (is_number) square.size = Vec2(size.as_number());
@@ -245,37 +240,36 @@ Square square(const ModuleCall& call, const Facets&) {
       call.warn("square(size={}, ...)", to_echo(size));
     }
   }
-  square.center = is_set(call[kCenter]);
+  square.center = is_set(call["center"]);
   return square;
 }
 
 Polygon polygon(const ModuleCall& call, const Facets&) {
-  enum { kPoints, kPaths, kConvexity };
   Interpreter& in = call.in;
   PolygonParams polygon;
-  bool is_plain = call[kPoints].is_vector();
+  bool is_plain = call["points"].is_vector();
   std::vector<Vec2> points;
-  for (const Value& point : call[kPoints].elements()) {
+  for (const Value& point : call["points"].elements()) {
     const std::optional<Vec2> given = to_vec2(point);
     if (!given) is_plain = false;
     const bool is_wrong =
         !given || std::isinf(given->x) || std::isinf(given->y);
     if (is_wrong && polygon.wrong_point.empty()) {
       polygon.wrong_point =
-          in.keep_text(describe_point(call[kPoints], points.size()));
+          in.keep_text(describe_point(call["points"], points.size()));
     }
     points.push_back(given.value_or(Vec2(0)));
   }
   polygon.points = in.keep_all<Vec2>(points);
-  const Value& paths = call[kPaths];
+  const Value& paths = call["paths"];
   if (!paths.elements().empty()) {
     polygon.paths = to_index_lists(paths, in, is_plain);
   } else if (!paths.is_undef()) {
     is_plain = false;
   }
-  polygon.convexity = std::max(to_int(call[kConvexity]), 1);
+  polygon.convexity = std::max(to_int(call["convexity"]), 1);
   if (!is_plain) {
-    polygon.csg_text = in.keep_text("points = " + to_echo(call[kPoints]) +
+    polygon.csg_text = in.keep_text("points = " + to_echo(call["points"]) +
                                     ", paths = " + to_echo(paths));
   }
   return {in.keep(polygon)};

@@ -5,7 +5,6 @@
 #include "base/utf8.h"
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
-#include "csg/eval/value/integers.h"
 #include "csg/eval/value/operators.h"
 #include "csg/eval/value/text.h"
 
@@ -115,7 +114,7 @@ Value search_in_table(const Value& wanted, const Value& table,
 }
 
 std::uint32_t to_count(double number) {
-  return static_cast<std::uint32_t>(cut_to_int64(number));
+  return static_cast<std::uint32_t>(cut_to<std::int64_t>(number));
 }
 
 }  // namespace

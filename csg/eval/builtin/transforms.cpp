@@ -35,7 +35,7 @@ Mat4 times_identity(const Mat4& matrix) {
 }
 
 Mat4 scale_matrix(const ModuleCall& call) {
-  const Value& v = call[0];
+  const Value& v = call["v"];
   Vec3 factors(1.0);
   if (!read_vec3(v, 1.0, factors)) {
     if (v.is_number()) {
@@ -123,8 +123,8 @@ Mat4 axis_matrix(double angle, const Vec3& v) {
 }
 
 Mat4 rotation_matrix(const ModuleCall& call) {
-  const Value& a = call[0];
-  const Value& v = call[1];
+  const Value& a = call["a"];
+  const Value& v = call["v"];
   if (a.is_vector()) return times_identity(euler_matrix(a, v, call));
   const std::optional<double> angle = to_finite(a);
   Vec3 axis(0, 0, 1);
@@ -143,7 +143,7 @@ Mat4 rotation_matrix(const ModuleCall& call) {
 }
 
 Mat4 mirror_matrix(const ModuleCall& call) {
-  const Value& v = call[0];
+  const Value& v = call["v"];
   Vec3 n(1, 0, 0);
   if (!read_vec3(v, 0.0, n)) {
     call.warn(
@@ -163,7 +163,7 @@ Mat4 mirror_matrix(const ModuleCall& call) {
 }
 
 Mat4 translation_matrix(const ModuleCall& call) {
-  const Value& v = call[0];
+  const Value& v = call["v"];
   Vec3 shift(0.0);
   const bool is_fine = read_vec3(v, 0.0, shift) && std::isfinite(shift.x) &&
                        std::isfinite(shift.y) && std::isfinite(shift.z);
@@ -183,7 +183,7 @@ Mat4 translation_matrix(const ModuleCall& call) {
 // element.
 Mat4 given_matrix(const ModuleCall& call) {
   Mat4 matrix(1.0);
-  const std::span<const Value> rows = call[0].elements();
+  const std::span<const Value> rows = call["m"].elements();
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 4); ++i) {
     const std::span<const Value> row = rows[i].elements();
     for (std::size_t j = 0; j < std::min<std::size_t>(row.size(), 4); ++j) {

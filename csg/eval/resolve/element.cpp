@@ -3,18 +3,13 @@
 #include <variant>
 
 #include "csg/eval/resolve/expression.h"
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 
 namespace lamina::csg {
 
 struct ElementVisitor {
   ExpressionResolver& self;
   const ast::Expr& expr;
-
-  template <typename T>
-  T* make(Element::Emit emit) const {
-    return self.make<T>(emit, expr.range);
-  }
 
   const Element* operator()(const ast::ForElements& loop) const {
     return self.for_element(loop.bindings, 0, *loop.body, expr.range);
@@ -23,7 +18,7 @@ struct ElementVisitor {
     return self.for_c_element(loop, expr.range);
   }
   const Element* operator()(const ast::IfElements& written) const {
-    auto* code = make<IfElement>(emit_if);
+    auto* code = self.make<IfElement>(emit_if, expr.range);
     code->condition = self.resolve(*written.condition);
     code->if_true = self.element(*written.if_true);
     if (written.if_false != nullptr) {
@@ -32,20 +27,20 @@ struct ElementVisitor {
     return code;
   }
   const Element* operator()(const ast::EachElements& each) const {
-    auto* code = make<EachElement>(emit_each);
+    auto* code = self.make<EachElement>(emit_each, expr.range);
     code->body = self.element(*each.body);
     return code;
   }
   const Element* operator()(const ast::LetElements& let) const {
     const NestedScope nested(self.resolver_, self.scope_);
-    auto* code = make<LetElement>(emit_let);
+    auto* code = self.make<LetElement>(emit_let, expr.range);
     code->bindings = self.sequential_bindings(let.bindings, expr.range, false);
     code->body = self.element(*let.body);
     return code;
   }
   template <typename T>
   const Element* operator()(const T&) const {
-    auto* code = make<Element>(emit_value);
+    auto* code = self.make<Element>(emit_value, expr.range);
     code->value = self.resolve(expr);
     return code;
   }
@@ -62,17 +57,10 @@ const Element* ExpressionResolver::for_element(ast::Arguments bindings,
   if (first == bindings.size()) return element(body);
   const ast::Argument& written = bindings[first];
   auto* code = make<ForElement>(emit_for, range);
-  code->binding.name = written.name;
-  code->binding.range = range;
-  code->binding.value = resolve(*written.value);
+  code->binding = {
+      .name = written.name, .value = resolve(*written.value), .range = range};
   const NestedScope nested(resolver_, scope_);
-  Variable* variable = nullptr;
-  if (!is_dynamic_name(written.name)) {
-    variable = declare(written.name, false);
-    variable->is_set = true;
-    variable->is_repeated = true;
-  }
-  code->binding.target = target(written.name, variable);
+  code->binding.target = declare_set(written.name, false, true);
   code->body = for_element(bindings, first + 1, body, range);
   return code;
 }

@@ -3,7 +3,7 @@
 #include <unordered_set>
 #include <variant>
 
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/operators.h"
 #include "parser/tree_facts.h"
 

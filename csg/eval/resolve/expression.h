@@ -41,6 +41,10 @@ class ExpressionResolver {
   // Declares a variable of the scope at hand (a slot of its activation).
   Variable* declare(std::string_view name, bool is_statement_level);
   Target target(std::string_view name, Variable* variable);
+  // Where the value of a name goes that has one from here on: a variable that
+  // is declared, or a `$` variable.
+  Target declare_set(std::string_view name, bool is_statement_level,
+                     bool is_repeated);
 
   Scope& scope() { return *scope_; }
 

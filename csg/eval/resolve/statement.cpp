@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "csg/eval/builtin/modules.h"
-#include "csg/eval/run/statement.h"
+#include "csg/eval/run/runners.h"
 #include "parser/tree_facts.h"
 
 namespace lamina::csg {
@@ -121,7 +121,7 @@ const InstantiationCode* StatementResolver::instantiation(
 
 const InstantiationCode* StatementResolver::call(
     const ast::Instantiation& written, SourceRange range) {
-  const auto callee = resolver_.find_module(*scope_, written.name);
+  const auto callee = resolver_.find(*scope_, written.name, &Scope::modules);
   InstantiationCode* code = callee.code != nullptr
                                 ? user_module(written, range, callee)
                                 : builtin(written, range);
@@ -167,17 +167,12 @@ InstantiationCode* StatementResolver::loop(const ast::Instantiation& written,
   std::vector<Binding> bindings;
   for (const ast::Argument& argument : written.arguments) {
     ExpressionResolver resolver = expressions();
-    Binding binding;
-    binding.name = argument.name;
-    binding.range = range;
-    binding.value = resolver.resolve(*argument.value);
-    Variable* variable = nullptr;
-    if (!is_dynamic_name(argument.name)) {
-      variable = resolver.declare(argument.name, true);
-      variable->is_set = true;
-    }
-    binding.target = resolver.target(argument.name, variable);
-    bindings.push_back(binding);
+    const Expression* value = resolver.resolve(*argument.value);
+    bindings.push_back(
+        {.target = resolver.declare_set(argument.name, true, true),
+         .name = argument.name,
+         .value = value,
+         .range = range});
   }
   code->bindings = resolver_.keep(bindings);
   code->block = block(written.children);
@@ -202,21 +197,13 @@ InstantiationCode* StatementResolver::assign(const ast::Instantiation& written,
   std::vector<Binding> bindings;
   for (const ast::Argument& argument : written.arguments) {
     if (argument.name.empty()) continue;
-    Binding binding;
-    binding.name = argument.name;
-    binding.range = range;
-    binding.value = expressions().resolve(*argument.value);
-    bindings.push_back(binding);
+    bindings.push_back({.name = argument.name,
+                        .value = expressions().resolve(*argument.value),
+                        .range = range});
   }
   const NestedScope open(resolver_, scope_);
   for (Binding& binding : bindings) {
-    ExpressionResolver resolver = expressions();
-    Variable* variable = nullptr;
-    if (!is_dynamic_name(binding.name)) {
-      variable = resolver.declare(binding.name, true);
-      variable->is_set = true;
-    }
-    binding.target = resolver.target(binding.name, variable);
+    binding.target = expressions().declare_set(binding.name, true, false);
   }
   code->bindings = resolver_.keep(bindings);
   code->block = block(written.children);
@@ -239,10 +226,11 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
   }
   const BuiltinModuleEntry* entry = find_builtin_module(name);
   if (entry == nullptr) {
-    return make<UnknownModuleCode>(run_unknown_module, range);
+    return make<InstantiationCode>(run_unknown_module, range);
   }
   auto* code = make<BuiltinModuleCode>(run_builtin_module, range);
   code->handler = entry->handler;
+  code->parameters = entry->parameters;
   code->unit = scope_->unit;
   code->deprecated_for = entry->replacement;
   code->arguments = expressions().arguments(written.arguments);

@@ -4,7 +4,7 @@
 
 #include "csg/eval/resolve/expression.h"
 #include "csg/eval/resolve/prefixed_literal.h"
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 
 namespace lamina::csg {
 
@@ -24,6 +24,18 @@ Target ExpressionResolver::target(std::string_view name, Variable* variable) {
     return {Target::Kind::kDynamic, resolver_.names().number_of(name), nullptr};
   }
   return {Target::Kind::kSlot, variable->slot, variable};
+}
+
+Target ExpressionResolver::declare_set(std::string_view name,
+                                       bool is_statement_level,
+                                       bool is_repeated) {
+  Variable* variable = nullptr;
+  if (!is_dynamic_name(name)) {
+    variable = declare(name, is_statement_level);
+    variable->is_set = true;
+    variable->is_repeated = is_repeated;
+  }
+  return target(name, variable);
 }
 
 // Returns the index of a captured variable in the closures of `literal`.

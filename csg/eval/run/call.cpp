@@ -1,11 +1,11 @@
-// Running function literals, calls and bodies (see expression.h).
+// Running function literals, calls and bodies (see runners.h).
 
 #include <cassert>
 
 #include <fmt/format.h>
 
-#include "csg/eval/run/expression.h"
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {

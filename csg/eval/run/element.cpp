@@ -1,9 +1,9 @@
-// Running vectors and comprehensions (see expression.h).
+// Running vectors and comprehensions (see runners.h).
 
 #include <fmt/format.h>
 
 #include "csg/eval/run/each_value.h"
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 
 namespace lamina::csg {
 

@@ -1,10 +1,11 @@
-#include "csg/eval/run/expression.h"
+// Running variables, conditions, ranges and let (see runners.h).
 
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/operators.h"
 #include "csg/eval/value/text.h"
 

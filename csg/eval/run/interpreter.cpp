@@ -44,11 +44,8 @@ Interpreter::~Interpreter() {
       const Value let_go = std::move(box->value);
       box->value = Value();
     }
-    if (boxes_.next != box) continue;
-    // Another value still holds it: only take it out of the list.
-    boxes_.next = box->next;
-    if (box->next != nullptr) box->next->previous = &boxes_;
-    box->previous = box->next = nullptr;
+    // Another value may still hold it.
+    if (boxes_.next == box) box->leave_list();
   }
 }
 

@@ -1,10 +1,10 @@
-// Running operators (see expression.h).
+// Running operators (see runners.h).
 
 #include <cmath>
 #include <functional>
 
-#include "csg/eval/run/expression.h"
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/operators.h"
 
 namespace lamina::csg {

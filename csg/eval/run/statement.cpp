@@ -1,10 +1,11 @@
-#include "csg/eval/run/statement.h"
+// Running instantiations (see runners.h).
 
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "csg/eval/run/each_value.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <string_view>
 
-#include "csg/eval/value/integers.h"
 #include "csg/eval/value/object.h"
 #include "parser/ast_printer.h"
 
@@ -130,8 +129,8 @@ Value divide(Value&& left, Value&& right, Reason& reason) {
 
 // Bitwise operators see numbers cut to integers of 64 bits in two's complement.
 Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
-  const std::int64_t a = cut_to_int64(left);
-  const std::int64_t b = cut_to_int64(right);
+  const std::int64_t a = cut_to<std::int64_t>(left);
+  const std::int64_t b = cut_to<std::int64_t>(right);
   const bool is_shift =
       op == BinaryOp::kShiftLeft || op == BinaryOp::kShiftRight;
   if (is_shift && (b < 0 || b >= 64)) {
@@ -153,7 +152,7 @@ Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
 
 Value invert(const Value& value, Reason& reason) {
   if (value.is_number()) {
-    return Value(static_cast<double>(~cut_to_int64(value.as_number())));
+    return Value(static_cast<double>(~cut_to<std::int64_t>(value.as_number())));
   }
   return undefined_because(reason, "undefined operation (~{})",
                            type_name(value.type()));

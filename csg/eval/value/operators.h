@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -52,6 +53,16 @@ Value compare(ast::BinaryOp op, const Value& left, const Value& right,
 // elements. undef with its reason where sizes or elements do not fit.
 Value multiply_vectors(std::span<const Value> a, std::span<const Value> b,
                        Reason& reason);
+
+// Cut towards zero. What does not fit becomes the least integer, as on x86; C++
+// leaves that undefined.
+template <typename Integer>
+Integer cut_to(double number) {
+  constexpr Integer kLeast = std::numeric_limits<Integer>::min();
+  return std::fabs(number) < -static_cast<double>(kLeast)
+             ? static_cast<Integer>(number)
+             : kLeast;
+}
 
 // std::fmod, quicker where both are whole numbers, as they mostly are.
 inline double modulo(double a, double b) {

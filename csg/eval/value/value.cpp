@@ -264,7 +264,8 @@ void Value::destroy() {
       delete static_cast<Closure*>(payload_.counted);
       return;
     case Type::kBox:
-      delete_box(&as_box());
+      as_box().leave_list();
+      delete &as_box();
       return;
     default:
       break;
@@ -287,12 +288,6 @@ void Value::destroy() {
     }
     free_block(buffer, bytes_of(*buffer));
   }
-}
-
-void delete_box(Box* box) {
-  if (box->previous != nullptr) box->previous->next = box->next;
-  if (box->next != nullptr) box->next->previous = box->previous;
-  delete box;
 }
 
 // --- VectorBuilder --------------------------------------------------------
