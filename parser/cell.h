@@ -8,9 +8,8 @@
 //     Ada, size 57           anything else is text, as it stands
 //
 // A variable that the design sets to a text takes all but quoted text as it
-// stands, so that an engraving may be 2024. A variable that it sets to a
-// number, a truth value or a vector takes one of these or a quoted text, so
-// that a typing mistake does not make another ring.
+// stands: an engraving may be 2024. One that it sets to a number, a truth value
+// or a vector takes one of these or a quoted text, and no typing mistake.
 
 #include <string>
 #include <string_view>

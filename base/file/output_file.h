@@ -2,11 +2,10 @@
 // An output that appears whole or not at all.
 //
 // Bytes go to a temporary file (temporary_files.h), which takes the target's
-// name at the end; whatever ends the run before that leaves nothing behind.
-// What cannot be renamed over (standard output, a device, a FIFO) gets its
-// bytes at the end from an unnamed temporary file, so that formats whose
+// name at the end. What cannot be renamed over (standard output, a device, a
+// FIFO) gets its bytes at the end from an unnamed one, so that formats whose
 // header is known last (SLC) can still be patched. Everything goes through one
-// large buffer: writers append small pieces, the kernel sees megabytes.
+// large buffer.
 
 #include <cstddef>
 #include <cstdint>
@@ -57,7 +56,7 @@ class OutputFile {
   std::uint64_t size() const { return flushed_ + used_; }
 
  private:
-  // Large enough that system calls do not show, small beside a program's 12 MB.
+  // So large that system calls do not show.
   static constexpr std::size_t kBufferSize = 1 << 18;
 
   OutputFile(std::string path, OutputPlace place,
