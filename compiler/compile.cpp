@@ -24,8 +24,8 @@ std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
   std::vector<std::string> files = c.loader.files();
   files.insert(files.end(), c.tree.files.begin(), c.tree.files.end());
   const std::string text = make_rule(c.request.output, files);
-  auto rule =
-      std::make_unique<OutputFile>(c.request.dependencies, c.temporary_files);
+  std::unique_ptr<OutputFile> rule(new OutputFile(
+      OutputFile::open(c.request.dependencies, c.temporary_files)));
   rule->write(text);
   return rule;
 }

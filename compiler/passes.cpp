@@ -206,7 +206,7 @@ std::string csg_text(Compilation& c) {
 
 void write_file(const std::string& path, std::string_view text,
                 TemporaryFiles& temporary_files) {
-  OutputFile output(path, temporary_files);
+  OutputFile output = OutputFile::open(path, temporary_files);
   output.write(text);
   output.commit();
 }

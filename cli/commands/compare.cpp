@@ -188,7 +188,7 @@ class CompareCommand : public Command {
         comparison.layer_a(index).contours, comparison.layer_b(index).contours,
         result.layers[index],
         {file_name(result.a.name), file_name(result.b.name)});
-    OutputFile output(picture_, temporary_files);
+    OutputFile output = OutputFile::open(picture_, temporary_files);
     write_png(picture, output);
     output.commit();
   }

@@ -56,7 +56,7 @@ Variables variables_of(const compiler::Request& request,
 
 struct Column {
   std::string name;
-  std::optional<VariableKind> variable;  // that it sets
+  std::optional<ast::ValueType> variable;  // that it sets
 };
 
 // Returns what `work` returns; names the column in whatever FileError it
@@ -121,12 +121,12 @@ class TableReader {
   }
 
   // No value where the column sets no variable.
-  std::optional<VariableKind> kind_of(const std::string& name,
-                                      const Variables& variables) const {
+  std::optional<ast::ValueType> kind_of(const std::string& name,
+                                        const Variables& variables) const {
     if (options_.skipped.contains(name)) return std::nullopt;
     const auto variable = variables.find(name);
     if (variable != variables.end()) return variable->second;
-    if (name.starts_with('$')) return VariableKind::kAny;
+    if (name.starts_with('$')) return ast::ValueType::kAny;
     return std::nullopt;
   }
 

@@ -168,7 +168,8 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
     return kDone;
   }
   const slicer::Image picture = draw_picture(*layers, title, options);
-  OutputFile output(request.output, compilation.temporary_files);
+  OutputFile output =
+      OutputFile::open(request.output, compilation.temporary_files);
   write_png(picture, output);
   output.commit();
   return kDone;

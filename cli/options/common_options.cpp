@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/number.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
@@ -93,7 +93,7 @@ MemoryLimit parse_memory_limit(const std::string& text) {
 
 FileAccess make_file_access(const FileAccess::Limits& limits) {
   try {
-    return FileAccess(limits);
+    return FileAccess::within(limits);
   } catch (const AccessError& error) {
     throw UsageError(error.what());
   }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <system_error>
 
-#include "base/number.h"
+#include "base/text.h"
 #include "slicer/check/thin_finder.h"
 
 namespace lamina::cli {

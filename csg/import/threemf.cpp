@@ -68,7 +68,7 @@ bool has_low_resolution(const pugi::xml_node& object) {
 }  // namespace
 
 std::vector<RawMesh> parse_3mf(std::string_view bytes) {
-  const ZipArchive archive(bytes);
+  const ZipArchive archive = ZipArchive::open(bytes);
   const std::string part = model_part(archive);
   const auto model = archive.read(part);
   if (!model) throw FormatError(fmt::format("3MF holds no '{}'", part));

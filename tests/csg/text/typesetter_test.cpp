@@ -470,7 +470,7 @@ TEST_F(TypesetterTest, AFontThatIsEmptiedMeanwhileStaysWhole) {
 TEST_F(TypesetterTest, AFontThatTheMachineCannotReadIsAnError) {
   const support::TemporaryFolder folder;
   const std::string file = folder.write("own.ttf", renamed_font());
-  const FileAccess access({folder.path(), {}, false});
+  const FileAccess access = FileAccess::within({folder.path(), {}, false});
   const auto whole = set("A");  // opens the module, too
   for (const FileAccess* const files : {&access, &kAllFiles}) {
     Typesetter typesetter({LAMINA_MODULES}, diagnostics_, *files);
