@@ -29,15 +29,16 @@ OutputFile OutputFile::open(std::string path, TemporaryFiles& temporary_files) {
   OutputPlace place;
   if (path != "-") place = temporary_files.file_access().find_output(path);
   if (place.error != 0) fail(path, place.error);
-  const auto there = place.there;
-  if (there && S_ISDIR(there->st_mode)) fail(path, EISDIR);
+  const bool is_there = place.there.has_value();
+  const mode_t mode = is_there ? place.there->st_mode : S_IFREG;
+  if (S_ISDIR(mode)) fail(path, EISDIR);
   TemporaryFiles::File temporary;
-  if (path == "-" || (there && !S_ISREG(there->st_mode))) {
+  if (path == "-" || !S_ISREG(mode)) {
     place = {};
     temporary.file = temporary_files.open_nameless();
   } else {
-    if (there && ::faccessat(AT_FDCWD, place.path.c_str(), W_OK,
-                             AT_SYMLINK_NOFOLLOW) != 0) {
+    if (is_there && ::faccessat(AT_FDCWD, place.path.c_str(), W_OK,
+                                AT_SYMLINK_NOFOLLOW) != 0) {
       fail(path, errno);
     }
     temporary = temporary_files.open_file(place.path);
