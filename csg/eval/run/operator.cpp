@@ -87,6 +87,8 @@ Reach reach_of(const Expression& code) {
   }
 }
 
+// Constants and results have operands of their own: neither has a spill to
+// destroy, and a result is made where it stays.
 template <Reach reach>
 class Operand {
  public:
@@ -99,10 +101,6 @@ class Operand {
     if constexpr (reach == Reach::kLocal) {
       const Value& local = frame.slots[code->slot];
       return is_plain(local) ? local : look_further(code, frame, spill_);
-    } else if constexpr (reach == Reach::kConstant) {
-      return *as<Constant>(*code).value;
-    } else if constexpr (reach == Reach::kComputed) {
-      return spill_ = run(code, frame);
     } else {
       return look(code, frame, spill_);
     }
@@ -110,6 +108,27 @@ class Operand {
 
   Value spill_;
   const Value& value_;
+};
+template <>
+class Operand<Reach::kConstant> {
+ public:
+  Operand(const Expression* code, Frame&)
+      : value_(*as<Constant>(*code).value) {}
+  const Value& value() const { return value_; }
+  Value take() { return value_; }
+
+ private:
+  const Value& value_;
+};
+template <>
+class Operand<Reach::kComputed> {
+ public:
+  Operand(const Expression* code, Frame& frame) : value_(run(code, frame)) {}
+  const Value& value() const { return value_; }
+  Value take() { return std::move(value_); }
+
+ private:
+  Value value_;
 };
 
 // Applies a binary operator to operands that are not both numbers, or to bits.
