@@ -90,7 +90,7 @@ void Lowerer::place_sum(const Operand& sum, const Node& node,
     moved[3] = world * Vec4(body.shift, 1);
     place_scene(*body.scene, moved);
   }
-  place_leaf(make_leaf(sum.convex), node, world);
+  place_leaf(make_leaf(sum), node, world);
 }
 
 // Takes the operands off the stack, each as a scene with all leaves.
