@@ -7,19 +7,19 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/convex_hull.h"
 #include "csg/boundary/leaf_faces.h"
 #include "csg/limits.h"
+#include "csg/minkowski/boolean_faces.h"
 #include "csg/minkowski/connected_faces.h"
 #include "csg/minkowski/convex_leaf.h"
 #include "csg/minkowski/convex_pairs.h"
 #include "csg/minkowski/surface_sum.h"
 #include "csg/plane/convex_faces.h"
-#include "csg/plane/triangulate.h"
-#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -33,16 +33,20 @@ Convex add_prism(const Prism& prism, const Convex& other) {
   return add_flat(prism.base, swept);
 }
 
-Convex add_solids(const Convex& a, const Convex& b) {
-  if (const auto prism = as_prism(a)) return add_prism(*prism, b);
-  if (const auto prism = as_prism(b)) return add_prism(*prism, a);
-  const Mesh hull = convex_hull(extreme_sums(a, b));
+Convex hull_of(std::vector<Vec3> points) {
+  const Mesh hull = convex_hull(std::move(points));
   std::vector<std::vector<std::uint32_t>> loops;
   for (planar::Face& face :
        planar::merge_to_convex(hull.vertices, hull.triangles)) {
     loops.push_back(std::move(face.corners));
   }
   return make_solid(hull.vertices, loops);
+}
+
+Convex add_solids(const Convex& a, const Convex& b) {
+  if (const auto prism = as_prism(a)) return add_prism(*prism, b);
+  if (const auto prism = as_prism(b)) return add_prism(*prism, a);
+  return hull_of(extreme_sums(a, b));
 }
 
 bool is_point(const Convex& body) { return body.vertices.size() == 1; }
@@ -73,34 +77,6 @@ JoinedFaces join(Mesh mesh) {
     normals.push_back(face.normal);
   }
   return {std::move(mesh.vertices), std::move(loops), normals};
-}
-
-// The faces of a Boolean as triangles; equal vertices are one.
-Mesh triangulate(std::span<const BoundaryFace> faces) {
-  Mesh mesh;
-  VertexTable names;
-  for (const BoundaryFace& face : faces) {
-    // A plane that turns the face's normal to the viewer.
-    const Vec3 n = face.normal;
-    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    const Vec3 x_axis = glm::normalize(glm::cross(other, n));
-    const Vec3 y_axis = glm::cross(n, x_axis);
-    planar::Region region;
-    std::vector<std::uint32_t> corners;
-    for (const std::vector<Vec3>& contour : face.contours) {
-      region.contours.emplace_back();
-      for (const Vec3& p : contour) {
-        region.contours.back().emplace_back(glm::dot(p, x_axis),
-                                            glm::dot(p, y_axis));
-        corners.push_back(names.name(p));
-      }
-    }
-    for (const auto& t : planar::triangulate(region)) {
-      mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
-    }
-  }
-  mesh.vertices = names.take_points();
-  return mesh;
 }
 
 Mesh mesh_of(LeafFaces faces) {
@@ -137,9 +113,14 @@ class Divider {
  private:
   void add_boolean(std::uint32_t node) {
     Scene part = node == 0 ? scene_ : cut_out(node);
-    Mesh mesh = triangulate(boundary_faces(part));
-    if (mesh.triangles.empty()) return;  // nothing is left of it
-    operand_.bodies.push_back(make_body(std::move(part), std::move(mesh), {}));
+    const std::vector<BoundaryFace> faces = boundary_faces(part);
+    if (faces.empty()) return;  // nothing is left of it
+    if (is_convex(faces)) {
+      operand_.convex.push_back(hull_of(corners_of(faces)));
+    } else {
+      operand_.bodies.push_back(
+          make_body(std::move(part), triangulate(faces), {}));
+    }
   }
 
   void add_instance(const Instance& instance) {
