@@ -133,7 +133,7 @@ Json layers_json(const compiler::Report& report) {
           {"chain_points", slice.sweep.points},
           {"slabs", slice.sweep.slabs},
           {"event_points", slice.sweep.event_points},
-          {"evaluations", slice.sweep.evaluations},
+          {"states", slice.sweep.states},
           {"resolved_layers", slice.sweep.resolved_layers},
           {"image_pixels", slice.paper.pixels},
           {"image_samples", slice.paper.samples},

@@ -45,6 +45,14 @@ struct ChainLoop {
   bool operator==(const ChainLoop&) const = default;
 };
 
+// What the ray is given of one layer. The loops lead through all of the chains
+// in their order.
+struct LayerChains {
+  std::span<const Vec2> points;
+  std::span<const Chain> chains;
+  std::span<const ChainLoop> loops;
+};
+
 namespace detail {
 struct SectionScratch;
 }
@@ -73,10 +81,12 @@ struct ChainBlock {
     const std::uint32_t begin = i == 0 ? 0 : layer_ends[i - 1];
     return {chains.data() + begin, layer_ends[i] - begin};
   }
-  // Loops of the layer, which lead through all of its chains in their order.
   std::span<const ChainLoop> loops_of(std::uint32_t i) const {
     const std::uint32_t begin = i == 0 ? 0 : loop_ends[i - 1];
     return {loops.data() + begin, loop_ends[i] - begin};
+  }
+  LayerChains chains_of(std::uint32_t i) const {
+    return {points, layer(i), loops_of(i)};
   }
   // Whether the layer has the chains of the one before it, point for point, as
   // where all walls are upright; so it has its contours too.

@@ -15,8 +15,9 @@
 //
 // Nothing is computed anew at an event point: neighbours swap, states of the
 // Boolean program change from the swap upwards until they are what they were,
-// and the program is evaluated once for each state. The cost is that of the
-// changes, not of the leaves on the ray.
+// and a state is known once it was met. The cost is that of the changes, not of
+// the leaves on the ray. Where solids overlap so much that most changes are
+// hidden, the layer is swept in groups (ldni/sweep/detail/cascade.h).
 //
 // Faces that coincide up to rounding tie: samples nearer than kTieDistance
 // between two vertices are one curve, of which only the solid below and above
@@ -37,6 +38,10 @@
 
 namespace lamina::ldni {
 
+namespace detail {
+class Cascade;
+}
+
 // Turns the chains of a layer into the exact contours of the Boolean of the
 // leaves. One object per thread: it owns the scratch that layers share.
 class KineticRay {
@@ -51,8 +56,7 @@ class KineticRay {
   SweepCounts counts() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<detail::Cascade> cascade_;
 };
 
 }  // namespace lamina::ldni

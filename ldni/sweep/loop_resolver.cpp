@@ -23,7 +23,7 @@ struct LoopResolver::State {
   State(double tie_distance, double merge_distance)
       : scene(one_leaf()),
         states(scene, detail::ProgramStates::Rule::kPositive),
-        sweep(states, {0, tie_distance, merge_distance}) {
+        sweep({0, tie_distance, merge_distance}) {
     block.layer_count = 1;
   }
 
@@ -48,7 +48,7 @@ void LoopResolver::resolve(Contours& contours) {
     builder.close_loop(0, 0, 1);
   }
   builder.finish(state_->block);
-  state_->sweep.sweep(state_->block, 0, contours);
+  state_->sweep.sweep(state_->block.chains_of(0), state_->states, contours);
 }
 
 SweepCounts LoopResolver::counts() const { return state_->sweep.counts(); }

@@ -11,7 +11,7 @@ struct SweepCounts {
   std::uint64_t points = 0;  // vertices of chains
   std::uint64_t slabs = 0;
   std::uint64_t event_points = 0;
-  std::uint64_t evaluations = 0;  // of states by the Boolean program
+  std::uint64_t states = 0;  // of the Boolean program, as they were met
   // Layers with faces nearer than a tie but not the same: their loops were
   // swept once more.
   std::uint64_t resolved_layers = 0;
@@ -26,7 +26,7 @@ struct SweepCounts {
     points += other.points;
     slabs += other.slabs;
     event_points += other.event_points;
-    evaluations += other.evaluations;
+    states += other.states;
     resolved_layers += other.resolved_layers;
     unbalanced_clusters += other.unbalanced_clusters;
     repaired_clusters += other.repaired_clusters;

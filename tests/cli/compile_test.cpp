@@ -156,15 +156,15 @@ TEST(Compile, EveryAxisKeepsVolumeAndTurnsRightHanded) {
   for (const auto& [axis, height] : heights) {
     ASSERT_EQ(run(folder, {"a.scad", "--axis", axis}).status, 0) << axis;
     slicer::SlcReader reader(folder.file("a.slc"));
-    const auto z = (*reader.header().extents)[2];
+    const auto z = (*reader.facts().extents)[2];
     EXPECT_NEAR(z.y - z.x, height, 1e-4) << axis;
     EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 2, 1e-4) << axis;
   }
   // (x, y, z) → (y, z, x): the arm along y lies along x now.
   ASSERT_EQ(run(folder, {"a.scad", "--axis", "x"}).status, 0);
   slicer::SlcReader reader(folder.file("a.slc"));
-  EXPECT_NEAR((*reader.header().extents)[0].y, 3, 1e-6);
-  EXPECT_NEAR((*reader.header().extents)[1].y, 2, 1e-6);
+  EXPECT_NEAR((*reader.facts().extents)[0].y, 3, 1e-6);
+  EXPECT_NEAR((*reader.facts().extents)[1].y, 2, 1e-6);
 }
 
 TEST(Compile, EmptyLayersInsideStayAndOutsideGo) {
@@ -246,8 +246,8 @@ TEST(Compile, ScaleIsScaleOfTheDesignAndLeavesLayersAsTheyAre) {
             0);
   EXPECT_EQ(read_slc(folder.file("c.slc")).size(), 102U);
   slicer::SlcReader reader(folder.file("c.slc"));
-  EXPECT_EQ(reader.sampling().front().thickness, 0.1F);
-  EXPECT_NEAR((*reader.header().extents)[0].y, 10.2, 1e-6);
+  EXPECT_EQ(reader.facts().sampling.front().thickness, 0.1F);
+  EXPECT_NEAR((*reader.facts().extents)[0].y, 10.2, 1e-6);
   folder.write("flat.scad", "square(10);");
   ASSERT_EQ(run(folder, {"flat.scad", "--scale", "1.5", "-o", "a.layers.json"})
                 .status,
@@ -271,13 +271,13 @@ TEST(Compile, CompensationIsInTheLayersAndInTheTable) {
   const auto json = nlohmann::json::parse(read_file(folder.file("r.json")));
   EXPECT_EQ(json.at("vanished_regions"), 2);
   slicer::SlcReader reader(folder.file("a.slc"));
-  EXPECT_EQ(reader.sampling().front().line_width_compensation, 0.05F);
+  EXPECT_EQ(reader.facts().sampling.front().line_width_compensation, 0.05F);
   EXPECT_NEAR(volume(read_slc(folder.file("a.slc"))), 9.9 * 9.9, 1e-4);
 
   ASSERT_EQ(run(folder, {"a.scad", "--compensate", "-0.05"}).status, 0);
   slicer::SlcReader outwards(folder.file("a.slc"));
-  EXPECT_EQ(outwards.sampling().front().line_width_compensation, -0.05F);
-  EXPECT_NEAR((*outwards.header().extents)[0].x, -0.05, 1e-6);
+  EXPECT_EQ(outwards.facts().sampling.front().line_width_compensation, -0.05F);
+  EXPECT_NEAR((*outwards.facts().extents)[0].x, -0.05, 1e-6);
 
   const auto nothing = run(folder, {"a.scad", "--compensate", "6"});
   EXPECT_EQ(nothing.status, 1);

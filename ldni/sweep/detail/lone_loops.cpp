@@ -44,18 +44,16 @@ double area_below(std::span<const Vec2> chain) {
 
 }  // namespace
 
-void LoneLoops::find(const ChainBlock& block, std::uint32_t layer,
-                     const ProgramStates& states) {
-  points_ = block.points;
-  chains_ = block.layer(layer);
+void LoneLoops::find(const LayerChains& layer, const ProgramStates& states) {
+  points_ = layer.points;
+  chains_ = layer.chains;
   sides_.assign(chains_.size(), kNoSide);
-  const std::span<const ChainLoop> loops = block.loops_of(layer);
-  if (!is_worthwhile(loops)) return;
-  list_candidates(loops, states);
+  if (!is_worthwhile(layer.loops)) return;
+  list_candidates(layer.loops, states);
   if (candidates_.size() < kLeastCandidates) return;
   lay_grid();
   claim_boxes();
-  block_edges(loops);
+  block_edges(layer.loops);
   for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
     if (!is_alone(i)) continue;
     const Candidate& candidate = candidates_[i];

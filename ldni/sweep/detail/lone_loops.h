@@ -23,8 +23,7 @@ namespace lamina::ldni::detail {
 class LoneLoops {
  public:
   // Finds the lone loops of a layer and forgets those of the one before.
-  void find(const ChainBlock& block, std::uint32_t layer,
-            const ProgramStates& states);
+  void find(const LayerChains& layer, const ProgramStates& states);
 
   // Of a chain of the layer, by its number there.
   bool is_lone(std::uint32_t chain) const { return sides_[chain] != kNoSide; }

@@ -4,25 +4,30 @@
 #include <bit>
 #include <utility>
 
+#include "csg/program_state.h"
+
 namespace lamina::ldni::detail {
 namespace {
 
 constexpr std::size_t kFirstCapacity = 1024;  // of the tables; a power of 2
 
-// States are forgotten between two layers when they are more than this, and
+// Cells are forgotten between two layers when they are more than this, and
 // more than so many times those of the first layer since, so that the tables
 // stay in the cache and still serve several layers.
-constexpr std::size_t kFewStates = 4096;
-constexpr std::size_t kLayersOfStates = 4;
+constexpr std::size_t kFewCells = 4096;
+constexpr std::size_t kLayersOfCells = 4;
 
-// Within a layer, states that no entry has any more are forgotten when all cost
-// more than this (8 bytes each), or so many times what was left.
-constexpr std::size_t kMostCost = std::size_t{1} << 21;
+// Within a layer, states that no entry has any more are forgotten when cells
+// and crossings are more than this, or so many times what was left.
+constexpr std::size_t kMostCost = std::size_t{1} << 19;
 constexpr std::size_t kGrowthOfCost = 3;
 
-// splitmix64.
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
+std::size_t hash_of(std::uint32_t part, std::int32_t first,
+                    std::int32_t second) {
+  // splitmix64.
+  std::uint64_t x = (std::uint64_t{static_cast<std::uint32_t>(first)} << 32 |
+                     static_cast<std::uint32_t>(second)) +
+                    part * 0x9e3779b97f4a7c15U;
   x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
   x = (x ^ x >> 27) * 0x94d049bb133111ebU;
   return x ^ x >> 31;
@@ -30,147 +35,159 @@ std::uint64_t mix(std::uint64_t x) {
 
 }  // namespace
 
-ProgramStates::ProgramStates(const csg::Scene& scene, Rule rule)
-    : rule_(rule),
-      program_(scene),
-      marks_(scene.instances.size()),
-      counts_(scene.instances.size()) {
-  may_overlap_itself_.reserve(scene.instances.size());
-  for (const csg::Instance& instance : scene.instances) {
-    may_overlap_itself_.push_back(
-        scene.leaves[instance.leaf].may_overlap_itself);
+ProgramStates::ProgramStates(const csg::Scene& scene, Rule rule) : rule_(rule) {
+  // The operators' parts have the operators' numbers.
+  parts_.resize(scene.program.size());
+  std::vector<std::vector<std::uint32_t>> operands(scene.program.size());
+  const auto weight_of = [&scene](const auto& child) {
+    return static_cast<std::int8_t>(is_subtrahend(scene, child) ? -1 : 1);
+  };
+  for (std::uint32_t i = 0; i < scene.program.size(); ++i) {
+    const csg::BooleanNode& node = scene.program[i];
+    parts_[i].threshold = threshold_of(node);
+    if (i == 0) continue;
+    parts_[i].weight = weight_of(node);
+    operands[node.parent].push_back(i);
   }
+  upward_crossings_.reserve(scene.instances.size());
+  for (const csg::Instance& instance : scene.instances) {
+    const std::int8_t weight = weight_of(instance);
+    if (scene.leaves[instance.leaf].may_overlap_itself) {
+      const auto part = static_cast<std::uint32_t>(parts_.size());
+      parts_.push_back({.kind = Kind::kCount, .weight = weight});
+      operands[instance.parent].push_back(part);
+      upward_crossings_.push_back(part << 1);
+    } else {
+      upward_crossings_.push_back(instance.parent << 1 |
+                                  (weight < 0 ? 1U : 0U));
+    }
+  }
+  for (std::uint32_t i = 0; i < operands.size(); ++i) add_sums(i, operands[i]);
   clear();
 }
 
+// Makes `children` the operands of the operator `parent`: pairs them up until
+// one is left.
+void ProgramStates::add_sums(std::uint32_t parent,
+                             std::vector<std::uint32_t>& children) {
+  while (children.size() > 1) {
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i + 1 < children.size(); i += 2) {
+      const auto sum = static_cast<std::uint32_t>(parts_.size());
+      parts_.push_back({.kind = Kind::kSum});
+      parts_[children[i]].parent = sum;
+      parts_[children[i + 1]].parent = sum;
+      parts_[children[i + 1]].is_second = true;
+      children[pairs++] = sum;
+    }
+    if (children.size() % 2 == 1) children[pairs++] = children.back();
+    children.resize(pairs);
+  }
+  if (children.empty()) return;
+  parts_[children[0]].parent = parent;
+  parts_[children[0]].is_second = true;
+}
+
 void ProgramStates::clear() {
-  records_.assign(1, {});  // kOutside: the empty set, which is never solid
-  values_.assign(1, Value::kEmpty);
-  members_.clear();
+  cells_.assign(1, {});
   index_.assign(std::max(index_.size(), kFirstCapacity), kNone);
-  index_[0] = kOutside;  // hash 0
   crossings_.assign(std::max(crossings_.size(), kFirstCapacity), {});
   shift_ = 64 - std::countr_zero(crossings_.size());
   crossing_count_ = 0;
 }
 
 void ProgramStates::begin_layer() {
-  const std::size_t count = records_.size();
-  if (first_layer_states_ == 0) first_layer_states_ = count;
-  if (count > std::max(kFewStates, kLayersOfStates * first_layer_states_) ||
+  const std::size_t count = cells_.size();
+  if (first_layer_cells_ == 0) first_layer_cells_ = count;
+  if (count > std::max(kFewCells, kLayersOfCells * first_layer_cells_) ||
       cost() > kMostCost) {
     clear();
-    first_layer_states_ = 0;
+    first_layer_cells_ = 0;
   }
   most_cost_ = kMostCost;
 }
 
 ProgramStates::State ProgramStates::make_state(State below, Crossing crossing) {
-  const State above = find_or_add(hash_above(below, crossing), below, crossing);
-  // The way back is known too.
-  const Crossing back =
-      may_overlap_itself_[crossing >> 1] ? crossing ^ 1 : crossing;
+  const State above = find_state(below, crossing);
   insert_crossing(below, crossing, above);
-  insert_crossing(above, back, below);
+  insert_crossing(above, crossing ^ 1, below);  // the way back
   return above;
 }
 
-ProgramStates::Hash ProgramStates::hash_above(State state,
-                                              Crossing crossing) const {
-  Hash hash = records_[state].hash;
-  const std::uint32_t instance = crossing >> 1;
-  for (std::uint64_t i = 0; i < 2; ++i) {
-    const std::uint64_t key = mix(i << 32 | instance);
-    if (!may_overlap_itself_[instance]) {
-      hash.toggled[i] ^= key;
-    } else if ((crossing & 1) == 0) {
-      hash.counted[i] += key;
-    } else {
-      hash.counted[i] -= key;
-    }
+// Goes down from the root to the part that changes, and makes its cell and
+// those above it anew.
+ProgramStates::State ProgramStates::find_state(State below, Crossing crossing) {
+  path_parts_.clear();
+  for (std::uint32_t part = crossing >> 1; part != 0;
+       part = parts_[part].parent) {
+    path_parts_.push_back(part);
   }
-  return hash;
+  path_.assign(1, below);
+  for (std::size_t i = path_parts_.size(); i-- > 0;) {
+    const Cell& cell = cells_[path_.back()];
+    path_.push_back(static_cast<std::uint32_t>(
+        parts_[path_parts_[i]].is_second ? cell.second : cell.first));
+  }
+  Cell cell = cells_[path_.back()];
+  cell.part = crossing >> 1;
+  cell.first += (crossing & 1) == 0 ? 1 : -1;
+  for (;;) {
+    const auto number = static_cast<std::int32_t>(find_or_add(cell));
+    path_.pop_back();
+    if (path_.empty()) return static_cast<State>(number);
+    const Part& part = parts_[cell.part];
+    cell = cells_[path_.back()];
+    cell.part = part.parent;
+    (part.is_second ? cell.second : cell.first) = number;
+  }
 }
 
-ProgramStates::State ProgramStates::find_or_add(const Hash& hash, State base,
-                                                Crossing crossing) {
+std::uint32_t ProgramStates::find_or_add(const Cell& cell) {
+  if (cell.first == 0 && cell.second == 0) return 0;
   const std::size_t mask = index_.size() - 1;
-  std::size_t i = hash.slot() & mask;
+  std::size_t i = hash_of(cell.part, cell.first, cell.second) & mask;
   for (; index_[i] != kNone; i = (i + 1) & mask) {
-    if (records_[index_[i]].hash == hash) return index_[i];
+    const Cell& known = cells_[index_[i]];
+    if (known.first == cell.first && known.second == cell.second &&
+        known.part == cell.part) {
+      return index_[i];
+    }
   }
-  const auto state = static_cast<State>(records_.size());
-  index_[i] = state;
-  records_.push_back({hash, base, crossing});
-  values_.push_back(Value::kUnknown);
-  if (2 * records_.size() > index_.size()) index_records(2 * index_.size());
-  return state;
+  const auto number = static_cast<std::uint32_t>(cells_.size());
+  index_[i] = number;
+  cells_.push_back({cell.part, cell.first, cell.second, value_of(cell)});
+  if (cell.part == 0) ++states_met_;
+  if (2 * cells_.size() > index_.size()) index_cells(2 * index_.size());
+  return number;
 }
 
-void ProgramStates::index_records(std::size_t capacity) {
+std::int32_t ProgramStates::value_of(const Cell& cell) const {
+  const auto value = [this](std::int32_t number) {
+    return cells_[static_cast<std::size_t>(number)].value;
+  };
+  const Part& part = parts_[cell.part];
+  bool holds = false;
+  switch (part.kind) {
+    case Kind::kSum:
+      return value(cell.first) + value(cell.second);
+    case Kind::kCount:
+      holds = rule_ == Rule::kNonZero ? cell.first != 0 : cell.first > 0;
+      break;
+    case Kind::kOperator:
+      holds = cell.first + value(cell.second) >= part.threshold;
+      break;
+  }
+  return holds ? part.weight : 0;
+}
+
+void ProgramStates::index_cells(std::size_t capacity) {
   index_.assign(capacity, kNone);
-  for (State state = 0; state < records_.size(); ++state) {
-    std::size_t i = records_[state].hash.slot() & (capacity - 1);
+  for (std::uint32_t number = 1; number < cells_.size(); ++number) {
+    const Cell& cell = cells_[number];
+    std::size_t i =
+        hash_of(cell.part, cell.first, cell.second) & (capacity - 1);
     while (index_[i] != kNone) i = (i + 1) & (capacity - 1);
-    index_[i] = state;
-  }
-}
-
-// Turns the program's present set into this one; neighbours on the ray differ
-// by a leaf, so that is mostly a flip or two.
-void ProgramStates::evaluate(State state) {
-  ++evaluations_;
-  write_members(state);
-  for (std::size_t i = program_.inside().size(); i-- > 0;) {
-    const std::uint32_t instance = program_.inside()[i];
-    const bool stays = marks_[instance] == evaluations_ &&
-                       is_inside({instance, counts_[instance]});
-    if (!stays) program_.flip(instance, false);
-  }
-  const Member* member = members_.data() + records_[state].first_member;
-  for (const Member* end = member + records_[state].size; member != end;
-       ++member) {
-    if (is_inside(*member) && !program_.is_inside(member->instance)) {
-      program_.flip(member->instance, true);
-    }
-  }
-  values_[state] = program_.value() ? Value::kSolid : Value::kEmpty;
-}
-
-// Goes back to a state whose members are written, then counts the crossings on
-// the way, in any order.
-void ProgramStates::write_members(State state) {
-  met_.clear();
-  State known = state;
-  for (; values_[known] == Value::kUnknown; known = records_[known].base) {
-    const Crossing crossing = records_[known].crossing;
-    count(crossing >> 1, (crossing & 1) != 0 ? -1 : 1);
-  }
-  const std::size_t first = records_[known].first_member;
-  for (std::size_t i = first; i < first + records_[known].size; ++i) {
-    count(members_[i].instance, members_[i].count);
-  }
-  Record& record = records_[state];
-  record.first_member = members_.size();
-  for (const std::uint32_t instance : met_) {
-    if (counts_[instance] != 0) {
-      members_.push_back({instance, counts_[instance]});
-    }
-  }
-  record.size =
-      static_cast<std::uint32_t>(members_.size() - record.first_member);
-}
-
-void ProgramStates::count(std::uint32_t instance, std::int32_t change) {
-  if (marks_[instance] != evaluations_) {
-    marks_[instance] = evaluations_;
-    counts_[instance] = 0;
-    met_.push_back(instance);
-  }
-  if (may_overlap_itself_[instance]) {
-    counts_[instance] += change;
-  } else {
-    counts_[instance] ^= 1;
+    index_[i] = number;
   }
 }
 
@@ -201,28 +218,38 @@ void ProgramStates::grow_crossings() {
 }
 
 void ProgramStates::keep_only(std::span<State* const> live) {
-  for (const State* state : live) is_solid(*state);
-  const std::vector<Record> old_records = std::move(records_);
-  const std::vector<Value> old_values = std::move(values_);
-  const std::vector<Member> old_members = std::move(members_);
-  std::vector<State> new_states(old_records.size(), kNone);
-  new_states[kOutside] = kOutside;
-  clear();
-  for (State* state : live) {
-    State& kept = new_states[*state];
-    if (kept == kNone) {
-      Record record = old_records[*state];
-      const auto begin = old_members.begin() +
-                         static_cast<std::ptrdiff_t>(record.first_member);
-      record.first_member = members_.size();
-      members_.insert(members_.end(), begin, begin + record.size);
-      kept = static_cast<State>(records_.size());
-      records_.push_back(record);
-      values_.push_back(old_values[*state]);
-    }
-    *state = kept;
+  // A cell stands behind those that it names.
+  std::vector<Cell> old_cells = std::move(cells_);
+  std::vector<std::uint32_t> kept(old_cells.size(), kNone);
+  for (const State* state : live) kept[*state] = 0;
+  const auto names_cells = [this](const Cell& cell) {
+    const Kind kind = parts_[cell.part].kind;
+    return std::pair(kind == Kind::kSum, kind != Kind::kCount);
+  };
+  for (std::size_t i = old_cells.size(); i-- > 1;) {
+    if (kept[i] == kNone) continue;
+    const Cell& cell = old_cells[i];
+    const auto [is_first_cell, is_second_cell] = names_cells(cell);
+    if (is_first_cell) kept[static_cast<std::size_t>(cell.first)] = 0;
+    if (is_second_cell) kept[static_cast<std::size_t>(cell.second)] = 0;
   }
-  index_records(std::max(index_.size(), std::bit_ceil(2 * records_.size())));
+  clear();
+  kept[0] = 0;
+  for (std::size_t i = 1; i < old_cells.size(); ++i) {
+    if (kept[i] == kNone) continue;
+    Cell cell = old_cells[i];
+    const auto renumber = [&kept](std::int32_t& number) {
+      number =
+          static_cast<std::int32_t>(kept[static_cast<std::size_t>(number)]);
+    };
+    const auto [is_first_cell, is_second_cell] = names_cells(cell);
+    if (is_first_cell) renumber(cell.first);
+    if (is_second_cell) renumber(cell.second);
+    kept[i] = static_cast<std::uint32_t>(cells_.size());
+    cells_.push_back(cell);
+  }
+  for (State* state : live) *state = kept[*state];
+  index_cells(std::max(index_.size(), std::bit_ceil(2 * cells_.size())));
   most_cost_ = std::max(kMostCost, kGrowthOfCost * cost());
 }
 

@@ -6,25 +6,35 @@
 // ever ask of it. The ray sees no leaves: passing a chain upwards leads from a
 // state to another one, and a state is solid or not. A layer meets few states,
 // and meets them again at every event point and in the next layer. So a state
-// is kept once and known by a number: the program is evaluated once a state,
-// and a crossing is one look-up in a hash table of known crossings.
+// is kept once and known by a number, and a crossing is one look-up in a hash
+// table of known crossings.
 //
-// A state is identified by the set of leaves that contain the gap, through a
-// hash that a crossing changes in O(1). It remembers the crossing by which it
-// was first met; the members of its set are written down when its value is
-// asked for, which never happens for the many states between chains that tie.
+// A state is not the set of leaves that contain the gap. Every operator is the
+// test
+//     weighted number of children that hold >= threshold
+// (program_state.h), so of those of its leaves that cannot overlap themselves
+// it asks only how many contain the gap: the sum of weight · winding over the
+// chains passed. A union of n leaves has n + 1 states, not 2ⁿ. A leaf that may
+// overlap itself is not linear; it is a part of its own, with its count. So
 //
-// A crossing toggles the leaf. If the leaf may overlap itself, it adds the
-// chain's winding to the leaf's count, and the leaf contains the gap where the
-// count is not 0, or positive, as the rule says.
+//     state = (sum of each operator, count of each leaf that may overlap
+//              itself).
+//
+// Two gaps of one state have one value, now and after the same chains.
+//
+// The state is stored as a tree of parts that mirrors the program. A part is a
+// leaf's count, an operator, or the sum over two groups of an operator's
+// children, so that wide operators are balanced trees. A cell is one state of
+// one part: two numbers, of its counts or of the cells of its parts below.
+// Equal cells are stored once (hash consing, Ershov 1958), so a crossing makes
+// at most one new cell for each part between the leaf's operator and the root,
+// and the value of a cell is known when it is made.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "csg/program_state.h"
 #include "csg/scene.h"
 
 namespace lamina::ldni::detail {
@@ -41,13 +51,13 @@ class ProgramStates {
 
   ProgramStates(const csg::Scene& scene, Rule rule);
 
-  // The crossing of a chain of `instance`, upwards.
+  // The crossing of a chain of `instance`, upwards. Leaves that are counted
+  // together have the same crossings.
   Crossing crossing_of(std::uint32_t instance, std::int32_t winding) const {
-    const bool is_backwards = may_overlap_itself_[instance] && winding < 0;
-    return instance << 1 | (is_backwards ? 1U : 0U);
+    return upward_crossings_[instance] ^ (winding < 0 ? 1U : 0U);
   }
   bool may_overlap_itself(std::uint32_t instance) const {
-    return may_overlap_itself_[instance];
+    return parts_[upward_crossings_[instance] >> 1].kind == Kind::kCount;
   }
 
   State state_above(State state, Crossing crossing) {
@@ -58,13 +68,13 @@ class ProgramStates {
     }
   }
 
-  bool is_solid(State state) {
-    if (values_[state] == Value::kUnknown) evaluate(state);
-    return values_[state] == Value::kSolid;
-  }
+  bool is_solid(State state) const { return cells_[state].value > 0; }
 
-  // Evaluations of the program since construction.
-  std::uint64_t evaluations() const { return evaluations_; }
+  // Whether a state is one number: the sum of the only operator.
+  bool is_simple() const { return parts_.size() == 1; }
+
+  // States met since construction; those that were forgotten count again.
+  std::uint64_t states_met() const { return states_met_; }
 
   // Forgets the states of earlier layers where they are too many; only while
   // nobody holds one but kOutside.
@@ -76,34 +86,32 @@ class ProgramStates {
   void keep_only(std::span<State* const> live);
 
  private:
-  struct Member {
-    std::uint32_t instance = 0;
-    std::int32_t count = 1;
+  enum class Kind : std::uint8_t {
+    kOperator,  // first: the sum over its leaves; second: a cell, its operands
+    kCount,     // first: the count of a leaf that may overlap itself
+    kSum,       // first, second: cells
   };
-  // Of the members that toggle, and of those that are counted. 128 bits of
-  // each: no two of a billion sets will ever be taken for one.
-  struct Hash {
-    std::array<std::uint64_t, 2> toggled{};
-    std::array<std::uint64_t, 2> counted{};
-
-    bool operator==(const Hash&) const = default;
-    std::size_t slot() const { return toggled[0] ^ counted[0]; }
+  struct Part {
+    Kind kind = Kind::kOperator;
+    bool is_second = false;      // of the two parts of its parent
+    std::int8_t weight = 1;      // in the sum of its parent; of kSum: 1
+    std::int32_t threshold = 1;  // of an operator
+    std::uint32_t parent = 0;
   };
-  struct Record {
-    Hash hash;
-    State base = kOutside;  // the state and the crossing that first led here
-    Crossing crossing = 0;
-    std::uint32_t size = 0;  // of its members, once they are written
-    std::size_t first_member = 0;
+  // Cell 0 is that of every part that no leaf contains.
+  struct Cell {
+    std::uint32_t part = 0;
+    std::int32_t first = 0;
+    std::int32_t second = 0;
+    // Of a sum: the sum. Else the weight where it holds, or 0.
+    std::int32_t value = 0;
   };
-  // Known from when the members are written.
-  enum class Value : std::uint8_t { kUnknown, kEmpty, kSolid };
   struct KnownCrossing {
     std::uint64_t key = kFree;  // of the state below and the crossing
     State above = kOutside;
   };
   static constexpr std::uint64_t kFree = ~std::uint64_t{0};
-  static constexpr State kNone = 0xffffffff;
+  static constexpr std::uint32_t kNone = 0xffffffff;
 
   static std::uint64_t key_of(State state, Crossing crossing) {
     return std::uint64_t{state} << 32 | crossing;
@@ -111,41 +119,32 @@ class ProgramStates {
   std::size_t slot_of(std::uint64_t key) const {
     return (key * 0x9e3779b97f4a7c15U) >> shift_;
   }
-  // What all states take in memory, in members written down (8 bytes each).
-  std::size_t cost() const {
-    return members_.size() + sizeof(Record) / sizeof(Member) * records_.size();
-  }
+  // What cells and crossings take in memory, in cells.
+  std::size_t cost() const { return cells_.size() + crossing_count_; }
+  void add_sums(std::uint32_t parent, std::vector<std::uint32_t>& children);
   void clear();
   State make_state(State below, Crossing crossing);
-  Hash hash_above(State state, Crossing crossing) const;
-  State find_or_add(const Hash& hash, State base, Crossing crossing);
-  void index_records(std::size_t capacity);
-  void evaluate(State state);
-  void write_members(State state);
-  void count(std::uint32_t instance, std::int32_t change);
-  bool is_inside(const Member& member) const {
-    return rule_ == Rule::kNonZero ? member.count != 0 : member.count > 0;
-  }
+  State find_state(State below, Crossing crossing);
+  std::uint32_t find_or_add(const Cell& cell);
+  std::int32_t value_of(const Cell& cell) const;
+  void index_cells(std::size_t capacity);
   void insert_crossing(State below, Crossing crossing, State above);
   void grow_crossings();
 
   const Rule rule_;
-  csg::ProgramState program_;
-  std::vector<bool> may_overlap_itself_;  // an instance
-  std::vector<Record> records_;           // of the states
-  std::vector<Value> values_;             // of the states
-  std::vector<Member> members_;           // of all states evaluated
-  std::vector<State> index_;              // open hash of records_
+  std::vector<Part> parts_;  // 0: the root
+  // Of a chain of winding +1, an instance: the part whose first number it
+  // changes, twice, and 1 where that becomes less.
+  std::vector<Crossing> upward_crossings_;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> index_;      // open hash of cells_
   std::vector<KnownCrossing> crossings_;  // open hash
   std::size_t crossing_count_ = 0;
   int shift_ = 0;
-  // Of the set in evaluation: for each instance the evaluation that last met
-  // it, and its count there; and the instances met.
-  std::vector<std::uint64_t> marks_;
-  std::vector<std::int32_t> counts_;
-  std::vector<std::uint32_t> met_;
-  std::uint64_t evaluations_ = 0;
-  std::size_t first_layer_states_ = 0;  // 0: not yet known
+  std::vector<std::uint32_t> path_;  // cells of find_state, from the root down
+  std::vector<std::uint32_t> path_parts_;
+  std::uint64_t states_met_ = 0;
+  std::size_t first_layer_cells_ = 0;  // 0: not yet known
   std::size_t most_cost_ = 0;
 };
 

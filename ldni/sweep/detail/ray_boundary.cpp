@@ -8,8 +8,9 @@ namespace lamina::ldni::detail {
 
 // --- A cluster --------------------------------------------------------------
 
-void RayBoundary::begin_layer() {
-  states_.begin_layer();
+void RayBoundary::begin_layer(ProgramStates& states) {
+  states_ = &states;
+  states.begin_layer();
   stitcher_.begin();
 }
 
@@ -21,7 +22,7 @@ void RayBoundary::forget_unused_states() {
        e = status_[e].above) {
     live.push_back(&status_[e].state);
   }
-  states_.keep_only(live);
+  states_->keep_only(live);
 }
 
 void RayBoundary::add_lone_loop(const Chain& lower, const Chain& upper,
@@ -30,10 +31,10 @@ void RayBoundary::add_lone_loop(const Chain& lower, const Chain& upper,
   const std::uint32_t below =
       status_.find_below(lower_points.front().y, cluster_.left);
   const ProgramStates::State around = status_[below].state;
-  const ProgramStates::State within = states_.state_above(
-      around, states_.crossing_of(lower.instance, lower.winding));
-  const int side = static_cast<int>(states_.is_solid(within)) -
-                   static_cast<int>(states_.is_solid(around));
+  const ProgramStates::State within = states_->state_above(
+      around, states_->crossing_of(lower.instance, lower.winding));
+  const int side = static_cast<int>(states_->is_solid(within)) -
+                   static_cast<int>(states_->is_solid(around));
   if (side == 0) return;
   stitcher_.add_loop(lower_points, upper.points_in(points),
                      static_cast<std::int8_t>(side));
@@ -93,7 +94,7 @@ void RayBoundary::update_states_from(std::uint32_t entry,
   ProgramStates::State state = status[status[entry].below].state;
   for (; entry != status.sentinel(); entry = status[entry].above) {
     Entry& e = status[entry];
-    state = states_.state_above(state, e.crossing);
+    state = states_->state_above(state, e.crossing);
     if (!e.is_stale && e.state == state) return;
     e.is_stale = false;
     e.state = state;
@@ -119,8 +120,8 @@ void RayBoundary::update_group(std::uint32_t member) {
   while (status[status[first].below].is_tied) first = status[first].below;
   std::uint32_t last = member;
   while (status[last].is_tied) last = status[last].above;
-  const bool below = states_.is_solid(status[status[first].below].state);
-  const bool above = states_.is_solid(status[last].state);
+  const bool below = states_->is_solid(status[status[first].below].state);
+  const bool above = states_->is_solid(status[last].state);
   const auto side = static_cast<std::int8_t>(above - below);
   if (first == last) {
     status[first].side_cluster = cluster_.number;
@@ -326,7 +327,7 @@ void RayBoundary::check_entries() {
   for (std::uint32_t e = status_.first(); e != status_.sentinel();
        e = status_[e].above) {
     Entry& lower = status_[e];
-    state = states_.state_above(state, lower.crossing);
+    state = states_->state_above(state, lower.crossing);
     assert(!lower.is_stale);
     assert(lower.state == state);
     if (lower.above == status_.sentinel()) break;

@@ -24,19 +24,18 @@ namespace lamina::ldni::detail {
 
 class RayBoundary {
  public:
-  // Both must outlive the object. Distances as of Stitcher.
-  RayBoundary(Status& status, ProgramStates& states, double tie_distance,
-              double merge_distance)
+  // `status` must outlive the object. Distances as of Stitcher.
+  RayBoundary(Status& status, double tie_distance, double merge_distance)
       : status_(status),
-        states_(states),
         tie_distance_(tie_distance),
         stitcher_(tie_distance, merge_distance) {}
 
-  void begin_layer();
+  // Forgets the layer before. `states` must outlive the new one.
+  void begin_layer(ProgramStates& states);
 
   // In this order, for each event cluster:
   void begin_cluster(const EventCluster& cluster) {
-    if (states_.is_full()) forget_unused_states();
+    if (states_->is_full()) forget_unused_states();
     cluster_ = cluster;
   }
   // A lone loop begins in the cluster; its two chains. It is boundary as a
@@ -107,7 +106,7 @@ class RayBoundary {
   }
 
   Status& status_;
-  ProgramStates& states_;
+  ProgramStates* states_ = nullptr;
   const double tie_distance_;
   Stitcher stitcher_;
   EventCluster cluster_;

@@ -18,6 +18,8 @@ void RayOrder::begin_layer(std::size_t chain_count, double low, double high,
   status_.begin(chain_count);
   queue_.begin(low, high, slab_count);
   cluster_ = {};
+  swaps_ = 0;
+  to_check_.clear();
 }
 
 // Entering a slab may find failures; a cluster that reaches into it is handled
@@ -144,11 +146,12 @@ void RayOrder::settle_pairs() {
     Certificate certificate = certify_pair(lower, upper, cluster_.right);
     if (certificate.relation < 0) {
       const std::uint64_t most = kMostSwapsPerEntry * sentinel;
-      if (++swaps_ <= most) {
+      const std::uint64_t swaps = ++swaps_ - swaps_before_;
+      if (swaps <= most) {
         swap_with_above(lower);
         continue;
       }
-      if (swaps_ == most + 1) ++capped_clusters_;
+      if (swaps == most + 1) ++capped_clusters_;
       certificate = {};
     }
     set_tie(lower, certificate.relation == 0);

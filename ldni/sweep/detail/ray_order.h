@@ -70,7 +70,7 @@ class RayOrder {
   void begin_cluster(double x) {
     assert(x > cluster_.right);  // I6
     cluster_ = {cluster_.number + 1, x, x};
-    swaps_ = 0;
+    swaps_before_ = swaps_;
     changes_.stale.clear();
     changes_.unsure.clear();
     changes_.touches.clear();
@@ -87,6 +87,8 @@ class RayOrder {
     } while (take_failures());
   }
 
+  // Swaps of neighbours in the layer so far.
+  std::uint64_t swaps() const { return swaps_; }
   // Clusters in which swaps reached their cap, since construction: always 0.
   std::uint64_t capped_clusters() const { return capped_clusters_; }
 
@@ -117,7 +119,8 @@ class RayOrder {
   EventCluster cluster_;
   OrderChanges changes_;
   std::vector<std::uint32_t> to_check_;  // lower entries of new pairs
-  std::uint64_t swaps_ = 0;              // in the cluster
+  std::uint64_t swaps_ = 0;              // in the layer
+  std::uint64_t swaps_before_ = 0;       // the cluster
   std::uint64_t capped_clusters_ = 0;
 };
 

@@ -15,36 +15,38 @@ constexpr double kMostSlabsOfPitch = 1 << 16;
 
 }  // namespace
 
-void RaySweep::sweep(const ChainBlock& block, std::uint32_t layer,
-                     Contours& contours) {
-  begin_layer(block, layer);
+bool RaySweep::sweep(const LayerChains& layer, ProgramStates& states,
+                     Contours& contours, const Patience& patience) {
+  begin_layer(layer, states);
   while (next_endpoint_ < endpoints_.size()) {
     process_cluster(order_.next_event_point(endpoints_[next_endpoint_].x));
+    if (static_cast<double>(order_.swaps()) >
+        patience.swaps_per_chain * chains_met() + patience.first_swaps) {
+      return false;
+    }
   }
   boundary_.write_loops(contours);
+  return true;
 }
 
 SweepCounts RaySweep::counts() const {
   SweepCounts counts = counts_;
-  counts.evaluations = states_.evaluations();
   counts.unbalanced_clusters = boundary_.unbalanced_clusters();
   counts.repaired_clusters = boundary_.unlinked_ends();
   counts.capped_clusters = order_.capped_clusters();
   return counts;
 }
 
-void RaySweep::begin_layer(const ChainBlock& block, std::uint32_t layer) {
-  points_ = block.points;
-  chains_ = block.layer(layer);
-  lone_loops_.find(block, layer, states_);
+void RaySweep::begin_layer(const LayerChains& layer, ProgramStates& states) {
+  points_ = layer.points;
+  chains_ = layer.chains;
+  states_ = &states;
+  lone_loops_.find(layer, states);
   endpoints_ = sorter_.sort(chains_, points_, lone_loops_);
   next_endpoint_ = 0;
-  boundary_.begin_layer();
+  boundary_.begin_layer(states);
   std::size_t point_count = 0;
   for (const Chain& chain : chains_) point_count += chain.point_count;
-  ++counts_.layers;
-  counts_.chains += chains_.size();
-  counts_.points += point_count;
   if (endpoints_.empty()) return;
   const double low = endpoints_.front().x;
   const double high = endpoints_.back().x;
@@ -112,7 +114,7 @@ void RaySweep::take(std::span<const ChainEndpoint> endpoints) {
   for (const std::uint32_t chain : begun_) {
     order_.insert(
         chain, points_of(chain),
-        states_.crossing_of(chains_[chain].instance, chains_[chain].winding));
+        states_->crossing_of(chains_[chain].instance, chains_[chain].winding));
   }
 }
 

@@ -64,30 +64,47 @@ struct SweepOptions {
   double merge_distance = 0;  // of points of a loop [mm]
 };
 
+// Swaps of neighbours that a sweep bears: so many for each chain met so far,
+// and some at the beginning.
+struct Patience {
+  double swaps_per_chain = kNever;
+  double first_swaps = 0;
+};
+
 class RaySweep {
  public:
-  // The states must outlive the object, and serve no other one.
-  RaySweep(ProgramStates& states, const SweepOptions& options)
+  explicit RaySweep(const SweepOptions& options)
       : pitch_(options.pitch),
-        states_(states),
         order_(options.tie_distance),
-        boundary_(order_.status(), states, options.tie_distance,
+        boundary_(order_.status(), options.tie_distance,
                   options.merge_distance) {}
   RaySweep(const RaySweep&) = delete;
   RaySweep& operator=(const RaySweep&) = delete;
 
-  // Replaces `contours` by the loops of layer `layer` of `block`.
-  void sweep(const ChainBlock& block, std::uint32_t layer, Contours& contours);
+  // Replaces `contours` by the loops of a layer, whose chains are those of the
+  // instances of `states`. Gives up where neighbours swap more often than
+  // `patience` says: false, and `contours` is as before.
+  bool sweep(const LayerChains& layer, ProgramStates& states,
+             Contours& contours, const Patience& patience = {});
 
   // As of RayBoundary, for the last layer.
   bool has_jumps() const { return boundary_.has_jumps(); }
 
+  // Of all sweeps since construction: slabs, event points, and what must not
+  // happen.
   SweepCounts counts() const;
 
+  // Of the layer, as far as it was swept.
+  double swaps_per_chain() const {
+    return static_cast<double>(order_.swaps()) / chains_met();
+  }
+
  private:
-  void begin_layer(const ChainBlock& block, std::uint32_t layer);
+  void begin_layer(const LayerChains& layer, ProgramStates& states);
   std::uint32_t slab_count(double width, std::size_t point_count) const;
   void process_cluster(double x);
+  // Chains that began, and half of them end too.
+  double chains_met() const { return static_cast<double>(next_endpoint_) / 2; }
   std::span<const ChainEndpoint> next_endpoints();
   void pass_lone_loop(std::uint32_t chain);
   void take(std::span<const ChainEndpoint> endpoints);
@@ -96,7 +113,7 @@ class RaySweep {
   }
 
   const double pitch_;
-  ProgramStates& states_;
+  ProgramStates* states_ = nullptr;
   SweepCounts counts_;
   RayOrder order_;
   RayBoundary boundary_;

@@ -47,7 +47,7 @@ class Layer {
       builder.close_loop(0, 0, 1);
     }
     builder.finish(block);
-    lone_loops.find(block, 0, states);
+    lone_loops.find(block.chains_of(0), states);
   }
 
   // Of loops that have two chains each.

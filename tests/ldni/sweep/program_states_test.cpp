@@ -164,18 +164,61 @@ TEST(ProgramStates, OfEqualCountsAreTheSame) {
   EXPECT_EQ(known.size(), 8U * 5 * 5);
   walk.go_outside();
   EXPECT_EQ(walk.state(), ProgramStates::kOutside);
+  // kOutside was there before.
+  EXPECT_EQ(states.states_met(), 8U * 5 * 5 - 1);
 }
 
-TEST(ProgramStates, AreEvaluatedOnceEach) {
-  const csg::Scene scene = scene_of_five();
-  ProgramStates states(scene, Rule::kNonZero);
-  Walk walk(scene, states, 3);
-  for (int i = 0; i < 5000; ++i) {
-    walk.step();
-    states.is_solid(walk.state());
+// Leaves of one operator that cannot overlap themselves are only counted.
+TEST(ProgramStates, AreAsManyAsAnOperatorHasSums) {
+  constexpr std::uint32_t kLeaves = 40;
+  for (const BooleanOp op :
+       {BooleanOp::kUnion, BooleanOp::kIntersection, BooleanOp::kDifference}) {
+    SceneBuilder builder(op);
+    for (std::uint32_t i = 0; i < kLeaves; ++i) builder.add(leaf(false));
+    const csg::Scene scene = builder.finish();
+    ProgramStates states(scene, Rule::kNonZero);
+    const Definition definition(scene, Rule::kNonZero);
+    Walk walk(scene, states, 4);
+    for (int i = 0; i < 5000; ++i) {
+      walk.step();
+      ASSERT_EQ(states.is_solid(walk.state()),
+                definition.is_solid(walk.counts()));
+    }
+    EXPECT_LE(states.states_met(), kLeaves);
   }
-  EXPECT_LE(states.evaluations(), 8U * 5 * 5);
-  EXPECT_GT(states.evaluations(), 100U);
+}
+
+// A wide union of differences is a balanced tree of parts; a tower of
+// differences is a deep one.
+TEST(ProgramStates, OfWideAndOfDeepProgramsAreRight) {
+  for (const bool is_deep : {false, true}) {
+    SceneBuilder builder(BooleanOp::kUnion);
+    constexpr int kParts = 21;
+    for (int i = 0; i < kParts; ++i) {
+      builder.begin(i % 3 == 2 ? BooleanOp::kIntersection
+                               : BooleanOp::kDifference);
+      builder.add(leaf(i % 4 == 1));
+      if (!is_deep) {
+        builder.add(leaf(false));
+        builder.end();
+      }
+    }
+    for (int i = 0; is_deep && i < kParts; ++i) {
+      builder.add(leaf(false));
+      builder.end();
+    }
+    const csg::Scene scene = builder.finish();
+    ProgramStates states(scene, Rule::kNonZero);
+    const Definition definition(scene, Rule::kNonZero);
+    Walk walk(scene, states, 5);
+    for (int i = 0; i < 3000; ++i) {
+      walk.step();
+      ASSERT_EQ(states.is_solid(walk.state()),
+                definition.is_solid(walk.counts()));
+    }
+    walk.go_outside();
+    EXPECT_EQ(walk.state(), ProgramStates::kOutside);
+  }
 }
 
 TEST(ProgramStates, ThatAreKeptStandForTheSameAsBefore) {
@@ -194,7 +237,8 @@ TEST(ProgramStates, ThatAreKeptStandForTheSameAsBefore) {
     for (Walk& walk : walks) live.push_back(&walk.state());
     states.keep_only(live);
     for (Walk& walk : walks) {
-      EXPECT_LE(walk.state(), walks.size());
+      // At most eight parts below the root of scene_of_five.
+      EXPECT_LE(walk.state(), 9 * walks.size());
       EXPECT_EQ(states.is_solid(walk.state()),
                 definition.is_solid(walk.counts()));
     }

@@ -2,8 +2,9 @@
 //
 // Beside every edge of the result and beside every edge of every leaf's
 // section, on both sides, and at random places, the contours must say what the
-// definition of the operators says of the leaves. LAMINA_RANDOM_SCENES sets how
-// many scenes are tried, LAMINA_RANDOM_SEED the first seed.
+// definition of the operators says of the leaves: contours that were swept as
+// ever, and contours of a cascade without patience. LAMINA_RANDOM_SCENES sets
+// how many scenes are tried, LAMINA_RANDOM_SEED the first seed.
 
 #include "tests/support/random_scenes.h"
 
@@ -23,6 +24,7 @@
 #include "ldni/image/sample.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
+#include "ldni/sweep/detail/cascade.h"
 #include "ldni/sweep/kinetic_ray.h"
 #include "tests/ldni/support/scene_builder.h"
 #include "tests/ldni/sweep/section_reference.h"
@@ -88,17 +90,23 @@ class SceneJudge {
     const LeafSectioner sectioner(scene, grid);
     sectioner.cut(0, grid.layer_count(), block_);
     KineticRay ray(scene, pitch);
+    detail::Cascade cascade(scene, {pitch, kTieDistance, kClusterWidth}, 0);
     SectionReference reference(scene);
     for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
       ++tally_.layers;
-      ray.sweep(block_, l, contours_);
       reference.cut(grid.section_z(l), grid.threshold(l));
       where_ = name_ + ", layer " + std::to_string(l);
+      ray.sweep(block_, l, contours_);
+      judge_layer(scene, reference);
+      where_ += ", cascaded";
+      cascade.sweep(block_.chains_of(l), contours_);
       judge_layer(scene, reference);
     }
-    EXPECT_EQ(ray.counts().unbalanced_clusters, 0U) << name_;
-    EXPECT_EQ(ray.counts().capped_clusters, 0U) << name_;
-    EXPECT_EQ(ray.counts().repaired_clusters, 0U) << name_;
+    for (const SweepCounts& counts : {ray.counts(), cascade.counts()}) {
+      EXPECT_EQ(counts.unbalanced_clusters, 0U) << name_;
+      EXPECT_EQ(counts.capped_clusters, 0U) << name_;
+      EXPECT_EQ(counts.repaired_clusters, 0U) << name_;
+    }
   }
 
  private:

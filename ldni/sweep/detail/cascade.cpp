@@ -1,0 +1,398 @@
+#include "ldni/sweep/detail/cascade.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include <glm/common.hpp>
+
+namespace lamina::ldni::detail {
+namespace {
+
+// Points nearer than this [mm] are one where near ties were resolved: what is
+// left of faces apart by less than a tie is that small. Elsewhere points are
+// one where an event cluster can have moved them, kClusterWidth.
+constexpr double kResolvedMergeDistance = 1e-8;
+
+// A sweep is given up after so many swaps for each chain met so far, and some
+// at the beginning: a share of those of all chains, and a few. It is not tried
+// where more than that are to be expected. Cascading costs a few swaps a chain
+// for each time that it halves the scene. Where a state is one number a swap
+// costs less, so more of them are borne.
+constexpr double kMostSwaps = 4;
+constexpr double kMostSwapsOfSimple = 12;
+constexpr double kFirstShare = 0.25;
+constexpr double kFirstSwaps = 256;
+
+// An operator with two operands, each a region that does not overlap itself.
+csg::Scene scene_of_two(csg::BooleanOp op) {
+  csg::Scene scene;
+  scene.leaves.resize(1);
+  scene.instances.resize(2);
+  scene.instances[0].is_minuend = true;
+  scene.program.push_back({op, 0, false, 2});
+  return scene;
+}
+
+// What the ray needs of a scene: the program, and of each instance its parent,
+// its box, and whether its leaf may overlap itself.
+csg::Scene without_surfaces(const csg::Scene& scene) {
+  csg::Scene bare;
+  bare.program = scene.program;
+  bare.leaves.resize(2);
+  bare.leaves[1].may_overlap_itself = true;
+  bare.instances.reserve(scene.instances.size());
+  for (const csg::Instance& instance : scene.instances) {
+    csg::Instance& copy = bare.instances.emplace_back();
+    copy.leaf = scene.leaves[instance.leaf].may_overlap_itself ? 1 : 0;
+    copy.parent = instance.parent;
+    copy.is_minuend = instance.is_minuend;
+    copy.box = instance.box;
+  }
+  return bare;
+}
+
+}  // namespace
+
+// A Boolean of the cascade: the whole scene, or some operands of one operator
+// of it.
+class Cascade::Group {
+ public:
+  explicit Group(csg::Scene scene)
+      : scene_(std::move(scene)),
+        states_(scene_, ProgramStates::Rule::kNonZero) {}
+
+  ProgramStates& states() { return states_; }
+  std::uint64_t states_met() const;
+
+  // Parts the group in two where it has two operands, at the first call.
+  bool part();
+  // The operator over the two halves.
+  csg::BooleanOp op() const { return scene_.program[0].op; }
+  Group& half(std::size_t i) { return *halves_[i]; }
+
+  struct Chains {
+    std::vector<Chain> chains;
+    std::vector<ChainLoop> loops;
+  };
+  // The chains of each half, with the numbers that instances have there.
+  std::array<Chains, 2> chains_of_halves(const LayerChains& layer) const;
+
+  // Keeps the contours of the layer; those of the layer kept last, or null
+  // where that had other chains.
+  void keep(const LayerChains& layer, const Contours& contours);
+  const Contours* find_kept(const LayerChains& layer) const;
+
+ private:
+  struct Operand {
+    Operand(bool of_instance, std::uint32_t number)
+        : is_instance(of_instance), index(number) {}
+
+    bool is_instance = false;
+    std::uint32_t index = 0;   // of the instance, or of the node
+    std::uint32_t weight = 0;  // instances below
+    Vec3 low{1e300};           // of their boxes
+    Vec3 high{-1e300};
+    bool is_second = false;  // of the halves
+
+    void add(const csg::Instance& instance) {
+      ++weight;
+      low = glm::min(low, instance.box.low);
+      high = glm::max(high, instance.box.high);
+    }
+    Vec3 center() const { return (low + high) / 2.0; }
+  };
+
+  std::vector<Operand> operands() const;
+  void choose_halves(std::vector<Operand>& operands) const;
+  void make_halves(const std::vector<Operand>& operands);
+
+  const csg::Scene scene_;  // without surfaces
+  ProgramStates states_;
+  bool may_part_ = true;
+  std::array<std::unique_ptr<Group>, 2> halves_;
+  // An instance: its half, and its number there.
+  std::vector<std::pair<bool, std::uint32_t>> places_;
+  // The layer kept last; its points chain by chain.
+  Chains kept_chains_;
+  std::vector<Vec2> kept_points_;
+  Contours kept_contours_;
+};
+
+std::uint64_t Cascade::Group::states_met() const {
+  std::uint64_t sum = states_.states_met();
+  for (const auto& half : halves_) {
+    if (half != nullptr) sum += half->states_met();
+  }
+  return sum;
+}
+
+bool Cascade::Group::part() {
+  if (halves_[0] != nullptr) return true;
+  if (!may_part_) return false;
+  std::vector<Operand> all = operands();
+  may_part_ = all.size() > 1;
+  if (!may_part_) return false;
+  choose_halves(all);
+  make_halves(all);
+  return true;
+}
+
+std::vector<Cascade::Group::Operand> Cascade::Group::operands() const {
+  // Of each node below the root, the operand that it belongs to.
+  std::vector<std::size_t> owners(scene_.program.size());
+  std::vector<Operand> operands;
+  for (std::uint32_t i = 1; i < scene_.program.size(); ++i) {
+    const std::uint32_t parent = scene_.program[i].parent;
+    owners[i] = parent == 0 ? operands.size() : owners[parent];
+    if (parent == 0) operands.emplace_back(false, i);
+  }
+  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    const csg::Instance& instance = scene_.instances[i];
+    if (instance.parent == 0) {
+      operands.emplace_back(true, i);
+      operands.back().add(instance);
+    } else {
+      operands[owners[instance.parent]].add(instance);
+    }
+  }
+  return operands;
+}
+
+// A difference: what is subtracted from, and all that is subtracted. Else so
+// that each half lies together and has about half of the instances.
+void Cascade::Group::choose_halves(std::vector<Operand>& operands) const {
+  if (op() == csg::BooleanOp::kDifference) {
+    for (Operand& operand : operands) {
+      operand.is_second =
+          !(operand.is_instance ? scene_.instances[operand.index].is_minuend
+                                : scene_.program[operand.index].is_minuend);
+    }
+    return;
+  }
+  Vec3 low = operands.front().center();
+  Vec3 high = low;
+  std::uint32_t weight = 0;
+  for (const Operand& operand : operands) {
+    low = glm::min(low, operand.center());
+    high = glm::max(high, operand.center());
+    weight += operand.weight;
+  }
+  const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
+  std::ranges::stable_sort(operands, {}, [axis](const Operand& operand) {
+    return operand.center()[axis];
+  });
+  std::uint32_t before = 0;
+  for (Operand& operand : operands) {
+    operand.is_second =
+        &operand != &operands.front() && 2 * before + operand.weight > weight;
+    before += operand.weight;
+  }
+  operands.back().is_second = true;
+}
+
+void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
+  constexpr std::uint32_t kRoot = 0;
+  std::array<csg::Scene, 2> scenes;
+  std::vector<std::pair<bool, std::uint32_t>> nodes(scene_.program.size());
+  places_.resize(scene_.instances.size());
+  std::array<std::uint32_t, 2> counts{};
+  for (const Operand& operand : operands) {
+    ++counts[operand.is_second ? 1 : 0];
+    (operand.is_instance ? places_ : nodes)[operand.index].first =
+        operand.is_second;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    scenes[i].leaves = scene_.leaves;
+    // Of what is subtracted, and of a difference's first operand.
+    const csg::BooleanOp op = this->op() == csg::BooleanOp::kIntersection
+                                  ? this->op()
+                                  : csg::BooleanOp::kUnion;
+    scenes[i].program.push_back({op, 0, false, counts[i]});
+  }
+  for (std::uint32_t i = 1; i < scene_.program.size(); ++i) {
+    csg::BooleanNode node = scene_.program[i];
+    const bool is_operand = node.parent == kRoot;
+    auto& [is_second, number] = nodes[i];
+    if (!is_operand) is_second = nodes[node.parent].first;
+    csg::Scene& scene = scenes[is_second ? 1 : 0];
+    if (is_operand && counts[is_second ? 1 : 0] == 1) {
+      // It is the half.
+      number = kRoot;
+      scene.program[kRoot] = {node.op, 0, false, node.child_count};
+      continue;
+    }
+    number = static_cast<std::uint32_t>(scene.program.size());
+    node.parent = is_operand ? kRoot : nodes[node.parent].second;
+    scene.program.push_back(node);
+  }
+  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    csg::Instance instance = scene_.instances[i];
+    auto& [is_second, number] = places_[i];
+    if (instance.parent != kRoot) is_second = nodes[instance.parent].first;
+    instance.parent =
+        instance.parent == kRoot ? kRoot : nodes[instance.parent].second;
+    csg::Scene& scene = scenes[is_second ? 1 : 0];
+    number = static_cast<std::uint32_t>(scene.instances.size());
+    scene.instances.push_back(instance);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    halves_[i] = std::make_unique<Group>(std::move(scenes[i]));
+  }
+}
+
+std::array<Cascade::Group::Chains, 2> Cascade::Group::chains_of_halves(
+    const LayerChains& layer) const {
+  std::array<Chains, 2> halves;
+  auto chain = layer.chains.begin();
+  for (const ChainLoop& loop : layer.loops) {
+    const auto [is_second, number] = places_[chain->instance];
+    Chains& half = halves[is_second ? 1 : 0];
+    half.loops.push_back(loop);
+    for (std::uint32_t i = 0; i < loop.chain_count; ++i) {
+      half.chains.push_back(*chain++);
+      half.chains.back().instance = number;
+    }
+  }
+  return halves;
+}
+
+void Cascade::Group::keep(const LayerChains& layer, const Contours& contours) {
+  kept_chains_.chains.assign(layer.chains.begin(), layer.chains.end());
+  kept_chains_.loops.assign(layer.loops.begin(), layer.loops.end());
+  kept_points_.clear();
+  for (const Chain& chain : layer.chains) {
+    const auto points = chain.points_in(layer.points);
+    kept_points_.insert(kept_points_.end(), points.begin(), points.end());
+  }
+  kept_contours_ = contours;
+}
+
+const Contours* Cascade::Group::find_kept(const LayerChains& layer) const {
+  if (!std::ranges::equal(layer.loops, kept_chains_.loops)) return nullptr;
+  auto kept = kept_points_.begin();
+  const auto is_kept = [&](const Chain& a, const Chain& b) {
+    if (a.instance != b.instance || a.winding != b.winding ||
+        a.point_count != b.point_count) {
+      return false;
+    }
+    const auto points = a.points_in(layer.points);
+    const auto begin = kept;
+    kept += a.point_count;
+    return std::equal(points.begin(), points.end(), begin);
+  };
+  return std::ranges::equal(layer.chains, kept_chains_.chains, is_kept)
+             ? &kept_contours_
+             : nullptr;
+}
+
+Cascade::Cascade(const csg::Scene& scene, const SweepOptions& options,
+                 double patience)
+    : patience_(patience),
+      ray_(options),
+      resolver_(kClusterWidth, kResolvedMergeDistance),
+      root_(std::make_unique<Group>(without_surfaces(scene))) {
+  for (const csg::BooleanOp op :
+       {csg::BooleanOp::kUnion, csg::BooleanOp::kIntersection,
+        csg::BooleanOp::kDifference}) {
+    merges_.emplace_back(scene_of_two(op), ProgramStates::Rule::kNonZero);
+  }
+  block_.layer_count = 1;
+}
+
+Cascade::~Cascade() = default;
+
+void Cascade::sweep(const LayerChains& layer, Contours& contours) {
+  ++counts_.layers;
+  counts_.chains += layer.chains.size();
+  for (const Chain& chain : layer.chains) counts_.points += chain.point_count;
+  is_resolved_ = false;
+  sweep(*root_, layer, 0, contours);
+  if (is_resolved_) ++counts_.resolved_layers;
+}
+
+// `expected_swaps`: for each chain.
+void Cascade::sweep(Group& group, const LayerChains& layer,
+                    double expected_swaps, Contours& contours) {
+  const double most_swaps =
+      patience_ *
+      (group.states().is_simple() ? kMostSwapsOfSimple : kMostSwaps);
+  if (expected_swaps <= most_swaps) {
+    const Patience patience{
+        most_swaps,
+        patience_ * kFirstSwaps + kFirstShare * most_swaps *
+                                      static_cast<double>(layer.chains.size())};
+    if (sweep_at_once(group.states(), layer, contours, patience)) return;
+    expected_swaps = ray_.swaps_per_chain();
+  }
+  if (!group.part()) {
+    sweep_at_once(group.states(), layer, contours, {});
+    return;
+  }
+  const auto halves = group.chains_of_halves(layer);
+  Contours second;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LayerChains half{layer.points, halves[i].chains, halves[i].loops};
+    const double share = static_cast<double>(half.chains.size()) /
+                         static_cast<double>(layer.chains.size());
+    sweep_half(group.half(i), half, share * expected_swaps,
+               i == 0 ? contours : second);
+  }
+  merge(group.op(), second, contours);
+}
+
+// A half often has the chains that it had in the layer before, as where only
+// the rest of the scene is not upright.
+void Cascade::sweep_half(Group& half, const LayerChains& layer,
+                         double expected_swaps, Contours& contours) {
+  if (const Contours* kept = half.find_kept(layer)) {
+    contours = *kept;
+    return;
+  }
+  sweep(half, layer, expected_swaps, contours);
+  half.keep(layer, contours);
+}
+
+bool Cascade::sweep_at_once(ProgramStates& states, const LayerChains& layer,
+                            Contours& contours, const Patience& patience) {
+  if (!ray_.sweep(layer, states, contours, patience)) return false;
+  if (ray_.has_jumps()) {
+    resolver_.resolve(contours);
+    is_resolved_ = true;
+  }
+  return true;
+}
+
+void Cascade::merge(csg::BooleanOp op, const Contours& second,
+                    Contours& contours) {
+  builder_.begin(block_);
+  std::uint32_t instance = 0;
+  for (const Contours* operand : {&std::as_const(contours), &second}) {
+    for (std::size_t i = 0; i < operand->loop_count(); ++i) {
+      const auto loop = operand->loop(i);
+      builder_.loop().assign(loop.begin(), loop.end());
+      builder_.close_loop(0, instance, 1);
+    }
+    ++instance;
+  }
+  builder_.finish(block_);
+  sweep_at_once(merges_[static_cast<std::size_t>(op)], block_.chains_of(0),
+                contours, {});
+}
+
+SweepCounts Cascade::counts() const {
+  SweepCounts counts = counts_;
+  const SweepCounts swept = ray_.counts();
+  counts += swept;
+  counts.states = root_->states_met();
+  // Of the second sweeps only what went wrong counts.
+  const SweepCounts resolved = resolver_.counts();
+  counts.unbalanced_clusters += resolved.unbalanced_clusters;
+  counts.repaired_clusters += resolved.repaired_clusters;
+  counts.capped_clusters += resolved.capped_clusters;
+  return counts;
+}
+
+}  // namespace lamina::ldni::detail

@@ -1,0 +1,69 @@
+#pragma once
+// Cascaded sweeps: a Boolean where many solids overlap, group by group.
+//
+// A union of n leaves that overlap k deep has n·k crossings on the ray, though
+// its boundary has few. So where a sweep meets many crossings it is given up;
+// the operands are parted into two groups that lie together, each group is
+// swept to contours by itself, in the same way, and the contours are the two
+// operands of one more sweep. What is hidden within a group is gone before the
+// groups meet, and the cost falls from n·k towards n·log n.
+//
+// Whether a sweep is given up depends on the layer alone, so contours do not
+// depend on threads; layers with few crossings are swept as ever. The contours
+// of a group are regular, so they toggle. Their points are vertices of leaves,
+// or crossings rounded once (2e-12 mm at 1e4 mm), far below a tie, so faces
+// that coincide still tie when their groups meet. I5 (ray_sweep.h) holds for
+// edges whose ends are such points.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "csg/scene.h"
+#include "ldni/section/chain_builder.h"
+#include "ldni/section/chains.h"
+#include "ldni/section/contours.h"
+#include "ldni/sweep/detail/program_states.h"
+#include "ldni/sweep/detail/ray_sweep.h"
+#include "ldni/sweep/loop_resolver.h"
+#include "ldni/sweep/sweep_counts.h"
+
+namespace lamina::ldni::detail {
+
+class Cascade {
+ public:
+  // patience  the swaps that are borne before a sweep is given up, in units of
+  //           the usual number. At 0 all that crosses is cascaded.
+  Cascade(const csg::Scene& scene, const SweepOptions& options,
+          double patience = 1);
+  ~Cascade();
+
+  // Replaces `contours` by the loops of a layer, whose chains are those of the
+  // scene's instances.
+  void sweep(const LayerChains& layer, Contours& contours);
+
+  SweepCounts counts() const;
+
+ private:
+  class Group;
+
+  void sweep(Group& group, const LayerChains& layer, double expected_swaps,
+             Contours& contours);
+  void sweep_half(Group& half, const LayerChains& layer, double expected_swaps,
+                  Contours& contours);
+  bool sweep_at_once(ProgramStates& states, const LayerChains& layer,
+                     Contours& contours, const Patience& patience);
+  void merge(csg::BooleanOp op, const Contours& second, Contours& contours);
+
+  const double patience_;
+  RaySweep ray_;
+  LoopResolver resolver_;
+  std::unique_ptr<Group> root_;
+  std::vector<ProgramStates> merges_;  // of two contours, an operator
+  ChainBuilder builder_;
+  ChainBlock block_;  // of two contours
+  SweepCounts counts_;
+  bool is_resolved_ = false;  // the present layer, or a group of it
+};
+
+}  // namespace lamina::ldni::detail

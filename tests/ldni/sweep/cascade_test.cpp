@@ -1,0 +1,154 @@
+#include "ldni/sweep/detail/cascade.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "csg/scene.h"
+#include "csg/tie_distance.h"
+#include "ldni/section/grid.h"
+#include "ldni/section/leaf_section.h"
+#include "tests/ldni/support/scene_builder.h"
+#include "tests/support/contour_checks.h"
+#include "tests/support/leaf_scenes.h"
+
+namespace lamina::ldni::detail {
+namespace {
+
+using csg::BooleanOp;
+using support::LoopCounts;
+using testing::SceneBuilder;
+using testing::operator*;
+
+constexpr double kPatient = 1e9;
+
+// The contours of a scene at some heights, and what they cost.
+struct Swept {
+  std::vector<Contours> layers;
+  SweepCounts counts;
+};
+Swept sweep(const csg::Scene& scene, double patience,
+            const std::vector<double>& heights = {0.5}) {
+  const LayerGrid grid = LayerGrid::at_heights(heights);
+  const LeafSectioner sectioner(scene, grid);
+  ChainBlock block;
+  sectioner.cut(0, grid.layer_count(), block);
+  Cascade cascade(scene, {0, kTieDistance, kClusterWidth}, patience);
+  Swept swept;
+  swept.layers.resize(heights.size());
+  for (std::uint32_t l = 0; l < heights.size(); ++l) {
+    cascade.sweep(block.chains_of(l), swept.layers[l]);
+  }
+  swept.counts = cascade.counts();
+  return swept;
+}
+
+void expect_no_defect(const Contours& contours) {
+  for (const auto& defect : support::find_defects(contours)) {
+    ADD_FAILURE() << defect.message;
+  }
+}
+
+// Bars of length 10 and width 0.1 through the origin, each turned a little
+// against the one before: every two cross.
+csg::Scene star(int bars) {
+  SceneBuilder builder;
+  for (int i = 0; i < bars; ++i) {
+    builder.add(testing::cube_leaf({10, 0.1, 1}),
+                testing::rotated(180.0 * i / bars, {0, 0, 1}) *
+                    testing::translated({-5, -0.05, 0}));
+  }
+  return builder.finish();
+}
+
+// Square frames inside each other, each turned a little against the one before.
+csg::Scene frames(int count) {
+  SceneBuilder builder;
+  for (int i = 0; i < count; ++i) {
+    const double size = 40 - 0.15 * i;
+    const auto square = [&builder, i](double width) {
+      builder.add(testing::cube_leaf({width, width, 1}),
+                  testing::rotated(0.7 * i, {0, 0, 1}) *
+                      testing::translated({-width / 2, -width / 2, 0}));
+    };
+    builder.begin(BooleanOp::kDifference);
+    square(size);
+    square(size - 6);
+    builder.end();
+  }
+  return builder.finish();
+}
+
+TEST(Cascade, ChangesNoRegion) {
+  for (const csg::Scene& scene : {star(60), frames(60)}) {
+    const Swept whole = sweep(scene, kPatient);
+    const Swept cascaded = sweep(scene, 0);
+    expect_no_defect(cascaded.layers[0]);
+    EXPECT_EQ(support::count_loops(cascaded.layers[0]),
+              support::count_loops(whole.layers[0]));
+    EXPECT_NEAR(support::total_area(cascaded.layers[0]),
+                support::total_area(whole.layers[0]), 1e-7);
+  }
+}
+
+TEST(Cascade, BarsThroughOnePointAreAStar) {
+  constexpr int kBars = 80;
+  const Swept swept = sweep(star(kBars), 1);
+  EXPECT_EQ(support::count_loops(swept.layers[0]), (LoopCounts{1, 0}));
+  // Half of a tip lies between the axis of a bar and the bisector to the next:
+  // a right triangle, h high and h / tan(a/2) long, and a strip from there on.
+  const double a = std::numbers::pi / kBars;
+  const double h = 0.05;
+  const double triangle = h * h / std::tan(a / 2) / 2;
+  const double strip = h * (5 - h / std::tan(a / 2));
+  ASSERT_GT(strip, 0);
+  EXPECT_NEAR(support::total_area(swept.layers[0]),
+              4 * kBars * (triangle + strip), 1e-6);
+}
+
+TEST(Cascade, LeavesOutWhatIsHidden) {
+  const auto events = [](const csg::Scene& scene, double patience) {
+    return sweep(scene, patience).counts.event_points;
+  };
+  EXPECT_LT(10 * events(frames(150), 1), events(frames(150), kPatient));
+}
+
+TEST(Cascade, SweepsUprightGroupsOnce) {
+  // Upright bars, and a cone that is another circle in each layer.
+  SceneBuilder builder(BooleanOp::kIntersection);
+  builder.begin(BooleanOp::kUnion);
+  for (int i = 0; i < 100; ++i) {
+    builder.add(testing::cube_leaf({10, 0.1, 10}),
+                testing::rotated(1.8 * i, {0, 0, 1}) *
+                    testing::translated({-5, -0.05, 0}));
+  }
+  builder.end();
+  builder.add(testing::cylinder_leaf(4, 1, 10, 24));
+  const csg::Scene scene = builder.finish();
+  const std::uint64_t one = sweep(scene, 0, {1}).counts.event_points;
+  const Swept two = sweep(scene, 0, {1, 2});
+  EXPECT_LT(two.counts.event_points, one + one / 2);
+  EXPECT_EQ(two.counts.layers, 2U);
+  EXPECT_NEAR(support::total_area(two.layers[1]),
+              support::total_area(sweep(scene, kPatient, {2}).layers[0]), 1e-9);
+}
+
+TEST(Cascade, KeepsLayersOfFewCrossings) {
+  SceneBuilder builder;
+  for (int i = 0; i < 50; ++i) {
+    builder.add(testing::cube_leaf({1, 1, 1}),
+                testing::translated({0.9 * i, 0.01 * i, 0}));
+  }
+  const csg::Scene scene = builder.finish();
+  const Swept once = sweep(scene, kPatient);
+  const Swept usual = sweep(scene, 1);
+  EXPECT_EQ(usual.layers[0].points, once.layers[0].points);
+  EXPECT_EQ(usual.counts.event_points, once.counts.event_points);
+}
+
+}  // namespace
+}  // namespace lamina::ldni::detail
