@@ -325,11 +325,12 @@ Leaf make_leaf(const Operand& sum) {
     append_triangles(part, mesh);
     ++count;
   }
-  for (const SurfacePair& pair : sum.pairs) {
-    append_sum(*pair.a, *pair.b, pair.shift, mesh);
-  }
   leaf.may_overlap_itself = count > 1 || !sum.pairs.empty();
-  if (!mesh.triangles.empty()) leaf.meshes.push_back(std::move(mesh));
+  if (count > 0) leaf.meshes.push_back(std::move(mesh));
+  for (const SurfacePair& pair : sum.pairs) {
+    Mesh surface = add_surfaces(*pair.a, *pair.b, pair.shift);
+    if (!surface.triangles.empty()) leaf.meshes.push_back(std::move(surface));
+  }
   return leaf;
 }
 

@@ -1,6 +1,7 @@
 #include "csg/minkowski/surface_sum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/limits.h"
+#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -228,34 +230,18 @@ class SurfaceSum {
   //
   // edge ⊕ g, with s = 1, has the facet (to, g), the facet (from, g) turned
   // over, and for each side of g a facet (edge, side).
-  void make() {
-    add_moved_faces(a_, a_edges_, b_, key);
-    add_moved_faces(b_, b_edges_, a_,
-                    [](std::uint32_t b, std::uint32_t a) { return key(a, b); });
+  Mesh make() {
+    add_moved_faces(a_, a_edges_, b_, [this](std::uint32_t a, std::uint32_t b) {
+      return name(a, b);
+    });
+    add_moved_faces(b_, b_edges_, a_, [this](std::uint32_t b, std::uint32_t a) {
+      return name(a, b);
+    });
     add_parallelograms();
+    return {vertices_.take_points(), std::move(triangles_)};
   }
 
   double count() const { return a_edges_.count() + b_edges_.count(); }
-
-  void append_to(Mesh& mesh) const {
-    std::vector<Key> keys = triangles_;
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const Key key : keys) {
-      mesh.vertices.push_back(a_.vertices()[key >> 32] +
-                              b_.vertices()[key & 0xffffffff] + shift_);
-    }
-    const auto name = [&](Key key) {
-      return first + static_cast<std::uint32_t>(
-                         std::lower_bound(keys.begin(), keys.end(), key) -
-                         keys.begin());
-    };
-    for (std::size_t i = 0; i < triangles_.size(); i += 3) {
-      mesh.triangles.push_back({name(triangles_[i]), name(triangles_[i + 1]),
-                                name(triangles_[i + 2])});
-    }
-  }
 
   std::vector<Convex> cover() const {
     std::vector<Convex> prisms;
@@ -282,26 +268,30 @@ class SurfaceSum {
   }
 
  private:
-  // A vertex of the sum by a vertex of each.
-  using Key = std::uint64_t;
-  static Key key(std::uint32_t a, std::uint32_t b) { return Key{a} << 32 | b; }
+  // The vertex of the sum at a vertex of each; equal points are one vertex.
+  std::uint32_t name(std::uint32_t a, std::uint32_t b) {
+    return vertices_.name(a_.vertices()[a] + b_.vertices()[b] + shift_);
+  }
 
+  // Takes loop_ as often as it counts.
   void emit(int count) {
     if (count < 0) std::reverse(loop_.begin(), loop_.end());
     for (int i = 0; i < std::abs(count); ++i) {
       for (std::size_t k = 2; k < loop_.size(); ++k) {
-        triangles_.insert(triangles_.end(), {loop_[0], loop_[k - 1], loop_[k]});
+        const std::array t{loop_[0], loop_[k - 1], loop_[k]};
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+        triangles_.push_back(t);
       }
     }
-    require_triangles(static_cast<double>(triangles_.size()) / 3);
+    require_triangles(static_cast<double>(triangles_.size()));
   }
 
   // Faces of one surface moved by vertices of the other.
   //
-  // name  of the sum of a vertex and a corner of a face
+  // name_of  names the sum of a vertex and a corner of a face
   template <typename Name>
   void add_moved_faces(const JoinedFaces& movers, const Summits& summits,
-                       const JoinedFaces& faces, Name name) {
+                       const JoinedFaces& faces, Name name_of) {
     Counts counts(faces.face_count());
     for (std::uint32_t v = 0; v < movers.vertices().size(); ++v) {
       for (const std::uint32_t e : movers.edges_at(v)) {
@@ -312,7 +302,7 @@ class SurfaceSum {
       counts.take([&](std::uint32_t g, int count) {
         loop_.clear();
         for (const std::uint32_t corner : faces.corners_of(g)) {
-          loop_.push_back(name(v, corner));
+          loop_.push_back(name_of(v, corner));
         }
         emit(count);
       });
@@ -336,8 +326,8 @@ class SurfaceSum {
       const auto [from, to] = a_.edges()[e];
       counts.take([&, from = from, to = to](std::uint32_t other, int count) {
         const JoinedFaces::Edge ends = b_.edges()[other];
-        loop_ = {key(from, ends.from), key(from, ends.to), key(to, ends.to),
-                 key(to, ends.from)};
+        loop_ = {name(from, ends.from), name(from, ends.to), name(to, ends.to),
+                 name(to, ends.from)};
         emit(count);
       });
     }
@@ -364,17 +354,16 @@ class SurfaceSum {
   std::vector<Angle> b_mirrored_;
   Summits a_edges_;
   Summits b_edges_;
-  std::vector<Key> loop_;
-  std::vector<Key> triangles_;  // three corners each
+  VertexTable vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::uint32_t> loop_;  // a facet's vertices
 };
 
 }  // namespace
 
-void append_sum(const JoinedFaces& a, const JoinedFaces& b, const Vec3& shift,
-                Mesh& mesh) {
-  SurfaceSum sum(a, b, shift);
-  sum.make();
-  sum.append_to(mesh);
+Mesh add_surfaces(const JoinedFaces& a, const JoinedFaces& b,
+                  const Vec3& shift) {
+  return SurfaceSum(a, b, shift).make();
 }
 
 double count_summits(const JoinedFaces& a, const JoinedFaces& b) {

@@ -40,10 +40,10 @@
 
 namespace lamina::csg {
 
-// Appends a closed surface whose winding number is above 0 in the sum of the
-// two, moved by `shift`, and 0 outside.
-void append_sum(const JoinedFaces& a, const JoinedFaces& b, const Vec3& shift,
-                Mesh& mesh);
+// A closed surface whose winding number is above 0 in the sum of the two, moved
+// by `shift`, and 0 outside.
+Mesh add_surfaces(const JoinedFaces& a, const JoinedFaces& b,
+                  const Vec3& shift);
 
 // About how many pairs of an edge and a face make summits: the cost of the sum.
 double count_summits(const JoinedFaces& a, const JoinedFaces& b);

@@ -134,8 +134,7 @@ struct Tally {
 Tally expect_definition(const Mesh& a, const Mesh& b, int points,
                         std::mt19937& random) {
   const Vec3 shift(3, -2, 5);
-  Mesh sum;
-  append_sum(faces_of(a), faces_of(b), shift, sum);
+  const Mesh sum = add_surfaces(faces_of(a), faces_of(b), shift);
   EXPECT_FALSE(EdgeTable::of(sum).is_open());
   double size = 0;
   for (const Vec3& v : sum.vertices) {
@@ -204,9 +203,8 @@ TEST(SurfaceSum, OfFacesThatAreNotJoined) {
 
 TEST(SurfaceSum, OfSmoothBodiesGrowsAlmostWithTheirFaces) {
   const auto facets = [](std::uint32_t n) {
-    Mesh sum;
-    append_sum(faces_of(torus(3, 1, 2 * n, n)),
-               faces_of(torus(2, 0.7, 2 * n, n)), Vec3(0), sum);
+    const Mesh sum = add_surfaces(faces_of(torus(3, 1, 2 * n, n)),
+                                  faces_of(torus(2, 0.7, 2 * n, n)), Vec3(0));
     return static_cast<double>(sum.triangles.size());
   };
   // Four times as many faces of each: √4 times more than as many facets.
@@ -225,8 +223,7 @@ TEST(SurfaceSum, IsCoveredByConvexBodies) {
     ++count;
   }
   EXPECT_LT(count, 3 * count_summits(faces_of(a), faces_of(b)));
-  Mesh sum;
-  append_sum(faces_of(a), faces_of(b), Vec3(0), sum);
+  const Mesh sum = add_surfaces(faces_of(a), faces_of(b), Vec3(0));
   // Each point as often: both count summits.
   std::uniform_real_distribution<double> place(-4, 4);
   for (int i = 0; i < 200; ++i) {
