@@ -363,7 +363,10 @@ class SurfaceSum {
 
 Mesh add_surfaces(const JoinedFaces& a, const JoinedFaces& b,
                   const Vec3& shift) {
-  return SurfaceSum(a, b, shift).make();
+  SurfaceSum sum(a, b, shift);
+  // Most prisms leave a triangle at least.
+  require_triangles(sum.count());
+  return sum.make();
 }
 
 double count_summits(const JoinedFaces& a, const JoinedFaces& b) {

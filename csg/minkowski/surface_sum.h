@@ -41,7 +41,7 @@
 namespace lamina::csg {
 
 // A closed surface whose winding number is above 0 in the sum of the two, moved
-// by `shift`, and 0 outside.
+// by `shift`, and 0 outside. Throws LimitExceeded where it has too many facets.
 Mesh add_surfaces(const JoinedFaces& a, const JoinedFaces& b,
                   const Vec3& shift);
 
