@@ -10,7 +10,6 @@
 
 #include "cli/options/common_options.h"
 #include "cli/process/machine_memory.h"
-#include "cli/process/process_limits.h"
 #include "cli/process/process_watch.h"
 #include "tests/cli/lamina.h"
 

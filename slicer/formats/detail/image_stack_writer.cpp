@@ -155,7 +155,9 @@ class ArchiveWriter : public ImageStackWriter {
  public:
   ArchiveWriter(const WriterOptions& options, const std::string& path,
                 TemporaryFiles& files)
-      : ImageStackWriter(options, path), file_(path, files), archive_(file_) {}
+      : ImageStackWriter(options, path),
+        file_(OutputFile::open(path, files)),
+        archive_(file_) {}
 
   void finish(Diagnostics& diagnostics) override {
     ImageStackWriter::finish(diagnostics);

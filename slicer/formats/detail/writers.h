@@ -19,7 +19,7 @@ class FileWriter : public LayerWriter {
 
  protected:
   FileWriter(const std::string& path, TemporaryFiles& temporary_files)
-      : output_(path, temporary_files) {}
+      : output_(OutputFile::open(path, temporary_files)) {}
 
   OutputFile output_;
 };
