@@ -286,13 +286,14 @@ Operand add(const Operand& a, const Operand& b) {
   return sum;
 }
 
-// Makes convex parts of what one more operand is to be added to.
-void expand(Operand& sum) {
-  for (const SurfacePair& pair : std::exchange(sum.pairs, {})) {
-    auto cover = cover_sum(*pair.a, *pair.b, pair.shift);
-    std::move(cover.begin(), cover.end(), std::back_inserter(sum.convex));
-  }
-  for (Convex& part : sum.convex) {
+std::size_t face_count(const Operand& operand) {
+  std::size_t count = 0;
+  for (const Body& body : operand.bodies) count += body.surface->face_count();
+  return count;
+}
+
+void find_missing_edges(Operand& operand) {
+  for (Convex& part : operand.convex) {
     if (part.edges.empty()) find_edges(part);
   }
 }
@@ -301,19 +302,18 @@ void expand(Operand& sum) {
 
 Operand make_operand(const Scene& scene) { return Divider(scene).divide(); }
 
-Operand add_operands(std::vector<Operand> operands) {
-  // Few convex parts first: then faces meet their sum, not each of them.
-  std::stable_sort(operands.begin(), operands.end(),
-                   [](const Operand& a, const Operand& b) {
-                     return std::tuple(a.bodies.size(), a.convex.size()) <
-                            std::tuple(b.bodies.size(), b.convex.size());
-                   });
-  Operand sum = std::move(operands[0]);
-  for (std::size_t i = 1; i < operands.size(); ++i) {
-    if (i > 1) expand(sum);
-    sum = add(sum, operands[i]);
-  }
-  return sum;
+void sort_for_sum(std::vector<Operand>& operands) {
+  std::stable_sort(
+      operands.begin(), operands.end(), [](const Operand& a, const Operand& b) {
+        return std::tuple(a.bodies.size(), face_count(a), a.convex.size()) <
+               std::tuple(b.bodies.size(), face_count(b), b.convex.size());
+      });
+}
+
+Operand add_operands(Operand a, Operand b) {
+  find_missing_edges(a);
+  find_missing_edges(b);
+  return add(a, b);
 }
 
 Leaf make_leaf(const Operand& sum) {
@@ -328,8 +328,7 @@ Leaf make_leaf(const Operand& sum) {
   leaf.may_overlap_itself = count > 1 || !sum.pairs.empty();
   if (count > 0) leaf.meshes.push_back(std::move(mesh));
   for (const SurfacePair& pair : sum.pairs) {
-    Mesh surface = add_surfaces(*pair.a, *pair.b, pair.shift);
-    if (!surface.triangles.empty()) leaf.meshes.push_back(std::move(surface));
+    leaf.meshes.push_back(add_surfaces(*pair.a, *pair.b, pair.shift));
   }
   return leaf;
 }

@@ -49,7 +49,9 @@ struct SurfacePair {
 struct Operand {
   std::vector<Convex> convex;
   std::vector<Body> bodies;
-  std::vector<SurfacePair> pairs;  // only of sums
+  // Only of sums. Before one is added to something itself, a leaf and a body
+  // have to be made of them.
+  std::vector<SurfacePair> pairs;
 
   bool is_empty() const { return convex.empty() && bodies.empty(); }
 };
@@ -57,8 +59,12 @@ struct Operand {
 // The solid of a scene.
 Operand make_operand(const Scene& scene);
 
-// The sum of all of them, convex ones first. At least one.
-Operand add_operands(std::vector<Operand> operands);
+// In the order in which they are added at the least cost: convex ones first,
+// then those of few faces.
+void sort_for_sum(std::vector<Operand>& operands);
+
+// Operands without pairs.
+Operand add_operands(Operand a, Operand b);
 
 // The convex parts and the pairs as one leaf: their surfaces together,
 // overlapping. Flat parts have no volume and are left out.

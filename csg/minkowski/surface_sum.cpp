@@ -243,30 +243,6 @@ class SurfaceSum {
 
   double count() const { return a_edges_.count() + b_edges_.count(); }
 
-  std::vector<Convex> cover() const {
-    std::vector<Convex> prisms;
-    const auto add = [&](const JoinedFaces& edges, std::uint32_t edge,
-                         const JoinedFaces& faces, std::uint32_t face) {
-      const JoinedFaces::Edge ends = edges.edges()[edge];
-      const Vec3 from = edges.vertices()[ends.from] + shift_;
-      const Vec3 to = edges.vertices()[ends.to] + shift_;
-      const Vec3 normal = faces.normals()[face];
-      const Vec3 across = glm::cross(to - from, normal);
-      const Vec3 any = glm::cross(to - from, kUp);
-      prisms.push_back(
-          add_flat(make_flat({from, to},
-                             glm::normalize(across != Vec3(0) ? across : any)),
-                   make_flat(faces.polygon(face), normal)));
-    };
-    for (std::uint32_t e = 0; e < a_.edges().size(); ++e) {
-      a_edges_.for_each(e, [&](std::uint32_t g, int) { add(a_, e, b_, g); });
-    }
-    for (std::uint32_t e = 0; e < b_.edges().size(); ++e) {
-      b_edges_.for_each(e, [&](std::uint32_t f, int) { add(b_, e, a_, f); });
-    }
-    return prisms;
-  }
-
  private:
   // The vertex of the sum at a vertex of each; equal points are one vertex.
   std::uint32_t name(std::uint32_t a, std::uint32_t b) {
@@ -371,11 +347,6 @@ Mesh add_surfaces(const JoinedFaces& a, const JoinedFaces& b,
 
 double count_summits(const JoinedFaces& a, const JoinedFaces& b) {
   return SurfaceSum(a, b, Vec3(0)).count();
-}
-
-std::vector<Convex> cover_sum(const JoinedFaces& a, const JoinedFaces& b,
-                              const Vec3& shift) {
-  return SurfaceSum(a, b, shift).cover();
 }
 
 }  // namespace lamina::csg

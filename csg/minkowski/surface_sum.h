@@ -32,9 +32,6 @@
 // number counts maxima less saddles plus minima, an Euler characteristic, which
 // is 0 for a curve. Maxima alone are positive wherever there is any.
 
-#include <vector>
-
-#include "csg/minkowski/convex.h"
 #include "csg/minkowski/joined_faces.h"
 #include "csg/scene.h"
 
@@ -47,9 +44,5 @@ Mesh add_surfaces(const JoinedFaces& a, const JoinedFaces& b,
 
 // About how many pairs of an edge and a face make summits: the cost of the sum.
 double count_summits(const JoinedFaces& a, const JoinedFaces& b);
-
-// Convex bodies whose union is the sum of the two, moved by `shift`.
-std::vector<Convex> cover_sum(const JoinedFaces& a, const JoinedFaces& b,
-                              const Vec3& shift);
 
 }  // namespace lamina::csg

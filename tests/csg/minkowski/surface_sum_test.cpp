@@ -211,26 +211,5 @@ TEST(SurfaceSum, OfSmoothBodiesGrowsAlmostWithTheirFaces) {
   EXPECT_LT(facets(24) / facets(12), 9);
 }
 
-TEST(SurfaceSum, IsCoveredByConvexBodies) {
-  std::mt19937 random(23);
-  const Mesh a = shake(torus(3, 1, 6, 4), random);
-  const Mesh b = shake(torus(2, 0.5, 4, 3), random);
-  Mesh cover;
-  double count = 0;
-  for (const Convex& part : cover_sum(faces_of(a), faces_of(b), Vec3(0))) {
-    EXPECT_FALSE(part.is_flat);
-    append_triangles(part, cover);
-    ++count;
-  }
-  EXPECT_LT(count, 3 * count_summits(faces_of(a), faces_of(b)));
-  const Mesh sum = add_surfaces(faces_of(a), faces_of(b), Vec3(0));
-  // Each point as often: both count summits.
-  std::uniform_real_distribution<double> place(-4, 4);
-  for (int i = 0; i < 200; ++i) {
-    const Vec3 p(place(random), place(random), place(random));
-    EXPECT_NEAR(winding_number(cover, p), winding_number(sum, p), 1e-6);
-  }
-}
-
 }  // namespace
 }  // namespace lamina::csg
