@@ -174,6 +174,8 @@ class Lowerer {
   // --- lower_minkowski.cpp --------------------------------------------------
   Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
   std::vector<Scene> take_scenes(const std::vector<std::size_t>& begins);
+  // The sum of all of them, in node's coordinates. At least one.
+  Operand add_terms(std::vector<Operand> terms, const Node& node);
   void place_sum(const Operand& sum, const Node& node, const Affine& world);
 
   struct KeptBox {
