@@ -26,6 +26,18 @@ constexpr double kMostSwapsOfSimple = 12;
 constexpr double kFirstShare = 0.25;
 constexpr double kFirstSwaps = 256;
 
+// Whether half of the chains belong to one leaf, which cannot be parted.
+bool is_mostly_one_leaf(std::span<const Chain> chains) {
+  std::size_t longest = 0;
+  std::size_t run = 0;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const bool goes_on = i > 0 && chains[i].instance == chains[i - 1].instance;
+    run = goes_on ? run + 1 : 1;
+    longest = std::max(longest, run);
+  }
+  return 2 * longest >= chains.size();
+}
+
 // An operator with two operands, each a region that does not overlap itself.
 csg::Scene scene_of_two(csg::BooleanOp op) {
   csg::Scene scene;
@@ -316,6 +328,10 @@ void Cascade::sweep(const LayerChains& layer, Contours& contours) {
 // `expected_swaps`: for each chain.
 void Cascade::sweep(Group& group, const LayerChains& layer,
                     double expected_swaps, Contours& contours) {
+  if (patience_ > 0 && is_mostly_one_leaf(layer.chains)) {
+    sweep_at_once(group.states(), layer, contours, {});
+    return;
+  }
   const double most_swaps =
       patience_ *
       (group.states().is_simple() ? kMostSwapsOfSimple : kMostSwaps);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -115,6 +116,32 @@ TEST(Cascade, LeavesOutWhatIsHidden) {
     return sweep(scene, patience).counts.event_points;
   };
   EXPECT_LT(10 * events(frames(150), 1), events(frames(150), kPatient));
+}
+
+// The same star as one leaf that overlaps itself: there is nothing to part, so
+// nothing is swept in vain.
+TEST(Cascade, TriesNothingOnASingleLeaf) {
+  constexpr int kBars = 80;
+  csg::Leaf leaf;
+  leaf.may_overlap_itself = true;
+  leaf.box = {{-5, -5, 0}, {5, 5, 1}};
+  for (int i = 0; i < kBars; ++i) {
+    const double angle = std::numbers::pi * i / kBars;
+    const Vec2 along(5 * std::cos(angle), 5 * std::sin(angle));
+    const Vec2 across(-0.01 * along.y, 0.01 * along.x);
+    csg::Loft& bar = leaf.lofts.emplace_back();
+    bar.outline = std::make_shared<const std::vector<Vec2>>(std::vector<Vec2>{
+        along + across, across - along, -along - across, along - across});
+    bar.profile = {{1, 0}, {1, 1}};
+  }
+  SceneBuilder builder;
+  builder.add(leaf);
+  const csg::Scene scene = builder.finish();
+  const Swept swept = sweep(scene, 1);
+  EXPECT_EQ(swept.counts.event_points,
+            sweep(scene, kPatient).counts.event_points);
+  EXPECT_NEAR(support::total_area(swept.layers[0]),
+              support::total_area(sweep(star(kBars), 1).layers[0]), 1e-6);
 }
 
 TEST(Cascade, SweepsUprightGroupsOnce) {
