@@ -175,7 +175,8 @@ FileAccess to_access(const DesignOptions& options) {
           "readable needs root");
   Messages messages(nullptr);
   return messages.run([&](Diagnostics&) {
-    return FileAccess({options.root, options.readable, options.no_import});
+    return FileAccess::within(
+        {options.root, options.readable, options.no_import});
   });
 }
 

@@ -4,12 +4,11 @@
 //     name;size;engraving
 //     ring-1;54,5;"Ada; forever"
 //
-// Lines end with LF, CR or both; a byte order mark in front is passed over. As
-// spreadsheets write commas, semicolons (where the comma is a decimal sign) or
-// tabs between cells, the most frequent of these signs in the first line
-// separates cells. Departures from RFC 4180, for tables that are written by
-// hand: blanks around a cell belong to it only between quotes, and empty lines
-// are no rows. No CSV reader for C or C++ in Debian tells where a fault is.
+// Lines end with LF, CR or both; a byte order mark in front is passed over. The
+// most frequent of comma, semicolon and tab in the first line separates cells.
+// Departures from RFC 4180, for tables that are written by hand: blanks around
+// a cell belong to it only between quotes, and empty lines are no rows. No CSV
+// reader for C or C++ in Debian tells where a fault is.
 
 #include <cstdint>
 #include <string>

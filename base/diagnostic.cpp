@@ -26,19 +26,13 @@ struct Prefix {
 };
 
 Prefix prefix_of(Severity severity) {
-  switch (severity) {
-    case Severity::kPlain:
-      return {"", ""};
-    case Severity::kEcho:
-      return {"ECHO: ", "ECHO: "};
-    case Severity::kDeprecated:
-      return {"DEPRECATED: ", "deprecated: "};
-    case Severity::kWarning:
-      return {"WARNING: ", "warning: "};
-    case Severity::kError:
-      return {"ERROR: ", "error: "};
-  }
-  return {};
+  // In the order of the severities.
+  constexpr Prefix kPrefixes[] = {{"", ""},
+                                  {"ECHO: ", "ECHO: "},
+                                  {"DEPRECATED: ", "deprecated: "},
+                                  {"WARNING: ", "warning: "},
+                                  {"ERROR: ", "error: "}};
+  return kPrefixes[static_cast<std::size_t>(severity)];
 }
 
 void append_openscad_place(std::string& text, const Source& source,
@@ -109,6 +103,14 @@ Error::Error(Diagnostic diagnostic) : diagnostic_(std::move(diagnostic)) {}
 
 Error::Error(std::string message, SourceRange range)
     : diagnostic_{Severity::kError, range, std::move(message)} {}
+
+void fail_check(const char* file, int line, const char* claim,
+                const std::string& left, const std::string& right) {
+  throw InternalError(
+      fmt::format("internal error, please report: {}:{}: {} does not hold: {} "
+                  "against {}",
+                  file, line, claim, left, right));
+}
 
 const char* Error::what() const noexcept { return diagnostic_.message.c_str(); }
 
@@ -210,18 +212,13 @@ std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
 std::string caret_text(const Diagnostic& diagnostic) {
   if (diagnostic.audience == Audience::kEcho) return "";
   std::string text;
-  if (diagnostic.severity == Severity::kEcho) {
-    return "ECHO: " + diagnostic.message + "\n";
-  }
-  if (diagnostic.severity == Severity::kPlain) return diagnostic.message + "\n";
   append_terminal_text(text, diagnostic.range,
                        prefix_of(diagnostic.severity).terminal,
                        diagnostic.message);
-  for (const Note& note : diagnostic.notes) {
-    append_terminal_text(text, note.range, "note: ", note.message);
-  }
-  for (const Note& hint : diagnostic.hints) {
-    append_terminal_text(text, hint.range, "note: ", hint.message);
+  for (const auto* notes : {&diagnostic.notes, &diagnostic.hints}) {
+    for (const Note& note : *notes) {
+      append_terminal_text(text, note.range, "note: ", note.message);
+    }
   }
   return text;
 }

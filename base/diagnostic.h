@@ -54,26 +54,21 @@ class Error : public std::exception {
  private:
   Diagnostic diagnostic_;
 };
-class SyntaxError : public Error {
- public:
+struct SyntaxError : Error {
   using Error::Error;
 };
-class FileError : public Error {
- public:
+struct FileError : Error {
   using Error::Error;
 };
-class GeometryError : public Error {
- public:
+struct GeometryError : Error {
   using Error::Error;
 };
-class EvaluationError : public Error {
- public:
+struct EvaluationError : Error {
   using Error::Error;
 };
 
 // LAMINA_CHECK_EQ found a promise of our own broken.
-class InternalError : public Error {
- public:
+struct InternalError : Error {
   using Error::Error;
 };
 

@@ -1,10 +1,9 @@
 #pragma once
 // Whether memory ended while a package was at work that hides it.
 //
-// Clipper keeps to itself whatever is thrown inside of it, and what it then
-// gives back is empty. That memory ended it cannot hide from the handler that
-// operator new calls first, on the thread that asked. There is one handler in a
-// process, so the program sets it, not this library:
+// Clipper keeps to itself whatever is thrown inside of it and then returns
+// nothing. But operator new first calls a handler, on the thread that asked.
+// There is one in a process, so the program sets it, not this library:
 //
 //     std::set_new_handler(lamina::note_memory_end);
 

@@ -1,11 +1,10 @@
 #pragma once
 // Tasks of oneTBB, and what ThreadSanitizer must be told of them.
 //
-// Debian's library is not instrumented: the tool sees neither its queues nor
-// its locks, and would take every object that one task hands to the next for a
-// race. So the order that oneTBB promises is declared where the code relies on
-// it, object by object; elsewhere a race is still found. Other builds contain
-// none of this.
+// Debian's library is not instrumented: the tool sees none of its locks, and
+// would take every object that one task hands to the next for a race. So the
+// order that oneTBB promises is declared where the code relies on it, object by
+// object. Other builds contain none of this.
 
 #include <cstddef>
 #include <functional>

@@ -5,7 +5,6 @@
 // that each later stage can say where a fault comes from. A range is two
 // offsets and a pointer: 16 bytes, cheap enough to stand everywhere.
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <string>

@@ -77,10 +77,10 @@ void append_stream_number(double number, std::string& text) {
   text.append(digits.begin(), end);
 }
 
-void append_quoted(std::string_view content, std::string& text) {
+std::string in_quotes(std::string_view content) {
   constexpr std::string_view kEscaped = "\t\n\r\"\\";
   constexpr std::string_view kLetters = "tnr\"\\";
-  text += '"';
+  std::string text = "\"";
   for (const char c : content) {
     const std::size_t escaped = kEscaped.find(c);
     if (escaped == std::string_view::npos) {
@@ -90,7 +90,21 @@ void append_quoted(std::string_view content, std::string& text) {
       text += kLetters[escaped];
     }
   }
-  text += '"';
+  return text + '"';
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  const double_conversion::StringToDoubleConverter converter(
+      double_conversion::StringToDoubleConverter::NO_FLAGS, NAN, NAN, nullptr,
+      nullptr);
+  int used = 0;
+  const double value = converter.StringToDouble(
+      text.data(), static_cast<int>(text.size()), &used);
+  if (text.empty() || used != static_cast<int>(text.size()) ||
+      !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
 }
 
 }  // namespace lamina

@@ -6,6 +6,7 @@
 // with C++ streams (`%g`: 1e+06). Both are here, because a `.csg` file mixes
 // them.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,11 @@ void append_number(double number, std::string& text);
 // Appends a number as C++ streams show it: 0.333333, 1e+06, inf, -nan, -0.
 void append_stream_number(double number, std::string& text);
 
-// Appends "…" with \t \n \r \" \\ escaped.
-void append_quoted(std::string_view content, std::string& text);
+// "…" with \t \n \r \" \\ escaped.
+std::string in_quotes(std::string_view content);
+
+// A finite number and nothing else, such as "-1.5e3"; no value for all other
+// texts. For what people type outside of a design: options, cells of tables.
+std::optional<double> parse_number(std::string_view text);
 
 }  // namespace lamina

@@ -1,13 +1,11 @@
-// The program lamina: finds the command, has its words read, and runs it.
-// Messages are printed, faults shown and exit statuses chosen in cli/ alone.
+// The program lamina: finds the command, reads its words, and runs it. Only
+// cli/ prints messages, shows faults and chooses exit statuses.
 
 #include <exception>
 #include <memory>
 #include <new>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <variant>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -16,7 +14,6 @@
 #include <unistd.h>
 
 #include "base/memory_end.h"
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
 #include "cli/process/exit_status.h"
@@ -28,23 +25,20 @@
 namespace lamina::cli {
 namespace {
 
-// Nothing to run: help and version were asked for, or the usage was wrong.
-struct Exit {
-  int status = kDone;
-  std::string text;  // to standard output (status 0) or standard error
-};
-
-Exit usage_fault(std::string_view message) {
-  return {kUsageFault, fmt::format("lamina: {}\nRun 'lamina --help' for "
-                                   "the options.\n",
-                                   message)};
+int show_usage_fault(std::string_view message, int status = kUsageFault) {
+  print_error(fmt::format("lamina: {}\n", message));
+  if (status == kUsageFault) {
+    print_error("Run 'lamina --help' for the options.\n");
+  }
+  return status;
 }
 
-// Reads the words into the options of `command`, `limits` and `access`; a value
-// where that was all.
-std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
-                               FileAccess& access, int argc,
-                               const char* const* argv) {
+// Reads the words into the options of `command`, `limits` and `access`. Returns
+// the exit status where there is nothing to run: help or the version was asked
+// for, or the usage was wrong.
+std::optional<int> read_words(Command& command, ProcessLimits& limits,
+                              FileAccess& access, int argc,
+                              const char* const* argv) {
   CLI::App app("", "lamina");
   command.add_options(app);
   FileAccess::Limits access_limits;
@@ -54,19 +48,20 @@ std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
     command.check();
     access = make_file_access(access_limits);
   } catch (const CLI::CallForHelp&) {
-    return Exit{kDone, std::string(command.help())};
+    print_out(command.help());
+    return kDone;
   } catch (const CLI::CallForVersion& version) {
-    return Exit{kDone, fmt::format("{}\n", version.what())};
+    print_out(fmt::format("{}\n", version.what()));
+    return kDone;
   } catch (const CLI::ParseError& error) {
-    return usage_fault(error.what());
+    return show_usage_fault(error.what());
   } catch (const UsageError& error) {
-    if (error.status() == kUsageFault) return usage_fault(error.what());
-    return Exit{error.status(), fmt::format("lamina: {}\n", error.what())};
+    return show_usage_fault(error.what(), error.status());
   }
   return std::nullopt;
 }
 
-// What is thrown before main() begins, by global objects of libraries.
+// Catches what global objects of libraries throw before main() begins.
 [[gnu::constructor(101)]] void expect_the_worst() {
   std::set_terminate([] {
     print_error("lamina: out of memory\n");
@@ -74,7 +69,7 @@ std::optional<Exit> read_words(Command& command, ProcessLimits& limits,
   });
 }
 
-// The exit status.
+// Returns the exit status.
 int run_program(int argc, char** argv) {
   std::unique_ptr<Command> command;
   for (const NamedCommand& named : kNamedCommands) {
@@ -85,14 +80,9 @@ int run_program(int argc, char** argv) {
   if (!command) command = make_slice_command();
   ProcessLimits limits;
   FileAccess access;
-  if (const auto exit = read_words(*command, limits, access, argc - skipped,
-                                   argv + skipped)) {
-    if (exit->status == kDone) {
-      print_out(exit->text);
-    } else {
-      print_error(exit->text);
-    }
-    return exit->status;
+  if (const auto status = read_words(*command, limits, access, argc - skipped,
+                                     argv + skipped)) {
+    return *status;
   }
   restrict_process(access);
   TemporaryFiles temporary_files(access);
@@ -109,7 +99,7 @@ int main(int argc, char** argv) {
   using namespace lamina;
   std::set_new_handler(note_memory_end);
   cli::open_missing_streams();
-  // What runs on the large stack is caught there, with all that it has to say.
+  // The commands, on the large stack, catch and show their own faults.
   try {
     return cli::run_program(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -1,22 +1,43 @@
 #pragma once
-// What the passes of a compilation share, and keep for each other.
+// What the passes of a compilation share and keep for each other, and what they
+// report: what the compilation cost, what it made, and how exact that is.
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "base/diagnostic.h"
 #include "base/file/output_file.h"
 #include "base/source.h"
-#include "compiler/report.h"
+#include "compiler/feature_origins.h"
 #include "compiler/request.h"
 #include "csg/text/typesetter.h"
 #include "csg/tree.h"
 #include "parser/ast.h"
 #include "parser/loader.h"
+#include "slicer/contour/deviation.h"
+#include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
+
+struct Report {
+  // Processor seconds of the passes; those of slicing are in `slice`.
+  double load_seconds = 0;
+  double evaluate_seconds = 0;
+  double lower_seconds = 0;
+  slicer::SliceReport slice;
+  // What made each of slice.features.
+  std::vector<FeatureOrigins> origins;
+  // No value where nothing is promised: the paper's contours.
+  std::optional<slicer::Deviation> deviation;
+  std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
+  std::uint64_t warnings = 0;
+  std::uint64_t output_bytes = 0;
+  double wall_seconds = 0;
+};
 
 // Called with the number of layers done and of all that there can be: with 0
 // before the first layer, after each, and with both equal after the last. By

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "base/thread_clock.h"
@@ -25,8 +24,8 @@ std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
   std::vector<std::string> files = c.loader.files();
   files.insert(files.end(), c.tree.files.begin(), c.tree.files.end());
   const std::string text = make_rule(c.request.output, files);
-  auto rule =
-      std::make_unique<OutputFile>(c.request.dependencies, c.temporary_files);
+  std::unique_ptr<OutputFile> rule(new OutputFile(
+      OutputFile::open(c.request.dependencies, c.temporary_files)));
   rule->write(text);
   return rule;
 }
@@ -34,7 +33,7 @@ std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
 // Writes the product of a stage before layers, and the rule.
 bool finish_text(const Compilation& c, std::string_view text,
                  OutputFile* rule) {
-  write_text(c, text);
+  write_file(c.request.output, text, c.temporary_files);
   if (rule != nullptr) rule->commit();
   return true;
 }

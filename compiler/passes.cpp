@@ -13,7 +13,6 @@
 #include "parser/parameter_set.h"
 #include "slicer/plan/orientation.h"
 #include "slicer/plan/surface_heights.h"
-#include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
 namespace {
@@ -126,8 +125,10 @@ ast::Program load(Compilation& c) {
     });
   } catch (const SyntaxError&) {
     if (request.format == OutputFormat::kEcho) {
-      write_text(c, echo_text(c) + fmt::format("Can't parse file '{}'!\n\n",
-                                               request.design));
+      write_file(request.output,
+                 echo_text(c) +
+                     fmt::format("Can't parse file '{}'!\n\n", request.design),
+                 c.temporary_files);
     }
     throw;
   }
@@ -203,8 +204,9 @@ std::string csg_text(Compilation& c) {
   return csg::print_csg(c.tree, *csg::select_root(c.tree, c.diagnostics));
 }
 
-void write_text(const Compilation& c, std::string_view text) {
-  OutputFile output(c.request.output, c.temporary_files);
+void write_file(const std::string& path, std::string_view text,
+                TemporaryFiles& temporary_files) {
+  OutputFile output = OutputFile::open(path, temporary_files);
   output.write(text);
   output.commit();
 }

@@ -44,7 +44,8 @@ slicer::SliceReport slice(const csg::Lowered& lowered,
 std::string echo_text(Compilation& compilation);
 std::string csg_text(Compilation& compilation);
 
-// Writes a text as the output.
-void write_text(const Compilation& compilation, std::string_view text);
+// Writes a whole file.
+void write_file(const std::string& path, std::string_view text,
+                TemporaryFiles& temporary_files);
 
 }  // namespace lamina::compiler

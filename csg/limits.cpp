@@ -14,10 +14,9 @@ void require_fragments(double count) {
 
 void require_triangles(double count) {
   if (count <= kMostTriangles) return;
-  throw LimitExceeded(
-      fmt::format("Too many triangles: {:.3g} of one part, at most {:.3g} can "
-                  "be",
-                  count, kMostTriangles));
+  throw LimitExceeded(fmt::format(
+      "Too many triangles: {:.3g} of one part, at most {:.3g} can be", count,
+      kMostTriangles));
 }
 
 void require_heights(std::size_t columns, std::size_t rows) {
@@ -25,10 +24,9 @@ void require_heights(std::size_t columns, std::size_t rows) {
       kMostHeights) {
     return;
   }
-  throw LimitExceeded(
-      fmt::format("Too many heights: {} x {} of a surface, at most {:.7g} can "
-                  "be",
-                  columns, rows, kMostHeights));
+  throw LimitExceeded(fmt::format(
+      "Too many heights: {} x {} of a surface, at most {:.7g} can be", columns,
+      rows, kMostHeights));
 }
 
 void fail_too_far() {

@@ -30,10 +30,8 @@ constexpr double kMostHeights = 1 << 23;
 constexpr double kGreatestCoordinate = 1e9;
 
 // A GeometryError without a place.
-class LimitExceeded : public GeometryError {
- public:
-  explicit LimitExceeded(std::string message)
-      : GeometryError({Severity::kError, {}, std::move(message), {}}) {}
+struct LimitExceeded : GeometryError {
+  using GeometryError::GeometryError;
 };
 
 // These throw LimitExceeded where there are more.

@@ -1,11 +1,10 @@
 #pragma once
 // The Boolean program of a scene, evaluated by counters.
 //
-// A point that moves along a ray enters and leaves one leaf at a time. So the
-// program is not evaluated anew: every operator counts its children that hold,
-// a flip of one leaf changes the count of its parent, and only where that
-// changes the parent's own value does the walk towards the root go on. All
-// three operators are the same test,
+// A point that moves along a ray enters and leaves one leaf at a time. So every
+// operator counts its children that hold; a flip of one leaf changes the count
+// of its parent, and only where that changes the parent's own value does the
+// walk towards the root go on. All three operators are the same test,
 //     weighted number of children that hold >= threshold,
 // with threshold 1 for a union, the number of children for an intersection,
 // and 1 for a difference whose subtrahends weigh -1.

@@ -2,10 +2,9 @@
 // Names for points: equal points get one name.
 //
 // A triangle soup of a million triangles has each point six times. One flat
-// table with open addresses finds them in one pass over the corners, about six
-// times as fast as a tree and without a node for each point. Nearly all of that
-// time is waiting for memory, at a place that only the hash knows. So where
-// many points come at once, those places are asked for before they are needed.
+// table with open addresses finds them about six times as fast as a tree. Nearly
+// all of its time is waiting for memory, at places that only the hash knows: so
+// where many points come at once, they are asked for before they are needed.
 
 #include <cstddef>
 #include <cstdint>

@@ -2,11 +2,10 @@
 // The abstract syntax tree of an OpenSCAD program.
 //
 // Trees are variants; all nodes and lists of a program live in one arena and
-// are freed with it, so that a chain of a million `+` needs no recursion to be
-// freed and a node costs no allocation of its own. Names and strings are views
-// into the arena or into the source texts, which must outlive the program.
-// Nothing is resolved here: a Variable is a name, a Call is an expression
-// applied to arguments.
+// are freed with it, without recursion. Names and strings are views into the
+// arena or into the source texts, which must outlive the program. Nothing is
+// resolved here: a Variable is a name, a Call is an expression applied to
+// arguments.
 //
 // What OpenSCAD's own parser already settles is settled here as well: unary
 // `+` and disabled (`*`) instantiations leave no trace, and the statements of

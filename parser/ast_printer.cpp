@@ -1,5 +1,6 @@
 #include "parser/ast_printer.h"
 
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -10,59 +11,17 @@
 namespace lamina::ast {
 
 std::string_view symbol(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::kOr:
-      return "||";
-    case BinaryOp::kAnd:
-      return "&&";
-    case BinaryOp::kEqual:
-      return "==";
-    case BinaryOp::kNotEqual:
-      return "!=";
-    case BinaryOp::kLess:
-      return "<";
-    case BinaryOp::kLessEqual:
-      return "<=";
-    case BinaryOp::kGreater:
-      return ">";
-    case BinaryOp::kGreaterEqual:
-      return ">=";
-    case BinaryOp::kBitOr:
-      return "|";
-    case BinaryOp::kBitAnd:
-      return "&";
-    case BinaryOp::kShiftLeft:
-      return "<<";
-    case BinaryOp::kShiftRight:
-      return ">>";
-    case BinaryOp::kAdd:
-      return "+";
-    case BinaryOp::kSubtract:
-      return "-";
-    case BinaryOp::kMultiply:
-      return "*";
-    case BinaryOp::kDivide:
-      return "/";
-    case BinaryOp::kModulo:
-      return "%";
-    case BinaryOp::kPower:
-      return "^";
-  }
-  return "";
+  // In the order of the operators.
+  constexpr std::array<std::string_view, 18> kSymbols = {
+      "||", "&&", "==", "!=", "<", "<=", ">", ">=", "|",
+      "&",  "<<", ">>", "+",  "-", "*",  "/", "%",  "^"};
+  return kSymbols[static_cast<std::size_t>(op)];
 }
 
 namespace {
 
 char symbol(UnaryOp op) {
-  switch (op) {
-    case UnaryOp::kNot:
-      return '!';
-    case UnaryOp::kNegate:
-      return '-';
-    case UnaryOp::kBitNot:
-      return '~';
-  }
-  return ' ';
+  return std::string_view("!-~")[static_cast<std::size_t>(op)];
 }
 
 // Writes expressions to the end of a text.
@@ -70,193 +29,139 @@ class ExpressionPrinter {
  public:
   explicit ExpressionPrinter(std::string& text) : text_(text) {}
 
-  void print(const Expr& expr) { std::visit(*this, expr.node); }
-
-  void print(const Arguments& arguments) {
-    const char* separator = "";
-    for (const Argument& argument : arguments) {
-      text_ += separator;
-      separator = ", ";
-      text_ += argument.name;
-      if (argument.value == nullptr) continue;
-      if (!argument.name.empty()) text_ += " = ";
-      print(*argument.value);
-    }
+  // Prints texts, expressions and arguments one after the other.
+  template <typename... Parts>
+  void print(const Parts&... parts) {
+    (print_part(parts), ...);
   }
 
-  void operator()(const Undef&) { text_ += "undef"; }
-  void operator()(const Bool& node) { text_ += node.value ? "true" : "false"; }
+  void operator()(const Undef&) { print("undef"); }
+  void operator()(const Bool& node) { print(node.value ? "true" : "false"); }
   void operator()(const Number& node) { append_number(node.value, text_); }
-  void operator()(const String& node) { append_quoted(node.value, text_); }
-  void operator()(const Variable& node) { text_ += node.name; }
+  void operator()(const String& node) { print(in_quotes(node.value)); }
+  void operator()(const Variable& node) { print(node.name); }
 
-  void operator()(const Unary& node) {
-    text_ += symbol(node.op);
-    print(*node.operand);
-  }
+  void operator()(const Unary& node) { print(symbol(node.op), *node.operand); }
 
   void operator()(const Binary& node) {
-    text_ += '(';
-    print(*node.left);
-    text_ += ' ';
-    text_ += symbol(node.op);
-    text_ += ' ';
-    print(*node.right);
-    text_ += ')';
+    print('(', *node.left, ' ', symbol(node.op), ' ', *node.right, ')');
   }
 
   void operator()(const Conditional& node) {
-    text_ += '(';
-    print(*node.condition);
-    text_ += " ? ";
-    print(*node.if_true);
-    text_ += " : ";
-    print(*node.if_false);
-    text_ += ')';
+    print('(', *node.condition, " ? ", *node.if_true, " : ", *node.if_false,
+          ')');
   }
 
   void operator()(const Vector& node) {
-    text_ += '[';
+    print('[');
     const char* separator = "";
     for (const Expr* element : node.elements) {
-      text_ += separator;
+      print(separator, *element);
       separator = ", ";
-      print(*element);
     }
-    text_ += ']';
+    print(']');
   }
 
   void operator()(const Numbers& node) {
-    text_ += '[';
+    print('[');
     const char* separator = "";
     for (const double value : node.values) {
-      text_ += separator;
-      separator = ", ";
       // The sign was an operator of its own: -0 shows it.
-      if (std::signbit(value)) text_ += '-';
+      print(separator, std::signbit(value) ? "-" : "");
+      separator = ", ";
       append_number(std::fabs(value), text_);
     }
-    text_ += ']';
+    print(']');
   }
 
   void operator()(const Range& node) {
-    text_ += '[';
-    print(*node.begin);
-    if (node.step != nullptr) {
-      text_ += " : ";
-      print(*node.step);
-    }
-    text_ += " : ";
-    print(*node.end);
-    text_ += ']';
+    print('[', *node.begin, " : ");
+    if (node.step != nullptr) print(*node.step, " : ");
+    print(*node.end, ']');
   }
 
   void operator()(const Index& node) {
-    print(*node.object);
-    text_ += '[';
-    print(*node.index);
-    text_ += ']';
+    print(*node.object, '[', *node.index, ']');
   }
 
-  void operator()(const Member& node) {
-    print(*node.object);
-    text_ += '.';
-    text_ += node.name;
-  }
+  void operator()(const Member& node) { print(*node.object, '.', node.name); }
 
   void operator()(const Call& node) {
     const bool is_name = std::holds_alternative<Variable>(node.callee->node);
-    if (!is_name) text_ += '(';
-    print(*node.callee);
-    if (!is_name) text_ += ')';
-    text_ += '(';
-    print(node.arguments);
-    text_ += ')';
+    if (is_name) {
+      print(*node.callee);
+    } else {
+      print_in_parentheses(*node.callee);
+    }
+    print('(', node.arguments, ')');
   }
 
   void operator()(const FunctionLiteral& node) {
-    print_head("function(", node.parameters);
-    print(*node.body);
+    print("function(", node.parameters, ") ", *node.body);
   }
 
   void operator()(const Let& node) {
-    print_head("let(", node.bindings);
-    print(*node.body);
+    print("let(", node.bindings, ") ", *node.body);
   }
 
   void operator()(const AssertExpr& node) {
-    print_check("assert(", node.arguments, node.body);
+    print("assert(", node.arguments, ')');
+    if (node.body != nullptr) print(' ', *node.body);
   }
   void operator()(const EchoExpr& node) {
-    print_check("echo(", node.arguments, node.body);
+    print("echo(", node.arguments, ')');
+    if (node.body != nullptr) print(' ', *node.body);
   }
 
   // A loop over several variables is a loop in a loop.
   void operator()(const ForElements& node) {
-    if (node.bindings.empty()) {
-      print(*node.body);
-      return;
-    }
+    if (node.bindings.empty()) return print(*node.body);
     for (std::size_t i = 0; i < node.bindings.size(); ++i) {
-      print_head(i == 0 ? "for(" : "(for(", node.bindings.subspan(i, 1));
+      print(i == 0 ? "for(" : "(for(", node.bindings.subspan(i, 1), ") ");
     }
     print_in_parentheses(*node.body);
     text_.append(node.bindings.size() - 1, ')');
   }
 
   void operator()(const ForCElements& node) {
-    text_ += "for(";
-    print(node.head->init);
-    text_ += ';';
-    print(*node.head->condition);
-    text_ += ';';
-    print(node.head->update);
-    text_ += ") ";
-    print(*node.body);
+    const ForCHead& head = *node.head;
+    print("for(", head.init, ';', *head.condition, ';', head.update, ") ",
+          *node.body);
   }
 
   void operator()(const IfElements& node) {
-    text_ += "if(";
-    print(*node.condition);
-    text_ += ") ";
+    print("if(", *node.condition, ") ");
     print_in_parentheses(*node.if_true);
     if (node.if_false == nullptr) return;
-    text_ += " else ";
+    print(" else ");
     print_in_parentheses(*node.if_false);
   }
 
   void operator()(const EachElements& node) {
-    text_ += "each ";
+    print("each ");
     print_in_parentheses(*node.body);
   }
 
   void operator()(const LetElements& node) {
-    print_head("let(", node.bindings);
+    print("let(", node.bindings, ") ");
     print_in_parentheses(*node.body);
   }
 
  private:
-  void print_head(const char* head, const Arguments& arguments) {
-    text_ += head;
-    print(arguments);
-    text_ += ") ";
+  void print_part(char sign) { text_ += sign; }
+  void print_part(std::string_view text) { text_ += text; }
+  void print_part(const Expr& expr) { std::visit(*this, expr.node); }
+  void print_part(const Arguments& arguments) {
+    const char* separator = "";
+    for (const Argument& argument : arguments) {
+      print(separator, argument.name);
+      separator = ", ";
+      if (argument.value == nullptr) continue;
+      print(argument.name.empty() ? "" : " = ", *argument.value);
+    }
   }
 
-  void print_in_parentheses(const Expr& expr) {
-    text_ += '(';
-    print(expr);
-    text_ += ')';
-  }
-
-  void print_check(const char* head, const Arguments& arguments,
-                   const Expr* body) {
-    text_ += head;
-    print(arguments);
-    text_ += ')';
-    if (body == nullptr) return;
-    text_ += ' ';
-    print(*body);
-  }
+  void print_in_parentheses(const Expr& expr) { print('(', expr, ')'); }
 
   std::string& text_;
 };
@@ -264,7 +169,7 @@ class ExpressionPrinter {
 class StatementPrinter {
  public:
   StatementPrinter(std::string& text, const Customizer& customizer)
-      : text_(text), expressions_(text), customizer_(customizer) {}
+      : expressions_(text), customizer_(customizer) {}
 
   enum class Place { kOwnLine, kBehindParent };
 
@@ -285,41 +190,30 @@ class StatementPrinter {
   }
 
  private:
+  template <typename... Parts>
+  void print(const Parts&... parts) {
+    expressions_.print(parts...);
+  }
+
   void print_function(const Statement& statement, const std::string& indent) {
     const auto* node = std::get_if<FunctionDefinition>(&statement.node);
     if (node == nullptr) return;
-    print_definition(indent + "function ", node->name, node->parameters);
-    text_ += " = ";
-    expressions_.print(*node->body);
-    text_ += ";\n";
+    print(indent, "function ", node->name, '(', node->parameters,
+          ") = ", *node->body, ";\n");
   }
 
   void print_module(const Statement& statement, const std::string& indent) {
     const auto* node = std::get_if<ModuleDefinition>(&statement.node);
     if (node == nullptr) return;
-    print_definition(indent + "module ", node->name, node->parameters);
-    text_ += " {\n";
+    print(indent, "module ", node->name, '(', node->parameters, ") {\n");
     print_scope(node->body, indent + "\t");
-    text_ += indent + "}\n";
-  }
-
-  void print_definition(const std::string& head, std::string_view name,
-                        const Arguments& parameters) {
-    text_ += head;
-    text_ += name;
-    text_ += '(';
-    expressions_.print(parameters);
-    text_ += ')';
+    print(indent, "}\n");
   }
 
   void print_variable(const Statement& statement, const std::string& indent) {
     const auto& node = std::get<Assignment>(statement.node);
     if (indent.empty()) print_comment(customizer_.comment_of(statement));
-    text_ += indent;
-    text_ += node.name;
-    text_ += " = ";
-    expressions_.print(*node.value);
-    text_ += ";\n";
+    print(indent, node.name, " = ", *node.value, ";\n");
   }
 
   void print_comment(const ParameterComment& comment) {
@@ -328,13 +222,11 @@ class StatementPrinter {
     if (!comment.description.empty()) {
       print_annotation("Description", comment.description);
     }
-    text_ += "//Parameter(" + comment.values + ")\n";
+    print("//Parameter(", comment.values, ")\n");
   }
 
-  void print_annotation(const char* name, const std::string& content) {
-    text_ += std::string("//") + name + "(";
-    append_quoted(content, text_);
-    text_ += ")\n";
+  void print_annotation(std::string_view name, const std::string& content) {
+    print("//", name, '(', in_quotes(content), ")\n");
   }
 
   void print_instantiation(const Statement& statement,
@@ -342,42 +234,36 @@ class StatementPrinter {
     const auto* plain = std::get_if<Instantiation>(&statement.node);
     const auto* if_else = std::get_if<IfElse>(&statement.node);
     if (plain == nullptr && if_else == nullptr) return;
-    if (place == Place::kOwnLine) text_ += indent;
+    if (place == Place::kOwnLine) print(indent);
     if (plain != nullptr) {
-      text_ += plain->name;
-      text_ += '(';
-      expressions_.print(plain->arguments);
-      text_ += ')';
+      print(plain->name, '(', plain->arguments, ')');
       print_children(plain->children, indent, ";\n");
       return;
     }
-    text_ += "if(";
-    expressions_.print(*if_else->condition);
-    text_ += ')';
+    print("if(", *if_else->condition, ')');
     print_children(if_else->if_true, indent, ";\n");
     if (!if_else->has_else) return;
-    text_ += indent + "else";
+    print(indent, "else");
     print_children(if_else->if_false, indent, ";");
   }
 
   // Only a lone instantiation stands without braces.
   void print_children(Statements children, const std::string& indent,
-                      const char* none) {
+                      std::string_view none) {
     const bool is_lone = children.size() == 1 &&
                          !std::holds_alternative<Assignment>(children[0]->node);
     if (children.empty()) {
-      text_ += none;
+      print(none);
     } else if (is_lone) {
-      text_ += ' ';
+      print(' ');
       print_scope(children, indent, Place::kBehindParent);
     } else {
-      text_ += " {\n";
+      print(" {\n");
       print_scope(children, indent + "\t");
-      text_ += indent + "}\n";
+      print(indent, "}\n");
     }
   }
 
-  std::string& text_;
   ExpressionPrinter expressions_;
   const Customizer& customizer_;
 };

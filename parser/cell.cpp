@@ -9,7 +9,6 @@
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
 #include "base/letter_case.h"
-#include "base/number.h"
 #include "base/text.h"
 #include "parser/loader.h"
 #include "parser/parser.h"
@@ -19,10 +18,9 @@ namespace lamina {
 namespace {
 
 [[noreturn]] void refuse(std::string_view expected, std::string_view cell) {
-  throw FileError(
-      fmt::format("{} was expected, not '{}' (text would stand in quotes: "
-                  "\"{}\")",
-                  expected, cell, cell));
+  throw FileError(fmt::format(
+      "{} was expected, not '{}' (text would stand in quotes: \"{}\")",
+      expected, cell, cell));
 }
 
 // A number as OpenSCAD writes it; none if it is none.
@@ -67,12 +65,6 @@ bool is_literal(std::string_view cell) {
   }
 }
 
-std::string quoted(std::string_view cell) {
-  std::string text;
-  append_quoted(cell, text);
-  return text;
-}
-
 bool is_quoted(std::string_view cell) {
   return cell.size() > 1 && cell.starts_with('"') && cell.ends_with('"') &&
          is_literal(cell);
@@ -84,23 +76,24 @@ bool is_vector(std::string_view cell) {
 
 }  // namespace
 
-std::string value_of_cell(std::string_view cell, VariableKind kind,
+std::string value_of_cell(std::string_view cell, ast::ValueType type,
                           DecimalSign decimal) {
   if (is_quoted(cell)) return std::string(cell);
-  if (kind == VariableKind::kString) return quoted(cell);
-  const bool is_any = kind == VariableKind::kAny;
-  if (is_any || kind == VariableKind::kNumber) {
+  if (type == ast::ValueType::kString) return in_quotes(cell);
+  const bool is_any =
+      type == ast::ValueType::kAny || type == ast::ValueType::kRange;
+  if (is_any || type == ast::ValueType::kNumber) {
     if (auto number = read_number(cell, decimal)) return *number;
     if (!is_any) refuse("a number", cell);
   }
-  if (is_any || kind == VariableKind::kBool) {
+  if (is_any || type == ast::ValueType::kBool) {
     if (auto truth = read_truth(cell)) return *truth;
     if (!is_any) refuse("true or false", cell);
   }
   if (is_vector(cell)) return std::string(cell);
   if (!is_any || cell.starts_with('['))
     refuse("a vector such as [1, 2.5]", cell);
-  return quoted(cell);
+  return in_quotes(cell);
 }
 
 }  // namespace lamina

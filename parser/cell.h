@@ -8,14 +8,13 @@
 //     Ada, size 57           anything else is text, as it stands
 //
 // A variable that the design sets to a text takes all but quoted text as it
-// stands, so that an engraving may be 2024. A variable that it sets to a
-// number, a truth value or a vector takes one of these or a quoted text, so
-// that a typing mistake does not make another ring.
+// stands: an engraving may be 2024. One that it sets to a number, a truth value
+// or a vector takes one of these or a quoted text, and no typing mistake.
 
 #include <string>
 #include <string_view>
 
-#include "parser/variables.h"
+#include "parser/tree_facts.h"
 
 namespace lamina {
 
@@ -25,7 +24,7 @@ enum class DecimalSign : std::uint8_t { kPoint, kPointOrComma };
 //
 // cell    not empty
 // throws  FileError without a place: "a number was expected, not 'x' …"
-std::string value_of_cell(std::string_view cell, VariableKind kind,
+std::string value_of_cell(std::string_view cell, ast::ValueType type,
                           DecimalSign decimal);
 
 }  // namespace lamina

@@ -21,6 +21,9 @@ namespace {
 // Where Debian and most others install OpenSCAD's libraries.
 constexpr const char* kInstalledLibraries = "/usr/share/openscad/libraries";
 
+// Stands between a file and what `-D` appends.
+constexpr std::string_view kEndOfFile = "\n\x03\n";
+
 // Ranges are 32-bit offsets.
 constexpr std::uintmax_t kLargestText =
     std::numeric_limits<std::uint32_t>::max() / 2;
@@ -113,8 +116,7 @@ std::optional<std::string> Loader::read(const std::string& path) const {
       static_cast<std::uintmax_t>(status.st_size) > kLargestText) {
     return std::nullopt;
   }
-  // Room for what stands behind the text of a main file.
-  auto text = file.read_all(definitions_.size() + 3);
+  auto text = file.read_all(kEndOfFile.size() + definitions_.size());
   if (!text) check_machine(path, errno);
   return text;
 }
@@ -132,32 +134,32 @@ const Source* Loader::open_include(const std::string& path) {
 ast::Program Loader::load(const std::string& path) {
   access_.require(path);
   std::optional<std::string> text = read(path);
-  if (!text) {
-    throw FileError("Can't open input file '" + path + "'!");
-  }
+  if (!text) throw FileError("Can't open input file '" + path + "'!");
   add_file(path);
   return load_text(path, std::move(*text));
 }
 
-ast::Program Loader::load_text(const std::string& path, std::string text) {
-  text += "\n\x03\n";
+// Parses the text of a file with what `-D` appends.
+ast::Program Loader::parse_file(const std::string& path, std::string text,
+                                const Source* user) {
+  text += kEndOfFile;
   text += definitions_;
   const Source& source = sources_.add(path, std::move(text));
-  ast::Program program = parse(source, nullptr, *this, diagnostics_);
+  return parse(source, user, *this, diagnostics_);
+}
+
+ast::Program Loader::load_text(const std::string& path, std::string text) {
+  ast::Program program = parse_file(path, std::move(text), nullptr);
   load_uses(program);
   return program;
 }
 
-void Loader::note_fonts(const ast::Program& program) {
+void Loader::load_uses(const ast::Program& program) {
   for (const ast::Use& font : program.fonts) {
     if (access_.is_file(std::string(font.file))) {
       fonts_.emplace_back(font.file);
     }
   }
-}
-
-void Loader::load_uses(const ast::Program& program) {
-  note_fonts(program);
   for (const ast::Use& use : program.uses) {
     const std::string path(use.file);
     if (!use.is_found || used_.contains(path)) continue;
@@ -176,11 +178,8 @@ std::optional<ast::Program> Loader::load_used(const std::string& path,
     diagnostics_.warning({}, "Can't open library file '" + path + "'\n");
     return std::nullopt;
   }
-  *text += "\n\x03\n";
-  *text += definitions_;
-  const Source& source = sources_.add(path, std::move(*text));
   try {
-    return parse(source, &user, *this, diagnostics_);
+    return parse_file(path, std::move(*text), &user);
   } catch (const SyntaxError&) {
     return std::nullopt;  // reported already; the names stay unknown
   }

@@ -2,12 +2,11 @@
 // Files of a design: the main file, what it includes, what it uses.
 //
 // A name in `include <…>` or `use <…>` is looked up in the folder of the file
-// that names it, then in the library folders. A missing file is a warning in
-// OpenSCAD's words and the run goes on. Every used file is parsed once, right
-// after the main file, in the order in which OpenSCAD does it, so that all
+// that names it, then in the library folders. A missing file is a warning. Every
+// used file is parsed once, right after the main file, in OpenSCAD's order: all
 // messages of the parser precede those of the evaluator. A syntax error in a
-// used file is reported and leaves its names unknown; one in the main file or
-// what that includes ends the run.
+// used file leaves its names unknown; one in the main file or what that includes
+// ends the run.
 
 #include <map>
 #include <optional>
@@ -23,9 +22,8 @@
 
 namespace lamina {
 
-// Where OpenSCAD looks for libraries: the folders of OPENSCADPATH (separated
-// by ':'), the user's (~/.local/share/OpenSCAD/libraries), the installed one.
-// An empty name stands for the folder in which the program runs.
+// Where OpenSCAD looks for libraries: in the folders of OPENSCADPATH, the user's
+// and the installed one. An empty name is the folder in which the program runs.
 std::vector<std::string> library_folders(const FileAccess& access = kAllFiles);
 
 class Loader {
@@ -77,7 +75,8 @@ class Loader {
 
  private:
   void load_uses(const ast::Program& program);
-  void note_fonts(const ast::Program& program);
+  ast::Program parse_file(const std::string& path, std::string text,
+                          const Source* user);
   std::optional<ast::Program> load_used(const std::string& path,
                                         const Source& user);
   std::string look_up(SourceRange place, std::string_view name,

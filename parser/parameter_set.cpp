@@ -66,10 +66,7 @@ class SetReader : public nlohmann::json_sax<nlohmann::json> {
     path_.emplace_back();
     return true;
   }
-  bool end_array() override {
-    path_.pop_back();
-    return true;
-  }
+  bool end_array() override { return end_object(); }
 
   bool parse_error(std::size_t position, const std::string& /*token*/,
                    const nlohmann::detail::exception& error) override {
@@ -100,17 +97,13 @@ class SetReader : public nlohmann::json_sax<nlohmann::json> {
   std::size_t position_ = 0;
 };
 
-void report_error(Diagnostics& diagnostics, std::string message) {
-  diagnostics.error({}, std::move(message));
-}
-
 std::optional<std::vector<Entry>> read_set(const std::string& path,
                                            const std::string& set,
                                            const FileAccess& access,
                                            Diagnostics& diagnostics) {
   const auto refuse = [&](const std::string& why) {
-    report_error(diagnostics,
-                 fmt::format("Cannot open Parameter Set '{}': {}", path, why));
+    diagnostics.error(
+        {}, fmt::format("Cannot open Parameter Set '{}': {}", path, why));
     return std::nullopt;
   };
   access.require(path);
@@ -127,11 +120,9 @@ std::optional<std::vector<Entry>> read_set(const std::string& path,
                               reader.complaint()));
   }
   if (!reader.is_found()) {
-    report_error(
-        diagnostics,
-        fmt::format("Cannot apply Parameter Set '{}': '{}' has no such "
-                    "set",
-                    set, path));
+    diagnostics.error(
+        {}, fmt::format("Cannot apply Parameter Set '{}': '{}' has no such set",
+                        set, path));
     return std::nullopt;
   }
   return reader.take_entries();
@@ -167,8 +158,8 @@ bool set_value(const ast::Statement*& statement, std::string_view text,
                Arena& arena) {
   const auto& assignment = std::get<ast::Assignment>(statement->node);
   const auto type = ast::type_of(*assignment.value);
-  if (!type) return true;
-  const ast::Expr* value = read_value(text, *type, arena);
+  if (type == ast::ValueType::kAny) return true;
+  const ast::Expr* value = read_value(text, type, arena);
   if (value == nullptr) return type != ast::ValueType::kBool;
   // A variable that was no parameter must not become one, so its value gets no
   // place: comments describe values that have one.
@@ -212,9 +203,9 @@ bool apply_parameter_set(const std::string& path, const std::string& set,
   const auto entries = read_set(path, set, access, diagnostics);
   if (!entries) return false;
   if (set_values(*entries, program)) return true;
-  report_error(diagnostics,
-               "Cannot apply Parameter Set 'conversion of data to type \"b\" "
-               "failed'");
+  diagnostics.error(
+      {},
+      "Cannot apply Parameter Set 'conversion of data to type \"b\" failed'");
   return false;
 }
 

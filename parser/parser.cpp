@@ -1,5 +1,6 @@
 #include "parser/parser.h"
 
+#include <memory>
 #include <new>
 
 #include "parser/detail/builder.h"
@@ -15,26 +16,6 @@ int scadlex_destroy(void* scanner);
 
 namespace lamina {
 
-namespace {
-
-// Frees the scanner also where a hard warning ends the parser by exception.
-class Scanner {
- public:
-  explicit Scanner(detail::Reader& reader) {
-    if (scadlex_init_extra(&reader, &scanner_) != 0) throw std::bad_alloc();
-  }
-  ~Scanner() { scadlex_destroy(scanner_); }
-  Scanner(const Scanner&) = delete;
-  Scanner& operator=(const Scanner&) = delete;
-
-  void* get() const { return scanner_; }
-
- private:
-  void* scanner_ = nullptr;
-};
-
-}  // namespace
-
 ast::Program parse(const Source& source, const Source* user, Loader& loader,
                    Diagnostics& diagnostics) {
   detail::SyntaxErrors errors(diagnostics);
@@ -42,7 +23,10 @@ ast::Program parse(const Source& source, const Source* user, Loader& loader,
                           diagnostics);
   detail::Reader reader(source, builder.arena(), loader, errors, diagnostics);
   detail::ParserStack stack;
-  const Scanner scanner(reader);
+  void* made = nullptr;
+  if (scadlex_init_extra(&reader, &made) != 0) throw std::bad_alloc();
+  // A hard warning ends the parser by exception.
+  const std::unique_ptr<void, int (*)(void*)> scanner(made, scadlex_destroy);
   // `errors` counts the errors, so what the parser returns is not needed.
   scadparse(scanner.get(), reader, builder, errors, stack);
   return builder.finish();

@@ -1,11 +1,10 @@
 #pragma once
 // From text to syntax tree: the grammar of OpenSCAD 2021.01.
 //
-// The language stands in grammar/scad.yy and grammar/scad.ll, from which Bison
-// and Flex build the parser; here is its one entry. `include <file>` is
-// resolved while reading, since it may stand anywhere a blank may; `use
-// <file>` is found while reading but parsed by the Loader afterwards, as
-// OpenSCAD does.
+// Bison and Flex build the parser from grammar/scad.yy and grammar/scad.ll.
+// `include <file>` is resolved while reading, since it may stand anywhere a
+// blank may; `use <file>` is found while reading but parsed by the Loader
+// afterwards, as OpenSCAD does.
 
 #include "base/diagnostic.h"
 #include "base/source.h"

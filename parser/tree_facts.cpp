@@ -14,22 +14,25 @@ bool is_literal_or_absent(const Expr* expr) {
 
 bool is_arithmetic(BinaryOp op) { return op >= BinaryOp::kAdd; }
 
-std::optional<ValueType> type_of_binary(const Binary& binary) {
-  const std::optional<ValueType> left = type_of(*binary.left);
-  const std::optional<ValueType> right = type_of(*binary.right);
-  if (!left || !right) return std::nullopt;
+ValueType type_of_binary(const Binary& binary) {
+  const ValueType left = type_of(*binary.left);
+  const ValueType right = type_of(*binary.right);
+  if (left == ValueType::kAny || right == ValueType::kAny) {
+    return ValueType::kAny;
+  }
   if (!is_arithmetic(binary.op)) return ValueType::kBool;
   const bool are_numbers =
       left == ValueType::kNumber && right == ValueType::kNumber;
-  return are_numbers ? left : std::nullopt;
+  return are_numbers ? left : ValueType::kAny;
 }
 
-std::optional<ValueType> type_of_unary(const Unary& unary) {
-  const std::optional<ValueType> operand = type_of(*unary.operand);
-  if (unary.op == UnaryOp::kNot && operand) return ValueType::kBool;
+ValueType type_of_unary(const Unary& unary) {
+  const ValueType operand = type_of(*unary.operand);
+  if (operand == ValueType::kAny) return operand;
+  if (unary.op == UnaryOp::kNot) return ValueType::kBool;
   const bool can_negate =
       operand == ValueType::kNumber || operand == ValueType::kVector;
-  return can_negate ? operand : std::nullopt;
+  return can_negate ? operand : ValueType::kAny;
 }
 
 }  // namespace
@@ -53,7 +56,7 @@ bool is_literal(const Expr& expr) {
          std::holds_alternative<String>(expr.node);
 }
 
-std::optional<ValueType> type_of(const Expr& expr) {
+ValueType type_of(const Expr& expr) {
   if (const auto* unary = std::get_if<Unary>(&expr.node)) {
     return type_of_unary(*unary);
   }
@@ -68,7 +71,7 @@ std::optional<ValueType> type_of(const Expr& expr) {
       std::holds_alternative<Numbers>(expr.node)) {
     return ValueType::kVector;
   }
-  return std::nullopt;
+  return ValueType::kAny;
 }
 
 std::vector<std::size_t> assignments_that_count(Statements statements) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "parser/ast.h"
@@ -15,6 +14,7 @@ namespace lamina::ast {
 bool is_literal(const Expr& expr);
 
 enum class ValueType : std::uint8_t {
+  kAny,  // not known without evaluating the design
   kBool,
   kNumber,
   kString,
@@ -22,9 +22,9 @@ enum class ValueType : std::uint8_t {
   kRange
 };
 
-// The type of the value of a literal, or of arithmetic on literals; none for
+// The type of the value of a literal, or of arithmetic on literals; kAny for
 // undef and for whatever names a variable or calls a function.
-std::optional<ValueType> type_of(const Expr& expr);
+ValueType type_of(const Expr& expr);
 
 // The variables that a scope assigns, in the order of their first assignments:
 // of each the index of its last assignment, which counts.

@@ -3,28 +3,8 @@
 #include <set>
 #include <variant>
 
-#include "parser/tree_facts.h"
-
 namespace lamina {
 namespace {
-
-VariableKind kind_of(const ast::Expr& value) {
-  const auto type = ast::type_of(value);
-  if (!type) return VariableKind::kAny;
-  switch (*type) {
-    case ast::ValueType::kBool:
-      return VariableKind::kBool;
-    case ast::ValueType::kNumber:
-      return VariableKind::kNumber;
-    case ast::ValueType::kString:
-      return VariableKind::kString;
-    case ast::ValueType::kVector:
-      return VariableKind::kVector;
-    case ast::ValueType::kRange:
-      return VariableKind::kAny;
-  }
-  return VariableKind::kAny;
-}
 
 void add_variables(const ast::Program& program, const Loader& loader,
                    std::set<const ast::Program*>& seen, Variables& variables) {
@@ -33,7 +13,7 @@ void add_variables(const ast::Program& program, const Loader& loader,
   for (const ast::Statement* statement : program.statements) {
     const auto* assignment = std::get_if<ast::Assignment>(&statement->node);
     if (assignment == nullptr) continue;
-    own[std::string(assignment->name)] = kind_of(*assignment->value);
+    own[std::string(assignment->name)] = ast::type_of(*assignment->value);
   }
   variables.merge(own);
   for (const ast::Use& use : program.uses) {

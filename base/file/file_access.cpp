@@ -85,15 +85,17 @@ bool begins_with(const std::vector<std::string>& parts,
 
 }  // namespace
 
-FileAccess::FileAccess(const Limits& limits)
-    : refuses_data_(limits.refuses_data) {
-  if (limits.root.empty()) return;
+FileAccess FileAccess::within(const Limits& limits) {
+  FileAccess access;
+  access.refuses_data_ = limits.refuses_data;
+  if (limits.root.empty()) return access;
   Folders folders;
   folders.push_back(open_folder(limits.root));
   for (const std::string& folder : limits.readable) {
     folders.push_back(open_folder(folder));
   }
-  folders_ = std::make_shared<const Folders>(std::move(folders));
+  access.folders_ = std::make_shared<const Folders>(std::move(folders));
+  return access;
 }
 
 FileAccess FileAccess::none() {
@@ -105,10 +107,8 @@ FileAccess FileAccess::none() {
 void check_machine(const std::string& path, int error) {
   switch (error) {
     case ESTALE:
-      throw FileError(
-          fmt::format("Can't read file '{}': it changed while it "
-                      "was read.",
-                      path));
+      throw FileError(fmt::format(
+          "Can't read file '{}': it changed while it was read.", path));
     case EIO:
     case ENOSPC:
     case ENOMEM:

@@ -1,17 +1,16 @@
 #pragma once
 // Which files a run may use, and the one way to them.
 //
-// A design says which files are read, and whoever runs the program may have it
-// from a stranger. So whatever a design or a command line names is looked for
-// and opened here. Under --root that is only what lies in that folder, or for
-// reading in one of --allow-read, after all symbolic links. What lies outside
-// is not even looked for, so nothing shows whether it exists. The file that is
-// opened is the one that was judged: the way to it is walked folder by folder
+// A design may come from a stranger. So whatever a design or a command line
+// names is looked for and opened here. Under --root that is only what lies in
+// that folder, or for reading in one of --allow-read, after all symbolic links.
+// What lies outside is not even looked for, so nothing shows whether it exists.
+// The file that is opened is the one that was judged: the way to it is walked
 // through descriptors (detail/confined_walk.h), so a link put in its place
 // meanwhile does not help. Hard links look like files of the folder.
 //
-// What the program needs for itself (its libraries, its text module, /proc,
-// Fontconfig's configuration) does not pass here.
+// What the program needs for itself (its libraries, /proc, Fontconfig's
+// configuration) does not pass here.
 
 #include <memory>
 #include <optional>
@@ -31,8 +30,7 @@ struct PermittedFolder;
 struct Destination;
 
 // A file may not be used.
-class AccessError : public Error {
- public:
+struct AccessError : Error {
   using Error::Error;
 };
 
@@ -60,6 +58,8 @@ class FileAccess {
  public:
   // All files that the user of the program may use.
   FileAccess() = default;
+  // No file at all.
+  static FileAccess none();
 
   struct Limits {
     std::string root;  // all files are in it; empty: everywhere
@@ -67,10 +67,7 @@ class FileAccess {
     bool refuses_data = false;          // FileUse::kData
   };
   // Throws AccessError for what is no folder.
-  explicit FileAccess(const Limits& limits);
-
-  // No file at all.
-  static FileAccess none();
+  static FileAccess within(const Limits& limits);
 
   bool is_confined() const { return folders_ != nullptr; }
   // The descriptors of the folders, the root first; none where nothing is

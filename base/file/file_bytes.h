@@ -1,10 +1,9 @@
 #pragma once
 // The bytes of a file, read once.
 //
-// They are a copy of our own, not a view of the file: whoever writes or
-// shortens that file meanwhile would change numbers under the reader's eyes,
-// and pages that are gone end a process. Copying costs a hundredth of what it
-// takes to make a mesh of the bytes.
+// They are a copy, not a view of the file: whoever shortens a mapped file ends
+// the process that reads it. Copying costs a hundredth of what it takes to make
+// a mesh of the bytes.
 
 #include <cstddef>
 #include <optional>

@@ -7,8 +7,7 @@ namespace lamina {
 
 // Thrown by readers. The message names format and place, but not the file:
 // "STL line 12, extra vertex line 'vertex 0 0 1'".
-class FormatError : public std::runtime_error {
- public:
+struct FormatError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

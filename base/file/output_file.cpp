@@ -14,26 +14,38 @@
 #include "base/file/write_all.h"
 
 namespace lamina {
-OutputFile::OutputFile(std::string path, TemporaryFiles& temporary_files)
-    : path_(std::move(path)),
-      temporary_files_(temporary_files),
-      buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
-  const FileAccess& access = temporary_files_.file_access();
-  if (path_ != "-") place_ = access.find_output(path_);
-  if (place_.error != 0) fail(place_.error);
-  const auto there = place_.there;
-  if (there && S_ISDIR(there->st_mode)) fail(EISDIR);
-  if (path_ == "-" || (there && !S_ISREG(there->st_mode))) {
-    place_ = {};
-    temporary_.file = temporary_files_.open_nameless();
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int error) {
+  throw FileError(fmt::format("Can't write '{}': {}",
+                              path == "-" ? "standard output" : path,
+                              std::strerror(error)));
+}
+
+}  // namespace
+
+OutputFile OutputFile::open(std::string path, TemporaryFiles& temporary_files) {
+  auto buffer = std::make_unique_for_overwrite<char[]>(kBufferSize);
+  OutputPlace place;
+  if (path != "-") place = temporary_files.file_access().find_output(path);
+  if (place.error != 0) fail(path, place.error);
+  const bool is_there = place.there.has_value();
+  const mode_t mode = is_there ? place.there->st_mode : S_IFREG;
+  if (S_ISDIR(mode)) fail(path, EISDIR);
+  TemporaryFiles::File temporary;
+  if (path == "-" || !S_ISREG(mode)) {
+    place = {};
+    temporary.file = temporary_files.open_nameless();
   } else {
-    if (there && ::faccessat(AT_FDCWD, place_.path.c_str(), W_OK,
-                             AT_SYMLINK_NOFOLLOW) != 0) {
-      fail(errno);
+    if (is_there && ::faccessat(AT_FDCWD, place.path.c_str(), W_OK,
+                                AT_SYMLINK_NOFOLLOW) != 0) {
+      fail(path, errno);
     }
-    temporary_ = temporary_files_.open_file(place_.path);
+    temporary = temporary_files.open_file(place.path);
   }
-  if (temporary_.file < 0) fail(errno);
+  if (temporary.file < 0) fail(path, errno);
+  return {std::move(path), std::move(place), temporary_files,
+          std::move(temporary), std::move(buffer)};
 }
 
 OutputFile::~OutputFile() { temporary_files_.discard_file(temporary_); }
@@ -49,7 +61,7 @@ void OutputFile::write(std::string_view bytes) {
 
 void OutputFile::flush() {
   const int error = write_all(temporary_.file, {buffer_.get(), used_});
-  if (error != 0) fail(error);
+  if (error != 0) fail(path_, error);
   flushed_ += used_;
   used_ = 0;
 }
@@ -58,7 +70,7 @@ void OutputFile::patch(std::uint64_t offset, std::string_view bytes) {
   flush();
   const int error =
       write_all(temporary_.file, bytes, static_cast<off_t>(offset));
-  if (error != 0) fail(error);
+  if (error != 0) fail(path_, error);
 }
 
 void OutputFile::insert(std::uint64_t offset, std::string_view bytes) {
@@ -71,7 +83,7 @@ void OutputFile::insert(std::uint64_t offset, std::string_view bytes) {
   }
   patch(offset, bytes);
   flushed_ += bytes.size();
-  if (::lseek(temporary_.file, 0, SEEK_END) < 0) fail(errno);
+  if (::lseek(temporary_.file, 0, SEEK_END) < 0) fail(path_, errno);
 }
 
 std::string OutputFile::read(std::uint64_t offset, std::size_t size) {
@@ -81,7 +93,7 @@ std::string OutputFile::read(std::uint64_t offset, std::size_t size) {
         ::pread(temporary_.file, bytes.data() + done, size - done,
                 static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) fail(count < 0 ? errno : EIO);
+    if (count <= 0) fail(path_, count < 0 ? errno : EIO);
     done += static_cast<std::size_t>(count);
   }
   return bytes;
@@ -93,33 +105,14 @@ void OutputFile::commit() {
     const int target = path_ == "-"
                            ? STDOUT_FILENO
                            : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (target < 0) fail(errno);
-    copy_to(target);
-    if (target != STDOUT_FILENO && ::close(target) != 0) fail(errno);
+    if (target < 0) fail(path_, errno);
+    const int error = copy_bytes(temporary_.file, target);
+    if (error != 0) fail(path_, error);
+    if (target != STDOUT_FILENO && ::close(target) != 0) fail(path_, errno);
   } else if (!temporary_files_.commit_file(temporary_, place_.path)) {
-    fail(errno);
+    fail(path_, errno);
   }
   temporary_files_.discard_file(temporary_);
-}
-
-void OutputFile::copy_to(int target) {
-  std::uint64_t offset = 0;
-  while (offset < flushed_) {
-    const ssize_t count = ::pread(temporary_.file, buffer_.get(), kBufferSize,
-                                  static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) fail(count < 0 ? errno : EIO);
-    const int error =
-        write_all(target, {buffer_.get(), static_cast<std::size_t>(count)});
-    if (error != 0) fail(error);
-    offset += static_cast<std::uint64_t>(count);
-  }
-}
-
-void OutputFile::fail(int error) const {
-  const std::string name = path_ == "-" ? "standard output" : path_;
-  throw FileError(
-      fmt::format("Can't write '{}': {}", name, std::strerror(error)));
 }
 
 }  // namespace lamina

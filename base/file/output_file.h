@@ -2,17 +2,17 @@
 // An output that appears whole or not at all.
 //
 // Bytes go to a temporary file (temporary_files.h), which takes the target's
-// name at the end; whatever ends the run before that leaves nothing behind.
-// What cannot be renamed over (standard output, a device, a FIFO) gets its
-// bytes at the end from an unnamed temporary file, so that formats whose
+// name at the end. What cannot be renamed over (standard output, a device, a
+// FIFO) gets its bytes at the end from an unnamed one, so that formats whose
 // header is known last (SLC) can still be patched. Everything goes through one
-// large buffer: writers append small pieces, the kernel sees megabytes.
+// large buffer.
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/file/file_access.h"
 #include "base/file/temporary_files.h"
@@ -23,7 +23,7 @@ class OutputFile {
  public:
   // path  "-": standard output
   // Throws FileError if the file cannot be made, AccessError if it may not be.
-  OutputFile(std::string path, TemporaryFiles& temporary_files);
+  static OutputFile open(std::string path, TemporaryFiles& temporary_files);
   ~OutputFile();  // discards what was not committed
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -56,13 +56,20 @@ class OutputFile {
   std::uint64_t size() const { return flushed_ + used_; }
 
  private:
-  // Large enough that system calls do not show, small beside a program's 12 MB.
+  // So large that system calls do not show.
   static constexpr std::size_t kBufferSize = 1 << 18;
+
+  OutputFile(std::string path, OutputPlace place,
+             TemporaryFiles& temporary_files, TemporaryFiles::File temporary,
+             std::unique_ptr<char[]> buffer)
+      : path_(std::move(path)),
+        place_(std::move(place)),
+        temporary_files_(temporary_files),
+        temporary_(std::move(temporary)),
+        buffer_(std::move(buffer)) {}
 
   void flush();
   std::string read(std::uint64_t offset, std::size_t size);
-  void copy_to(int target);
-  [[noreturn]] void fail(int error) const;
 
   std::string path_;
   OutputPlace place_;  // what is replaced; no path: nothing is

@@ -71,8 +71,8 @@ void OutputFolder::check_target() const {
   for (const std::string& name : *names) {
     if (!own.contains(name)) {
       fail(
-          fmt::format("a folder stands there, and '{}' in it, which lamina "
-                      "did not make, would be lost",
+          fmt::format("a folder stands there, and '{}' in it, which lamina did "
+                      "not make, would be lost",
                       name));
     }
   }

@@ -135,12 +135,9 @@ int make_hidden(const std::string& target, std::string& name,
   }
 }
 
-int make_named_file(const char* path) {
-  return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-}
-
-int make_private_file(const char* path) {
-  return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+template <mode_t kMode>
+int make_file(const char* path) {
+  return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
 }
 
 int make_named_folder(const char* path) {
@@ -169,21 +166,6 @@ bool link_file(int file, const std::string& path) {
                   AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Returns 0 or the error number.
-int copy_bytes(int from, int to) {
-  std::array<char, 1 << 16> buffer;
-  for (off_t offset = 0;;) {
-    const ssize_t count = ::pread(from, buffer.data(), buffer.size(), offset);
-    if (count == 0) return 0;
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
-    const int error =
-        write_all(to, {buffer.data(), static_cast<std::size_t>(count)});
-    if (error != 0) return error;
-    offset += count;
-  }
-}
-
 // Network file systems tell at the end of the writing that there is no room.
 // Returns 0 or the error number.
 int end_writing(int file) {
@@ -200,7 +182,7 @@ int TemporaryFiles::open_nameless() {
   // It has a hidden name for a moment.
   std::string name;
   const Lock lock(mutex_);
-  file = make_hidden(folder + "/output", name, paths_, make_private_file);
+  file = make_hidden(folder + "/output", name, paths_, make_file<0600>);
   if (file >= 0) {
     ::unlink(name.c_str());
     forget(name);
@@ -244,7 +226,7 @@ TemporaryFiles::File TemporaryFiles::open_file(const std::string& target) {
   File file;
   file.file = open_nameless_in(folder_of(target));
   if (file.file >= 0) return file;
-  file.file = make_hidden(target, file.name, paths_, make_named_file);
+  file.file = make_hidden(target, file.name, paths_, make_file<0666>);
   return file;
 }
 
@@ -270,7 +252,7 @@ bool TemporaryFiles::give_name(File& file, const std::string& target) {
   file.name.clear();
   // Some systems do not allow that: a copy has a name from the start.
   File copy;
-  copy.file = make_hidden(target, copy.name, paths_, make_named_file);
+  copy.file = make_hidden(target, copy.name, paths_, make_file<0666>);
   if (copy.file < 0) return false;
   std::swap(file, copy);
   int error = copy_bytes(copy.file, file.file);

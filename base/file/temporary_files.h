@@ -3,10 +3,9 @@
 //
 // A file has no name at all until it is whole, where the file system has such
 // files (O_TMPFILE): then even a run that is killed leaves nothing. Otherwise,
-// and for folders, it has a hidden name beside the target. It is locked as long
-// as the run lives, and the kernel unlocks it when the run ends, however that
-// comes: a hidden name whose lock is free is abandoned, and the next run that
-// wants it removes what stands there.
+// and for folders, it has a hidden name beside the target and is locked until
+// the run ends: a hidden name whose lock is free is abandoned, and the next run
+// that wants it removes what stands there.
 
 #include <cstdint>
 #include <mutex>

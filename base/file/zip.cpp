@@ -77,7 +77,8 @@ Archive open_archive(Stream& stream) {
 
 }  // namespace
 
-ZipArchive::ZipArchive(std::string_view bytes) : bytes_(bytes) {
+ZipArchive ZipArchive::open(std::string_view bytes) {
+  std::vector<std::string> names;
   Stream stream{bytes};
   const Archive archive = open_archive(stream);
   std::vector<char> name(UINT16_MAX);  // as long as any can be
@@ -88,8 +89,9 @@ ZipArchive::ZipArchive(std::string_view bytes) : bytes_(bytes) {
                                 nullptr, 0, nullptr, 0) != UNZ_OK) {
       throw FormatError("ZIP archive has a broken directory");
     }
-    names_.emplace_back(name.data(), info.size_filename);
+    names.emplace_back(name.data(), info.size_filename);
   }
+  return {bytes, std::move(names)};
 }
 
 std::optional<std::string> ZipArchive::read(const std::string& name) const {

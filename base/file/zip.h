@@ -4,16 +4,17 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lamina {
 
 class ZipArchive {
  public:
-  // bytes  must stay as long as this object
+  // bytes  must stay as long as the archive
   //
   // throws  FormatError where they are no archive
-  explicit ZipArchive(std::string_view bytes);
+  static ZipArchive open(std::string_view bytes);
 
   static bool is_zip(std::string_view bytes) {
     return bytes.starts_with("PK\3\4");
@@ -30,6 +31,9 @@ class ZipArchive {
   std::optional<std::string> read(const std::string& name) const;
 
  private:
+  ZipArchive(std::string_view bytes, std::vector<std::string> names)
+      : bytes_(bytes), names_(std::move(names)) {}
+
   std::string_view bytes_;
   std::vector<std::string> names_;
 };

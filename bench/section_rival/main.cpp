@@ -63,7 +63,7 @@ void run(const Options& options) {
   compiler::Compilation compilation(request, files);
   const auto lowered = compiler::make_geometry(compilation);
   if (!lowered) throw std::runtime_error("the design has errors");
-  OutputFile output(options.output, files);
+  OutputFile output = OutputFile::open(options.output, files);
   slice_by_sections(*lowered->scene(), options.thickness, output);
   output.commit();
 }

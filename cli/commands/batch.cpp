@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "base/source.h"
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/piece_table.h"
 #include "cli/commands/pieces.h"
 #include "cli/options/design_options.h"
+#include "cli/options/option_values.h"
 #include "cli/options/output_options.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
@@ -53,24 +53,18 @@ class BatchCommand : public Command {
     app.add_option("-o", table_.request.output)
         ->type_name("pattern")
         ->required();
-    app.add_option("--skip", skipped_)
-        ->type_name("column")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    make_repeatable(app.add_option("--skip", skipped_)->type_name("column"));
     add_output_options(app, table_.request, output_options_);
     add_design_options(app, table_.request, is_quiet_);
     add_slicing_options(app, table_.request);
   }
 
   void check() override {
-    if (!table_.request.parameter_file.empty()) {
-      throw UsageError("batch takes values from --table, not from -p and -P");
-    }
-    if (table_.request.output.find('{') == std::string::npos) {
-      throw UsageError(
-          "-o needs a pattern, such as 'out/{name}.slc' or 'out/{row}.slc'");
-    }
+    refuse_if(!table_.request.parameter_file.empty(),
+              "batch takes values from --table, not from -p and -P");
+    refuse_if(table_.request.output.find('{') == std::string::npos,
+              "-o needs a pattern, such as 'out/{{name}}.slc' or "
+              "'out/{{row}}.slc'");
     choose_format(table_.request, output_options_, table_.request.output);
     table_.skipped.insert(skipped_.begin(), skipped_.end());
   }

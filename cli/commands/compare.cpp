@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/file/output_file.h"
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
@@ -20,6 +19,7 @@
 #include "cli/report/comparison.h"
 #include "cli/report/comparison_text.h"
 #include "cli/report/session.h"
+#include "compiler/passes.h"
 #include "slicer/picture/difference_picture.h"
 
 namespace lamina::cli {
@@ -98,27 +98,21 @@ class CompareCommand : public Command {
   }
 
   void check() override {
-    if (is_against_openscad_ != b_.empty()) {
-      throw UsageError(b_.empty()
-                           ? "compare needs two files, or --against openscad"
-                           : "--against openscad stands for the second file");
-    }
+    refuse_if(b_.empty() && !is_against_openscad_,
+              "compare needs two files, or --against openscad");
+    refuse_if(!b_.empty() && is_against_openscad_,
+              "--against openscad stands for the second file");
     for (const std::string& path : {a_, b_}) {
-      if (!path.empty() && !can_compare(path)) {
-        throw UsageError(fmt::format(
-            "'{}' is no file that compare reads (.slc .cli .svg .layers.json "
-            ".scad .csg .stl .off .obj .amf .3mf .dxf)",
-            path));
-      }
+      refuse_if(!path.empty() && !can_compare(path),
+                "'{}' is no file that compare reads (.slc .cli .svg "
+                ".layers.json .scad .csg .stl .off .obj .amf .3mf .dxf)",
+                path);
     }
     if (is_against_openscad_) check_openscad();
-    if (request_.settings.paper.sampler != ldni::SamplerKind::kScanline) {
-      throw UsageError("compare cuts at heights, which --sampler gl cannot");
-    }
-    if (!picture_.empty() && !picture_.ends_with(".png")) {
-      throw UsageError(
-          fmt::format("--png draws .png pictures; '{}' is none", picture_));
-    }
+    refuse_if(request_.settings.paper.sampler != ldni::SamplerKind::kScanline,
+              "compare cuts at heights, which --sampler gl cannot");
+    refuse_if(!picture_.empty() && !picture_.ends_with(".png"),
+              "--png draws .png pictures; '{}' is none", picture_);
     refuse_contradictions(request_.settings);
   }
 
@@ -127,6 +121,8 @@ class CompareCommand : public Command {
     return run_caught(terminal, Diagnostics(), [&] {
       try {
         const auto a = open_compared(a_, request_, is_quiet_, context);
+        // Faults of the design come before those of openscad.
+        if (is_against_openscad_) a->layers();
         const auto b =
             is_against_openscad_
                 ? open_openscad(a_, request_, time_limit_, is_quiet_, context)
@@ -140,14 +136,12 @@ class CompareCommand : public Command {
 
  private:
   void check_openscad() const {
-    if (!a_.ends_with(".scad") && !a_.ends_with(".csg")) {
-      throw UsageError("--against openscad compares a design");
-    }
-    if (request_.chordal_error > 0) {
-      throw UsageError(
-          "--chordal-error makes other facets than openscad's: give $fa and "
-          "$fs by -D");
-    }
+    refuse_if(!a_.ends_with(".scad") && !a_.ends_with(".csg"),
+              "--against openscad compares a design");
+    refuse_if(
+        request_.chordal_error > 0,
+        "--chordal-error makes other facets than openscad's: give $fa and "
+        "$fs by -D");
   }
 
   int compare(Compared& a, Compared& b, TemporaryFiles& temporary_files) const {
@@ -157,7 +151,7 @@ class CompareCommand : public Command {
     if (!result.is_equal() && !aligns_) result.hint = find_hint(a, b, result);
     if (!is_quiet_) print_out(comparison_text(result, lists_all_));
     if (!report_.empty()) {
-      write_file(report_, comparison_json(result), temporary_files);
+      compiler::write_file(report_, comparison_json(result), temporary_files);
     }
     if (!picture_.empty()) draw(comparison, result, temporary_files);
     return result.is_equal() ? kDone : kFault;
@@ -194,7 +188,7 @@ class CompareCommand : public Command {
         comparison.layer_a(index).contours, comparison.layer_b(index).contours,
         result.layers[index],
         {file_name(result.a.name), file_name(result.b.name)});
-    OutputFile output(picture_, temporary_files);
+    OutputFile output = OutputFile::open(picture_, temporary_files);
     write_png(picture, output);
     output.commit();
   }

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"

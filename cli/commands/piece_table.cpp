@@ -30,7 +30,19 @@ const Source& read_table(const std::string& path, const FileAccess& access,
   return sources.add(path, std::move(*text));
 }
 
-// What the design lets be set. Its warnings come with its pieces.
+// Runs `work`, which completes the piece. What it throws is the piece's fault.
+template <typename Work>
+void complete(Piece& piece, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    piece.fault = error.what();
+    piece.request.output.clear();
+  }
+}
+
+// The variables that the design lets others set. Its warnings come with its
+// pieces.
 Variables variables_of(const compiler::Request& request,
                        const FileAccess& access, SourceStore& sources,
                        Diagnostics& diagnostics) {
@@ -44,8 +56,19 @@ Variables variables_of(const compiler::Request& request,
 
 struct Column {
   std::string name;
-  std::optional<VariableKind> variable;  // that it sets
+  std::optional<ast::ValueType> variable;  // that it sets
 };
+
+// Returns what `work` returns; names the column in whatever FileError it
+// throws.
+template <typename Work>
+std::string name_fault(const std::string& column, const Work& work) {
+  try {
+    return work();
+  } catch (const FileError& error) {
+    throw FileError(fmt::format("{}: {}", column, error.what()));
+  }
+}
 
 class TableReader {
  public:
@@ -98,12 +121,12 @@ class TableReader {
   }
 
   // No value where the column sets no variable.
-  std::optional<VariableKind> kind_of(const std::string& name,
-                                      const Variables& variables) const {
+  std::optional<ast::ValueType> kind_of(const std::string& name,
+                                        const Variables& variables) const {
     if (options_.skipped.contains(name)) return std::nullopt;
     const auto variable = variables.find(name);
     if (variable != variables.end()) return variable->second;
-    if (name.starts_with('$')) return VariableKind::kAny;
+    if (name.starts_with('$')) return ast::ValueType::kAny;
     return std::nullopt;
   }
 
@@ -143,14 +166,11 @@ class TableReader {
     } else {
       piece.prefix += piece.name + ": ";
     }
-    try {
+    complete(piece, [&] {
       check_width(row);
       piece.request.definitions += definitions_of(row);
       piece.request.output = output_of(row, number);
-    } catch (const Error& error) {
-      piece.fault = error.what();
-      piece.request.output.clear();
-    }
+    });
     return piece;
   }
 
@@ -166,7 +186,7 @@ class TableReader {
                                 row.cells.size(), wanted));
   }
 
-  // Empty where the row has none.
+  // Empty where the row has no such cell.
   std::string cell_of(const CsvRow& row, const std::string& name) const {
     const Column* column = find_column(name);
     if (column == nullptr) return "";
@@ -179,13 +199,10 @@ class TableReader {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Column& column = columns_[i];
       if (!column.variable || row.cells[i].empty()) continue;
-      try {
-        text += fmt::format(
-            "{}={};\n", column.name,
-            value_of_cell(row.cells[i], *column.variable, decimal_));
-      } catch (const FileError& error) {
-        throw FileError(fmt::format("{}: {}", column.name, error.what()));
-      }
+      const std::string value = name_fault(column.name, [&] {
+        return value_of_cell(row.cells[i], *column.variable, decimal_);
+      });
+      text += fmt::format("{}={};\n", column.name, value);
     }
     return text;
   }
@@ -196,12 +213,8 @@ class TableReader {
           if (word == kRowWord && find_column(word) == nullptr) {
             return fmt::format("{}", number);
           }
-          std::string cell = cell_of(row, word);
-          const std::string fault = fault_of_name(cell);
-          if (fault.empty()) return cell;
-          throw FileError(
-              fmt::format("{}: '{}' {} and can be no part of a file's name",
-                          word, cell, fault));
+          return name_fault(
+              word, [&] { return require_part_of_name(cell_of(row, word)); });
         });
   }
 
@@ -215,7 +228,8 @@ class TableReader {
   std::vector<Column> columns_;
 };
 
-// A word of the pattern can be {name} or {row} only.
+// The pieces of a file of parameter sets. Words of the pattern can only be
+// {name} and {row}.
 std::vector<Piece> read_sets(const TableOptions& options,
                              const FileAccess& access,
                              Diagnostics& diagnostics) {
@@ -235,18 +249,13 @@ std::vector<Piece> read_sets(const TableOptions& options,
     piece.request.parameter_set = name;
     piece.name = name;
     piece.prefix = fmt::format("{}: {}: ", options.table, name);
-    const std::string number = fmt::format("{}", pieces.size());
-    const bool is_used =
-        piece.request.output.find("{name}") != std::string::npos;
-    const std::string fault = is_used ? fault_of_name(name) : "";
-    piece.request.output =
-        fill_pattern(options.request.output, [&](const std::string& word) {
-          return word == kRowWord ? number : name;
-        });
-    if (fault.empty()) continue;
-    piece.fault =
-        fmt::format("'{}' {} and can be no part of a file's name", name, fault);
-    piece.request.output.clear();
+    complete(piece, [&] {
+      piece.request.output =
+          fill_pattern(options.request.output, [&](const std::string& word) {
+            return word == kRowWord ? fmt::format("{}", pieces.size())
+                                    : require_part_of_name(name);
+          });
+    });
   }
   if (pieces.empty()) {
     diagnostics.error({}, fmt::format("'{}' has no sets", options.table));

@@ -11,18 +11,29 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <pthread.h>
+#include <nlohmann/json.hpp>
 
-#include "cli/commands/pieces_report.h"
+#include "base/csv.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/large_stack.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
+#include "compiler/passes.h"
 
 namespace lamina::cli {
 namespace {
+
+// What came of a piece. Lists of outcomes are in the order of the pieces.
+struct Outcome {
+  bool is_done = false;
+  std::string error;  // the first one
+  std::uint64_t layers = 0;
+  double volume = 0;            // [mm³]
+  double seconds = 0;           // by the clock
+  nlohmann::ordered_json json;  // report_json(), if a report is wanted
+};
 
 class Workshop {
  public:
@@ -50,13 +61,15 @@ class Workshop {
     std::vector<Worker> workers(others);
     std::size_t started = 0;
     for (Worker& worker : workers) {
-      worker.workshop = this;
-      if (!worker.stack.start(worker.thread, &work_in_thread, &worker)) break;
+      const auto work = [this, &worker] {
+        worker.fault = work_caught(worker.stack.size());
+      };
+      if (!worker.stack.start(work)) break;
       ++started;
     }
     std::exception_ptr fault = work_caught(context_.stack);
     for (std::size_t i = 0; i < started; ++i) {
-      ::pthread_join(workers[i].thread, nullptr);
+      workers[i].stack.join();
       if (!fault) fault = workers[i].fault;
     }
     line_->erase();
@@ -66,19 +79,11 @@ class Workshop {
 
  private:
   struct Worker {
-    Workshop* workshop = nullptr;
     LargeStack stack;
-    pthread_t thread{};
     std::exception_ptr fault;  // what ended its work
   };
 
-  static void* work_in_thread(void* argument) {
-    Worker& worker = *static_cast<Worker*>(argument);
-    worker.fault = worker.workshop->work_caught(worker.stack.size());
-    return nullptr;
-  }
-
-  // What is thrown here comes from no piece: there is no memory to begin one.
+  // What is thrown here is no fault of a piece: memory lacks to begin one.
   std::exception_ptr work_caught(std::size_t stack) noexcept {
     try {
       work(stack);
@@ -90,7 +95,7 @@ class Workshop {
 
   void work(std::size_t stack) {
     while (const Piece* piece = next()) {
-      // With its messages, which may find nobody who reads them.
+      // Its time includes that of its messages, which may find no reader.
       const ProcessWatch::Part timed(context_.watch, piece->prefix);
       const auto index = static_cast<std::size_t>(piece - pieces_.data());
       Inbox inbox{piece->prefix, worker_count_ == 1, "", ""};
@@ -115,7 +120,11 @@ class Workshop {
       make_folder_of(request.output, context_.file_access());
       return compiler::compile(compilation) ? kDone : kFault;
     });
-    Outcome outcome = outcome_of(compilation.report, status == kDone);
+    Outcome outcome;
+    outcome.is_done = status == kDone;
+    outcome.layers = compilation.report.slice.layers;
+    outcome.volume = compilation.report.slice.volume;
+    outcome.seconds = compilation.report.wall_seconds;
     if (status == kDone) {
       if (request.settings.min_feature > 0) {
         session.terminal.say(feature_lines(compilation));
@@ -162,6 +171,79 @@ class Workshop {
   std::vector<std::unique_ptr<std::string>> held_back_;
 };
 
+std::size_t count_done(std::span<const Outcome> outcomes) {
+  return static_cast<std::size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(),
+                    [](const Outcome& outcome) { return outcome.is_done; }));
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+// The closing table, without the last '\n'.
+std::string outcome_table(std::span<const Piece> pieces,
+                          std::span<const Outcome> outcomes,
+                          std::string_view unit, double seconds) {
+  std::size_t width = unit.size();
+  for (const Piece& piece : pieces) width = std::max(width, piece.name.size());
+  std::string table =
+      fmt::format("{:<{}}   layers   volume mm3   time s\n", unit, width);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Outcome& outcome = outcomes[i];
+    table += fmt::format("{:<{}}  ", pieces[i].name, width);
+    table += outcome.is_done
+                 ? fmt::format("{:>7}  {:>11.3f}  {:>7.3f}\n", outcome.layers,
+                               outcome.volume, outcome.seconds)
+                 : fmt::format("error: {}\n", first_line(outcome.error));
+  }
+  const std::size_t done = count_done(outcomes);
+  return table + fmt::format("{} of {} {} done, {} failed, in {:.3f} s", done,
+                             pieces.size(), unit, pieces.size() - done,
+                             seconds);
+}
+
+std::string outcomes_csv(std::span<const Piece> pieces,
+                         std::span<const Outcome> outcomes) {
+  std::string text = "line,name,output,layers,volume_mm3,seconds,error\r\n";
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    const Outcome& outcome = outcomes[i];
+    const std::string line =
+        piece.line > 0 ? fmt::format("{}", piece.line) : "";
+    const std::string figures =
+        outcome.is_done ? fmt::format("{},{},{},", outcome.layers,
+                                      outcome.volume, outcome.seconds)
+                        : ",,," + csv_cell(outcome.error);
+    text += fmt::format("{},{},{},{}\r\n", line, csv_cell(piece.name),
+                        csv_cell(piece.request.output), figures);
+  }
+  return text;
+}
+
+std::string outcomes_json(std::span<const Piece> pieces,
+                          std::span<const Outcome> outcomes, double seconds) {
+  using Json = nlohmann::ordered_json;
+  const std::size_t done = count_done(outcomes);
+  Json json = {{"done", done},
+               {"failed", pieces.size() - done},
+               {"total_seconds", process_seconds()},
+               {"wall_seconds", seconds},
+               {"peak_memory_bytes", peak_memory_bytes()},
+               {"pieces", Json::array()}};
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    const Outcome& outcome = outcomes[i];
+    json["pieces"].push_back(
+        {{"line", piece.line > 0 ? Json(piece.line) : Json()},
+         {"name", piece.name},
+         {"output", piece.request.output},
+         {"error", outcome.is_done ? Json() : Json(outcome.error)},
+         {"report", outcome.json}});
+  }
+  return json_text(json);
+}
+
 }  // namespace
 
 int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
@@ -176,16 +258,13 @@ int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
   Terminal terminal(options.is_quiet);
   terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
   if (!options.report.empty()) {
-    write_file(options.report,
-               options.report.ends_with(".csv")
-                   ? outcomes_csv(pieces, outcomes)
-                   : outcomes_json(pieces, outcomes, seconds.count()),
-               context.temporary_files);
+    compiler::write_file(options.report,
+                         options.report.ends_with(".csv")
+                             ? outcomes_csv(pieces, outcomes)
+                             : outcomes_json(pieces, outcomes, seconds.count()),
+                         context.temporary_files);
   }
-  const bool is_good =
-      std::all_of(outcomes.begin(), outcomes.end(),
-                  [](const Outcome& outcome) { return outcome.is_done; });
-  return is_good ? kDone : kFault;
+  return count_done(outcomes) == pieces.size() ? kDone : kFault;
 }
 
 }  // namespace lamina::cli

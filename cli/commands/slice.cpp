@@ -1,12 +1,12 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
@@ -134,22 +134,13 @@ Exit status: 0 done, 1 the design or a file is at fault, 2 usage,
 130 interrupted.
 )";
 
-std::string without_extension(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  const std::size_t dot = path.rfind('.');
-  const bool has_extension = dot != std::string::npos && dot > 0 &&
-                             (slash == std::string::npos || dot > slash + 1);
-  return has_extension ? path.substr(0, dot) : path;
-}
-
 void refuse_layers(const std::string& file) {
-  if (!slicer::is_named_as_layers(file) || compiler::is_imported(file)) return;
-  throw UsageError(
+  refuse_if(
+      slicer::is_named_as_layers(file) && !compiler::is_imported(file),
+      "'{}' holds layers already{}", file,
       file.ends_with(".slc")
-          ? fmt::format("'{0}' holds layers already; try 'lamina inspect "
-                        "{0}' or 'lamina view {0}'",
-                        file)
-          : fmt::format("'{}' holds layers already", file));
+          ? fmt::format("; try 'lamina inspect {0}' or 'lamina view {0}'", file)
+          : "");
 }
 
 class SliceCommand : public Command {
@@ -167,14 +158,12 @@ class SliceCommand : public Command {
   }
 
   void check() override {
-    if (designs_.empty()) throw UsageError("no design was given");
+    refuse_if(designs_.empty(), "no design was given");
     for (const std::string& design : designs_) refuse_layers(design);
-    if (request_.output == "-" && output_.export_format.empty()) {
-      throw UsageError("-o - needs --export-format");
-    }
-    if (watches_ && (designs_.size() > 1 || request_.output == "-")) {
-      throw UsageError("--watch needs one design and a file to write");
-    }
+    refuse_if(request_.output == "-" && output_.export_format.empty(),
+              "-o - needs --export-format");
+    refuse_if(watches_ && (designs_.size() > 1 || request_.output == "-"),
+              "--watch needs one design and a file to write");
     if (designs_.size() > 1) return check_several();
     request_.design = designs_.front();
     makes_folder_ = is_folder() || is_pattern();
@@ -213,7 +202,7 @@ class SliceCommand : public Command {
 
   std::string output_of(const std::string& design) const {
     if (request_.output.empty()) {
-      return fmt::format("{}.{}", without_extension(design), extension());
+      return std::filesystem::path(design).replace_extension(extension());
     }
     if (is_folder()) {
       return fmt::format("{}{}.{}", request_.output, stem(design), extension());
@@ -224,22 +213,17 @@ class SliceCommand : public Command {
   }
 
   void check_several() {
-    if (!request_.output.empty() && !is_folder() && !is_pattern()) {
-      throw UsageError(
-          "-o names one file; for several designs give it a folder, such as "
-          "'out/', or a pattern, such as 'out/{name}.slc'");
-    }
-    if (!request_.dependencies.empty()) {
-      throw UsageError("-d needs one design");
-    }
+    refuse_if(
+        !request_.output.empty() && !is_folder() && !is_pattern(),
+        "-o names one file; for several designs give it a folder, such as "
+        "'out/', or a pattern, such as 'out/{{name}}.slc'");
+    refuse_if(!request_.dependencies.empty(), "-d needs one design");
     choose_format(request_, output_, output_of(designs_.front()));
     std::set<std::string> outputs;
     for (const std::string& design : designs_) {
       const std::string output = output_of(design);
-      if (!outputs.insert(normal_path(output)).second) {
-        throw UsageError(
-            fmt::format("two designs have the output '{}'", output));
-      }
+      refuse_if(!outputs.insert(normal_path(output)).second,
+                "two designs have the output '{}'", output);
     }
   }
 

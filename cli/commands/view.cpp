@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "base/file/output_file.h"
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/contradictions.h"
@@ -82,7 +81,7 @@ struct ViewOptions {
   std::optional<unsigned> width;            // [pixels]
 
   bool is_of_one_layer() const { return layer_number || layer_height; }
-  // Whether anything is asked for that means nothing to a page.
+  // Whether any option is given that means nothing to a page.
   bool are_for_pictures() const {
     return style || layer_count || is_of_one_layer() || width;
   }
@@ -164,12 +163,13 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
     page.min_feature = options.layer.min_feature;
     page.features = compilation.report.slice.features;
     page.origins = compiler::origin_texts(compilation.report.origins);
-    write_file(request.output, viewer_page(*layers, page),
-               compilation.temporary_files);
+    compiler::write_file(request.output, viewer_page(*layers, page),
+                         compilation.temporary_files);
     return kDone;
   }
   const slicer::Image picture = draw_picture(*layers, title, options);
-  OutputFile output(request.output, compilation.temporary_files);
+  OutputFile output =
+      OutputFile::open(request.output, compilation.temporary_files);
   write_png(picture, output);
   output.commit();
   return kDone;
@@ -208,25 +208,19 @@ class ViewCommand : public Command {
     if (camera_.is_given()) options_.style = Style::kStack;
     options_.stack = camera_.stack();
 
-    if (!is_page(request_.output) && !request_.output.ends_with(".png")) {
-      throw UsageError(fmt::format(
-          "view writes .png pictures and .html pages; '{}' is neither",
-          request_.output));
-    }
+    refuse_if(!is_page(request_.output) && !request_.output.ends_with(".png"),
+              "view writes .png pictures and .html pages; '{}' is neither",
+              request_.output);
     require_readable("view", request_.design);
-    if (options_.layer.min_feature > 0 && !is_page(request_.output) &&
-        !options_.is_of_one_layer()) {
-      throw UsageError("--min-feature needs --layer-number, --at or .html");
-    }
-    if (options_.style == Style::kStack && options_.is_of_one_layer()) {
-      throw UsageError("a stack shows all layers, not one");
-    }
-    if (options_.style == Style::kStack && options_.width) {
-      throw UsageError("a stack needs --imgsize W,H, not --width");
-    }
-    if (is_page(request_.output) && options_.are_for_pictures()) {
-      throw UsageError("of view's own options a page takes --min-feature only");
-    }
+    refuse_if(options_.layer.min_feature > 0 && !is_page(request_.output) &&
+                  !options_.is_of_one_layer(),
+              "--min-feature needs --layer-number, --at or .html");
+    refuse_if(options_.style == Style::kStack && options_.is_of_one_layer(),
+              "a stack shows all layers, not one");
+    refuse_if(options_.style == Style::kStack && options_.width,
+              "a stack needs --imgsize W,H, not --width");
+    refuse_if(is_page(request_.output) && options_.are_for_pictures(),
+              "of view's own options a page takes --min-feature only");
     // The page shows what made the thin places of a design.
     if (is_page(request_.output)) {
       request_.settings.min_feature = options_.layer.min_feature;

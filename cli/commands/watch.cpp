@@ -4,7 +4,6 @@
 #include <ctime>
 #include <filesystem>
 #include <set>
-#include <string>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -22,7 +21,7 @@ namespace fs = std::filesystem;
 // The times of files come from a clock that ticks this seldom, at most.
 constexpr std::chrono::milliseconds kClockStep{10};
 
-// Those that are known before the compilation.
+// The files that are known before the compilation.
 std::set<std::string> given_files(const compiler::Request& request) {
   std::set<std::string> files = {request.design};
   if (!request.parameter_file.empty()) files.insert(request.parameter_file);
@@ -30,7 +29,8 @@ std::set<std::string> given_files(const compiler::Request& request) {
   return files;
 }
 
-// As short as it can be said from the folder in which the program runs.
+// The path as seen from the folder in which the program runs, if the file lies
+// below it.
 std::string shown(const std::string& file) {
   std::error_code error;
   const std::string path = fs::proximate(file, error).string();
@@ -45,7 +45,8 @@ std::string change_line(const std::set<std::string>& files) {
                      fmt::join(names, ", "));
 }
 
-// Adds what the compilation found to depend on; true if it ended well.
+// Adds the files on which the output was found to depend. Returns whether the
+// compilation ended well.
 bool compile_once(const compiler::Request& request, const std::string& report,
                   bool is_quiet, const Context& context,
                   std::set<std::string>& files) {

@@ -1,7 +1,5 @@
 #include "cli/options/camera_options.h"
 
-#include <string_view>
-
 #include <fmt/format.h>
 
 #include "cli/options/option_values.h"
@@ -12,42 +10,24 @@ namespace {
 
 constexpr double kLargestPicture = 4096;  // either way [pixels]
 
-std::vector<double> require_numbers(const std::string& option,
-                                    std::string_view text) {
-  std::vector<double> numbers;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    numbers.push_back(require_number(option, text.substr(0, comma)));
-    if (comma == std::string_view::npos) return numbers;
-    text.remove_prefix(comma + 1);
-  }
-}
-
-std::vector<double> parse_camera(const std::string& text) {
-  std::vector<double> numbers = require_numbers("--camera", text);
-  if (numbers.size() != 6 && numbers.size() != 7) {
-    throw CLI::ValidationError(
-        "--camera",
-        fmt::format("6 or 7 numbers were expected, not '{}'", text));
-  }
-  if (!(slicer::Camera::from_numbers(numbers).distance > 0)) {
-    throw CLI::ValidationError("--camera", "the distance must be more than 0");
-  }
-  return numbers;
+slicer::Camera parse_camera(const std::string& text) {
+  const std::vector<double> numbers = require_numbers("--camera", text);
+  require(numbers.size() == 6 || numbers.size() == 7, "--camera",
+          "6 or 7 numbers were expected, not '{}'", text);
+  const slicer::Camera camera = slicer::Camera::from_numbers(numbers);
+  require(camera.distance > 0, "--camera", "the distance must be more than 0");
+  return camera;
 }
 
 std::vector<double> parse_size(const std::string& text) {
-  std::vector<double> size = require_numbers("--imgsize", text);
+  const std::vector<double> size = require_numbers("--imgsize", text);
   const auto is_good = [](double pixels) {
     return pixels >= 1 && pixels <= kLargestPicture &&
            pixels == static_cast<unsigned>(pixels);
   };
-  if (size.size() != 2 || !is_good(size[0]) || !is_good(size[1])) {
-    throw CLI::ValidationError(
-        "--imgsize", fmt::format("two whole numbers up to {} were expected, "
-                                 "not '{}'",
-                                 kLargestPicture, text));
-  }
+  require(size.size() == 2 && is_good(size[0]) && is_good(size[1]), "--imgsize",
+          "two whole numbers up to {} were expected, not '{}'", kLargestPicture,
+          text);
   return size;
 }
 
@@ -73,25 +53,23 @@ void CameraOptions::add_to(CLI::App& app) {
              });
   add_text(app, "--imgsize", "width,height", [this](const std::string& text) {
     is_given_ = true;
-    size_ = parse_size(text);
+    const std::vector<double> size = parse_size(text);
+    options_.width = static_cast<unsigned>(size[0]);
+    options_.height = static_cast<unsigned>(size[1]);
   });
   add_choice(app, "--colorscheme", slicer::color_scheme_names(),
              [this](const std::string& name) {
                is_given_ = true;
-               colors_ = name;
+               options_.colors = slicer::find_color_scheme(name);
              });
 }
 
 slicer::StackOptions CameraOptions::stack() const {
-  slicer::StackOptions options;
-  options.width = static_cast<unsigned>(size_[0]);
-  options.height = static_cast<unsigned>(size_[1]);
-  const bool has_camera = !camera_.empty();
-  if (has_camera) options.camera = slicer::Camera::from_numbers(camera_);
+  slicer::StackOptions options = options_;
+  if (camera_) options.camera = *camera_;
   options.camera.projection = projection_;
-  options.shows_all = views_all_ || !has_camera;
-  options.centers = centers_ || !has_camera;
-  options.colors = slicer::find_color_scheme(colors_);
+  options.shows_all = views_all_ || !camera_;
+  options.centers = centers_ || !camera_;
   return options;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-// The options of openscad's camera, with the meaning that they have there.
+// The options of openscad's camera. They mean what they mean there.
 
-#include <string>
-#include <vector>
+#include <optional>
 
 #include <CLI/App.hpp>
 
@@ -18,17 +17,17 @@ class CameraOptions {
   // Whether any of them was given.
   bool is_given() const { return is_given_; }
 
+  // What they ask of a picture of a stack.
   slicer::StackOptions stack() const;
 
  private:
   bool is_given_ = false;
-  std::vector<double> camera_;  // 6 or 7 numbers; empty: not given
+  std::optional<slicer::Camera> camera_;
   bool views_all_ = false;
   bool centers_ = false;
   slicer::Camera::Projection projection_ =
       slicer::Camera::Projection::kPerspective;
-  std::vector<double> size_ = {512, 512};
-  std::string colors_ = "gold";
+  slicer::StackOptions options_;  // its size and its colours
 };
 
 }  // namespace lamina::cli

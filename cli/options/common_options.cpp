@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/number.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
@@ -18,21 +18,12 @@ constexpr double kGreatestSeconds = 1e9;
 
 constexpr double kGreatestBytes = 1e18;
 
-// 0: no unit is named so.
-double bytes_of_unit(char unit) {
-  switch (unit) {
-    case 'k':
-    case 'K':
-      return 1024;
-    case 'm':
-    case 'M':
-      return 1024.0 * 1024;
-    case 'g':
-    case 'G':
-      return 1024.0 * 1024 * 1024;
-    default:
-      return 0;
-  }
+// The bytes of a unit; 0 where no unit has this name.
+double bytes_of_unit(char name) {
+  constexpr std::string_view kNames = "kKmMgG";
+  const std::size_t place = kNames.find(name);
+  if (place == std::string_view::npos) return 0;
+  return std::pow(1024, static_cast<double>(place / 2 + 1));
 }
 
 void add_process_limits(CLI::App& app, ProcessLimits& limits) {
@@ -41,12 +32,9 @@ void add_process_limits(CLI::App& app, ProcessLimits& limits) {
   });
   add_text(app, "--max-time", "seconds", [&limits](const std::string& text) {
     limits.seconds = require_number("--max-time", text);
-    if (!(limits.seconds > 0 && limits.seconds <= kGreatestSeconds)) {
-      throw CLI::ValidationError(
-          "--max-time", fmt::format("must be more than 0 and at most {:g} s, "
-                                    "not {}",
-                                    kGreatestSeconds, text));
-    }
+    require(limits.seconds > 0 && limits.seconds <= kGreatestSeconds,
+            "--max-time", "must be more than 0 and at most {:g} s, not {}",
+            kGreatestSeconds, text);
   });
 }
 
@@ -57,15 +45,12 @@ void add_access_limits(CLI::App& app, FileAccess::Limits& access) {
   root->check([](const std::string& folder) {
     return folder.empty() ? "a folder was expected, not ''" : "";
   });
-  app.add_option("--allow-read", access.readable)
-      ->type_name("folder")
-      ->needs(root)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  make_repeatable(app.add_option("--allow-read", access.readable)
+                      ->type_name("folder")
+                      ->needs(root));
   app.add_flag("--no-import", access.refuses_data);
-  // One looks at folders for as long as it runs, the other runs a program that
-  // knows no root.
+  // --watch looks at folders for as long as it runs, and --against runs a
+  // program that knows no root.
   for (const char* name : {"--watch", "--against"}) {
     if (CLI::Option* const option = app.get_option_no_throw(name)) {
       root->excludes(option);
@@ -90,33 +75,25 @@ MemoryLimit parse_memory_limit(const std::string& text) {
   const double unit = bytes_of_unit(last);
   if (is_share || unit > 0) number.remove_suffix(1);
   const std::optional<double> value = parse_number(number);
-  if (!value) {
-    throw CLI::ValidationError(
-        "--max-memory",
-        fmt::format("a size was expected, such as 500M, 2G or 50%, not '{}'",
-                    text));
-  }
+  require(value.has_value(), "--max-memory",
+          "a size was expected, such as 500M, 2G or 50%, not '{}'", text);
   MemoryLimit limit;
   if (is_share) {
     limit.share = *value / 100;
-    if (limit.share > 0 && limit.share <= 1) return limit;
-    throw CLI::ValidationError(
-        "--max-memory",
-        fmt::format("must be more than 0% and at most 100%, not {}", text));
+    require(limit.share > 0 && limit.share <= 1, "--max-memory",
+            "must be more than 0% and at most 100%, not {}", text);
+    return limit;
   }
   const double bytes = std::floor(*value * (unit > 0 ? unit : 1));
-  if (!(bytes >= 1 && bytes <= kGreatestBytes)) {
-    throw CLI::ValidationError(
-        "--max-memory", fmt::format("must be from 1 to {:g} bytes, not {}",
-                                    kGreatestBytes, text));
-  }
+  require(bytes >= 1 && bytes <= kGreatestBytes, "--max-memory",
+          "must be from 1 to {:g} bytes, not {}", kGreatestBytes, text);
   limit.bytes = static_cast<std::uint64_t>(bytes);
   return limit;
 }
 
 FileAccess make_file_access(const FileAccess::Limits& limits) {
   try {
-    return FileAccess(limits);
+    return FileAccess::within(limits);
   } catch (const AccessError& error) {
     throw UsageError(error.what());
   }

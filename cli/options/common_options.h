@@ -7,13 +7,13 @@
 #include <CLI/App.hpp>
 
 #include "base/file/file_access.h"
-#include "cli/process/process_limits.h"
+#include "cli/process/process_watch.h"
 
 namespace lamina::cli {
 
-// --help, --version, --max-time, --max-memory, --root, --allow-read and
-// --no-import. To be called when the command's own options are there: some do
-// not go with --root. `limits` and `access` outlive `app`.
+// Adds --help, --version, --max-time, --max-memory, --root, --allow-read and
+// --no-import. To be called after the command has added its own options, some
+// of which --root excludes. `limits` and `access` outlive `app`.
 void add_common_options(CLI::App& app, ProcessLimits& limits,
                         FileAccess::Limits& access);
 

@@ -1,10 +1,11 @@
 #include "cli/options/design_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
-#include <CLI/App.hpp>
 #include <fmt/format.h>
 
 #include "cli/options/option_values.h"
@@ -14,20 +15,15 @@ namespace {
 
 std::vector<double> parse_heights(const std::string& option,
                                   std::string_view text) {
-  std::vector<double> heights;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    heights.push_back(require_number(option, text.substr(0, comma)));
-    const std::size_t count = heights.size();
-    if (count > 1 && !(heights[count - 1] > heights[count - 2])) {
-      throw CLI::ValidationError(option, "heights must rise");
-    }
-    if (comma == std::string_view::npos) return heights;
-    text.remove_prefix(comma + 1);
-  }
+  std::vector<double> heights = require_numbers(option, text);
+  const auto fall = std::adjacent_find(heights.begin(), heights.end(),
+                                       std::greater_equal<>());
+  require(fall == heights.end(), option, "heights must rise");
+  return heights;
 }
 
-// Finer facets than these are finer than samples that count as one.
+// Facets that are nearer to the curve than this are finer than the distance
+// below which two samples count as one.
 constexpr double kLeastChordalError = 1e-6;  // mm
 
 // Beyond these a design is not shrunk or enlarged but mistyped.
@@ -38,12 +34,9 @@ constexpr double kGreatestScale = 1000;
 constexpr double kGreatestCompensation = 100;
 
 double parse_scale(const std::string& text) {
-  if (text.ends_with('%')) {
-    throw CLI::ValidationError(
-        "--scale", fmt::format("a factor was expected, such as 1.02 for a "
-                               "print 2% larger, not '{}'",
-                               text));
-  }
+  require(!text.ends_with('%'), "--scale",
+          "a factor was expected, such as 1.02 for a print 2% larger, not '{}'",
+          text);
   return require_within("--scale", text, kLeastScale, kGreatestScale, "");
 }
 
@@ -59,10 +52,8 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
                std::uint32_t& target) {
   add_text(app, name, "number", [=, &target](const std::string& text) {
     const double count = require_within(name, text, 1, most, "");
-    if (count != std::floor(count)) {
-      throw CLI::ValidationError(
-          name, fmt::format("a whole number was expected, not '{}'", text));
-    }
+    require(count == std::floor(count), name,
+            "a whole number was expected, not '{}'", text);
     target = static_cast<std::uint32_t>(count);
   });
 }
@@ -71,17 +62,14 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
 
 void add_design_options(CLI::App& app, compiler::Request& request,
                         bool& is_quiet) {
-  app.add_option_function<std::vector<std::string>>(
-         "-D",
-         [&request](const std::vector<std::string>& definitions) {
-           for (const std::string& definition : definitions) {
-             request.definitions += definition + ";\n";
-           }
-         })
-      ->type_name("NAME=VALUE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  const auto define = [&request](const std::vector<std::string>& definitions) {
+    for (const std::string& definition : definitions) {
+      request.definitions += definition + ";\n";
+    }
+  };
+  make_repeatable(
+      app.add_option_function<std::vector<std::string>>("-D", define)
+          ->type_name("NAME=VALUE"));
   CLI::Option* set = app.add_option("-P", request.parameter_set);
   CLI::Option* file = app.add_option("-p", request.parameter_file);
   set->type_name("set")->needs(file);
@@ -113,18 +101,14 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
   });
   add_text(app, "--chordal-error", "length", [&](const std::string& text) {
     request.chordal_error = require_number("--chordal-error", text);
-    if (!(request.chordal_error >= kLeastChordalError)) {
-      throw CLI::ValidationError("--chordal-error",
-                                 "must be at least 0.000001 mm");
-    }
+    require(request.chordal_error >= kLeastChordalError, "--chordal-error",
+            "must be at least 0.000001 mm");
   });
   // Two names of one thing: what simplification is for, and what it promises.
   add_text(
       app, "--tolerance,--simplify", "length", [&](const std::string& text) {
         settings.tolerance = require_number("--tolerance", text);
-        if (settings.tolerance < 0) {
-          throw CLI::ValidationError("--tolerance", "must not be negative");
-        }
+        require(settings.tolerance >= 0, "--tolerance", "must not be negative");
       });
   add_text(app, "--compensate", "length", [&](const std::string& text) {
     settings.compensation =

@@ -1,5 +1,5 @@
 #pragma once
-// The options that say what a compilation is asked for.
+// The options that make up the request for a compilation.
 
 #include <CLI/App.hpp>
 
@@ -7,12 +7,12 @@
 
 namespace lamina::cli {
 
-// -D, -p, -P and what else the language has, and -q; `request` and `is_quiet`
-// outlive `app`.
+// Adds -D, -p, -P, the other options of the language, and -q. `request` and
+// `is_quiet` outlive `app`.
 void add_design_options(CLI::App& app, compiler::Request& request,
                         bool& is_quiet);
 
-// What --help calls Slicing.
+// Adds the options that --help calls Slicing.
 void add_slicing_options(CLI::App& app, compiler::Request& request);
 
 }  // namespace lamina::cli

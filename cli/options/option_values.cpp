@@ -5,10 +5,7 @@
 #include <optional>
 #include <system_error>
 
-#include <CLI/App.hpp>
-#include <fmt/format.h>
-
-#include "base/number.h"
+#include "base/text.h"
 #include "slicer/check/thin_finder.h"
 
 namespace lamina::cli {
@@ -16,13 +13,10 @@ namespace {
 
 double require_thin_width(const std::string& option, std::string_view text) {
   const double value = require_number(option, text);
-  if (!(value >= slicer::kLeastThinWidth &&
-        value <= slicer::kGreatestThinWidth)) {
-    throw CLI::ValidationError(
-        option,
-        fmt::format("must be {} to {} mm, not {}", slicer::kLeastThinWidth,
-                    slicer::kGreatestThinWidth, text));
-  }
+  require(
+      value >= slicer::kLeastThinWidth && value <= slicer::kGreatestThinWidth,
+      option, "must be {} to {} mm, not {}", slicer::kLeastThinWidth,
+      slicer::kGreatestThinWidth, text);
   return value;
 }
 
@@ -33,13 +27,10 @@ slicer::LayerNumbers parse_layers(const std::string& text) {
     std::uint32_t value = 0;
     const auto [end, fault] =
         std::from_chars(word.data(), word.data() + word.size(), value);
-    if (fault != std::errc() || end != word.data() + word.size() ||
-        value == 0) {
-      throw CLI::ValidationError(
-          "--layers", fmt::format("layers from 1 were expected, such as 3:7, "
-                                  "3: or :7, not '{}'",
-                                  text));
-    }
+    require(
+        fault == std::errc() && end == word.data() + word.size() && value > 0,
+        "--layers",
+        "layers from 1 were expected, such as 3:7, 3: or :7, not '{}'", text);
     return value;
   };
   const std::string_view all = text;
@@ -49,10 +40,8 @@ slicer::LayerNumbers parse_layers(const std::string& text) {
   range.last = colon == std::string_view::npos
                    ? range.first
                    : number(all.substr(colon + 1), range.last);
-  if (all.empty() || range.last < range.first) {
-    throw CLI::ValidationError("--layers",
-                               fmt::format("'{}' has no layers", text));
-  }
+  require(!all.empty() && range.first <= range.last, "--layers",
+          "'{}' has no layers", text);
   return range;
 }
 
@@ -60,30 +49,32 @@ slicer::LayerNumbers parse_layers(const std::string& text) {
 
 double require_number(const std::string& option, std::string_view text) {
   const std::optional<double> value = parse_number(text);
-  if (!value) {
-    throw CLI::ValidationError(
-        option, fmt::format("a number was expected, not '{}'", text));
-  }
+  require(value.has_value(), option, "a number was expected, not '{}'", text);
   return *value;
+}
+
+std::vector<double> require_numbers(const std::string& option,
+                                    std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    numbers.push_back(require_number(option, text.substr(0, comma)));
+    if (comma == std::string_view::npos) return numbers;
+    text.remove_prefix(comma + 1);
+  }
 }
 
 double require_positive(const std::string& option, std::string_view text) {
   const double value = require_number(option, text);
-  if (!(value > 0)) {
-    throw CLI::ValidationError(
-        option, fmt::format("must be more than 0 mm, not {}", text));
-  }
+  require(value > 0, option, "must be more than 0 mm, not {}", text);
   return value;
 }
 
 double require_within(const std::string& option, std::string_view text,
                       double least, double greatest, std::string_view unit) {
   const double value = require_number(option, text);
-  if (!(value >= least && value <= greatest)) {
-    throw CLI::ValidationError(
-        option, fmt::format("must be from {} to {}{}, not {}", least, greatest,
-                            unit, text));
-  }
+  require(value >= least && value <= greatest, option,
+          "must be from {} to {}{}, not {}", least, greatest, unit, text);
   return value;
 }
 
@@ -91,6 +82,11 @@ CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
                       const std::function<void(const std::string&)>& use) {
   return app.add_option_function<std::string>(name, use)->type_name(value);
+}
+
+void make_repeatable(CLI::Option* option) {
+  option->expected(1)->allow_extra_args(false)->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_choice(CLI::App& app, const std::string& name,

@@ -5,16 +5,33 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/App.hpp>
+#include <fmt/format.h>
 
 #include "slicer/slice/settings.h"
 
 namespace lamina::cli {
 
+// Throws CLI::ValidationError unless `holds`.
+//
+// words  a format of fmt
+template <typename... Args>
+void require(bool holds, const std::string& option,
+             fmt::format_string<Args...> words, Args&&... args) {
+  if (holds) return;
+  throw CLI::ValidationError(option,
+                             fmt::format(words, std::forward<Args>(args)...));
+}
+
 // A finite number and nothing else.
 double require_number(const std::string& option, std::string_view text);
+
+// Numbers with commas between them.
+std::vector<double> require_numbers(const std::string& option,
+                                    std::string_view text);
 
 // A length of more than 0 mm.
 double require_positive(const std::string& option, std::string_view text);
@@ -24,24 +41,27 @@ double require_positive(const std::string& option, std::string_view text);
 double require_within(const std::string& option, std::string_view text,
                       double least, double greatest, std::string_view unit);
 
-// An option whose text `use` reads; `use` throws CLI::ValidationError. `value`
-// is what messages call its value.
+// Adds an option whose text `use` reads, which may throw CLI::ValidationError.
+// `value` is what messages call its value.
 CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
                       const std::function<void(const std::string&)>& use);
 
-// An option with one of a few words.
+// Lets an option be given more than once, each time with one value.
+void make_repeatable(CLI::Option* option);
+
+// Adds an option that takes one of a few words.
 void add_choice(CLI::App& app, const std::string& name,
                 const std::vector<std::string>& words,
                 const std::function<void(const std::string&)>& use);
 
-// An option that takes what openscad takes for true and false.
+// Adds an option that takes the words which openscad takes for true and false.
 void add_switch(CLI::App& app, const std::string& name, bool& target);
 
-// --min-feature: walls and gaps thinner than this are reported.
+// Adds --min-feature: walls and gaps thinner than this are reported.
 void add_thin_width(CLI::App& app, double& width);
 
-// --layers: which layers are written.
+// Adds --layers: which layers are written.
 void add_layer_range(CLI::App& app, slicer::LayerNumbers& range);
 
 }  // namespace lamina::cli

@@ -15,8 +15,9 @@ struct OutputOptions {
   std::string report;         // path; empty: none
 };
 
-// What --help calls Output, save -o, and --report and --min-feature; `request`
-// and `options` outlive `app`.
+// Adds the options that --help calls Output, save -o, and --report, --layers
+// and
+// --min-feature. `request` and `options` outlive `app`.
 void add_output_options(CLI::App& app, compiler::Request& request,
                         OutputOptions& options);
 

@@ -11,23 +11,23 @@
 
 namespace lamina::cli {
 
-// The words in braces, in the order in which they stand there.
+// The words in braces, in the order in which they stand there. A brace that is
+// not closed is text.
 std::vector<std::string> words_of_pattern(std::string_view pattern);
 
-// The pattern with its words replaced.
+// The pattern with its words, and the braces around them, replaced.
 std::string fill_pattern(
     std::string_view pattern,
     const std::function<std::string(const std::string& word)>& value_of);
 
-// Why `text` cannot be a part of the name of a file, for the user: "is empty".
-// Empty if it can.
-std::string fault_of_name(std::string_view text);
+// Returns `text`; throws FileError where it cannot be a part of a file's name.
+std::string require_part_of_name(const std::string& text);
 
-// Makes the folder of an output, and those around it. Where that fails,
-// opening the output reports why.
+// Makes the folder of an output and those around it. Where that fails, opening
+// the output reports why.
 void make_folder_of(const std::string& output, const FileAccess& access);
 
-// The path without "." and "..": equal for two ways to write one path.
+// The path without "." and "..", so that two ways to write one path are equal.
 std::string normal_path(const std::string& path);
 
 // The last part of a path without its extension: "ring" of "in/ring.scad".

@@ -9,7 +9,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/commands/command.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
 #include "slicer/formats/output_format.h"
@@ -40,28 +39,19 @@ std::string in_one_line(const HelpEntry& entry) {
   return text.substr(0, text.find(" ["));
 }
 
-const HelpEntry* find_entry(const std::vector<HelpBlock>& help,
-                            const std::string& name, std::string& value) {
+// Fills in what the help says of the option; false where it says nothing.
+bool read_entry(const std::vector<HelpBlock>& help, OptionPage& page) {
   for (const HelpBlock& block : help) {
     for (const HelpEntry& entry : block.entries) {
       for (const NamedValue& option : entry.options) {
-        if (option.name != name) continue;
-        value = option.value;
-        return &entry;
+        if (option.name != page.names.back()) continue;
+        page.value = option.value;
+        page.text = in_one_line(entry);
+        return true;
       }
     }
   }
-  return nullptr;
-}
-
-std::vector<std::string> names_of(const CLI::Option& option) {
-  std::vector<std::string> names;
-  for (const std::string& name : option.get_snames())
-    names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) {
-    names.push_back("--" + name);
-  }
-  return names;
+  return false;
 }
 
 // The words of CLI::IsMember, "{a,b}" at the end of the type's name; those that
@@ -81,15 +71,13 @@ std::vector<std::string> words_of(const CLI::Option& option,
   if (open != std::string::npos && type.ends_with('}')) {
     return split(type.substr(open + 1, type.size() - open - 2), ',');
   }
-  std::vector<std::string> words;
-  if (value.find('|') == std::string::npos) return words;
-  for (const std::string& word : split(value, '|')) {
-    if (std::none_of(word.begin(), word.end(), [](unsigned char letter) {
-          return std::isupper(letter) != 0;
-        })) {
-      words.push_back(word);
-    }
-  }
+  if (value.find('|') == std::string::npos) return {};
+  std::vector<std::string> words = split(value, '|');
+  std::erase_if(words, [](const std::string& word) {
+    return std::any_of(word.begin(), word.end(), [](unsigned char letter) {
+      return std::isupper(letter) != 0;
+    });
+  });
   return words;
 }
 
@@ -97,11 +85,8 @@ OptionPage option_page(const CLI::Option& option,
                        const std::vector<HelpBlock>& help,
                        const std::vector<HelpBlock>& main_help) {
   OptionPage page;
-  page.names = names_of(option);
-  const std::string& name = page.names.back();
-  const HelpEntry* entry = find_entry(help, name, page.value);
-  if (!entry) entry = find_entry(main_help, name, page.value);
-  if (entry) page.text = in_one_line(*entry);
+  page.names = split(option.get_name(false, true), ',');
+  if (!read_entry(help, page)) read_entry(main_help, page);
   page.has_value = option.get_expected_max() > 0;
   if (!page.has_value) return page;
   page.may_repeat =
@@ -123,9 +108,8 @@ std::vector<std::string> extensions_of(const std::string& usage) {
   std::vector<std::string> extensions = {"slc",  "cli",  "svg",
                                          "json", "scad", "csg"};
   if (usage.find(" FILE") == std::string::npos) {
-    for (const char* mesh : {"stl", "off", "obj", "amf", "3mf", "dxf"}) {
-      extensions.emplace_back(mesh);
-    }
+    extensions.insert(extensions.end(),
+                      {"stl", "off", "obj", "amf", "3mf", "dxf"});
   }
   return extensions;
 }
@@ -135,19 +119,16 @@ std::vector<std::string> extensions_of(const std::string& usage) {
 void read_usage(const std::vector<HelpBlock>& main_help, CommandPage& page) {
   const std::string begin =
       page.name.empty() ? "  lamina " : "  lamina " + page.name + " ";
-  for (const HelpBlock& block : main_help) {
-    if (block.heading != "Usage") continue;
-    const std::vector<std::string>& lines = block.lines;
-    const auto usage = std::find_if(
-        lines.begin(), lines.end(),
-        [&](const std::string& line) { return line.starts_with(begin); });
-    if (usage == lines.end()) continue;
-    const std::size_t end = std::min(usage->find("  ", 2), usage->size());
-    page.extensions = extensions_of(usage->substr(0, end));
-    page.text = without_blanks(usage->substr(end));
-    if (page.text.empty() && usage + 1 != lines.end()) {
-      page.text = without_blanks(*(usage + 1));
-    }
+  const std::vector<std::string> lines = lines_below(main_help, "Usage");
+  const auto usage = std::find_if(
+      lines.begin(), lines.end(),
+      [&](const std::string& line) { return line.starts_with(begin); });
+  if (usage == lines.end()) return;
+  const std::size_t end = std::min(usage->find("  ", 2), usage->size());
+  page.extensions = extensions_of(usage->substr(0, end));
+  page.text = without_blanks(usage->substr(end));
+  if (page.text.empty() && usage + 1 != lines.end()) {
+    page.text = without_blanks(*(usage + 1));
   }
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 // Every command with its options: what CLI11 knows of them joined with what the
-// help says.
+// help says; and the pages made from that: the manual, and the completions of
+// the three usual shells.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +34,17 @@ struct CommandPage {
 // All commands, slicing first. An option that neither the help of its command
 // nor that of slicing has an entry for has no text.
 std::vector<CommandPage> command_pages();
+
+// Each of these fills a frame, which holds what no option changes:
+// docs/man/lamina.1.in, or cli/pages/*.in.
+std::string man_page(std::span<const CommandPage> pages, std::string frame);
+// Commands, options, the words that options take, files by their extensions.
+std::string bash_completion(std::span<const CommandPage> pages,
+                            std::string frame);
+std::string zsh_completion(std::span<const CommandPage> pages,
+                           std::string frame);
+std::string fish_completion(std::span<const CommandPage> pages,
+                            std::string frame);
 
 // Replaces every `mark` in a frame by `content`.
 void replace(std::string& frame, std::string_view mark,

@@ -1,11 +1,9 @@
-#include "cli/pages/completions.h"
-
 #include <map>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "cli/pages/command_pages.h"
 
 namespace lamina::cli {
 namespace {
@@ -67,10 +65,8 @@ std::string bash_values(std::span<const CommandPage> pages) {
 
 // For single quotes, and for what _arguments reads between them.
 std::string zsh_escaped(const std::string& text) {
-  std::string result;
-  for (const char letter : escaped(text, "[]:\\")) {
-    result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  }
+  std::string result = escaped(text, "[]:\\");
+  replace(result, "'", "'\\''");
   return result;
 }
 

@@ -114,4 +114,12 @@ std::vector<HelpBlock> read_help(std::string_view help) {
   return Reader().read(help);
 }
 
+std::vector<std::string> lines_below(const std::vector<HelpBlock>& help,
+                                     std::string_view heading) {
+  for (const HelpBlock& block : help) {
+    if (block.heading == heading) return block.lines;
+  }
+  return {};
+}
+
 }  // namespace lamina::cli

@@ -6,9 +6,8 @@
 //     lamina DESIGN [OPTION]...         lines of its block
 //
 //   Slicing (lengths in millimetres):
-//     --layer MM          thickness     an entry: two blanks and a dash; its
-//     text
-//                         of a layer    two blanks later, or indented below
+//     --layer MM          thickness     an entry: two blanks and a dash;
+//                         of a layer    its text two blanks later, or below
 
 #include <string>
 #include <string_view>
@@ -37,5 +36,9 @@ struct HelpBlock {
 };
 
 std::vector<HelpBlock> read_help(std::string_view help);
+
+// The lines below a heading; none where there is no such heading.
+std::vector<std::string> lines_below(const std::vector<HelpBlock>& help,
+                                     std::string_view heading);
 
 }  // namespace lamina::cli

@@ -10,11 +10,8 @@
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "cli/pages/command_pages.h"
-#include "cli/pages/completions.h"
-#include "cli/pages/man_page.h"
 
 namespace lamina::cli {
 namespace {

@@ -1,11 +1,10 @@
-#include "cli/pages/man_page.h"
-
 #include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/version.h"
+#include "cli/pages/command_pages.h"
 
 namespace lamina::cli {
 namespace {
@@ -60,25 +59,13 @@ std::string entries_of(const HelpBlock& block) {
 // "  lamina inspect FILE.slc [OPTION]...     check a layer file"
 std::string synopsis_of(const std::vector<HelpBlock>& help) {
   std::string text;
-  for (const HelpBlock& block : help) {
-    if (block.heading != "Usage") continue;
-    for (const std::string& line : block.lines) {
-      if (!line.starts_with("  lamina ")) continue;
-      const std::string usage = line.substr(9, line.find("  ", 9) - 9);
-      text += fmt::format("{}.B lamina\n{}\n", text.empty() ? "" : ".br\n",
-                          escaped(usage));
-    }
+  for (const std::string& line : lines_below(help, "Usage")) {
+    if (!line.starts_with("  lamina ")) continue;
+    const std::string usage = line.substr(9, line.find("  ", 9) - 9);
+    text += fmt::format("{}.B lamina\n{}\n", text.empty() ? "" : ".br\n",
+                        escaped(usage));
   }
   return text;
-}
-
-std::string examples_of(const std::vector<HelpBlock>& help) {
-  std::string text = ".EX\n";
-  for (const HelpBlock& block : help) {
-    if (block.heading != "Examples") continue;
-    for (const std::string& line : block.lines) text += escaped(line) + "\n";
-  }
-  return text + ".EE\n";
 }
 
 std::string options_of(const CommandPage& page) {
@@ -87,15 +74,6 @@ std::string options_of(const CommandPage& page) {
     if (block.entries.empty()) continue;
     text += fmt::format(".SS \"{}\"\n{}", escaped(block.heading),
                         entries_of(block));
-  }
-  return text;
-}
-
-std::string paragraph_of(const std::vector<std::string>& lines) {
-  std::string text = ".PP\n";
-  for (const std::string& line : lines) {
-    text += line.starts_with(' ') ? fmt::format(".EX\n{}\n.EE\n", escaped(line))
-                                  : escaped(line) + "\n";
   }
   return text;
 }
@@ -125,7 +103,7 @@ std::string section_of(const CommandPage& page) {
     if (!block.heading.empty()) {
       text += fmt::format(".PP\n{}:\n", escaped(block.heading));
     }
-    if (!block.lines.empty()) text += paragraph_of(block.lines);
+    if (!block.lines.empty()) text += ".PP\n" + text_of(block.lines);
     text += entries_of(block);
   }
   return text;
@@ -142,7 +120,8 @@ std::string man_page(std::span<const CommandPage> pages, std::string frame) {
   replace(frame, "@SYNOPSIS@\n", synopsis_of(pages.front().help));
   replace(frame, "@OPTIONS@\n", options_of(pages.front()));
   replace(frame, "@COMMANDS@\n", commands);
-  replace(frame, "@EXAMPLES@\n", examples_of(pages.front().help));
+  replace(frame, "@EXAMPLES@\n",
+          text_of(lines_below(pages.front().help, "Examples")));
   return frame;
 }
 

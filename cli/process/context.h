@@ -1,5 +1,5 @@
 #pragma once
-// What a command has of its process.
+// What a command gets from its process.
 
 #include <cstddef>
 

@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace lamina::cli {
 
@@ -11,7 +14,7 @@ inline constexpr int kFault = 1;  // of the design or of a file
 inline constexpr int kUsageFault = 2;
 inline constexpr int kInterrupted = 130;
 
-// Options that are good each, but not together or not for this output.
+// Options that are each good, but not together or not for this output.
 class UsageError : public std::runtime_error {
  public:
   explicit UsageError(const std::string& message, int status = kUsageFault)
@@ -22,5 +25,13 @@ class UsageError : public std::runtime_error {
  private:
   int status_;
 };
+
+// words  a format of fmt
+template <typename... Args>
+void refuse_if(bool is_wrong, fmt::format_string<Args...> words,
+               Args&&... args) {
+  if (!is_wrong) return;
+  throw UsageError(fmt::format(words, std::forward<Args>(args)...));
+}
 
 }  // namespace lamina::cli

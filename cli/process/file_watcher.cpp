@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the steps of one save lie apart, at most.
+// The steps of one save are at most so far apart.
 constexpr int kQuietMilliseconds = 100;
 
 constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO;
@@ -30,10 +30,8 @@ constexpr std::uint32_t kEvents = IN_CLOSE_WRITE | IN_MOVED_TO;
 }  // namespace
 
 FileWatcher::FileWatcher() : inotify_(::inotify_init1(IN_CLOEXEC)) {
-  if (inotify_ < 0) fail();
+  if (!inotify_) fail();
 }
-
-FileWatcher::~FileWatcher() { ::close(inotify_); }
 
 void FileWatcher::watch(const std::set<std::string>& files,
                         fs::file_time_type since) {
@@ -41,7 +39,7 @@ void FileWatcher::watch(const std::set<std::string>& files,
   for (const std::string& file : files) {
     watch_folder_of(file, file);
     std::error_code error;
-    // Where a link stands, and where it leads to.
+    // A link is watched where it stands and where it leads.
     const fs::path target = fs::canonical(file, error);
     if (!error) watch_folder_of(target, file);
     const fs::file_time_type time = fs::last_write_time(file, error);
@@ -53,7 +51,8 @@ void FileWatcher::watch(const std::set<std::string>& files,
 void FileWatcher::watch_folder_of(const fs::path& path,
                                   const std::string& file) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const int id = ::inotify_add_watch(inotify_, folder.c_str(), kEvents);
+  const int id =
+      ::inotify_add_watch(inotify_.descriptor(), folder.c_str(), kEvents);
   if (id >= 0) {
     names_[id][path.filename()] = file;
   } else if (errno != ENOENT && errno != EACCES) {
@@ -69,10 +68,11 @@ std::set<std::string> FileWatcher::wait() {
 }
 
 bool FileWatcher::take_events(int milliseconds) {
-  pollfd ready = {inotify_, POLLIN, 0};
+  pollfd ready = {inotify_.descriptor(), POLLIN, 0};
   if (::poll(&ready, 1, milliseconds) <= 0) return false;
   alignas(inotify_event) std::array<char, 1 << 14> buffer;
-  const ssize_t size = ::read(inotify_, buffer.data(), buffer.size());
+  const ssize_t size =
+      ::read(inotify_.descriptor(), buffer.data(), buffer.size());
   bool is_ours = false;
   for (ssize_t i = 0; i < size;) {
     const auto& event =

@@ -20,7 +20,7 @@
 namespace lamina::cli {
 namespace {
 
-// Newer than the header may be.
+// Rights that the header may be too old to name.
 constexpr std::uint64_t kRefer = 1U << 13;     // since version 2
 constexpr std::uint64_t kTruncate = 1U << 14;  // 3
 constexpr std::uint64_t kIoctlDev = 1U << 15;  // 5
@@ -31,7 +31,7 @@ constexpr std::uint64_t kWrite =
     LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
     LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_DIR |
     LANDLOCK_ACCESS_FS_MAKE_REG | kTruncate;
-// Not to be had anywhere: to run programs, to make devices, pipes, links, to
+// Refused everywhere: to run programs, to make devices, pipes and links, to
 // move files between folders, to command devices.
 constexpr std::uint64_t kNever =
     LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
@@ -70,7 +70,7 @@ class Ruleset {
               LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
   }
 
-  // What is not there is passed over.
+  // A path that does not exist is passed over.
   void allow_reading(const std::string& path) const {
     const OpenFile folder(
         ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));

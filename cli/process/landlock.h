@@ -13,11 +13,13 @@
 
 namespace lamina::cli {
 
-// What the kernel offers, 1 and up; less where it does not.
+// The version of Landlock that the kernel offers, from 1 up; less than 1 where
+// it offers none.
 long landlock_version();
 
-// To be called before there are further threads. Does nothing where nothing is
-// confined, or where the kernel does not offer it. Never undone.
+// Restricts this process, for good, to what `access` allows. To be called while
+// it has one thread. Does nothing where `access` allows all files, or where the
+// kernel does not offer it.
 void restrict_process(const FileAccess& access);
 
 }  // namespace lamina::cli

@@ -1,5 +1,7 @@
 #include "cli/process/large_stack.h"
 
+#include <utility>
+
 #include <sys/mman.h>
 
 namespace lamina::cli {
@@ -19,14 +21,18 @@ LargeStack::~LargeStack() {
   if (begin_ != MAP_FAILED) ::munmap(begin_, size_);
 }
 
-bool LargeStack::start(pthread_t& thread, void* (*work)(void*),
-                       void* argument) const {
+bool LargeStack::start(std::function<void()> work) {
   if (begin_ == MAP_FAILED) return false;
+  work_ = std::move(work);
+  const auto run = [](void* function) -> void* {
+    (*static_cast<std::function<void()>*>(function))();
+    return nullptr;
+  };
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
   const bool is_started =
       ::pthread_attr_setstack(&attributes, begin_, size_) == 0 &&
-      ::pthread_create(&thread, &attributes, work, argument) == 0;
+      ::pthread_create(&thread_, &attributes, run, &work_) == 0;
   ::pthread_attr_destroy(&attributes);
   return is_started;
 }

@@ -7,13 +7,14 @@
 // own.
 
 #include <cstddef>
+#include <functional>
 
 #include <pthread.h>
 
 namespace lamina::cli {
 
-// Address space for the stack of a thread; taken as it is touched. Halves its
-// wish where the system limits address space.
+// The address space of a thread's stack; memory is taken as it is touched. The
+// stack is smaller where the system limits address space.
 class LargeStack {
  public:
   LargeStack();
@@ -24,13 +25,14 @@ class LargeStack {
   // What the thread may use.
   std::size_t size() const { return size_ - kGuardSize; }
 
-  // Starts a thread on it, which pthread_join() must wait for. False if that
-  // cannot be.
-  bool start(pthread_t& thread, void* (*work)(void*), void* argument) const;
+  // Starts a thread on it that runs `work`, which must not throw, and for which
+  // join() must wait. Returns false where that fails.
+  bool start(std::function<void()> work);
+  void join() { ::pthread_join(thread_, nullptr); }
 
-  // Of the stack that every thread has.
+  // As large as the stack that every program has.
   static constexpr std::size_t kSmallestSize = std::size_t{8} << 20;
-  // A tree of the parser's limit, 250,000 levels, at 4 KiB each, twice over.
+  // Twice what a tree at the parser's limit takes: 250,000 levels of 4 KiB.
   static constexpr std::size_t kLargestSize = std::size_t{2} << 30;
 
  private:
@@ -39,6 +41,8 @@ class LargeStack {
 
   void* begin_;
   std::size_t size_;
+  pthread_t thread_{};
+  std::function<void()> work_;
 };
 
 }  // namespace lamina::cli

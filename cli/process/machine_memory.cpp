@@ -12,8 +12,8 @@
 namespace lamina::cli {
 namespace {
 
-// A smaller limit, if the file has one: version 2 writes "max" where there is
-// none.
+// Lowers `least` to the file's limit, if it has one: version 2 writes "max"
+// where there is none.
 void apply_limit(const std::string& file, std::uint64_t& least) {
   std::uint64_t bytes = 0;
   if (std::ifstream(file) >> bytes && bytes > 0) {

@@ -17,7 +17,7 @@ std::uint64_t control_group_memory(const std::string& root = "");
 // The machine's memory, or that limit if it is less [bytes]; 0: unknown.
 std::uint64_t machine_memory();
 
-// What of this process is in memory now [bytes]; 0: unknown.
+// The memory that this process takes now [bytes]; 0: unknown.
 std::uint64_t resident_memory();
 
 // The address space that this process may write to: what limits on data count

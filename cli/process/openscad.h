@@ -1,5 +1,5 @@
 #pragma once
-// The openscad that is installed here, asked for its mesh of a design.
+// Asks the openscad that is installed here for its mesh of a design.
 
 #include <string>
 

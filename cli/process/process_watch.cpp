@@ -1,7 +1,6 @@
 #include "cli/process/process_watch.h"
 
 #include <algorithm>
-#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -133,8 +132,7 @@ std::string out_of_memory_text() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
     return fmt::format(
-        "out of memory: the system grants {} of addresses "
-        "(ulimit -v)",
+        "out of memory: the system grants {} of addresses (ulimit -v)",
         memory_size_text(limit.rlim_cur));
   }
   if (::getrlimit(RLIMIT_DATA, &limit) == 0 &&
@@ -146,6 +144,17 @@ std::string out_of_memory_text() {
                  "--max-memory leaves";
   }
   return "out of memory";
+}
+
+std::string memory_size_text(std::uint64_t bytes) {
+  const auto size = static_cast<double>(bytes);
+  constexpr double kStep = 1024;
+  if (size < kStep) return fmt::format("{} bytes", bytes);
+  if (size < kStep * kStep) return fmt::format("{:.4g} KiB", size / kStep);
+  if (size < 10 * kStep * kStep * kStep) {
+    return fmt::format("{:.0f} MiB", size / kStep / kStep);
+  }
+  return fmt::format("{:.1f} GiB", size / kStep / kStep / kStep);
 }
 
 }  // namespace lamina::cli

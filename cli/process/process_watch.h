@@ -14,13 +14,24 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <list>
 #include <mutex>
 #include <string>
 
-#include "cli/process/process_limits.h"
-
 namespace lamina::cli {
+
+// Bytes, or a share of the machine's memory.
+struct MemoryLimit {
+  std::uint64_t bytes = 0;  // 0: the share counts
+  double share = 0.8;
+};
+
+struct ProcessLimits {
+  MemoryLimit memory;
+  // Wall time of the run, or of each piece where there are several.
+  double seconds = std::numeric_limits<double>::infinity();
+};
 
 class ProcessWatch {
  public:
@@ -30,14 +41,14 @@ class ProcessWatch {
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;
 
-  // From now on each part of the work has the time by itself, and what is
-  // between parts takes as long as it takes.
+  // From now on each part of the work has the whole time for itself, and what
+  // stands between parts is not timed.
   void time_parts();
 
-  // A part of the work, under way as long as this lives.
+  // A part of the work; it is under way as long as this object lives.
   class Part {
    public:
-    // name  before messages: "orders.csv:17: "
+    // name  stands before messages: "orders.csv:17: "
     Part(ProcessWatch& watch, const std::string& name);
     ~Part();
     Part(const Part&) = delete;
@@ -48,16 +59,16 @@ class ProcessWatch {
     const void* timed_;
   };
 
-  // Room for stacks that will be made: address space, which is no memory yet.
+  // Makes room for stacks to come: address space, which is no memory yet.
   void reserve(std::uint64_t bytes);
 
-  // When to look next, at the latest, from now.
+  // How long from now the next look can wait at most.
   std::chrono::nanoseconds pause();
 
-  // What has been exceeded, as a line for the terminal; empty: nothing. Called
-  // by one thread.
+  // Says as a line for the terminal which limit is exceeded; empty if none is.
+  // Called by one thread.
   //
-  // files  memory that files take and the process does not [B]
+  // files  bytes of memory that files take and that are not the process's own
   std::string look(std::uint64_t files);
 
  private:
@@ -82,7 +93,10 @@ class ProcessWatch {
   std::uint64_t granted_bytes_ = 0;   // of that, by the system at the start
 };
 
-// What to say where an allocation failed: whose limit that was.
+// The message where an allocation failed: it names the limit that was met.
 std::string out_of_memory_text();
+
+// "500 MiB": in the largest unit of which it is not a small part.
+std::string memory_size_text(std::uint64_t bytes);
 
 }  // namespace lamina::cli

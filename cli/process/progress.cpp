@@ -22,7 +22,7 @@ constexpr std::size_t kUsualWidth = 80;
 constexpr std::size_t kNarrowestBar = 10;
 constexpr std::size_t kWidestBar = 30;
 
-// Of the one terminal that the program has.
+// Guards the one terminal that the program has.
 std::mutex drawing;
 
 bool is_terminal() { return ::isatty(STDERR_FILENO) == 1; }

@@ -1,6 +1,6 @@
 #pragma once
-// How far a long run is: one line at the bottom of a terminal, drawn over and
-// over, and gone at the end.
+// Shows how far a long run is, by one line at the bottom of a terminal, which
+// is drawn over and over, and removed at the end.
 
 #include <chrono>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace lamina::cli {
 struct Progress {
   std::uint64_t done = 0;
   std::uint64_t total = 0;
-  std::string_view unit;  // of what there are so many: "layers"
+  std::string_view unit;  // what is counted: "layers"
   double seconds = 0;     // since the first of them was begun
 };
 
@@ -38,7 +38,8 @@ class ProgressLine {
   // begun.
   void show(std::uint64_t done);
 
-  // Before anything else is written to the terminal, and at the end.
+  // Removes the line. To be called before anything else is written to the
+  // terminal, and at the end.
   void erase();
 
  private:

@@ -26,22 +26,8 @@ namespace {
 constexpr int kDoneSignal = SIGUSR1;
 constexpr int kLostSignal = SIGUSR2;
 
-// With kLostSignal: what was thrown.
+// What was thrown; sent with kLostSignal.
 enum Lost { kLostMemory, kLostError };
-
-struct Work {
-  const std::function<int(std::size_t)>& function;
-  std::size_t stack_bytes;
-  pthread_t waiting_thread;
-  int status = 0;
-};
-
-void* do_work(void* argument) {
-  Work& work = *static_cast<Work*>(argument);
-  work.status = work.function(work.stack_bytes);
-  ::pthread_kill(work.waiting_thread, kDoneSignal);
-  return nullptr;
-}
 
 // The signals that end a run, save those that the caller wants ignored
 // (nohup).
@@ -75,7 +61,7 @@ void exit_soon(int status) {
   ::setitimer(ITIMER_REAL, &time, nullptr);
 }
 
-// Instead of abort(): has the waiting thread end the process.
+// Stands for abort(): has the waiting thread end the process.
 [[noreturn]] void tell_lost_exception() {
   sigval what{};
   what.sival_int = kLostError;
@@ -95,8 +81,8 @@ void exit_soon(int status) {
   ::_exit(kFault);
 }
 
-// The end of a process whose other threads still run. Nothing here may throw,
-// be it for lack of memory.
+// Ends the process while its other threads still run. Nothing here may throw,
+// not even for lack of memory.
 [[noreturn]] void end_process(TemporaryFiles& temporary_files, int status,
                               std::string_view message) noexcept {
   std::set_terminate([] { ::_exit(kFault); });
@@ -120,7 +106,8 @@ std::string lost_text(int what) {
                            "nothing catches");
 }
 
-// What `signals` bring within the time; SI of 0: nothing.
+// Waits for one of the signals, at most so long. The number of the signal is 0
+// where none came.
 siginfo_t wait_for(const sigset_t& signals, std::chrono::nanoseconds time) {
   timespec pause{};
   pause.tv_nsec = time.count();
@@ -165,10 +152,14 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
   ::sigaddset(&signals, kLostSignal);
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
-  const LargeStack stack;
-  Work own{work, stack.size(), ::pthread_self()};
-  pthread_t thread{};
-  if (!stack.start(thread, &do_work, &own)) {
+  LargeStack stack;
+  int status = kFault;
+  const pthread_t waiting_thread = ::pthread_self();
+  const bool is_started = stack.start([&] {
+    status = work(stack.size());
+    ::pthread_kill(waiting_thread, kDoneSignal);
+  });
+  if (!is_started) {
     end_process(temporary_files, kFault,
                 "error: the system grants no second thread, or no stack for "
                 "it (ulimit -u, -v)\n");
@@ -178,8 +169,8 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
   } catch (const std::bad_alloc&) {
     end_process(temporary_files, kFault, "error: out of memory\n");
   }
-  ::pthread_join(thread, nullptr);
-  return own.status;
+  stack.join();
+  return status;
 }
 
 }  // namespace lamina::cli

@@ -1,11 +1,7 @@
 #include "cli/report/compared.h"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,18 +44,16 @@ class ComparedFile : public Compared {
   ComparedFile(const std::string& path, const FileAccess& access)
       : Compared(path), file_access_(access) {}
 
-  std::string description() const override {
-    return facts_.writer.empty()
-               ? facts_.format
-               : fmt::format("{} by {}", facts_.format, facts_.writer);
-  }
-
   const std::vector<Layer>& layers() override {
     if (!layers_) {
       layers_.emplace();
       facts_ = slicer::read_layers(
           name(), [&](Layer& layer) { layers_->push_back(std::move(layer)); },
           file_access_);
+      description_ =
+          facts_.writer.empty()
+              ? facts_.format
+              : fmt::format("{} by {}", facts_.format, facts_.writer);
     }
     return *layers_;
   }
@@ -83,8 +77,8 @@ class ComparedFile : public Compared {
   std::optional<std::vector<Layer>> layers_;
 };
 
-// How a mesh rounds the coordinates of the design that it came from [mm]; sees
-// the greatest coordinate.
+// How far a mesh with this greatest coordinate rounds the coordinates of the
+// design that it came from [mm].
 using Rounding = double (*)(double greatest);
 
 double no_rounding(double /*greatest*/) { return 0; }
@@ -95,16 +89,13 @@ double openscad_rounding(double greatest) {
 
 class ComparedDesign : public Compared {
  public:
-  ComparedDesign(std::string name, compiler::Request request, Rounding rounding,
-                 bool is_quiet, const Context& context)
-      : Compared(std::move(name)),
+  ComparedDesign(std::string name, std::string description,
+                 compiler::Request request, Rounding rounding, bool is_quiet,
+                 const Context& context)
+      : Compared(std::move(name), std::move(description)),
         request_(std::move(request)),
         rounding_(rounding),
         session_(request_, is_quiet, context) {}
-
-  std::string description() const override {
-    return compiler::is_imported(request_.design) ? "mesh" : "design";
-  }
 
   const std::vector<Layer>& layers() override {
     if (!layers_) layers_ = sliced(request_.settings);
@@ -167,7 +158,7 @@ compiler::Request design_request(const std::string& path,
   return own;
 }
 
-// What goes for a mesh, too.
+// The part of the request that means something for a mesh.
 compiler::Request mesh_request(const std::string& path,
                                const compiler::Request& request) {
   compiler::Request own = design_request(path, request);
@@ -177,54 +168,6 @@ compiler::Request mesh_request(const std::string& path,
   own.chordal_error = 0;
   return own;
 }
-
-class ComparedOpenScad : public Compared {
- public:
-  ComparedOpenScad(const std::string& design, const compiler::Request& request,
-                   double time_limit, bool is_quiet, const Context& context)
-      : Compared("openscad"),
-        request_(request),
-        time_limit_(time_limit),
-        is_quiet_(is_quiet),
-        context_(context) {
-    request_.design = design;
-  }
-
-  std::string description() const override {
-    return fmt::format("{}, rendered in {:.1f} s", version_, render_seconds_);
-  }
-  const std::vector<Layer>& layers() override { return mesh().layers(); }
-  bool can_be_cut() const override { return true; }
-  std::vector<Layer> cut(const std::vector<double>& heights) override {
-    return mesh().cut(heights);
-  }
-  double precision() const override { return mesh_->precision(); }
-
- private:
-  Compared& mesh() {
-    if (!mesh_) {
-      const ScratchFolder folder(context_.temporary_files);
-      version_ = openscad_version(folder);
-      const OpenScadMesh rendered =
-          render_with_openscad(request_, time_limit_, folder);
-      render_seconds_ = rendered.seconds;
-      mesh_ = std::make_unique<ComparedDesign>(
-          name(), mesh_request(rendered.path, request_), openscad_rounding,
-          is_quiet_, context_);
-      // Has it read while it is there.
-      mesh_->cut({0});
-    }
-    return *mesh_;
-  }
-
-  compiler::Request request_;
-  double time_limit_;
-  bool is_quiet_;
-  const Context& context_;
-  std::string version_;
-  double render_seconds_ = 0;
-  std::unique_ptr<ComparedDesign> mesh_;
-};
 
 }  // namespace
 
@@ -247,10 +190,11 @@ std::unique_ptr<Compared> open_compared(const std::string& path,
   if (compiler::is_imported(path)) {
     const Rounding rounding =
         slicer::is_named(path, ".stl") ? slicer::float32_rounding : no_rounding;
-    return std::make_unique<ComparedDesign>(path, mesh_request(path, request),
-                                            rounding, is_quiet, context);
+    return std::make_unique<ComparedDesign>(
+        path, "mesh", mesh_request(path, request), rounding, is_quiet, context);
   }
-  return std::make_unique<ComparedDesign>(path, design_request(path, request),
+  return std::make_unique<ComparedDesign>(path, "design",
+                                          design_request(path, request),
                                           no_rounding, is_quiet, context);
 }
 
@@ -258,8 +202,18 @@ std::unique_ptr<Compared> open_openscad(const std::string& design,
                                         const compiler::Request& request,
                                         double time_limit, bool is_quiet,
                                         const Context& context) {
-  return std::make_unique<ComparedOpenScad>(design, request, time_limit,
-                                            is_quiet, context);
+  const ScratchFolder folder(context.temporary_files);
+  const std::string version = openscad_version(folder);
+  const OpenScadMesh rendered =
+      render_with_openscad(design_request(design, request), time_limit, folder);
+  auto mesh = std::make_unique<ComparedDesign>(
+      "openscad",
+      fmt::format("{}, rendered in {:.1f} s", version, rendered.seconds),
+      mesh_request(rendered.path, request), openscad_rounding, is_quiet,
+      context);
+  // Has it read while it is there.
+  mesh->cut({0});
+  return mesh;
 }
 
 }  // namespace lamina::cli

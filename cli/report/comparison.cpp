@@ -13,8 +13,8 @@ using slicer::Layer;
 using slicer::LayerDifference;
 using slicer::LayerPair;
 
-// Less is nothing to a printer, and where a surface is nearly level, rounded
-// heights move contours by far more than they are rounded by [mm].
+// Smaller distances mean nothing to a printer. And where a surface is nearly
+// level, contours move by far more than heights are rounded by [mm].
 constexpr double kLeastTolerance = 0.001;
 
 // How far beside a face a section is cut again: twice the distance at which
@@ -58,7 +58,7 @@ Comparison::Comparison(Compared& a, Compared& b, bool aligns) : a_(a), b_(b) {
   }
 }
 
-// The heights at which the other one is cut.
+// The heights at which the other side is cut.
 std::vector<double> Comparison::heights_of(Compared& side, double shift) const {
   const std::vector<Layer>& layers = side.layers();
   slicer::require_rising(layers, side.name());
@@ -78,7 +78,7 @@ std::vector<double> Comparison::heights_of(Compared& side, double shift) const {
   return heights;
 }
 
-// Cuts and pairs, b's heights raised by `rise`.
+// Cuts, and pairs layers, with b's heights raised by `rise`.
 void Comparison::pair_at(double rise) {
   if (b_.can_be_cut()) {
     cut_ = b_.cut(heights_of(a_, -rise));
@@ -96,7 +96,7 @@ void Comparison::pair_at(double rise) {
       slicer::pair_layers(*layers_a_, *layers_b_, rise, a_.name(), b_.name());
 }
 
-// Leaves the layers paired as that shift has them.
+// Leaves the layers paired as the shift moves them.
 Vec3 Comparison::find_shift() {
   const double rise = slicer::aligning_shift(a_.layers(), b_.layers()).z;
   pair_at(rise);

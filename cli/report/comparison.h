@@ -1,11 +1,11 @@
 #pragma once
 // Two things brought to the same heights and compared.
 //
-// What can be cut is cut at the sections of the other one, and once below and
-// once above them: a file that ends too early differs there. Heights are
-// rounded, in files and in meshes, so where a section lies in a horizontal face
-// the two can be on different sides of it, which is no difference of the part.
-// Layers that differ are cut again just below and just above.
+// Whichever of them can be cut is cut at the sections of the other, and once
+// below and once above them: a file that ends too early differs there. Files
+// and meshes round heights. So where a section lies in a horizontal face, the
+// two can be on different sides of it, which is no difference of the part:
+// layers that differ are cut again just below and just above.
 
 #include <list>
 #include <vector>
@@ -31,7 +31,8 @@ class Comparison {
   // tolerance  [mm]
   ComparisonResult run(double tolerance);
 
-  // Of the layer with this index in the result, b's moved as --align has it.
+  // The layers of a row of the result, by its index; b's is moved as --align
+  // asks.
   slicer::Layer layer_a(std::size_t index) const;
   slicer::Layer layer_b(std::size_t index) const;
 
@@ -45,7 +46,7 @@ class Comparison {
   Compared& a_;
   Compared& b_;
   Vec3 shift_ = Vec3(0);  // of b
-  // One of them points to what was cut.
+  // At most one of them points to `cut_`.
   const std::vector<slicer::Layer>* layers_a_ = nullptr;
   const std::vector<slicer::Layer>* layers_b_ = nullptr;
   std::vector<slicer::Layer> cut_;

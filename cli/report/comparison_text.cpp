@@ -57,14 +57,12 @@ std::string verdict(const ComparisonResult& result) {
     return fmt::format("equal     within {:.4g} mm in all {} layers",
                        result.tolerance, totals.layers);
   }
-  std::string words = fmt::format(
-      "different in {} of {} layers, beyond {:.4g} "
-      "mm",
-      totals.outside, totals.layers, result.tolerance);
+  std::string words =
+      fmt::format("different in {} of {} layers, beyond {:.4g} mm",
+                  totals.outside, totals.layers, result.tolerance);
   if (result.hint != Vec3(0)) {
     words += fmt::format(
-        "; equal if b is moved by ({:.6g}, {:.6g}, {:.6g}) "
-        "mm: --align",
+        "; equal if b is moved by ({:.6g}, {:.6g}, {:.6g}) mm: --align",
         result.hint.x, result.hint.y, result.hint.z);
   }
   return words;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 
 #include "cli/process/exit_status.h"
 #include "compiler/compile.h"
+#include "compiler/passes.h"
 #include "slicer/check/feature_table.h"
 
 namespace lamina::cli {
@@ -250,8 +250,8 @@ int compile_and_report(Session& session, const std::string& report,
   if (!compiler::compile(compilation)) return kFault;
   if (!slicer::is_of_layers(request.format)) return kDone;
   if (!report.empty()) {
-    write_file(report, report_text(compilation, earlier_seconds),
-               compilation.temporary_files);
+    compiler::write_file(report, report_text(compilation, earlier_seconds),
+                         compilation.temporary_files);
   }
   if (request.settings.min_feature > 0) {
     session.terminal.say(feature_lines(compilation));

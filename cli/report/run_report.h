@@ -13,7 +13,7 @@ namespace lamina::cli {
 // Processor seconds of all threads since the program began.
 double process_seconds();
 
-// Greatest memory that this program held so far.
+// The most memory that this program has held so far.
 std::uint64_t peak_memory_bytes();
 
 // The report of one compilation among several, without what only the whole

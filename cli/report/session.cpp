@@ -16,7 +16,7 @@ namespace {
 // Recursion of a design's functions ends here, long before memory does.
 constexpr std::size_t kEvaluationStack = std::size_t{128} << 20;
 
-// Passes that report what they throw have had it shown already.
+// Whether it has been shown: some passes report what they throw.
 bool is_reported(const Diagnostics& diagnostics, const Diagnostic& thrown) {
   const auto is_thrown = [&](const Diagnostic& diagnostic) {
     return diagnostic.message == thrown.message &&
@@ -66,13 +66,6 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
     show(fmt::format("internal error, please report: {}", error.what()));
   }
   return kFault;
-}
-
-void write_file(const std::string& path, std::string_view text,
-                TemporaryFiles& temporary_files) {
-  OutputFile output(path, temporary_files);
-  output.write(text);
-  output.commit();
 }
 
 }  // namespace lamina::cli

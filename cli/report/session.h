@@ -2,11 +2,8 @@
 // A compilation whose messages and progress the user sees.
 
 #include <functional>
-#include <string>
-#include <string_view>
 
 #include "base/diagnostic.h"
-#include "base/file/output_file.h"
 #include "cli/process/context.h"
 #include "cli/report/terminal.h"
 #include "compiler/compilation.h"
@@ -30,9 +27,5 @@ struct Session {
 // is among `diagnostics` and so has been shown, and returns kFault.
 int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
                const std::function<int()>& work);
-
-// Writes a whole file.
-void write_file(const std::string& path, std::string_view text,
-                TemporaryFiles& temporary_files);
 
 }  // namespace lamina::cli

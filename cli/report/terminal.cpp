@@ -2,32 +2,33 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include <fmt/format.h>
 
 namespace lamina::cli {
 namespace {
 
-// Endless recursion has as many equal notes as the trace is long: one is
-// shown, with their number.
+bool are_equal(const Note& a, const Note& b) {
+  return a.message == b.message && a.range.source == b.range.source &&
+         a.range.begin == b.range.begin;
+}
+
+// Endless recursion has as many equal notes as the trace is long: one of them
+// is shown, with their number.
 Diagnostic with_folded_notes(const Diagnostic& diagnostic) {
   Diagnostic folded = diagnostic;
   folded.notes.clear();
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < diagnostic.notes.size(); ++i) {
-    const Note& note = diagnostic.notes[i];
-    ++count;
-    const bool is_last = i + 1 == diagnostic.notes.size();
-    if (!is_last && diagnostic.notes[i + 1].message == note.message &&
-        diagnostic.notes[i + 1].range.source == note.range.source &&
-        diagnostic.notes[i + 1].range.begin == note.range.begin) {
-      continue;
+  const std::vector<Note>& notes = diagnostic.notes;
+  for (auto first = notes.begin(); first != notes.end();) {
+    const auto last = std::find_if_not(first, notes.end(), [&](const Note& n) {
+      return are_equal(n, *first);
+    });
+    Note& note = folded.notes.emplace_back(*first);
+    if (last - first > 1) {
+      note.message += fmt::format(" ({} times)", last - first);
     }
-    folded.notes.push_back(note);
-    if (count > 1) {
-      folded.notes.back().message += fmt::format(" ({} times)", count);
-    }
-    count = 0;
+    first = last;
   }
   return folded;
 }

@@ -248,23 +248,55 @@ class Finder {
     emit(plane, -normal, outline, outside, inside, true);
   }
 
-  struct Cut {
-    std::uint32_t instance = 0;
-    WindowSection section;
+  // Another leaf in the plane of the face. What is asked of a side is kept, and
+  // where no vertex lies on the plane both sides are one.
+  class Cut {
+   public:
+    Cut(std::uint32_t instance, WindowSection section)
+        : instance_(instance), section_(std::move(section)) {}
+
+    std::uint32_t instance() const { return instance_; }
+
+    std::optional<bool> uniform_value(Side side) {
+      Known& known = at(side);
+      if (!known.uniform) known.uniform = section_.uniform_value(side);
+      return *known.uniform;
+    }
+    const Region& region(Side side, const Region& outline) {
+      Known& known = at(side);
+      if (!known.region) {
+        known.region = section_in_window(section_.contours(side), outline);
+      }
+      return *known.region;
+    }
+
+   private:
+    struct Known {
+      std::optional<std::optional<bool>> uniform;
+      std::optional<Region> region;
+    };
+
+    Known& at(Side side) {
+      return known_[section_.is_touched() && side == Side::kAbove ? 1 : 0];
+    }
+
+    std::uint32_t instance_;
+    WindowSection section_;
+    std::array<Known, 2> known_;
   };
 
-  std::optional<Region> evaluate(const std::vector<Cut>& cuts, Side side,
+  std::optional<Region> evaluate(std::vector<Cut>& cuts, Side side,
                                  const Region& outline) {
     Settled settled;
-    for (const Cut& cut : cuts) {
-      if (!program_.matters(cut.instance)) continue;
-      const auto value = cut.section.uniform_value(side);
-      if (value) note(cut.instance, *value, settled);
+    for (Cut& cut : cuts) {
+      if (!program_.matters(cut.instance())) continue;
+      const auto value = cut.uniform_value(side);
+      if (value) note(cut.instance(), *value, settled);
     }
     std::vector<LiveInstance> live;
-    for (const Cut& cut : cuts) {
-      if (!program_.matters(cut.instance)) continue;
-      live.push_back({cut.instance, cut.section.contours(side)});
+    for (Cut& cut : cuts) {
+      if (!program_.matters(cut.instance())) continue;
+      live.push_back({cut.instance(), cut.region(side, outline)});
     }
     auto value = evaluate_in_window(scene_, state_, live, outline);
     forget(settled);

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "csg/plane/convex_faces.h"
 #include "csg/plane/triangulate.h"
 
 namespace lamina::csg {
@@ -78,9 +79,7 @@ class FaceMaker {
       if (side.size() < 3) continue;
       if (loft.is_cavity) std::reverse(side.begin(), side.end());
       add_loop(side);
-      for (std::size_t k = 2; k < side.size(); ++k) {
-        result_.triangles.push_back({side[0], side[k - 1], side[k]});
-      }
+      add_fan(side);
       end_face();
     }
   }
@@ -117,14 +116,18 @@ class FaceMaker {
     end_face();
   }
 
+  // What lies in one plane is few faces, not many triangles: the plane problem
+  // of each costs as much.
   void add_mesh(const Mesh& mesh) {
     const std::uint32_t shift = next_vertex();
     result_.vertices.insert(result_.vertices.end(), mesh.vertices.begin(),
                             mesh.vertices.end());
-    for (const auto& t : mesh.triangles) {
-      const LeafFaces::Triangle moved{t[0] + shift, t[1] + shift, t[2] + shift};
-      add_loop(moved);
-      result_.triangles.push_back(moved);
+    for (planar::Face& face :
+         planar::merge_to_convex(mesh.vertices, mesh.triangles)) {
+      std::vector<std::uint32_t>& loop = face.corners;
+      for (std::uint32_t& corner : loop) corner += shift;
+      add_loop(loop);
+      add_fan(loop);
       end_face();
     }
   }
@@ -133,6 +136,12 @@ class FaceMaker {
     result_.corners.insert(result_.corners.end(), loop.begin(), loop.end());
     result_.loop_ends.push_back(
         static_cast<std::uint32_t>(result_.corners.size()));
+  }
+
+  void add_fan(std::span<const std::uint32_t> loop) {
+    for (std::size_t k = 2; k < loop.size(); ++k) {
+      result_.triangles.push_back({loop[0], loop[k - 1], loop[k]});
+    }
   }
 
   void end_face() {

@@ -41,7 +41,7 @@ struct LeafFaces {
 };
 
 // Sides of lofts are quads and triangles, caps whole polygons with their
-// holes; a mesh gives its triangles.
+// holes; a mesh gives convex polygons.
 LeafFaces faces_of(const Leaf& leaf, const Affine& world_from_leaf);
 
 }  // namespace lamina::csg

@@ -1,5 +1,6 @@
 #include "csg/boundary/program_region.h"
 
+#include <array>
 #include <functional>
 #include <map>
 #include <utility>
@@ -79,8 +80,7 @@ class Evaluation {
         if (!is_new || node == 0) break;
         node = scene_.program[node].parent;
       }
-      const std::vector<Region> cut{leaf.section, window_};
-      add(instance.parent, instance.is_minuend, planar::intersect(cut));
+      add(instance.parent, instance.is_minuend, leaf.section);
     }
     // Children come after their parents.
     for (auto& [index, node] : nodes_) {
@@ -127,6 +127,11 @@ class Evaluation {
 };
 
 }  // namespace
+
+Region section_in_window(Region contours, const Region& window) {
+  const std::array<Region, 2> operands{std::move(contours), window};
+  return planar::intersect(operands);
+}
 
 std::optional<Region> evaluate_in_window(const Scene& scene,
                                          const ProgramState& state,

@@ -117,7 +117,9 @@ Region evaluate_at(const Scene& scene, const Plane& plane,
   const Vec2 high = Vec2(scene.box.high) + 1.0;
   const Region window{{{low, {high.x, low.y}, high, {low.x, high.y}}}};
   for (std::size_t i = 0; i < near.size(); ++i) {
-    live.push_back({near[i], whole_section(leaves[i], plane, side)});
+    live.push_back(
+        {near[i],
+         section_in_window(whole_section(leaves[i], plane, side), window)});
   }
   const auto value =
       evaluate_in_window(scene, ProgramState(scene), live, window);

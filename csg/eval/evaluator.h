@@ -1,16 +1,15 @@
 #pragma once
 // From syntax tree to CSG tree: evaluation of OpenSCAD programs.
 //
-// Names are resolved to slots first (resolve/), functions and modules when they
-// are called for the first time; then the resolved code (code/) runs (run/,
-// builtin/) and makes the nodes of the CSG tree as it goes. Each of these rooms
-// knows those before it: value, code, run, builtin, resolve.
+// Names are resolved to slots (resolve/), functions and modules when they are
+// first called; the resolved code (code/) runs (run/, builtin/) and makes the
+// nodes of the CSG tree. Each of these rooms knows those before it: value, code,
+// run, builtin, resolve.
 //
-// The rules are those of OpenSCAD 2021.01, oddities included: assignments
-// before instantiations, the last value of a name at its first place, `$`
-// variables of dynamic scope, arguments evaluated in the order of OpenSCAD's
-// hash table, the variables of a used file assigned anew for each call from
-// outside. Messages are its own, word for word.
+// The rules are those of OpenSCAD 2021.01, oddities included: assignments before
+// instantiations, the last value of a name at its first place, arguments
+// evaluated in the order of a hash table, the variables of a used file assigned
+// anew for each call from outside. Messages are its own, word for word.
 
 #include "base/diagnostic.h"
 #include "csg/eval/run/evaluate_options.h"

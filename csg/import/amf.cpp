@@ -3,7 +3,7 @@
 #include "base/file/zip.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/detail/xml.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 
 namespace lamina::csg {
 namespace {
@@ -52,7 +52,7 @@ std::vector<RawMesh> parse_model(std::string_view bytes) {
 std::vector<RawMesh> parse_amf(std::string_view bytes,
                                const std::string& name) {
   if (!ZipArchive::is_zip(bytes)) return parse_model(bytes);
-  const ZipArchive archive(bytes);
+  const ZipArchive archive = ZipArchive::open(bytes);
   auto model = archive.read(name);
   if (!model && archive.names().size() == 1) {
     model = archive.read(archive.names().front());

@@ -99,15 +99,15 @@ class Reader {
     }
     const bool is_coordinate =
         (code >= 10 && code <= 16) || (code >= 20 && code <= 26);
-    const bool is_other =
-        (code >= 40 && code <= 42) || code == 50 || code == 51;
-    if (!is_coordinate && !is_other) return true;
+    double* const other = number_of_group(code);
+    if (!is_coordinate && other == nullptr) return true;
     const auto number = to_number<double>(data);
     if (!number || !std::isfinite(*number)) return false;
     if (is_coordinate) {
       keep_coordinate(code, *number);
     } else {
-      keep_number(code, *number);
+      const bool is_length = code == 40 && !is_in_blocks_;
+      *other = is_length ? *number * options_.scale : *number;
     }
     return true;
   }
@@ -126,18 +126,14 @@ class Reader {
     if (which <= 1) (axis == 0 ? entity_.x : entity_.y).push_back(moved);
   }
 
-  void keep_number(int code, double number) {
-    if (code == 40) {
-      entity_.radius = is_in_blocks_ ? number : number * options_.scale;
-    } else if (code == 41) {
-      entity_.group_41 = number;
-    } else if (code == 42) {
-      entity_.group_42 = number;
-    } else if (code == 50) {
-      entity_.angle_deg = number;
-    } else {
-      entity_.end_angle_deg = number;
-    }
+  // Where the number of the group is kept; null for groups that do not count.
+  double* number_of_group(int code) {
+    return code == 40   ? &entity_.radius
+           : code == 41 ? &entity_.group_41
+           : code == 42 ? &entity_.group_42
+           : code == 50 ? &entity_.angle_deg
+           : code == 51 ? &entity_.end_angle_deg
+                        : nullptr;
   }
 
   // --- Entities -------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <set>
 
@@ -120,28 +119,17 @@ class Joiner {
 }  // namespace
 
 std::uint32_t DxfGrid::snap(Vec2 point) {
-  const std::int64_t x = std::llround(point.x / kStep);
-  const std::int64_t y = std::llround(point.y / kStep);
-  if (const auto own = cells_.find({x, y}); own != cells_.end()) {
-    return own->second;
+  const Vec3 own(std::round(point.x / kStep), std::round(point.y / kStep), 0);
+  if (const auto found = cells_.find(own)) return *found;
+  // Those beside it are nearer than those across a corner.
+  constexpr std::array<Vec2, 8> kAround = {
+      {{-1, 0}, {0, -1}, {0, 1}, {1, 0}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}}};
+  for (const Vec2 step : kAround) {
+    if (const auto found = cells_.find(own + Vec3(step, 0))) return *found;
   }
-  std::int64_t nearest = 10;
-  std::uint32_t found = 0;
-  for (std::int64_t i = x - 1; i <= x + 1; ++i) {
-    for (std::int64_t j = y - 1; j <= y + 1; ++j) {
-      const auto cell = cells_.find({i, j});
-      const std::int64_t distance = std::abs(x - i) + std::abs(y - j);
-      if (cell == cells_.end() || distance >= nearest) continue;
-      nearest = distance;
-      found = cell->second;
-    }
-  }
-  if (nearest < 10) return found;
-  found = static_cast<std::uint32_t>(points_.size());
-  cells_.emplace(Cell{x, y}, found);
-  points_.emplace_back(static_cast<double>(x) * kStep,
-                       static_cast<double>(y) * kStep);
-  return found;
+  // + 0.0 makes 0 of -0.
+  points_.push_back((Vec2(own) + 0.0) * kStep);
+  return cells_.name(own);
 }
 
 std::vector<DxfPath> join_lines(const std::vector<DxfLine>& lines,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -38,35 +37,29 @@ std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
   return bodies;
 }
 
-// In the words of OpenSCAD, which differ from format to format.
-void report_unreadable(const std::string& path, ImportFormat format,
-                       SourceRange range, Diagnostics& diagnostics) {
-  const std::string_view words = format == ImportFormat::k3mf
-                                     ? "Could not read file"
-                                     : "Can't open import file";
-  diagnostics.warning(range, fmt::format("{} '{}', import() at line {}", words,
-                                         path, range.openscad_line()));
+// The warnings in the words of OpenSCAD, which differ from format to format.
+std::string warning_text(std::string_view words, const std::string& path,
+                         SourceRange range) {
+  return fmt::format("{} '{}', import() at line {}", words, path,
+                     range.openscad_line());
 }
 
 void report_broken(const std::string& path, ImportFormat format,
                    const FormatError& fault, SourceRange range,
                    Diagnostics& diagnostics) {
-  const bool is_archive =
-      format == ImportFormat::kAmf || format == ImportFormat::k3mf;
-  if (!is_archive) {
+  if (format != ImportFormat::kAmf && format != ImportFormat::k3mf) {
     diagnostics.error(
         range, fmt::format("{} importing file '{}'", fault.what(), path));
     return;
   }
-  const std::string_view words = format == ImportFormat::k3mf
-                                     ? "Could not read file"
-                                     : "Failed to parse file";
-  diagnostics.report({Severity::kWarning,
-                      range,
-                      fmt::format("{} '{}', import() at line {}", words, path,
-                                  range.openscad_line()),
-                      {},
-                      {{range, fault.what()}}});
+  diagnostics.report(
+      {Severity::kWarning,
+       range,
+       warning_text(format == ImportFormat::k3mf ? "Could not read file"
+                                                 : "Failed to parse file",
+                    path, range),
+       {},
+       {{range, fault.what()}}});
 }
 
 bool is_finite(Vec3 p) {
@@ -78,10 +71,9 @@ std::size_t drop_infinite(RawMesh& raw) {
   auto& vertices = raw.mesh.vertices;
   if (std::all_of(vertices.begin(), vertices.end(), is_finite)) return 0;
   const auto is_bad = [&vertices](const auto& face) {
-    for (const std::uint32_t corner : face) {
-      if (!is_finite(vertices[corner])) return true;
-    }
-    return false;
+    return std::any_of(face.begin(), face.end(), [&](std::uint32_t corner) {
+      return !is_finite(vertices[corner]);
+    });
   };
   const std::size_t dropped = std::erase_if(raw.mesh.triangles, is_bad) +
                               std::erase_if(raw.polygons, is_bad);
@@ -100,7 +92,10 @@ std::vector<RawMesh> read_mesh_file(const std::string& path,
                                     Diagnostics& diagnostics) {
   const auto bytes = FileBytes::open(path, access);
   if (!bytes) {
-    report_unreadable(path, format, range, diagnostics);
+    diagnostics.warning(range, warning_text(format == ImportFormat::k3mf
+                                                ? "Could not read file"
+                                                : "Can't open import file",
+                                            path, range));
     return {};
   }
   std::vector<RawMesh> bodies;

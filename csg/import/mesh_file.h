@@ -1,15 +1,72 @@
 #pragma once
-// import() of meshes: STL, OFF, AMF, 3MF, OBJ.
+// import() of meshes: STL, OFF, AMF, 3MF, OBJ; and a reader for each format,
+// which throws FormatError.
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/scene.h"
 #include "csg/tree.h"
 
 namespace lamina::csg {
+
+// One body. Nothing is repaired yet and equal vertices need not be one, but
+// every index names a vertex. Faces are counter-clockwise from outside, if the
+// file keeps to that.
+struct RawMesh {
+  Mesh mesh;
+  std::vector<std::vector<std::uint32_t>> polygons;  // faces of 4 corners up
+  // No two vertices are equal, and each is a corner of a triangle.
+  bool is_joined = false;
+  // Whether the mesh only stands in for the slices that a 3MF has of its part.
+  bool is_stand_in = false;
+
+  // Appends a face; one of less than three corners is left out.
+  void add_face(std::span<const std::uint32_t> corners) {
+    if (corners.size() == 3) {
+      mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+    } else if (corners.size() > 3) {
+      polygons.emplace_back(corners.begin(), corners.end());
+    }
+  }
+};
+
+// STL, as text and as binary.
+//
+// A file is binary where its size is the one that its number of facets asks
+// for, whatever it begins with: many programs begin binary files with "solid".
+// Of text, lines with "vertex" count and all else is passed over, as OpenSCAD
+// 2021.01 does. Rejected are a vertex without three numbers, a fourth vertex in
+// a loop, and what is neither text nor as long as its facets need.
+RawMesh parse_stl(std::string_view bytes);
+
+// OFF, the format of Geomview, as text. Normals, colours and texture
+// coordinates ([ST][C][N]OFF, 4OFF) are passed over. Each vertex and each face
+// has a line of its own; the header says how many there are.
+RawMesh parse_off(std::string_view bytes);
+
+// OBJ, the format of Wavefront: vertices and faces; all else (normals,
+// textures, materials, lines) is passed over. All objects and groups together
+// make one body. Indices count from 1, or, if negative, back from the last
+// vertex so far.
+RawMesh parse_obj(std::string_view bytes);
+
+// AMF, plain and zipped: one body for each object. As in OpenSCAD 2021.01,
+// every object counts where it lies; units, constellations, colours and curved
+// triangles do not.
+//
+// name  of the file, without folder: an archive's entry of that name is the
+//       model, or else its only entry
+std::vector<RawMesh> parse_amf(std::string_view bytes, const std::string& name);
+
+// 3MF: one body for each mesh object. As in OpenSCAD 2021.01, every object
+// counts where it lies; units, build items, components and colours do not.
+std::vector<RawMesh> parse_3mf(std::string_view bytes);
 
 // Reads the bodies of a file; none where it cannot be read, which it reports in
 // OpenSCAD's words at `range`. It drops facets with coordinates that are no

@@ -4,7 +4,7 @@
 
 #include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 
 namespace lamina::csg {
 namespace {

@@ -1,16 +1,15 @@
 #include "csg/import/svg.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/mat3x3.hpp>
 
 #include "csg/degrees.h"
 #include "csg/import/detail/svg_numbers.h"
-#include "csg/import/detail/svg_page.h"
-#include "csg/import/detail/svg_path.h"
+#include "csg/import/detail/svg_parts.h"
 #include "csg/import/detail/xml.h"
 
 namespace lamina::csg {
@@ -19,30 +18,18 @@ namespace {
 // Elements are visited by a function that calls itself.
 constexpr int kMostNesting = 500;
 
-// [a b c d e f]: (x, y) becomes (a x + c y + e, b x + d y + f).
-using Matrix = std::array<double, 6>;
-constexpr Matrix kIdentity = {1, 0, 0, 1, 0, 0};
-
-Vec2 apply(const Matrix& m, Vec2 p) {
-  return {m[0] * p.x + m[2] * p.y + m[4], m[1] * p.x + m[3] * p.y + m[5]};
-}
-
-Matrix multiply(const Matrix& m, const Matrix& n) {
-  const Vec2 shift = apply(m, {n[4], n[5]});
-  return {m[0] * n[0] + m[2] * n[1],
-          m[1] * n[0] + m[3] * n[1],
-          m[0] * n[2] + m[2] * n[3],
-          m[1] * n[2] + m[3] * n[3],
-          shift.x,
-          shift.y};
+// The matrix [a b c d e f]: (x, y) becomes (a x + c y + e, b x + d y + f).
+using Matrix = glm::dmat3;
+Matrix matrix(double a, double b, double c, double d, double e, double f) {
+  return {a, b, 0, c, d, 0, e, f, 1};
 }
 
 Matrix rotation(double angle_deg, Vec2 center) {
   const double cos = cos_deg(angle_deg);
   const double sin = sin_deg(angle_deg);
-  const Matrix turn = {cos, sin, -sin, cos, 0, 0};
-  return multiply({1, 0, 0, 1, center.x, center.y},
-                  multiply(turn, {1, 0, 0, 1, -center.x, -center.y}));
+  return matrix(1, 0, 0, 1, center.x, center.y) *
+         (matrix(cos, sin, -sin, cos, 0, 0) *
+          matrix(1, 0, 0, 1, -center.x, -center.y));
 }
 
 double tan_deg(double angle_deg) {
@@ -52,22 +39,24 @@ double tan_deg(double angle_deg) {
 // One function of a transform; the identity for a wrong number of arguments.
 Matrix read_transform(std::string_view name, const std::vector<double>& v) {
   const std::size_t n = v.size();
-  if (name == "matrix" && n == 6) return {v[0], v[1], v[2], v[3], v[4], v[5]};
+  if (name == "matrix" && n == 6) {
+    return matrix(v[0], v[1], v[2], v[3], v[4], v[5]);
+  }
   if (name == "translate" && (n == 1 || n == 2)) {
-    return {1, 0, 0, 1, v[0], n == 2 ? v[1] : 0};
+    return matrix(1, 0, 0, 1, v[0], n == 2 ? v[1] : 0);
   }
   if (name == "scale" && (n == 1 || n == 2)) {
-    return {v[0], 0, 0, v[n - 1], 0, 0};
+    return matrix(v[0], 0, 0, v[n - 1], 0, 0);
   }
   if (name == "rotate" && n == 1) return rotation(v[0], Vec2(0));
   if (name == "rotate" && n == 3) return rotation(v[0], {v[1], v[2]});
-  if (name == "skewX" && n == 1) return {1, 0, tan_deg(v[0]), 1, 0, 0};
-  if (name == "skewY" && n == 1) return {1, tan_deg(v[0]), 0, 1, 0, 0};
-  return kIdentity;
+  if (name == "skewX" && n == 1) return matrix(1, 0, tan_deg(v[0]), 1, 0, 0);
+  if (name == "skewY" && n == 1) return matrix(1, tan_deg(v[0]), 0, 1, 0, 0);
+  return Matrix(1.0);
 }
 
 Matrix read_transforms(std::string_view text) {
-  Matrix matrix = kIdentity;
+  Matrix whole(1.0);
   for (std::size_t open = text.find('('); open != std::string_view::npos;
        open = text.find('(')) {
     std::string_view name = text.substr(0, open);
@@ -78,10 +67,10 @@ Matrix read_transforms(std::string_view text) {
     SvgNumbers numbers(text.substr(open + 1, close - open - 1));
     std::vector<double> values;
     while (const auto number = numbers.next()) values.push_back(*number);
-    matrix = multiply(matrix, read_transform(trim(name), values));
+    whole = whole * read_transform(trim(name), values);
     text.remove_prefix(std::min(close + 1, text.size()));
   }
-  return matrix;
+  return whole;
 }
 
 // The whole attribute as a number; 0 where it is not one, as "3mm".
@@ -127,13 +116,13 @@ class Reader {
   explicit Reader(const SvgOptions& options) : options_(options) {}
 
   std::vector<SvgContours> read(const pugi::xml_node& document) {
-    read_children(document, kIdentity, 0);
+    read_children(document, Matrix(1.0), 0);
     place_on_page();
     return std::move(shapes_);
   }
 
  private:
-  void read_children(const pugi::xml_node& parent, const Matrix& matrix,
+  void read_children(const pugi::xml_node& parent, const Matrix& outer,
                      int depth) {
     if (depth > kMostNesting) {
       throw FormatError(fmt::format("SVG elements are nested more than {} deep",
@@ -146,9 +135,8 @@ class Reader {
         page_ = read_svg_page(child, options_.dpi);
       }
       const bool is_group = name == "g" || name == "text" || name == "tspan";
-      const Matrix own =
-          is_group ? multiply(matrix, transform_of(child)) : matrix;
-      read_shape(name, child, matrix);
+      const Matrix own = is_group ? outer * transform_of(child) : outer;
+      read_shape(name, child, outer);
       read_children(child, own, depth + 1);
     }
   }
@@ -158,7 +146,7 @@ class Reader {
   }
 
   void read_shape(std::string_view name, const pugi::xml_node& element,
-                  const Matrix& matrix) {
+                  const Matrix& outer) {
     contours_.clear();
     const auto number = [&element](const char* attribute) {
       return number_of(element, attribute);
@@ -180,10 +168,10 @@ class Reader {
       contours_.push_back(read_points(element));
     }
     if (contours_.empty()) return;
-    const Matrix whole = multiply(matrix, transform_of(element));
+    const Matrix whole = outer * transform_of(element);
     for (std::vector<Vec2>& contour : contours_) {
       for (Vec2& point : contour) {
-        point = apply(whole, point);
+        point = Vec2(whole * Vec3(point, 1));
         const Vec2 scaled = page_.scale * point;
         low_ = {std::min(low_.x, scaled.x), std::min(low_.y, scaled.y)};
         high_ = {std::max(high_.x, scaled.x), std::max(high_.y, scaled.y)};

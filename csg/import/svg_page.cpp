@@ -1,11 +1,10 @@
-#include "csg/import/detail/svg_page.h"
-
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <string_view>
 
 #include "csg/import/detail/svg_numbers.h"
+#include "csg/import/detail/svg_parts.h"
 
 namespace lamina::csg {
 namespace {

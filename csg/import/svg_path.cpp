@@ -1,5 +1,3 @@
-#include "csg/import/detail/svg_path.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "csg/degrees.h"
 #include "csg/import/detail/svg_numbers.h"
+#include "csg/import/detail/svg_parts.h"
 
 namespace lamina::csg {
 namespace {

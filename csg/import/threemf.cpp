@@ -5,7 +5,7 @@
 #include "base/file/zip.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/detail/xml.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 
 namespace lamina::csg {
 namespace {
@@ -35,9 +35,8 @@ Number read_number(const pugi::xml_node& node, const char* attribute) {
   const auto number = to_number<Number>(trim(text));
   if (!number) {
     throw FormatError(
-        fmt::format("3MF, expected a number in {} of a {}, "
-                    "not '{}'",
-                    attribute, local_name(node), text));
+        fmt::format("3MF, expected a number in {} of a {}, not '{}'", attribute,
+                    local_name(node), text));
   }
   return *number;
 }
@@ -69,7 +68,7 @@ bool has_low_resolution(const pugi::xml_node& object) {
 }  // namespace
 
 std::vector<RawMesh> parse_3mf(std::string_view bytes) {
-  const ZipArchive archive(bytes);
+  const ZipArchive archive = ZipArchive::open(bytes);
   const std::string part = model_part(archive);
   const auto model = archive.read(part);
   if (!model) throw FormatError(fmt::format("3MF holds no '{}'", part));

@@ -1,6 +1,8 @@
 #include "csg/lower/detail/face.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -103,17 +105,18 @@ std::vector<Triangle> split_quad(const planar::Contour& quad) {
 
 }  // namespace
 
-std::vector<Triangle> triangulate_face(std::span<const Vec3> vertices,
-                                       std::span<const std::uint32_t> face) {
-  if (face.size() == 3) return {{face[0], face[1], face[2]}};
-  const planar::Region shadow{{project(vertices, face)}};
+void add_face(Mesh& mesh, std::span<const std::uint32_t> face) {
+  if (face.size() == 3) {
+    mesh.triangles.push_back({face[0], face[1], face[2]});
+    return;
+  }
+  const planar::Region shadow{{project(mesh.vertices, face)}};
   auto triangles = face.size() == 4 ? split_quad(shadow.contours[0])
                                     : planar::triangulate(shadow);
   planar::make_delaunay(shadow.contours[0], triangles);
-  for (auto& t : triangles) {
-    for (std::uint32_t& corner : t) corner = face[corner];
+  for (const Triangle& t : triangles) {
+    mesh.triangles.push_back({face[t[0]], face[t[1]], face[t[2]]});
   }
-  return triangles;
 }
 
 }  // namespace lamina::csg

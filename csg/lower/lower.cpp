@@ -1,10 +1,8 @@
 #include "csg/lower/lower.h"
 
-#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>

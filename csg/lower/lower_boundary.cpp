@@ -1,10 +1,13 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/projection.h"
 #include "csg/boundary/scene_hull.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/lower/detail/resize.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/convex_hull.h"
 
@@ -25,6 +28,74 @@ Mat4 scaling(Vec3 factor) {
   Mat4 m(1.0);
   for (int i = 0; i < 3; ++i) m[i][i] = factor[i];
   return m;
+}
+
+bool only_unites(const Scene& scene) {
+  return scene.program.size() == 1 && scene.program[0].op == BooleanOp::kUnion;
+}
+
+// The box of the solid itself, however its leaves are combined.
+Box3 box_of_result(const Scene& scene) {
+  if (only_unites(scene)) return scene.box;
+  Box3 box;
+  const auto reaches_out = [&](const Box3& part) {
+    return glm::any(glm::lessThan(part.low, box.low)) ||
+           glm::any(glm::greaterThan(part.high, box.high));
+  };
+  visit_boundary_faces(scene, reaches_out, [&](const BoundaryFace& face) {
+    const Box3 part = box_of(face);
+    box.low = glm::min(box.low, part.low);
+    box.high = glm::max(box.high, part.high);
+  });
+  return box;
+}
+
+// The factors of resize(), by OpenSCAD's rules. A size of 0 keeps that
+// direction, or with `auto` scales it as the direction of the greatest new
+// size. So does a negative size, except that it mirrors the result of a Boolean
+// (OpenSCAD 2021.01 has other code for that). A direction without extent is
+// kept.
+//
+// size  of what is resized
+template <int kDimensions>
+glm::vec<kDimensions, double> factor_for(
+    const Resize& op, const glm::vec<kDimensions, double>& size,
+    bool may_mirror) {
+  int greatest = 0;
+  for (int i = 1; i < kDimensions; ++i) {
+    if (op.new_size[i] > op.new_size[greatest]) greatest = i;
+  }
+  const auto is_given = [&](int i) {
+    return may_mirror ? op.new_size[i] != 0 : op.new_size[i] > 0;
+  };
+  glm::vec<kDimensions, double> factor(1.0);
+  for (int i = 0; i < kDimensions; ++i) {
+    const bool follows =
+        op.auto_size[static_cast<std::size_t>(i)] && !is_given(i);
+    const int axis = follows ? greatest : i;
+    if (is_given(axis) && size[axis] > 0) {
+      factor[i] = op.new_size[axis] / size[axis];
+    }
+  }
+  return factor;
+}
+
+Vec2 resize_factor(const Resize& op, const planar::Region& region) {
+  Vec2 low(1e300);
+  Vec2 high(-1e300);
+  for (const planar::Contour& contour : region.contours) {
+    for (const Vec2 point : contour) {
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
+  }
+  return factor_for<2>(op, high - low, false);
+}
+
+Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
+  const Box3 box = box_of_result(scene);
+  if (box.is_empty()) return Vec3(1);
+  return factor_for<3>(op, box.high - box.low, is_boolean);
 }
 
 }  // namespace

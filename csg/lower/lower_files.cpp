@@ -33,9 +33,7 @@ std::string quoted_from_here(std::string_view path) {
 Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
   Mesh mesh = std::move(raw.mesh);
   for (const std::vector<std::uint32_t>& polygon : raw.polygons) {
-    for (const auto& t : triangulate_face(mesh.vertices, polygon)) {
-      mesh.triangles.push_back(t);
-    }
+    add_face(mesh, polygon);
   }
   repair_and_report(mesh, range, diagnostics,
                     raw.is_joined ? Vertices::kJoined : Vertices::kAnyhow);

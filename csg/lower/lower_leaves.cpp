@@ -1,15 +1,17 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "csg/boundary/leaf_box.h"
 #include "csg/lower/detail/extrude.h"
+#include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/lower/detail/points.h"
-#include "csg/lower/detail/polyhedron.h"
+#include "csg/lower/detail/repair.h"
 
 namespace lamina::csg {
 namespace {
@@ -23,7 +25,88 @@ bool is_shift(const Affine& m) {
 // Other sizes than these make OpenSCAD's primitives empty.
 bool is_size(double x) { return x > 0 && std::isfinite(x); }
 
+// The face's vertices counter-clockwise, without those that do not exist and
+// without repeats.
+std::vector<std::uint32_t> read_face(const PolyhedronParams& polyhedron,
+                                     std::size_t face, SourceRange range,
+                                     Diagnostics& diagnostics) {
+  std::vector<std::uint32_t> loop;
+  const auto& indices = polyhedron.faces[face];
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] >= polyhedron.points.size()) {
+      // OpenSCAD's indices are of 64 bits here, of 32 in a polygon.
+      const auto index =
+          static_cast<std::int64_t>(static_cast<std::int32_t>(indices[i]));
+      warn_of_index(static_cast<std::uint64_t>(index), "faces", face, i, range,
+                    diagnostics);
+    } else if (loop.empty() || loop.back() != indices[i]) {
+      loop.push_back(indices[i]);
+    }
+  }
+  while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+  std::reverse(loop.begin(), loop.end());
+  return loop;
+}
+
+// The faces as a closed mesh. They are clockwise from outside, as OpenSCAD has
+// them; the mesh is counter-clockwise.
+Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
+                     Diagnostics& diagnostics) {
+  Mesh mesh;
+  for (const Vec3& point : polyhedron.points) {
+    // What is not finite stands in no face. 0 · x is NaN there.
+    const bool is_finite = glm::dot(point, Vec3(0)) == 0;
+    mesh.vertices.push_back(is_finite ? point : Vec3(0));
+  }
+  bool has_degenerate = false;
+  for (std::size_t face = 0; face < polyhedron.faces.size(); ++face) {
+    const auto loop = read_face(polyhedron, face, range, diagnostics);
+    if (loop.size() < 3) {
+      has_degenerate = true;
+      continue;
+    }
+    add_face(mesh, loop);
+  }
+  if (has_degenerate) {
+    diagnostics.warning(range, "PolySet has degenerate polygons");
+  }
+  repair_and_report(mesh, range, diagnostics);
+  return mesh;
+}
+
+// The corners of the faces alone, each as a triangle of no area. Faults of the
+// faces do not matter.
+Mesh make_corners(const PolyhedronParams& polyhedron, SourceRange range,
+                  Diagnostics& diagnostics) {
+  Mesh mesh;
+  for (std::size_t face = 0; face < polyhedron.faces.size(); ++face) {
+    for (const std::uint32_t corner :
+         read_face(polyhedron, face, range, diagnostics)) {
+      const auto name = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(polyhedron.points[corner]);
+      mesh.triangles.push_back({name, name, name});
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
+
+bool check_points(std::string_view wrong_point, std::string_view type,
+                  SourceRange range, Diagnostics& diagnostics) {
+  if (wrong_point.empty()) return true;
+  diagnostics.error(
+      range, fmt::format("Unable to convert {} to a {} of numbers", wrong_point,
+                         type));
+  return false;
+}
+
+void warn_of_index(std::uint64_t index, std::string_view list, std::size_t i,
+                   std::size_t k, SourceRange range, Diagnostics& diagnostics) {
+  diagnostics.warning(
+      range, fmt::format("Point index {} is out of bounds (from {}[{}][{}])",
+                         index, list, i, k));
+}
 
 Shape Lowerer::lower_op(const Cube& cube, const Node& node,
                         const Affine& world) {

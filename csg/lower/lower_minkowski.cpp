@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,7 @@ bool is_lost(const std::vector<Operand>& terms) {
   if (terms.size() < 3 || !is_flat(terms[0]) || !is_flat(terms[1])) {
     return false;
   }
-  const Operand first = add_operands({terms[0], terms[1]});
+  const Operand first = add_operands(terms[0], terms[1]);
   return std::all_of(first.convex.begin(), first.convex.end(),
                      [](const Convex& part) {
                        return convex_hull(part.vertices).triangles.empty();
@@ -78,9 +79,32 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
   for (const Scene& scene : solids) terms.push_back(make_operand(scene));
   std::erase_if(terms, [](const Operand& term) { return term.is_empty(); });
   if (terms.empty() || is_lost(terms)) return {};
-  const Operand sum = add_operands(std::move(terms));
+  const Operand sum = add_terms(std::move(terms), node);
   place_sum(sum, node, world);
   return {Dimension::kSolid, {}, !sum.bodies.empty() || sum.convex.size() > 1};
+}
+
+Operand Lowerer::add_terms(std::vector<Operand> terms, const Node& node) {
+  sort_for_sum(terms);
+  Operand sum = std::move(terms[0]);
+  for (std::size_t i = 1; i < terms.size(); ++i) {
+    // Make bodies of what is a sum of surfaces so far.
+    for (SurfacePair& pair : std::exchange(sum.pairs, {})) {
+      Operand surfaces;
+      surfaces.pairs.push_back(std::move(pair));
+      Lowerer apart = make_inner(node, Affine(1.0));
+      apart.place_leaf(make_leaf(surfaces), node, Affine(1.0));
+      const Scene scene = apart.take_scenes({0})[0];
+      if (scene.instances.empty()) continue;
+      Operand operand = make_operand(scene);
+      std::move(operand.bodies.begin(), operand.bodies.end(),
+                std::back_inserter(sum.bodies));
+      std::move(operand.convex.begin(), operand.convex.end(),
+                std::back_inserter(sum.convex));
+    }
+    sum = add_operands(std::move(sum), std::move(terms[i]));
+  }
+  return sum;
 }
 
 void Lowerer::place_sum(const Operand& sum, const Node& node,
@@ -90,7 +114,7 @@ void Lowerer::place_sum(const Operand& sum, const Node& node,
     moved[3] = world * Vec4(body.shift, 1);
     place_scene(*body.scene, moved);
   }
-  place_leaf(make_leaf(sum.convex), node, world);
+  place_leaf(make_leaf(sum), node, world);
 }
 
 // Takes the operands off the stack, each as a scene with all leaves.

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -40,6 +42,28 @@ planar::Region combine_regions(BooleanOp op,
       break;
   }
   return planar::unite(regions);
+}
+
+// A child of an operator, an operator or an instance itself.
+struct Child {
+  std::uint32_t index = 0;
+  bool is_operator = false;
+};
+
+// The children of each operator, the minuend of a difference first.
+std::vector<std::vector<Child>> list_children(const Scene& scene) {
+  std::vector<std::vector<Child>> children(scene.program.size());
+  const auto add = [&](const auto& item, Child child) {
+    std::vector<Child>& all = children[item.parent];
+    all.insert(item.is_minuend ? all.begin() : all.end(), child);
+  };
+  for (std::uint32_t n = 1; n < scene.program.size(); ++n) {
+    add(scene.program[n], {n, true});
+  }
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    add(scene.instances[i], {i, false});
+  }
+  return children;
 }
 
 }  // namespace
@@ -149,15 +173,39 @@ Shape Lowerer::lower_children(const Node& node, const Affine& world,
     case Dimension::kSolid:
       break;
   }
-  if (op == BooleanOp::kDifference) {
-    builder_.apply_difference(operands.begins);
-  } else if (op == BooleanOp::kIntersection) {
-    builder_.apply_intersection(operands.begins);
-  }
+  builder_.apply(op, operands.begins);
   const bool is_nothing = builder_.mark() == mark && operands.count > 1;
   return {is_nothing ? Dimension::kNone : Dimension::kSolid,
           {},
           is_boolean(op, operands)};
+}
+
+// --- Scenes ------------------------------------------------------------------
+
+void Lowerer::place_scene(const Scene& scene, const Affine& world) {
+  const auto children = list_children(scene);
+  std::vector<std::uint32_t> leaves;
+  for (const Leaf& leaf : scene.leaves) leaves.push_back(leaves_.add(leaf));
+  const auto place_instance = [&](Instance instance) {
+    const Affine& m = instance.world_from_leaf;
+    instance.leaf = leaves[instance.leaf];
+    instance.world_from_leaf = world * Mat4(m);
+    instance.box = bound(instance.leaf, instance.world_from_leaf);
+    builder_.push(instance);
+  };
+  const auto place_operator = [&](const auto& self, std::uint32_t n) -> void {
+    std::vector<std::size_t> begins;
+    for (const Child& child : children[n]) {
+      begins.push_back(builder_.mark());
+      if (child.is_operator) {
+        self(self, child.index);
+      } else {
+        place_instance(scene.instances[child.index]);
+      }
+    }
+    builder_.apply(scene.program[n].op, begins);
+  };
+  place_operator(place_operator, 0);
 }
 
 }  // namespace lamina::csg

@@ -4,7 +4,6 @@
 
 #include "csg/degrees.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/lower/detail/points.h"
 #include "csg/plane/clip.h"
 #include "csg/plane/facets.h"
 #include "csg/plane/minkowski.h"

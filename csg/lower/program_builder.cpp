@@ -1,6 +1,5 @@
 #include "csg/lower/detail/program_builder.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -68,8 +67,16 @@ void ProgramBuilder::drop_flat() {
   std::erase_if(stack_, [&](Part part) { return is_flat(part); });
 }
 
-void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
+void ProgramBuilder::apply(BooleanOp op, std::span<const std::size_t> begins) {
   if (begins.size() < 2) return;
+  if (op == BooleanOp::kDifference) {
+    apply_difference(begins);
+  } else if (op == BooleanOp::kIntersection) {
+    apply_intersection(begins);
+  }
+}
+
+void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
   const std::size_t mark = begins[0];
   const auto all = parts_above(mark);
   std::vector<Part> minuend;
@@ -96,7 +103,6 @@ void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
 }
 
 void ProgramBuilder::apply_intersection(std::span<const std::size_t> begins) {
-  if (begins.size() < 2) return;
   const std::size_t mark = begins[0];
   const auto operand = [&](std::size_t i) {
     const std::size_t end =

@@ -232,9 +232,7 @@ std::vector<std::uint32_t> take_loop(OpenEdges& open, std::uint32_t start) {
 }
 
 ClosedHole cap(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
-  for (const Triangle& t : triangulate_face(mesh.vertices, loop)) {
-    mesh.triangles.push_back(t);
-  }
+  add_face(mesh, loop);
   ClosedHole hole{loop.size(), {}};
   for (const std::uint32_t i : loop) {
     hole.box.low = glm::min(hole.box.low, mesh.vertices[i]);

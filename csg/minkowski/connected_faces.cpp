@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -30,36 +31,50 @@ class Components {
   std::vector<std::size_t> parents_;
 };
 
-Box3 box_of(const Convex& face) {
+struct Face {
+  std::vector<Vec3> corners;
+  Vec3 normal;
+};
+
+Vec3 nearest_on_edge(const JoinedFaces& surface, std::size_t edge,
+                     const Vec3& aim) {
+  const JoinedFaces::Edge ends = surface.edges()[edge];
+  const Vec3 from = surface.vertices()[ends.from];
+  const Vec3 along = surface.vertices()[ends.to] - from;
+  const double share = glm::dot(aim - from, along) / glm::dot(along, along);
+  return from + std::clamp(share, 0.0, 1.0) * along;
+}
+
+Box3 box_of(const Face& face) {
   Box3 box;
-  for (const Vec3& vertex : face.vertices) {
-    box.low = glm::min(box.low, vertex);
-    box.high = glm::max(box.high, vertex);
+  for (const Vec3& corner : face.corners) {
+    box.low = glm::min(box.low, corner);
+    box.high = glm::max(box.high, corner);
   }
   box.low -= kTouchDistance;
   box.high += kTouchDistance;
   return box;
 }
 
-bool lies_on(const Vec3& point, const Convex& face) {
-  const Vec3& normal = face.normals[0];
-  const std::vector<Vec3>& corners = face.vertices;
-  if (std::abs(glm::dot(point - corners[0], normal)) > kTouchDistance) {
+bool lies_on(const Vec3& point, const Face& face) {
+  const std::vector<Vec3>& corners = face.corners;
+  if (std::abs(glm::dot(point - corners[0], face.normal)) > kTouchDistance) {
     return false;
   }
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3& from = corners[i];
     const Vec3 side = corners[i + 1 == corners.size() ? 0 : i + 1] - from;
     const double inwards =
-        glm::dot(glm::cross(normal, side), point - from) / glm::length(side);
+        glm::dot(glm::cross(face.normal, side), point - from) /
+        glm::length(side);
     if (inwards < -kTouchDistance) return false;
   }
   return true;
 }
 
-bool touch(const Convex& a, const Convex& b) {
-  const auto has_corner_on = [](const Convex& face, const Convex& other) {
-    return std::any_of(face.vertices.begin(), face.vertices.end(),
+bool touch(const Face& a, const Face& b) {
+  const auto has_corner_on = [](const Face& face, const Face& other) {
+    return std::any_of(face.corners.begin(), face.corners.end(),
                        [&](const Vec3& v) { return lies_on(v, other); });
   };
   return has_corner_on(a, b) || has_corner_on(b, a);
@@ -67,16 +82,27 @@ bool touch(const Convex& a, const Convex& b) {
 
 }  // namespace
 
-std::vector<Vec3> points_of_components(std::span<const Convex> faces) {
-  // Sweep a plane along x over the faces' boxes.
+std::vector<Vec3> points_of_components(const JoinedFaces& surface,
+                                       const Vec3& aim) {
+  std::vector<Face> faces;
   std::vector<Box3> boxes;
-  for (const Convex& face : faces) boxes.push_back(box_of(face));
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    faces.push_back({surface.polygon(f), surface.normals()[f]});
+    boxes.push_back(box_of(faces.back()));
+  }
+  Components components(faces.size());
+  for (std::size_t e = 0; e < surface.edges().size(); ++e) {
+    for (const JoinedFaces::EdgeFace& other : surface.faces_at(e)) {
+      components.join(surface.faces_at(e)[0].face, other.face);
+    }
+  }
+
+  // Sweep a plane along x over the faces' boxes.
   std::vector<std::size_t> order(faces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
     return boxes[i].low.x < boxes[k].low.x;
   });
-  Components components(faces.size());
   std::vector<std::size_t> open;
   for (const std::size_t i : order) {
     std::erase_if(
@@ -90,9 +116,20 @@ std::vector<Vec3> points_of_components(std::span<const Convex> faces) {
     }
     open.push_back(i);
   }
+
+  std::vector<std::optional<Vec3>> nearest(faces.size());
+  for (std::size_t e = 0; e < surface.edges().size(); ++e) {
+    const auto at = surface.faces_at(e);
+    if (at.empty()) continue;
+    std::optional<Vec3>& best = nearest[components.find(at[0].face)];
+    const Vec3 point = nearest_on_edge(surface, e, aim);
+    if (!best || glm::distance(point, aim) < glm::distance(*best, aim)) {
+      best = point;
+    }
+  }
   std::vector<Vec3> points;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (components.find(i) == i) points.push_back(faces[i].vertices[0]);
+  for (const std::optional<Vec3>& point : nearest) {
+    if (point) points.push_back(*point);
   }
   return points;
 }

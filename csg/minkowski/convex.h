@@ -14,9 +14,8 @@
 // equally far, up to rounding, gives facets that lie in one plane, up to
 // rounding.
 //
-// A solid A is taken apart. A prism is its base ⊕ its axis, two flat sums. Any
-// other solid is covered as csg/minkowski/minkowski.h does it for bodies
-// that are not convex.
+// A prism is its base ⊕ its axis, two flat sums. The sum of any other two
+// solids is the hull of the vertices that it can have (convex_pairs.h).
 
 #include <cstddef>
 #include <cstdint>

@@ -7,18 +7,19 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/convex_hull.h"
-#include "csg/boundary/leaf_mesh.h"
+#include "csg/boundary/leaf_faces.h"
 #include "csg/limits.h"
+#include "csg/minkowski/boolean_faces.h"
 #include "csg/minkowski/connected_faces.h"
 #include "csg/minkowski/convex_leaf.h"
 #include "csg/minkowski/convex_pairs.h"
+#include "csg/minkowski/surface_sum.h"
 #include "csg/plane/convex_faces.h"
-#include "csg/plane/triangulate.h"
-#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 namespace {
@@ -32,16 +33,20 @@ Convex add_prism(const Prism& prism, const Convex& other) {
   return add_flat(prism.base, swept);
 }
 
-Convex add_solids(const Convex& a, const Convex& b) {
-  if (const auto prism = as_prism(a)) return add_prism(*prism, b);
-  if (const auto prism = as_prism(b)) return add_prism(*prism, a);
-  const Mesh hull = convex_hull(extreme_sums(a, b));
+Convex hull_of(std::vector<Vec3> points) {
+  const Mesh hull = convex_hull(std::move(points));
   std::vector<std::vector<std::uint32_t>> loops;
   for (planar::Face& face :
        planar::merge_to_convex(hull.vertices, hull.triangles)) {
     loops.push_back(std::move(face.corners));
   }
   return make_solid(hull.vertices, loops);
+}
+
+Convex add_solids(const Convex& a, const Convex& b) {
+  if (const auto prism = as_prism(a)) return add_prism(*prism, b);
+  if (const auto prism = as_prism(b)) return add_prism(*prism, a);
+  return hull_of(extreme_sums(a, b));
 }
 
 bool is_point(const Convex& body) { return body.vertices.size() == 1; }
@@ -62,60 +67,26 @@ Convex add_convex(const Convex& a, const Convex& b) {
 
 // --- Bodies ------------------------------------------------------------------
 
-// Flat convex polygons of triangles.
-std::vector<Convex> make_faces(const Mesh& mesh) {
-  std::vector<Convex> faces;
-  for (const planar::Face& face :
+JoinedFaces join(Mesh mesh) {
+  std::vector<std::vector<std::uint32_t>> loops;
+  std::vector<Vec3> normals;
+  for (planar::Face& face :
        planar::merge_to_convex(mesh.vertices, mesh.triangles)) {
     if (face.normal == Vec3(0)) continue;
-    std::vector<Vec3> polygon;
-    for (const std::uint32_t corner : face.corners) {
-      polygon.push_back(mesh.vertices[corner]);
-    }
-    faces.push_back(make_flat(std::move(polygon), face.normal));
+    loops.push_back(std::move(face.corners));
+    normals.push_back(face.normal);
   }
-  return faces;
+  return {std::move(mesh.vertices), std::move(loops), normals};
 }
 
-// The faces of a Boolean as triangles; equal vertices are one.
-Mesh triangulate(std::span<const BoundaryFace> faces) {
-  Mesh mesh;
-  VertexTable names;
-  for (const BoundaryFace& face : faces) {
-    // A plane that turns the face's normal to the viewer.
-    const Vec3 n = face.normal;
-    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    const Vec3 x_axis = glm::normalize(glm::cross(other, n));
-    const Vec3 y_axis = glm::cross(n, x_axis);
-    planar::Region region;
-    std::vector<std::uint32_t> corners;
-    for (const std::vector<Vec3>& contour : face.contours) {
-      region.contours.emplace_back();
-      for (const Vec3& p : contour) {
-        region.contours.back().emplace_back(glm::dot(p, x_axis),
-                                            glm::dot(p, y_axis));
-        corners.push_back(names.name(p));
-      }
-    }
-    for (const auto& t : planar::triangulate(region)) {
-      mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
-    }
-  }
-  mesh.vertices = names.take_points();
-  return mesh;
+Mesh mesh_of(LeafFaces faces) {
+  return {std::move(faces.vertices), std::move(faces.triangles)};
 }
 
-Mesh transform(Mesh mesh, const Affine& matrix) {
-  for (Vec3& vertex : mesh.vertices) vertex = matrix * Vec4(vertex, 1);
-  if (glm::dot(matrix[0], glm::cross(matrix[1], matrix[2])) < 0) {
-    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  }
-  return mesh;
-}
-
-Body make_body(Scene scene, std::vector<Convex> faces) {
+Body make_body(Scene scene, Mesh mesh, std::vector<Convex> parts) {
   return {std::make_shared<const Scene>(std::move(scene)),
-          std::make_shared<const std::vector<Convex>>(std::move(faces))};
+          std::make_shared<const std::vector<Convex>>(std::move(parts)),
+          std::make_shared<const JoinedFaces>(join(std::move(mesh)))};
 }
 
 // --- Parts of a scene --------------------------------------------------------
@@ -142,9 +113,14 @@ class Divider {
  private:
   void add_boolean(std::uint32_t node) {
     Scene part = node == 0 ? scene_ : cut_out(node);
-    std::vector<Convex> faces = make_faces(triangulate(boundary_faces(part)));
+    const std::vector<BoundaryFace> faces = boundary_faces(part);
     if (faces.empty()) return;  // nothing is left of it
-    operand_.bodies.push_back(make_body(std::move(part), std::move(faces)));
+    if (is_convex(faces)) {
+      operand_.convex.push_back(hull_of(corners_of(faces)));
+    } else {
+      operand_.bodies.push_back(
+          make_body(std::move(part), triangulate(faces), {}));
+    }
   }
 
   void add_instance(const Instance& instance) {
@@ -152,7 +128,7 @@ class Divider {
     const Affine& matrix = instance.world_from_leaf;
     auto parts = instance.is_flat ? flat_parts(leaf, matrix)
                                   : convex_parts(leaf, matrix);
-    if (parts) {
+    if (parts && (instance.is_flat || parts->size() == 1)) {
       std::move(parts->begin(), parts->end(),
                 std::back_inserter(operand_.convex));
       return;
@@ -163,8 +139,9 @@ class Divider {
     part.instances[0].leaf = 0;
     part.program.push_back({BooleanOp::kUnion, 0, false, 1});
     part.box = instance.box;
-    const Mesh mesh = transform(explicit_mesh(leaf), instance.world_from_leaf);
-    operand_.bodies.push_back(make_body(std::move(part), make_faces(mesh)));
+    operand_.bodies.push_back(
+        make_body(std::move(part), mesh_of(faces_of(leaf, matrix)),
+                  std::move(parts).value_or(std::vector<Convex>{})));
   }
 
   // The subtree of one operator as a scene of its own.
@@ -203,70 +180,102 @@ class Divider {
 
 // --- Sums --------------------------------------------------------------------
 
+Box3 box_of(const JoinedFaces& surface) {
+  Box3 box;
+  for (const Vec3& vertex : surface.vertices()) {
+    box.low = glm::min(box.low, vertex);
+    box.high = glm::max(box.high, vertex);
+  }
+  return box;
+}
+
+Vec3 middle_of(const Box3& box) { return (box.low + box.high) / 2.0; }
+
 Body move(Body body, const Vec3& shift) {
   body.shift += shift;
   return body;
 }
 
-// A ⊕ B with A a body and B convex.
+// Convex parts, moved.
+struct Parts {
+  std::span<const Convex> convex;
+  Vec3 shift = Vec3(0);
+};
+
+Parts parts_of(const Body& body) { return {*body.parts, body.shift}; }
+Parts parts_of(const Convex& part) { return {std::span(&part, 1), Vec3(0)}; }
+
+// Each part of one meets each of the other, and their sum has about as many
+// vertices as both.
+double count_vertices(const Parts& a, const Parts& b) {
+  const auto count = [](const Parts& parts) {
+    double sum = 0;
+    for (const Convex& part : parts.convex) {
+      sum += static_cast<double>(part.vertices.size());
+    }
+    return sum;
+  };
+  return static_cast<double>(a.convex.size()) * count(b) +
+         static_cast<double>(b.convex.size()) * count(a);
+}
+
+void add(const Parts& a, const Parts& b, Operand& sum) {
+  for (const Convex& p : a.convex) {
+    for (const Convex& q : b.convex) {
+      sum.convex.push_back(move(add_convex(p, q), a.shift + b.shift));
+    }
+  }
+}
+
+// The parts of a body meet b in as many sums; its surface meets b once.
+bool is_cheaper_in_parts(const Body& a, const Convex& b,
+                         const JoinedFaces& b_surface) {
+  return !a.parts->empty() && count_vertices(parts_of(a), parts_of(b)) <=
+                                  count_summits(*a.surface, b_surface);
+}
+
 void add(const Body& a, const Convex& b, Operand& sum) {
+  const auto surface = std::make_shared<const JoinedFaces>(b);
+  if (is_point(b)) {
+    sum.bodies.push_back(move(a, b.vertices[0]));
+    return;
+  }
+  if (is_cheaper_in_parts(a, b, *surface)) {
+    add(parts_of(a), parts_of(b), sum);
+    return;
+  }
   sum.bodies.push_back(move(a, middle(b)));
-  if (is_point(b)) return;
-  const Convex moved = move(b, a.shift);
-  for (const Convex& face : *a.faces) {
-    sum.convex.push_back(add_flat(face, moved));
+  if (!b.is_flat) {
+    const Vec3 aim = middle_of(box_of(*a.surface));
+    for (const Vec3& point : points_of_components(*a.surface, aim)) {
+      sum.convex.push_back(move(b, a.shift + point));
+    }
+  }
+  sum.pairs.push_back({a.surface, surface, a.shift});
+}
+
+// One copy of the body for each component of the other's boundary, in the
+// middle of the sum if it can be: the box of a body may be larger than itself,
+// and should not reach beyond the sum.
+void add_copies(const Body& body, const Body& other, Operand& sum) {
+  const Vec3 aim = middle_of(box_of(*body.surface)) +
+                   middle_of(box_of(*other.surface)) -
+                   middle_of(body.scene->box);
+  for (const Vec3& point : points_of_components(*other.surface, aim)) {
+    sum.bodies.push_back(move(body, other.shift + point));
   }
 }
 
 void add(const Body& a, const Body& b, Operand& sum) {
-  for (const Vec3& point : points_of_components(*b.faces)) {
-    sum.bodies.push_back(move(a, b.shift + point));
-  }
-  for (const Vec3& point : points_of_components(*a.faces)) {
-    sum.bodies.push_back(move(b, a.shift + point));
-  }
-  for (const Convex& face : *a.faces) {
-    const Convex moved = move(face, a.shift + b.shift);
-    for (const Convex& other : *b.faces) {
-      sum.convex.push_back(add_flat(moved, other));
-    }
-  }
-}
-
-// What takes part in a sum: convex parts, and faces of bodies.
-struct Extent {
-  double parts = 0;
-  double vertices = 0;
-
-  void add(const std::vector<Convex>& convex) {
-    parts += static_cast<double>(convex.size());
-    for (const Convex& part : convex) {
-      vertices += static_cast<double>(part.vertices.size());
-    }
-  }
-};
-
-Extent extent_of(const Operand& operand) {
-  Extent extent;
-  extent.add(operand.convex);
-  for (const Body& body : operand.bodies) extent.add(*body.faces);
-  return extent;
-}
-
-// Each part of one meets each of the other, and their sum has no fewer vertices
-// than either.
-double least_triangles(const Operand& a, const Operand& b) {
-  const Extent of_a = extent_of(a);
-  const Extent of_b = extent_of(b);
-  return 2 * std::max(of_a.parts * of_b.vertices, of_b.parts * of_a.vertices);
+  add_copies(a, b, sum);
+  add_copies(b, a, sum);
+  sum.pairs.push_back({a.surface, b.surface, a.shift + b.shift});
 }
 
 Operand add(const Operand& a, const Operand& b) {
-  require_triangles(least_triangles(a, b));
+  require_triangles(2 * count_vertices({a.convex}, {b.convex}));
   Operand sum;
-  for (const Convex& p : a.convex) {
-    for (const Convex& q : b.convex) sum.convex.push_back(add_convex(p, q));
-  }
+  add(Parts{a.convex}, Parts{b.convex}, sum);
   for (const Body& p : a.bodies) {
     for (const Convex& q : b.convex) add(p, q, sum);
     for (const Body& q : b.bodies) add(p, q, sum);
@@ -277,40 +286,50 @@ Operand add(const Operand& a, const Operand& b) {
   return sum;
 }
 
+std::size_t face_count(const Operand& operand) {
+  std::size_t count = 0;
+  for (const Body& body : operand.bodies) count += body.surface->face_count();
+  return count;
+}
+
+void find_missing_edges(Operand& operand) {
+  for (Convex& part : operand.convex) {
+    if (part.edges.empty()) find_edges(part);
+  }
+}
+
 }  // namespace
 
 Operand make_operand(const Scene& scene) { return Divider(scene).divide(); }
 
-Operand add_operands(std::vector<Operand> operands) {
-  // Few convex parts first: then faces meet their sum, not each of them.
-  std::stable_sort(operands.begin(), operands.end(),
-                   [](const Operand& a, const Operand& b) {
-                     return std::tuple(a.bodies.size(), a.convex.size()) <
-                            std::tuple(b.bodies.size(), b.convex.size());
-                   });
-  Operand sum = std::move(operands[0]);
-  for (std::size_t i = 1; i < operands.size(); ++i) {
-    if (i > 1) {
-      for (Convex& part : sum.convex) {
-        if (part.edges.empty()) find_edges(part);
-      }
-    }
-    sum = add(sum, operands[i]);
-  }
-  return sum;
+void sort_for_sum(std::vector<Operand>& operands) {
+  std::stable_sort(
+      operands.begin(), operands.end(), [](const Operand& a, const Operand& b) {
+        return std::tuple(a.bodies.size(), face_count(a), a.convex.size()) <
+               std::tuple(b.bodies.size(), face_count(b), b.convex.size());
+      });
 }
 
-Leaf make_leaf(std::span<const Convex> parts) {
+Operand add_operands(Operand a, Operand b) {
+  find_missing_edges(a);
+  find_missing_edges(b);
+  return add(a, b);
+}
+
+Leaf make_leaf(const Operand& sum) {
   Leaf leaf;
   Mesh mesh;
   std::size_t count = 0;
-  for (const Convex& part : parts) {
+  for (const Convex& part : sum.convex) {
     if (part.is_flat) continue;
     append_triangles(part, mesh);
     ++count;
   }
-  leaf.may_overlap_itself = count > 1;
+  leaf.may_overlap_itself = count > 1 || !sum.pairs.empty();
   if (count > 0) leaf.meshes.push_back(std::move(mesh));
+  for (const SurfacePair& pair : sum.pairs) {
+    leaf.meshes.push_back(add_surfaces(*pair.a, *pair.b, pair.shift));
+  }
   return leaf;
 }
 

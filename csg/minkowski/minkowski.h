@@ -1,31 +1,29 @@
 #pragma once
-// Minkowski sums of solids, as unions of convex parts and moved bodies.
+// Minkowski sums of solids, as unions of convex parts, moved bodies and sums of
+// surfaces.
 //
-// No solid is taken apart into convex pieces beyond those that its leaves show
-// (convex_leaf.h). For A with boundary faces F and a compact connected B with
-// any point b of B,
+// For solids A and B with boundaries S and T,
 //
-//     A ⊕ B = (A + b) ∪ ⋃ (F ⊕ B),
+//     A ⊕ B = (A + b) ∪ (B + a) ∪ (S ⊕ T)
 //
-// since a translate of −B that meets A either lies inside A or meets its
-// boundary. A + b is A's part of the scene moved, with its Boolean program; of
-// A only the faces are needed, in any number and order. Where B is convex F ⊕
-// B is convex too: one merge of normals (convex.h).
-//
-// Where B is not convex either, the same holds for F ⊕ B with the roles
-// exchanged: it is (B + f) ∪ ⋃ (F ⊕ G) over the faces G of B. One f suffices
-// for each connected component of A's boundary, and one b for each of B's,
-// which also serves a B of several components. Without the former, a small A
-// that fits into a hollow B would leave a cavity; without the latter, a small B
-// in A.
+// with one point b on each component of T and one point a on each of S: where a
+// translate of −B meets A, the boundaries meet, or one of the two lies inside
+// the other. A + b is A's part of the scene moved, with its Boolean program; of
+// A only the faces are needed, and S ⊕ T is made from these
+// (surface_sum.h). With fewer points a small A that fits into a hollow B would
+// leave a cavity. Where B is convex, any of its points may be b; where it is
+// flat, it is its own surface.
 //
 // Sums distribute over unions, so operands are unions of parts: what is convex
-// stays whole, and only what is not is treated by its faces.
+// stays whole, and two convex parts are added by their normals (convex.h).
+// Leaves whose form shows convex parts (convex_leaf.h) are added to a convex
+// solid part by part where that costs less.
 
 #include <memory>
 #include <vector>
 
 #include "csg/minkowski/convex.h"
+#include "csg/minkowski/joined_faces.h"
 #include "csg/scene.h"
 
 namespace lamina::csg {
@@ -33,8 +31,17 @@ namespace lamina::csg {
 // A solid that is not convex: a scene moved.
 struct Body {
   std::shared_ptr<const Scene> scene;
-  // Convex polygons that cover the boundary; they may lie inside as well.
-  std::shared_ptr<const std::vector<Convex>> faces;
+  // Convex solids whose union it is, where its form shows them; or none.
+  std::shared_ptr<const std::vector<Convex>> parts;
+  // Faces that cover the boundary; they may lie inside as well.
+  std::shared_ptr<const JoinedFaces> surface;
+  Vec3 shift = Vec3(0);
+};
+
+// All sums of a point of one surface and a point of the other, moved.
+struct SurfacePair {
+  std::shared_ptr<const JoinedFaces> a;
+  std::shared_ptr<const JoinedFaces> b;
   Vec3 shift = Vec3(0);
 };
 
@@ -42,6 +49,9 @@ struct Body {
 struct Operand {
   std::vector<Convex> convex;
   std::vector<Body> bodies;
+  // Only of sums. Before one is added to something itself, a leaf and a body
+  // have to be made of them.
+  std::vector<SurfacePair> pairs;
 
   bool is_empty() const { return convex.empty() && bodies.empty(); }
 };
@@ -49,11 +59,15 @@ struct Operand {
 // The solid of a scene.
 Operand make_operand(const Scene& scene);
 
-// The sum of all of them, convex ones first. At least one.
-Operand add_operands(std::vector<Operand> operands);
+// In the order in which they are added at the least cost: convex ones first,
+// then those of few faces.
+void sort_for_sum(std::vector<Operand>& operands);
 
-// The convex parts as one leaf: their surfaces together, overlapping. Flat
-// parts have no volume and are left out.
-Leaf make_leaf(std::span<const Convex> parts);
+// Operands without pairs.
+Operand add_operands(Operand a, Operand b);
+
+// The convex parts and the pairs as one leaf: their surfaces together,
+// overlapping. Flat parts have no volume and are left out.
+Leaf make_leaf(const Operand& sum);
 
 }  // namespace lamina::csg

@@ -1,38 +1,31 @@
-#include "csg/text/detail/alignment.h"
-
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "csg/text/detail/glyph_row.h"
+
 namespace lamina::text {
 namespace {
 
-double choose_x(std::string_view halign, double left, double center,
-                double right, std::vector<Message>& messages) {
-  if (halign == "left") return left;
-  if (halign == "center") return center;
-  if (halign == "right") return right;
-  messages.push_back(
-      {Severity::kPlain,
-       fmt::format("Unknown value for the halign parameter (use \"left\", "
-                   "\"right\" or \"center\"): '{}'",
-                   halign)});
-  return 0;
-}
+struct Choice {
+  std::string_view word;
+  double place;
+};
 
-double choose_y(std::string_view valign, double top, double center,
-                double bottom, std::vector<Message>& messages) {
-  if (valign == "top") return top;
-  if (valign == "center") return center;
-  if (valign == "baseline") return 0;
-  if (valign == "bottom") return bottom;
+// The place of the word; 0, with a message, where it is none of the choices.
+double choose(std::string_view word, std::initializer_list<Choice> choices,
+              std::string_view parameter, std::string_view known,
+              std::vector<Message>& messages) {
+  for (const Choice& choice : choices) {
+    if (choice.word == word) return choice.place;
+  }
   messages.push_back(
       {Severity::kPlain,
-       fmt::format("Unknown value for the valign parameter (use \"baseline\", "
-                   "\"bottom\", \"top\" or \"center\"): '{}'",
-                   valign)});
+       fmt::format("Unknown value for the {} parameter (use {}): '{}'",
+                   parameter, known, word)});
   return 0;
 }
 
@@ -81,9 +74,17 @@ Vec2 align(const csg::TextParams& params, const GlyphRow& row,
       ascent += glyph.advance.y;
     }
   }
-  return {choose_x(params.halign, 0, -width / 2, -width, messages),
-          choose_y(params.valign, -ascent, descent / 2 - ascent / 2, descent,
-                   messages)};
+  const double x = choose(
+      params.halign, {{"left", 0}, {"center", -width / 2}, {"right", -width}},
+      "halign", "\"left\", \"right\" or \"center\"", messages);
+  const double y = choose(
+      params.valign,
+      {{"top", -ascent},
+       {"center", descent / 2 - ascent / 2},
+       {"baseline", 0},
+       {"bottom", descent}},
+      "valign", "\"baseline\", \"bottom\", \"top\" or \"center\"", messages);
+  return {x, y};
 }
 
 csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,

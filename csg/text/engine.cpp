@@ -4,9 +4,7 @@
 
 #include <cerrno>
 #include <exception>
-#include <vector>
 
-#include "csg/text/detail/alignment.h"
 #include "csg/text/detail/font_cache.h"
 #include "csg/text/detail/glyph_row.h"
 #include "csg/text/detail/pen.h"

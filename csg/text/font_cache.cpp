@@ -7,6 +7,7 @@
 #include <mutex>
 #include <new>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -104,11 +105,9 @@ std::vector<std::string> font_folders() {
     folders.push_back(std::string(home) + "/.fonts");
   }
   if (const char* more = std::getenv("OPENSCAD_FONT_PATH")) {
-    std::string_view rest = more;
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find(':'), rest.size());
-      folders.emplace_back(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
+    std::istringstream list(more);
+    for (std::string folder; std::getline(list, folder, ':');) {
+      folders.push_back(std::move(folder));
     }
   }
   return folders;

@@ -79,27 +79,30 @@ int Pen::chord_count(double bend) const {
   return static_cast<int>(std::clamp(std::ceil(n), 1.0, kMost));
 }
 
-void Pen::curve_to(Vec2 control, Vec2 to) {
-  const int n = chord_count(2 * glm::length(at_ - 2.0 * control + to));
+template <typename PointAt>
+void Pen::add_curve(double bend, Vec2 to, const PointAt& point_at) {
+  const int n = chord_count(bend);
   for (int i = 1; i <= n; ++i) {
     const double a = static_cast<double>(i) / n;
-    const double b = 1 - a;
-    add(b * b * at_ + 2 * a * b * control + a * a * to);
+    add(point_at(a, 1 - a));
   }
   at_ = to;
+}
+
+void Pen::curve_to(Vec2 control, Vec2 to) {
+  const double bend = 2 * glm::length(at_ - 2.0 * control + to);
+  add_curve(bend, to, [&](double a, double b) {
+    return b * b * at_ + 2 * a * b * control + a * a * to;
+  });
 }
 
 void Pen::curve_to(Vec2 control1, Vec2 control2, Vec2 to) {
   const double bend = 6 * std::max(glm::length(at_ - 2.0 * control1 + control2),
                                    glm::length(control1 - 2.0 * control2 + to));
-  const int n = chord_count(bend);
-  for (int i = 1; i <= n; ++i) {
-    const double a = static_cast<double>(i) / n;
-    const double b = 1 - a;
-    add(b * b * b * at_ + 3 * a * b * b * control1 + 3 * a * a * b * control2 +
-        a * a * a * to);
-  }
-  at_ = to;
+  add_curve(bend, to, [&](double a, double b) {
+    return b * b * b * at_ + 3 * a * b * b * control1 +
+           3 * a * a * b * control2 + a * a * a * to;
+  });
 }
 
 void Pen::add(Vec2 point) { points_.push_back(size_ * (point + origin_)); }

@@ -5,7 +5,6 @@
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <optional>
 #include <utility>
 
 #include <dlfcn.h>

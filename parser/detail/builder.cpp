@@ -71,11 +71,8 @@ Scope Builder::open_scope() {
 }
 
 ast::Statements Builder::close_scope(Scope scope) {
-  const auto statements = arena_.copy(
-      std::span<const ast::Statement* const>(statements_).subspan(scope.begin));
-  statements_.resize(scope.begin);
   scope_ = scope.outer;
-  return statements;
+  return take_top(statements_, scope.begin);
 }
 
 void Builder::add_statement(const ast::Statement* statement) {
@@ -181,10 +178,6 @@ SourceRange Builder::place_head(SourceRange keyword, SourceRange close) const {
 
 // --- Expressions -----------------------------------------------------------
 
-Tree Builder::make_string(Text string, SourceRange range) {
-  return make(ast::String{{string.data, string.size}}, 1, range);
-}
-
 Tree Builder::make_unary(ast::UnaryOp op, Tree operand, SourceRange range) {
   return make(ast::Unary{op, operand.expr}, operand.depth + 1, range);
 }
@@ -195,24 +188,6 @@ Tree Builder::make_binary(ast::BinaryOp op, Tree left, Tree right,
               std::max(left.depth, right.depth) + 1, range);
 }
 
-Tree Builder::make_conditional(Tree condition, Tree if_true, Tree if_false,
-                               SourceRange range) {
-  const std::uint32_t depth =
-      std::max({condition.depth, if_true.depth, if_false.depth});
-  return make(ast::Conditional{condition.expr, if_true.expr, if_false.expr},
-              depth + 1, range);
-}
-
-Tree Builder::make_range(Tree begin, Tree step, Tree end, SourceRange range) {
-  const std::uint32_t depth = std::max({begin.depth, step.depth, end.depth});
-  return make(ast::Range{begin.expr, step.expr, end.expr}, depth + 1, range);
-}
-
-Tree Builder::make_index(Tree object, Tree index, SourceRange range) {
-  return make(ast::Index{object.expr, index.expr},
-              std::max(object.depth, index.depth) + 1, range);
-}
-
 Tree Builder::make_member(Tree object, SourceRange name, SourceRange range) {
   return make(ast::Member{object.expr, name.text()}, object.depth + 1, range);
 }
@@ -221,22 +196,6 @@ Tree Builder::make_call(Tree callee, List arguments, SourceRange range) {
   const std::uint32_t depth = std::max(callee.depth, arguments.depth);
   return make(ast::Call{callee.expr, close_arguments(arguments)}, depth + 1,
               range);
-}
-
-Tree Builder::make_function(List parameters, Tree body, SourceRange range) {
-  return make_body<ast::FunctionLiteral>(parameters, body, range);
-}
-
-Tree Builder::make_each(Tree body, SourceRange range) {
-  return make(ast::EachElements{body.expr}, body.depth + 1, range);
-}
-
-Tree Builder::make_if_elements(Tree condition, Tree if_true, Tree if_false,
-                               SourceRange range) {
-  const std::uint32_t depth =
-      std::max({condition.depth, if_true.depth, if_false.depth});
-  return make(ast::IfElements{condition.expr, if_true.expr, if_false.expr},
-              depth + 1, range);
 }
 
 Tree Builder::make_for_c(List init, Tree condition, List update, Tree body,
@@ -271,10 +230,8 @@ Tree Builder::make_vector(Arena::Mark mark, List elements, SourceRange range) {
     const auto copy = arena_.copy(std::span<const double>(numbers_));
     return make(ast::Numbers{copy}, 1, range);
   }
-  const auto copy = arena_.copy(
-      std::span<const ast::Expr* const>(elements_).subspan(elements.begin));
-  elements_.resize(elements.begin);
-  return make(ast::Vector{copy}, elements.depth + 1, range);
+  return make(ast::Vector{take_top(elements_, elements.begin)},
+              elements.depth + 1, range);
 }
 
 List Builder::start_elements(Tree first) {
@@ -303,13 +260,6 @@ List Builder::start_arguments(std::uint32_t first_depth) const {
 
 List Builder::append_argument(List arguments, std::uint32_t depth) const {
   return {arguments.begin, std::max(arguments.depth, depth)};
-}
-
-ast::Arguments Builder::close_arguments(List arguments) {
-  const auto copy = arena_.copy(
-      std::span<const ast::Argument>(arguments_).subspan(arguments.begin));
-  arguments_.resize(arguments.begin);
-  return copy;
 }
 
 }  // namespace lamina::detail

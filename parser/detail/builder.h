@@ -68,22 +68,18 @@ class Builder {
   Tree make_leaf(Node node, SourceRange range) {
     return make(node, 1, range);
   }
-  Tree make_string(Text string, SourceRange range);
+  // Conditional, Range, Index, EachElements, IfElements.
+  template <typename Node, typename... Parts>
+  Tree make_of(SourceRange range, Parts... parts) {
+    return make(Node{parts.expr...}, std::max({parts.depth...}) + 1, range);
+  }
   Tree make_unary(ast::UnaryOp op, Tree operand, SourceRange range);
   Tree make_binary(ast::BinaryOp op, Tree left, Tree right, SourceRange range);
-  Tree make_conditional(Tree condition, Tree if_true, Tree if_false,
-                        SourceRange range);
-  Tree make_range(Tree begin, Tree step, Tree end, SourceRange range);
-  Tree make_index(Tree object, Tree index, SourceRange range);
   Tree make_member(Tree object, SourceRange name, SourceRange range);
   Tree make_call(Tree callee, List arguments, SourceRange range);
-  Tree make_function(List parameters, Tree body, SourceRange range);
-  Tree make_each(Tree body, SourceRange range);
-  Tree make_if_elements(Tree condition, Tree if_true, Tree if_false,
-                        SourceRange range);
   Tree make_for_c(List init, Tree condition, List update, Tree body,
                   SourceRange range);
-  // Let, AssertExpr, EchoExpr, LetElements, ForElements.
+  // FunctionLiteral, Let, AssertExpr, EchoExpr, LetElements, ForElements.
   template <typename Node>
   Tree make_body(List arguments, Tree body, SourceRange range) {
     const std::uint32_t depth = std::max(arguments.depth, body.depth);
@@ -112,7 +108,16 @@ class Builder {
     return {arena_.make(ast::Expr{node, range}), depth};
   }
 
-  ast::Arguments close_arguments(List arguments);
+  // Moves what stands on a scratch stack from `begin` on to the arena.
+  template <typename T>
+  std::span<const T> take_top(std::vector<T>& stack, std::uint32_t begin) {
+    const auto top = arena_.copy(std::span<const T>(stack).subspan(begin));
+    stack.resize(begin);
+    return top;
+  }
+  ast::Arguments close_arguments(List arguments) {
+    return take_top(arguments_, arguments.begin);
+  }
   ast::Statements close_scope(Scope scope);
   // Fills numbers_ from elements_; false if one is no number literal.
   bool collect_numbers(std::uint32_t begin);

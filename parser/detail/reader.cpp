@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "base/number.h"
+#include "base/text.h"
 #include "base/utf8.h"
 #include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"

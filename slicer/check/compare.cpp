@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "base/diagnostic.h"
 #include "base/loop_area.h"
@@ -29,15 +30,12 @@ ldni::Contours without_slivers(const ldni::Contours& contours) {
   ldni::Contours kept;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
-    if (is_sliver(loop)) continue;
-    kept.add_loop(loop);
+    if (!is_sliver(loop)) kept.add_loop(loop);
   }
   return kept;
 }
 
-[[noreturn]] void fail(const std::string& words) {
-  throw GeometryError({Severity::kError, {}, words});
-}
+[[noreturn]] void fail(const std::string& words) { throw GeometryError(words); }
 
 // A stack of layers, and how far a walk through both has come.
 struct Walk {
@@ -72,28 +70,23 @@ const Layer* take_alone(Walk& walk, const Walk& other) {
     fail(fmt::format(
         "layers of different heights cannot be compared: {} has one at z "
         "{:.6g}, {} has its nearest at z {:.6g}; cut one of them at the "
-        "heights "
-        "of the other, or compare each with the design",
+        "heights of the other, or compare each with the design",
         walk.name, z, other.name, other.height_nearest_to(z)));
   }
   return &layer;
 }
 
-struct Box {
-  Vec2 low = Vec2(1e300);
-  std::optional<double> bottom;
-};
-
-Box box_of(const std::vector<Layer>& layers) {
-  Box box;
+// The least x and y of all contours, and the bottom of the first layer that has
+// one; none where no layer has.
+std::optional<Vec3> low_corner_of(const std::vector<Layer>& layers) {
+  std::optional<Vec3> corner;
   for (const Layer& layer : layers) {
-    if (layer.contours.is_empty()) continue;
-    if (!box.bottom) box.bottom = layer.bottom;
     for (const Vec2& point : layer.contours.points) {
-      box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
+      if (!corner) corner = Vec3(point, layer.bottom);
+      corner = Vec3(glm::min(Vec2(*corner), point), corner->z);
     }
   }
-  return box;
+  return corner;
 }
 
 const ldni::Contours& contours_of(const Layer* layer) {
@@ -178,10 +171,9 @@ std::vector<LayerDifference> compare(const std::vector<LayerPair>& pairs,
 }
 
 Vec3 aligning_shift(const std::vector<Layer>& a, const std::vector<Layer>& b) {
-  const Box box_a = box_of(a);
-  const Box box_b = box_of(b);
-  if (!box_a.bottom || !box_b.bottom) return Vec3(0);
-  return {box_a.low - box_b.low, *box_a.bottom - *box_b.bottom};
+  const std::optional<Vec3> corner_a = low_corner_of(a);
+  const std::optional<Vec3> corner_b = low_corner_of(b);
+  return corner_a && corner_b ? *corner_a - *corner_b : Vec3(0);
 }
 
 ComparisonTotals sum_up(const std::vector<LayerDifference>& layers,

@@ -8,8 +8,6 @@
 // no more than what has been found elsewhere is done with; the others are
 // halved. A tree of boxes over successive edges finds nearest edges.
 
-#include <cstdint>
-
 #include "base/vec.h"
 #include "ldni/section/contours.h"
 

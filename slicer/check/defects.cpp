@@ -1,6 +1,7 @@
 #include "slicer/check/defects.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -43,198 +44,184 @@ bool is_within(const Edge& edge, Vec2 p) {
 
 using EdgePair = std::pair<std::uint32_t, std::uint32_t>;
 
+// Leaves each pair once, sorted.
+void remove_repeated(std::vector<EdgePair>& pairs) {
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
 // Finds the edges of a layer by place.
 class EdgeGrid {
  public:
-  explicit EdgeGrid(std::span<const WrittenLoop> loops);
+  explicit EdgeGrid(std::span<const WrittenLoop> loops) {
+    collect_edges(loops);
+    choose_cells();
+    members_.fill(grid_.size(), [this](const auto& list) {
+      for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+        visit_cells(edges_[i], [&](std::size_t cell) { list(cell, i); });
+      }
+    });
+  }
 
-  void find_crossings(std::vector<Defect>& defects) const;
+  void find_crossings(std::vector<Defect>& defects) const {
+    std::vector<EdgePair> crossing = crossing_edges();
+    if (crossing.size() > kMostCrossings) crossing.resize(kMostCrossings);
+    for (const auto& [first, second] : crossing) {
+      const Edge& edge = edges_[first];
+      defects.push_back(
+          {DefectKind::kCrossing, edge.loop, (edge.from + edge.to) / 2.0});
+    }
+  }
 
   // The winding number of the other loops around a point of `loop`; none where
   // one of them passes through it.
-  std::optional<int> winding_around(Vec2 point, std::uint32_t loop) const;
+  std::optional<int> winding_around(Vec2 point, std::uint32_t loop) const {
+    int winding = 0;
+    const std::uint32_t column = grid_.column_of(point.x);
+    const std::uint32_t last_row = grid_.row_of(point.y);
+    for (std::uint32_t row = 0; row <= last_row; ++row) {
+      for (const std::uint32_t i : members_[grid_.cell(column, row)]) {
+        const Edge& edge = edges_[i];
+        if (edge.loop == loop) continue;
+        const bool begins_left = edge.from.x <= point.x;
+        if (begins_left == (edge.to.x <= point.x)) continue;
+        const Vec2 left = begins_left ? edge.from : edge.to;
+        const Vec2 right = begins_left ? edge.to : edge.from;
+        const int side = orientation(left, right, point);
+        if (side == 0) return std::nullopt;
+        // An edge stands in several cells: that of the crossing counts it.
+        const double y = left.y + (point.x - left.x) * (right.y - left.y) /
+                                      (right.x - left.x);
+        if (side > 0 && std::min(grid_.row_of(y), last_row) == row) {
+          winding += begins_left ? 1 : -1;
+        }
+      }
+    }
+    return winding;
+  }
 
  private:
-  void collect_edges(std::span<const WrittenLoop> loops);
-  void choose_cells();
+  void collect_edges(std::span<const WrittenLoop> loops) {
+    for (std::uint32_t l = 0; l < loops.size(); ++l) {
+      const std::vector<Vec2>& points = loops[l].points;
+      const auto first = static_cast<std::uint32_t>(edges_.size());
+      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        if (points[i] == points[i + 1]) continue;  // reported as a repeat
+        const auto next = static_cast<std::uint32_t>(edges_.size()) + 1;
+        edges_.push_back({points[i], points[i + 1], l, next});
+      }
+      if (edges_.size() > first) edges_.back().next = first;
+    }
+  }
+
+  // Chooses about one cell for each edge, square if possible. Edges must not
+  // stand in more than kMostCells on the average: along long ones, cells are
+  // few then.
+  void choose_cells() {
+    constexpr double kMostCells = 64;
+    if (edges_.empty()) return;
+    Vec2 low = edges_.front().from;
+    Vec2 high = low;
+    Vec2 way(0);
+    for (const Edge& edge : edges_) {
+      low = glm::min(low, glm::min(edge.from, edge.to));
+      high = glm::max(high, glm::max(edge.from, edge.to));
+      way += glm::abs(edge.to - edge.from);
+    }
+    // A layer without width has one column.
+    constexpr double kNoSize = 1e-150;
+    const Vec2 size = glm::max(high - low, Vec2(kNoSize));
+    const auto wanted = static_cast<double>(edges_.size());
+    const Vec2 most = kMostCells * wanted * size / glm::max(way, size);
+    const double columns = std::clamp(std::sqrt(wanted * size.x / size.y), 1.0,
+                                      std::min(wanted, most.x));
+    const double rows = std::clamp(wanted / columns, 1.0, most.y);
+    const auto column_count = static_cast<std::uint32_t>(columns);
+    const auto row_count = static_cast<std::uint32_t>(rows);
+    grid_ = {low, Vec2(column_count, row_count) / size, column_count,
+             row_count};
+  }
+
+  // Calls visit(cell) for every cell that the edge meets, and perhaps a few
+  // beside them.
   template <typename Visit>
-  void visit_cells(const Edge& edge, const Visit& visit) const;
-  bool cross(const Edge& a, const Edge& b) const;
-  std::vector<EdgePair> crossing_edges() const;
-  bool passes_through(const Edge& at, const Edge& other) const;
+  void visit_cells(const Edge& edge, const Visit& visit) const {
+    // Far above rounding, far below a cell.
+    const Vec2 margin = 1e-6 / grid_.cells_per_mm();
+    grid_.visit_cells(edge.from, edge.to, margin, visit);
+  }
+
+  // Whether the loop of `at` passes, at the end of that edge, from one side of
+  // the loop of `other` to the other side.
+  bool passes_through(const Edge& at, const Edge& other) const {
+    const Vec2 p = at.to;
+    const Vec2 before = at.from;
+    const Vec2 after = edges_[at.next].to;
+    if (p == other.from) return false;  // the edge before `other` sees to it
+    if (p == other.to) {
+      const Vec2 other_after = edges_[other.next].to;
+      return is_in_sector(p, other.from, other_after, before) !=
+             is_in_sector(p, other.from, other_after, after);
+    }
+    if (orientation(other.from, other.to, p) != 0 || !is_within(other, p))
+      return false;
+    return orientation(other.from, other.to, before) *
+               orientation(other.from, other.to, after) <
+           0;
+  }
+
+  bool cross(const Edge& a, const Edge& b) const {
+    if (std::max(a.from.x, a.to.x) < std::min(b.from.x, b.to.x) ||
+        std::max(b.from.x, b.to.x) < std::min(a.from.x, a.to.x) ||
+        std::max(a.from.y, a.to.y) < std::min(b.from.y, b.to.y) ||
+        std::max(b.from.y, b.to.y) < std::min(a.from.y, a.to.y)) {
+      return false;
+    }
+    const int b_from = orientation(a.from, a.to, b.from);
+    const int b_to = orientation(a.from, a.to, b.to);
+    if (b_from * b_to > 0) return false;
+    if (b_from == 0 && b_to == 0) {
+      // On one line: they may share a point but no length.
+      const Vec2 along = a.to - a.from;
+      const auto place = [&](Vec2 p) {
+        return along.x * (p.x - a.from.x) + along.y * (p.y - a.from.y);
+      };
+      const double low = std::min(place(b.from), place(b.to));
+      const double high = std::max(place(b.from), place(b.to));
+      return std::min(high, place(a.to)) > std::max(low, 0.0);
+    }
+    const int a_from = orientation(b.from, b.to, a.from);
+    const int a_to = orientation(b.from, b.to, a.to);
+    if (a_from * a_to > 0) return false;
+    if (b_from * b_to < 0 && a_from * a_to < 0) return true;
+    if (&edges_[a.next] == &b || &edges_[b.next] == &a) return false;
+    return passes_through(a, b) || passes_through(b, a);
+  }
+
+  std::vector<EdgePair> crossing_edges() const {
+    // Two edges may meet in several cells.
+    constexpr std::size_t kMostRepeated = 4 * kMostCrossings;
+    std::vector<EdgePair> crossing;
+    for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
+      const auto edges = members_[cell];
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        for (std::size_t j = i + 1; j < edges.size(); ++j) {
+          if (!cross(edges_[edges[i]], edges_[edges[j]])) continue;
+          crossing.emplace_back(edges[i], edges[j]);
+          if (crossing.size() < kMostRepeated) continue;
+          remove_repeated(crossing);
+          if (crossing.size() >= kMostCrossings) return crossing;
+        }
+      }
+    }
+    remove_repeated(crossing);
+    return crossing;
+  }
 
   std::vector<Edge> edges_;
   CellGrid grid_;
   CellLists<std::uint32_t> members_;
 };
-
-EdgeGrid::EdgeGrid(std::span<const WrittenLoop> loops) {
-  collect_edges(loops);
-  choose_cells();
-  members_.fill(grid_.size(), [this](const auto& list) {
-    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-      visit_cells(edges_[i], [&](std::size_t cell) { list(cell, i); });
-    }
-  });
-}
-
-void EdgeGrid::collect_edges(std::span<const WrittenLoop> loops) {
-  for (std::uint32_t l = 0; l < loops.size(); ++l) {
-    const std::vector<Vec2>& points = loops[l].points;
-    const auto first = static_cast<std::uint32_t>(edges_.size());
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      if (points[i] == points[i + 1]) continue;  // reported as a repeat
-      const auto next = static_cast<std::uint32_t>(edges_.size()) + 1;
-      edges_.push_back({points[i], points[i + 1], l, next});
-    }
-    if (edges_.size() > first) edges_.back().next = first;
-  }
-}
-
-// Chooses about one cell for each edge, square if possible. Edges must not
-// stand in more than kMostCells on the average: along long ones, cells are few
-// then.
-void EdgeGrid::choose_cells() {
-  constexpr double kMostCells = 64;
-  if (edges_.empty()) return;
-  Vec2 low = edges_.front().from;
-  Vec2 high = low;
-  Vec2 way(0);
-  for (const Edge& edge : edges_) {
-    low = glm::min(low, glm::min(edge.from, edge.to));
-    high = glm::max(high, glm::max(edge.from, edge.to));
-    way += glm::abs(edge.to - edge.from);
-  }
-  // A layer without width has one column.
-  constexpr double kNoSize = 1e-150;
-  const Vec2 size = glm::max(high - low, Vec2(kNoSize));
-  const auto wanted = static_cast<double>(edges_.size());
-  const Vec2 most = kMostCells * wanted * size / glm::max(way, size);
-  const double columns = std::clamp(std::sqrt(wanted * size.x / size.y), 1.0,
-                                    std::min(wanted, most.x));
-  const double rows = std::clamp(wanted / columns, 1.0, most.y);
-  const auto column_count = static_cast<std::uint32_t>(columns);
-  const auto row_count = static_cast<std::uint32_t>(rows);
-  grid_ = {low, Vec2(column_count, row_count) / size, column_count, row_count};
-}
-
-// Calls visit(cell) for every cell that the edge meets, and perhaps a few
-// beside them.
-template <typename Visit>
-void EdgeGrid::visit_cells(const Edge& edge, const Visit& visit) const {
-  // Far above rounding, far below a cell.
-  const Vec2 margin = 1e-6 / grid_.cells_per_mm();
-  grid_.visit_cells(edge.from, edge.to, margin, visit);
-}
-
-// Whether the loop of `at` passes, at the end of that edge, from one side of
-// the loop of `other` to the other side.
-bool EdgeGrid::passes_through(const Edge& at, const Edge& other) const {
-  const Vec2 p = at.to;
-  const Vec2 before = at.from;
-  const Vec2 after = edges_[at.next].to;
-  if (p == other.from) return false;  // the edge before `other` sees to it
-  if (p == other.to) {
-    const Vec2 other_after = edges_[other.next].to;
-    return is_in_sector(p, other.from, other_after, before) !=
-           is_in_sector(p, other.from, other_after, after);
-  }
-  if (orientation(other.from, other.to, p) != 0 || !is_within(other, p))
-    return false;
-  return orientation(other.from, other.to, before) *
-             orientation(other.from, other.to, after) <
-         0;
-}
-
-bool EdgeGrid::cross(const Edge& a, const Edge& b) const {
-  if (std::max(a.from.x, a.to.x) < std::min(b.from.x, b.to.x) ||
-      std::max(b.from.x, b.to.x) < std::min(a.from.x, a.to.x) ||
-      std::max(a.from.y, a.to.y) < std::min(b.from.y, b.to.y) ||
-      std::max(b.from.y, b.to.y) < std::min(a.from.y, a.to.y)) {
-    return false;
-  }
-  const int b_from = orientation(a.from, a.to, b.from);
-  const int b_to = orientation(a.from, a.to, b.to);
-  if (b_from * b_to > 0) return false;
-  if (b_from == 0 && b_to == 0) {
-    // On one line: they may share a point but no length.
-    const Vec2 along = a.to - a.from;
-    const auto place = [&](Vec2 p) {
-      return along.x * (p.x - a.from.x) + along.y * (p.y - a.from.y);
-    };
-    const double low = std::min(place(b.from), place(b.to));
-    const double high = std::max(place(b.from), place(b.to));
-    return std::min(high, place(a.to)) > std::max(low, 0.0);
-  }
-  const int a_from = orientation(b.from, b.to, a.from);
-  const int a_to = orientation(b.from, b.to, a.to);
-  if (a_from * a_to > 0) return false;
-  if (b_from * b_to < 0 && a_from * a_to < 0) return true;
-  if (&edges_[a.next] == &b || &edges_[b.next] == &a) return false;
-  return passes_through(a, b) || passes_through(b, a);
-}
-
-// Leaves each pair once, sorted.
-void remove_repeated(std::vector<EdgePair>& pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-}
-
-std::vector<EdgePair> EdgeGrid::crossing_edges() const {
-  // Two edges may meet in several cells.
-  constexpr std::size_t kMostRepeated = 4 * kMostCrossings;
-  std::vector<EdgePair> crossing;
-  for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
-    const auto edges = members_[cell];
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      for (std::size_t j = i + 1; j < edges.size(); ++j) {
-        if (!cross(edges_[edges[i]], edges_[edges[j]])) continue;
-        crossing.emplace_back(edges[i], edges[j]);
-        if (crossing.size() < kMostRepeated) continue;
-        remove_repeated(crossing);
-        if (crossing.size() >= kMostCrossings) return crossing;
-      }
-    }
-  }
-  remove_repeated(crossing);
-  return crossing;
-}
-
-void EdgeGrid::find_crossings(std::vector<Defect>& defects) const {
-  std::vector<EdgePair> crossing = crossing_edges();
-  if (crossing.size() > kMostCrossings) crossing.resize(kMostCrossings);
-  for (const auto& [first, second] : crossing) {
-    const Edge& edge = edges_[first];
-    defects.push_back(
-        {DefectKind::kCrossing, edge.loop, (edge.from + edge.to) / 2.0});
-  }
-}
-
-std::optional<int> EdgeGrid::winding_around(Vec2 point,
-                                            std::uint32_t loop) const {
-  int winding = 0;
-  const std::uint32_t column = grid_.column_of(point.x);
-  const std::uint32_t last_row = grid_.row_of(point.y);
-  for (std::uint32_t row = 0; row <= last_row; ++row) {
-    for (const std::uint32_t i : members_[grid_.cell(column, row)]) {
-      const Edge& edge = edges_[i];
-      if (edge.loop == loop) continue;
-      const bool begins_left = edge.from.x <= point.x;
-      if (begins_left == (edge.to.x <= point.x)) continue;
-      const Vec2 left = begins_left ? edge.from : edge.to;
-      const Vec2 right = begins_left ? edge.to : edge.from;
-      const int side = orientation(left, right, point);
-      if (side == 0) return std::nullopt;
-      // An edge stands in several cells: that of the crossing counts it.
-      const double y =
-          left.y + (point.x - left.x) * (right.y - left.y) / (right.x - left.x);
-      if (side > 0 && std::min(grid_.row_of(y), last_row) == row) {
-        winding += begins_left ? 1 : -1;
-      }
-    }
-  }
-  return winding;
-}
 
 // Whether a loop is turned against its nesting. The middle of an edge that
 // nothing else touches decides; the first few are tried.
@@ -275,30 +262,17 @@ bool find_own_defects(const WrittenLoop& loop, std::uint32_t index,
 }  // namespace
 
 std::string_view describe(DefectKind kind) {
-  switch (kind) {
-    case DefectKind::kOpen:
-      return "is not closed";
-    case DefectKind::kGap:
-      return "counts gaps";
-    case DefectKind::kRepeat:
-      return "repeats a vertex";
-    case DefectKind::kZeroArea:
-      return "has no area";
-    case DefectKind::kCrossing:
-      return "crosses itself or another";
-    case DefectKind::kOrientation:
-      return "is turned against its nesting";
-  }
-  return "";
+  constexpr auto kWords = std::to_array<std::string_view>(
+      {"is not closed", "counts gaps", "repeats a vertex", "has no area",
+       "crosses itself or another", "is turned against its nesting"});
+  return kWords[static_cast<std::size_t>(kind)];
 }
 
 std::vector<Defect> find_defects(std::span<const WrittenLoop> loops) {
   std::vector<Defect> defects;
   std::vector<std::uint32_t> enclosing;
   for (std::uint32_t l = 0; l < loops.size(); ++l) {
-    if (find_own_defects(loops[l], l, defects)) {
-      enclosing.push_back(l);
-    }
+    if (find_own_defects(loops[l], l, defects)) enclosing.push_back(l);
   }
   const EdgeGrid grid(loops);
   const std::size_t known = defects.size();

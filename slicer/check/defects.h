@@ -2,11 +2,11 @@
 // Defects of a layer that the reader of its file could stumble over.
 //
 // Loops of a layer must be closed, simple, disjoint and turned by their
-// nesting: outer ones counter-clockwise, holes clockwise. A grid has about one
-// cell for each edge; only edges of one cell are compared, so a layer costs
-// time in proportion to its edges. Coordinates are float32, which doubles
-// subtract exactly, and orientations are exact too: a defect is one of the
-// numbers in the file and not of this check.
+// nesting: outer ones counter-clockwise, holes clockwise. Only edges of one
+// cell of a grid are compared, so a layer costs time in proportion to its
+// edges. Coordinates are float32, which doubles subtract exactly, and
+// orientations are exact too: a defect is one of the numbers in the file and
+// not of this check.
 //
 // Loops may touch in a point (two squares corner to corner are two regions); to
 // pass through each other there is a crossing.

@@ -113,10 +113,7 @@ void FacingCells::mark_directions() {
 
 void FacingCells::list_members() {
   members_.fill(directions_.size(), [this](const auto& list) {
-    // The last edge first: where a disk is as wide as the width itself, the
-    // order of its neighbours decides.
-    for (std::uint32_t i = static_cast<std::uint32_t>(edges_.size());
-         i-- > 0;) {
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
       visit_cells(edges_[i], [&](std::size_t cell) {
         if (directions_[cell] != 0) list(cell, i);
       });

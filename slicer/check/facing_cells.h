@@ -4,13 +4,11 @@
 // Thin places are rare, and most of a layer should cost no more than a look. A
 // disk thinner than the width touches edges within half the width of its
 // centre, so every edge is listed in all cells of a grid that come as near to
-// it: the cell of a disk's centre lists all that the disk can touch. A cell
-// also has the directions of its edges, and of the turns between them, as 64
-// bits. Edges that face each other run in nearly opposite directions; where no
-// two directions of a cell do, the cell is passed over and lists no edge. On a
-// smooth part that is nearly every cell.
+// it. A cell also has the directions of its edges, and of the turns between
+// them, as 64 bits. Where no two of them are nearly opposite, no edges of the
+// cell face each other: it is passed over and lists none. On a smooth part that
+// is nearly every cell.
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -30,10 +30,8 @@ std::string layers_text(const ThinFeature& feature) {
 }
 
 std::string counts_text(std::span<const ThinFeature* const> features) {
-  const auto walls = static_cast<std::size_t>(std::count_if(
-      features.begin(), features.end(), [](const ThinFeature* feature) {
-        return feature->kind == ThinKind::kWall;
-      }));
+  const auto walls = static_cast<std::size_t>(
+      std::ranges::count(features, ThinKind::kWall, &ThinFeature::kind));
   return fmt::format("{}, {}", plural(walls, "wall"),
                      plural(features.size() - walls, "gap"));
 }
@@ -65,11 +63,8 @@ std::vector<Line> lines_of(std::span<const ThinFeature* const> tall,
     ++line.count;
     if (feature->width < line.thinnest->width) line.thinnest = feature;
   }
-  std::stable_sort(lines.begin(), lines.end(),
-                   [](const Line& a, const Line& b) {
-                     return std::pair(is_edge(*a.thinnest), a.thinnest->width) <
-                            std::pair(is_edge(*b.thinnest), b.thinnest->width);
-                   });
+  std::ranges::stable_sort(
+      lines, {}, [](const Line& line) { return rank_of(*line.thinnest); });
   return lines;
 }
 
@@ -80,6 +75,10 @@ bool is_low(const ThinFeature& feature, double width) {
 }
 
 bool is_edge(const ThinFeature& feature) { return feature.width < kEdgeWidth; }
+
+std::pair<bool, double> rank_of(const ThinFeature& feature) {
+  return {is_edge(feature), feature.width};
+}
 
 std::string_view name_of(ThinKind kind) {
   return kind == ThinKind::kWall ? "wall" : "gap";

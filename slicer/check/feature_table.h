@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "slicer/check/thin_features.h"
 
@@ -15,6 +16,10 @@ bool is_low(const ThinFeature& feature, double width);
 
 // Whether its sides meet in an edge: it has no width.
 bool is_edge(const ThinFeature& feature);
+
+// Tables list features in ascending order of this: the thinnest first, edges
+// last.
+std::pair<bool, double> rank_of(const ThinFeature& feature);
 
 // "wall" or "gap".
 std::string_view name_of(ThinKind kind);

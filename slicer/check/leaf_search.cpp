@@ -5,7 +5,6 @@
 
 #include "base/plane.h"
 #include "csg/tie_distance.h"
-#include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
 namespace {
@@ -52,7 +51,7 @@ void LeafSearch::find(const ldni::ChainBlock& block, std::uint32_t layer,
 // Upright edges belong to no chain: they stand between endpoints of chains at
 // one x, which pair up from below.
 void LeafSearch::look_between_endpoints(std::uint32_t instance) {
-  std::sort(endpoints_.begin(), endpoints_.end(), precedes);
+  std::ranges::sort(endpoints_, precedes);
   for (std::size_t i = 1; i < endpoints_.size(); i += 2) {
     if (endpoints_[i].y > endpoints_[i - 1].y) {
       look_along(endpoints_[i - 1], endpoints_[i], instance);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -108,8 +109,7 @@ class Sweep {
   RegionAreas run() {
     // Sum up small numbers: y counts from the middle.
     shift_to_middle();
-    std::sort(edges_.begin(), edges_.end(),
-              [](const Edge& p, const Edge& q) { return p.left.x < q.left.x; });
+    std::ranges::sort(edges_, {}, [](const Edge& edge) { return edge.left.x; });
     const std::vector<double> event_points = list_event_points();
     std::size_t next = 0;  // of edges_
     for (std::size_t i = 0; i + 1 < event_points.size(); ++i) {
@@ -134,7 +134,7 @@ class Sweep {
       points.push_back(edge.left.x);
       points.push_back(edge.right.x);
     }
-    std::sort(points.begin(), points.end());
+    std::ranges::sort(points);
     points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
   }
@@ -162,7 +162,7 @@ class Sweep {
                       [](const Crossed&, const Crossed&) {});
     areas_.set_winding({0, 0});
     const double width = right - left;
-    if (std::is_sorted(crossed_.begin(), crossed_.end(), is_below_at_right)) {
+    if (std::ranges::is_sorted(crossed_, is_below_at_right)) {
       for (const Crossed& crossed : crossed_) {
         areas_.pass(edges_[crossed.edge], crossed.middle_y(), width);
       }
@@ -181,14 +181,11 @@ class Sweep {
   }
 
   void rank_at_right() {
-    order_.clear();
-    for (std::uint32_t i = 0; i < crossed_.size(); ++i) order_.push_back(i);
-    std::sort(order_.begin(), order_.end(),
-              [this](std::uint32_t p, std::uint32_t q) {
-                if (is_below_at_right(crossed_[p], crossed_[q])) return true;
-                if (is_below_at_right(crossed_[q], crossed_[p])) return false;
-                return p < q;
-              });
+    order_.resize(crossed_.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::stable_sort(
+        order_, is_below_at_right,
+        [this](std::uint32_t i) -> const Crossed& { return crossed_[i]; });
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
       crossed_[order_[i]].rank = i;
     }
@@ -223,12 +220,9 @@ class Sweep {
                       });
     steps_ += cluster.size() * crossings_.size();
     if (steps_ > kMostSteps) {
-      throw GeometryError({Severity::kError,
-                           {},
-                           "contours cross each other too often to be "
-                           "compared"});
+      throw GeometryError("contours cross each other too often to be compared");
     }
-    std::sort(crossings_.begin(), crossings_.end());
+    std::ranges::sort(crossings_);
   }
 
   void sweep_between_crossings(std::span<const Crossed> cluster, double from,
@@ -240,7 +234,7 @@ class Sweep {
           crossed.left_y + middle * (crossed.right_y - crossed.left_y),
           crossed.edge);
     }
-    std::sort(heights_.begin(), heights_.end());
+    std::ranges::sort(heights_);
     for (const auto& [y, edge] : heights_) {
       areas_.pass(edges_[edge], y, (to - from) * width);
     }

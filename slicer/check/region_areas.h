@@ -1,14 +1,13 @@
 #pragma once
 // What two sets of contours have in common, as areas.
 //
-// A line sweeps from left to right over both at once. Between two neighbouring
-// event points, the ends of edges, every edge is straight and reaches from side
-// to side. So in such a strip an edge bounds what lies above or below it, and
-// the area is a sum over edges: the integral of y, times what changes there.
-// Where edges cross inside a strip, it is cut at the crossings, for those edges
-// alone. No region is built and nothing is rounded to a grid, so contours may
-// cross, touch and coincide; areas are exact but for the rounding of doubles,
-// 1e-15 of the part's size squared for each edge.
+// A line sweeps from left to right over both at once. In a strip between two
+// ends of edges every edge reaches from side to side, and the area is a sum
+// over edges: the integral of y, times what changes there. Where edges cross
+// inside a strip, it is cut at the crossings, for those edges alone. No region
+// is built and nothing is rounded to a grid, so contours may cross, touch and
+// coincide; areas are exact but for rounding, 1e-15 of the part's size squared
+// for each edge.
 
 #include "ldni/section/contours.h"
 

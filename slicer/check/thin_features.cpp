@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 
 #include "base/plane.h"
-#include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
 namespace {
@@ -57,6 +56,26 @@ double distance_of_lines(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   if (cross_each_other(a, b, c, d)) return 0;
   return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d),
                    distance_to_segment(c, a, b), distance_to_segment(d, a, b)});
+}
+
+// Whether a feature is to be reported at `by` rather than where it is so far.
+bool is_better(const ThinFeature& by, const ThinFeature& feature) {
+  if (std::abs(by.width - feature.width) > kSameWidth) {
+    return by.width < feature.width;
+  }
+  if (by.layer != feature.layer) return by.layer < feature.layer;
+  return by.length > feature.length;
+}
+
+void extend(ThinFeature& feature, const ThinFeature& by) {
+  const ThinFeature before = feature;
+  if (is_better(by, feature)) feature = by;
+  feature.low = glm::min(before.low, by.low);
+  feature.high = glm::max(before.high, by.high);
+  feature.first_layer = std::min(before.first_layer, by.first_layer);
+  feature.last_layer = std::max(before.last_layer, by.last_layer);
+  feature.bottom = std::min(before.bottom, by.bottom);
+  feature.top = std::max(before.top, by.top);
 }
 
 }  // namespace
@@ -136,30 +155,6 @@ void FeatureCollector::StretchGrid::visit_near(Vec2 from, Vec2 to,
 
 // --- Features --------------------------------------------------------------
 
-namespace {
-
-// Whether a feature is to be reported at `by` rather than where it is so far.
-bool is_better(const ThinFeature& by, const ThinFeature& feature) {
-  if (std::abs(by.width - feature.width) > kSameWidth) {
-    return by.width < feature.width;
-  }
-  if (by.layer != feature.layer) return by.layer < feature.layer;
-  return by.length > feature.length;
-}
-
-void extend(ThinFeature& feature, const ThinFeature& by) {
-  const ThinFeature before = feature;
-  if (is_better(by, feature)) feature = by;
-  feature.low = glm::min(before.low, by.low);
-  feature.high = glm::max(before.high, by.high);
-  feature.first_layer = std::min(before.first_layer, by.first_layer);
-  feature.last_layer = std::max(before.last_layer, by.last_layer);
-  feature.bottom = std::min(before.bottom, by.bottom);
-  feature.top = std::max(before.top, by.top);
-}
-
-}  // namespace
-
 std::vector<std::uint32_t> source_ids(const csg::Scene& scene) {
   std::map<std::tuple<const Source*, std::uint32_t, std::uint32_t>,
            std::uint32_t>
@@ -174,22 +169,6 @@ std::vector<std::uint32_t> source_ids(const csg::Scene& scene) {
             .first->second);
   }
   return numbers;
-}
-
-std::uint32_t FeatureCollector::Union::add() {
-  parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
-  return parents_.back();
-}
-
-std::uint32_t FeatureCollector::Union::root_of(std::uint32_t i) {
-  while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-  return i;
-}
-
-std::uint32_t FeatureCollector::Union::join(std::uint32_t a, std::uint32_t b) {
-  const std::uint32_t kept = std::min(a, b);
-  parents_[std::max(a, b)] = kept;
-  return kept;
 }
 
 FeatureCollector::FeatureCollector(double width,
@@ -331,14 +310,10 @@ std::vector<ThinFeature> FeatureCollector::finish() {
     features.push_back(features_[i]);
     features.back().height = place.top - place.bottom;
   }
-  const auto rank = [](const ThinFeature& feature) {
+  std::ranges::stable_sort(features, {}, [](const ThinFeature& feature) {
     return std::tuple(feature.first_layer, feature.kind, feature.place.x,
                       feature.place.y);
-  };
-  std::stable_sort(features.begin(), features.end(),
-                   [&](const ThinFeature& a, const ThinFeature& b) {
-                     return rank(a) < rank(b);
-                   });
+  });
   return features;
 }
 

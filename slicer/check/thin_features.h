@@ -11,6 +11,7 @@
 // collet is, has as many features: each fault is reported with the line that
 // can repair it.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -62,10 +63,20 @@ class FeatureCollector {
   // Numbers that turn out to be one: a forest (union-find).
   class Union {
    public:
-    std::uint32_t add();
-    std::uint32_t root_of(std::uint32_t i);
+    std::uint32_t add() {
+      parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
+      return parents_.back();
+    }
+    std::uint32_t root_of(std::uint32_t i) {
+      while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+      return i;
+    }
     // Joins two roots; returns the lesser, which is the root of both.
-    std::uint32_t join(std::uint32_t a, std::uint32_t b);
+    std::uint32_t join(std::uint32_t a, std::uint32_t b) {
+      const std::uint32_t kept = std::min(a, b);
+      parents_[std::max(a, b)] = kept;
+      return kept;
+    }
 
    private:
     std::vector<std::uint32_t> parents_;

@@ -218,7 +218,9 @@ ThinFinder::Range ThinFinder::blocked_range(const LayerEdge& blocker,
   const Polynomial along{-seen.u * s + seen.v * (r.c0 - seen.h),
                          seen.u + seen.v * r.c1, seen.v * r.c2};
   const double at = along(x);
-  if (at > 0 && at < seen.length) {
+  // So near an end the end is in the disk, too. A disk that rolls level with it
+  // would be in the interior by rounding, and leave that at once.
+  if (at > kTouchDistance && at < seen.length - kTouchDistance) {
     const Polynomial left{seen.v * s + seen.u * (r.c0 - seen.h),
                           -seen.v + seen.u * r.c1, seen.u * r.c2};
     Range range{-kInfinity, kInfinity};
@@ -232,8 +234,9 @@ ThinFinder::Range ThinFinder::blocked_range(const LayerEdge& blocker,
     }
     return range;
   }
-  const double end_s = at > 0 ? s + seen.u * seen.length : s;
-  const double end_h = at > 0 ? seen.h + seen.v * seen.length : seen.h;
+  const double end = at > seen.length / 2 ? seen.length : 0;
+  const double end_s = s + seen.u * end;
+  const double end_h = seen.h + seen.v * end;
   // r² - (distance)² = 2 r h - (x - s)² - h²
   return range_around({2 * r.c0 * end_h - squared(end_s) - squared(end_h),
                        2 * r.c1 * end_h + 2 * end_s, 2 * r.c2 * end_h - 1},

@@ -2,10 +2,9 @@
 // Where a layer is thinner than a given width, solid or void.
 //
 // The width at a place is the diameter of the largest disk that fits in there:
-// in the solid a wall, in the void a gap. Such disks have their centres on the
-// medial axis (Blum 1967), and most of that is of no interest: a branch of it
-// runs into every corner, where disks become as small as one likes in the
-// soundest part. So a place counts as thin if the disk
+// in the solid a wall, in the void a gap. Its centre is on the medial axis
+// (Blum 1967), of which a branch runs into every corner, with disks as small as
+// one likes. So a place counts as thin if the disk
 //
 //   - is thinner than the width,
 //   - is empty: no boundary runs through it,
@@ -15,15 +14,13 @@
 // A corner of 90° is not thin, nor is the foot of a fillet; a plate, a slit, a
 // prong, a neck, the end of a taper or of a knife's edge is. Where a disk
 // touches three sides of which none face each other (a prong of three or five
-// sides), the loop counts as a whole: one with 4 · area / perimeter below the
-// width, which is the inscribed circle's diameter in every triangle and regular
-// polygon.
+// sides), the loop counts as a whole by 4 · area / perimeter, the inscribed
+// circle's diameter in every triangle and regular polygon.
 //
-// Nothing is sampled. A disk rolls along an edge and touches what faces it:
-// another edge, or a corner that points at it. Its radius is a polynomial of
-// its place, of first or second degree. What blocks the disk does so on an
-// interval whose ends are roots of such polynomials. So widths and places are
-// exact up to rounding.
+// Nothing is sampled. A disk rolls along an edge and touches what faces it,
+// another edge or a corner that points at it: its radius is a polynomial of its
+// place, of first or second degree, and what blocks it does so between roots of
+// such polynomials. So widths and places are exact up to rounding.
 //
 // The cost is about 0.1 µs for an edge that nothing faces, and 1 to 7 µs for an
 // edge of a thin place, by how many edges there are within the width.

@@ -1,15 +1,12 @@
 #pragma once
 // Moves contours by the width of what draws them.
 //
-// A beam or a resin's bleeding cures beyond the path by some distance r, so
-// the path must keep r inside the solid. The contour of the points of the
-// solid that are at least r from its outside is just that, and it is what
-// planar::offset gives: sides move by r, corners of a hole turn round (every
-// point of the arc is r from the corner), corners of the solid stay sharp.
-// Moved outwards it is the other way round.
+// A beam or a resin's bleeding cures beyond the path by some distance r, so the
+// path is the contour of the points that are at least r inside the solid, which
+// planar::offset gives: sides move by r, corners of a hole turn round, corners
+// of the solid stay sharp. Moved outwards it is the other way round.
 //
-// Walls thinner than 2 r have no such path. They vanish; that is counted, as
-// the printer will not make them.
+// Walls thinner than 2 r have no such path: they vanish and are counted.
 
 #include <cstdint>
 

@@ -1,6 +1,9 @@
 #pragma once
 // How far written contours can be from the exact section of the design.
 
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 
 #include "csg/tie_distance.h"
@@ -32,6 +35,12 @@ struct Deviation {
 
 // The most that rounding to 32-bit numbers moves a point whose coordinates are
 // up to `greatest` in magnitude [mm].
-double float32_rounding(double greatest);
+inline double float32_rounding(double greatest) {
+  const auto rounded = static_cast<float>(greatest);
+  const float next =
+      std::nextafter(rounded, std::numeric_limits<float>::infinity());
+  // Half a step in x and in y.
+  return (static_cast<double>(next) - rounded) / 2 * std::numbers::sqrt2;
+}
 
 }  // namespace lamina::slicer

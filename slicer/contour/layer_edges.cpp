@@ -1,6 +1,5 @@
 #include "slicer/contour/layer_edges.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lamina::slicer {

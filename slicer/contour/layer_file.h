@@ -27,7 +27,15 @@ struct SamplingRow {
 };
 
 // The loops as a sound file holds them: each ends with its first point again.
-std::vector<WrittenLoop> closed_loops(const ldni::Contours& contours);
+inline std::vector<WrittenLoop> closed_loops(const ldni::Contours& contours) {
+  std::vector<WrittenLoop> closed(contours.loop_count());
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const auto loop = contours.loop(i);
+    closed[i].points.assign(loop.begin(), loop.end());
+    if (!loop.empty()) closed[i].points.push_back(loop.front());
+  }
+  return closed;
+}
 
 struct LayerFileFacts {
   std::string format;  // "SLC 2.0", "CLI, binary"; empty: layers of a design

@@ -69,7 +69,7 @@ void LoopTree::sort_loops() {
     const auto strip = static_cast<std::uint64_t>(at.x * strips);
     place = strip << 32 | static_cast<std::uint32_t>(at.y * 0x1p31);
   }
-  std::sort(order_.begin(), order_.end());
+  std::ranges::sort(order_);
 }
 
 void LoopTree::add_bundles(std::uint32_t loop) {

@@ -71,8 +71,7 @@ std::vector<double> areas_of_regions(const ldni::Contours& contours) {
     if (outer != nullptr) outer->area += area;
   }
   std::vector<double> areas(outers.size());
-  std::transform(outers.begin(), outers.end(), areas.begin(),
-                 [](const Outer& outer) { return outer.area; });
+  std::ranges::transform(outers, areas.begin(), &Outer::area);
   return areas;
 }
 

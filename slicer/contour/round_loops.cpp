@@ -41,19 +41,15 @@ LoopRounder::LoopRounder() : resolver_(0, 0) {}
 
 void LoopRounder::round(ldni::Contours& contours, double clearance) {
   if (contours.is_empty()) return;
-  measure(contours);
+  int exponent = 0;
+  std::frexp(greatest_coordinate(contours.points), &exponent);
+  spacing_ = std::ldexp(1.0, exponent - kFloatDigits);
   if (clearance >= kTreeReach * spacing_ || is_safe(contours)) {
     for (Vec2& point : contours.points) point = to_float(point);
     return;
   }
   ++snapped_layers_;
   snap(contours);
-}
-
-void LoopRounder::measure(const ldni::Contours& contours) {
-  int exponent = 0;
-  std::frexp(greatest_coordinate(contours.points), &exponent);
-  spacing_ = std::ldexp(1.0, exponent - kFloatDigits);
 }
 
 // --- Proof ------------------------------------------------------------------
@@ -86,11 +82,10 @@ bool LoopRounder::is_safe(const ldni::Contours& contours) {
           return a.loop == b.loop || !touch(vertex, edge);
         });
   };
-  return std::none_of(near_pairs_.begin(), near_pairs_.end(),
-                      [&](const auto& pair) {
-                        const auto& [a, b] = pair;
-                        return meet(*a, *b) || (a != b && meet(*b, *a));
-                      });
+  return std::ranges::none_of(near_pairs_, [&](const auto& pair) {
+    const auto& [a, b] = pair;
+    return meet(*a, *b) || (a != b && meet(*b, *a));
+  });
 }
 
 // The same where too many loops run beside each other for the tree.
@@ -168,7 +163,7 @@ bool LoopRounder::route_through_hot_pixels(ldni::Contours& contours) {
     hot_pixels_.push_back(middle);
   }
   const std::vector<Vec2> snapped = hot_pixels_;
-  std::sort(hot_pixels_.begin(), hot_pixels_.end(), precedes);
+  std::ranges::sort(hot_pixels_, precedes);
   hot_pixels_.erase(std::unique(hot_pixels_.begin(), hot_pixels_.end()),
                     hot_pixels_.end());
   members_.resize(hot_pixels_.size());
@@ -204,9 +199,7 @@ bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
     }
     return false;
   });
-  std::sort(
-      passages_.begin(), passages_.end(),
-      [](const Passage& a, const Passage& b) { return a.place < b.place; });
+  std::ranges::sort(passages_, {}, &Passage::place);
   bool bends = false;
   for (const Passage& passage : passages_) {
     routed_.points.push_back(passage.hot_pixel);

@@ -1,25 +1,20 @@
 #pragma once
 // Rounds loops to float32 coordinates so that they stay simple and disjoint.
 //
-// Near 100 mm two float32 numbers are 8e-6 mm apart. Rounding each point by
-// itself can make a thin wall touch itself, a gap close, a slender corner turn
-// inside out.
+// Near 100 mm two float32 numbers are 8e-6 mm apart: rounding each point by
+// itself can close a thin wall or gap, or turn a slender corner inside out.
 //
 // 1. Proof. A point moves by half that spacing, in x and in y. Loops that are
-//    apart can only meet on the way if some vertex is nearer than two such
-//    moves to an edge that is not its own. A tree of boxes looks for one
-//    (loop_tree.h); hardly ever there is one, and each point goes to its
-//    nearest float32. Simplified loops are known to have none.
-// 2. Else the layer's loops are snap-rounded (Greene and Yao 1986; Guibas and
-//    Marimont 1998; Hobby 1999) on a grid of equal spacing, the float32 one at
-//    the largest coordinate. A cell of it that holds a vertex is a hot pixel;
-//    an edge is routed through the middle of every hot pixel that it meets, so
-//    it never gets to the wrong side of a vertex. This is repeated as long as
-//    an edge meets a foreign hot pixel (iterated snap rounding, Halperin and
-//    Packer 2002), so that in the end edges meet in vertices only. The moving
-//    ray then leaves out what has fallen together: walls and gaps thinner than
-//    the grid vanish, and loops that meet in a point part there. All that is on
-//    integers below 2^24, hence exact.
+//    apart can only meet if some vertex is nearer than two such moves to a
+//    foreign edge. A tree of boxes looks for one (loop_tree.h); hardly ever
+//    there is one, and each point goes to its nearest float32.
+// 2. Else the layer is snap-rounded (Greene and Yao 1986; Guibas and Marimont
+//    1998; Hobby 1999) on a grid of the spacing at the largest coordinate: an
+//    edge is routed through the middle of every hot pixel, a cell that holds a
+//    vertex, that it meets. This is repeated while an edge meets a foreign hot
+//    pixel (iterated snap rounding, Halperin and Packer 2002), so that edges
+//    meet in vertices only. The moving ray then leaves out what has fallen
+//    together. All that is on integers below 2^24, hence exact.
 
 #include <cstdint>
 #include <utility>
@@ -51,7 +46,6 @@ class LoopRounder {
   int most_moves() const { return most_moves_; }
 
  private:
-  void measure(const ldni::Contours& contours);
   bool is_safe(const ldni::Contours& contours);
   bool is_safe_by_grid();
   bool touch(std::uint32_t vertex, std::uint32_t edge) const;

@@ -163,12 +163,10 @@ void Simplifier::find_neighbours() {
 // Whether a vertex is within the clearance of a foreign edge.
 bool Simplifier::has_meetings() const {
   const auto take = [](std::uint32_t, std::uint32_t) { return true; };
-  return std::any_of(near_pairs_.begin(), near_pairs_.end(),
-                     [&](const auto& pair) {
-                       return tree_.visit_meetings(tree_.bundle(pair.first),
-                                                   tree_.bundle(pair.second),
-                                                   clearance_, take);
-                     });
+  return std::ranges::any_of(near_pairs_, [&](const auto& pair) {
+    return tree_.visit_meetings(tree_.bundle(pair.first),
+                                tree_.bundle(pair.second), clearance_, take);
+  });
 }
 
 // Splits runs until each is safe. Returns whether it brought a vertex back. All

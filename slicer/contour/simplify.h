@@ -2,40 +2,35 @@
 // Leaves out the vertices of a layer that do not matter.
 //
 // A section of a fine tessellation has a vertex every few micrometres; a wax
-// printer's beam is ten times wider. Dropping vertices is easy. Keeping walls
-// and gaps open that are thinner than the tolerance needs thought, and sections
-// of real jewelry have them. The vertices that stay are the loops' own, so
-// corners keep their digits.
+// printer's beam is ten times wider. Dropping vertices is easy; to keep walls
+// and gaps open that are thinner than the tolerance is not. The vertices that
+// stay are the loops' own, so corners keep their digits.
 //
 // 1. Choose. From an anchor a the next vertex to keep is the farthest that a
 //    straight line reaches within the tolerance of all between: a cone of
 //    directions that narrows with every vertex (Imai and Iri 1988), O(1) each.
 //    On sections of rings 1 to 3 % more vertices stay than the fewest possible.
 // 2. Prove. In the frame of the shortcut a-b the run that it replaces must lie
-//    in [0, length] × [-tolerance, tolerance]. The run crosses every abscissa
-//    of the shortcut, so each of the two is within the tolerance of the other.
-//    Moving every point of the run straight down to the shortcut sweeps the
-//    strip between them; no vertex that stays may lie in a strip. The first is
-//    so by the choice. A tree of boxes separates nearly all strips at once
-//    (loop_tree.h); the others are looked at one by one.
+//    in [0, length] × [-tolerance, tolerance], as it does by the choice: so
+//    each of the two is within the tolerance of the other. Moving the run
+//    straight down to the shortcut sweeps the strip between them; no vertex
+//    that stays may lie in a strip. A tree of boxes separates nearly all strips
+//    at once (loop_tree.h); the others are looked at one by one.
 // 3. Repair. A run that fails is split at its farthest vertex until none does.
 // 4. Thin out. A vertex is left out where the runs before and behind it pass
 //    the proof as one: a split, or a choice within less than the tolerance,
 //    kept it.
 //
-// Why the topology stays. Prick the plane at all vertices that stay. Runs can
-// be moved to their shortcuts without crossing a prick, and runs are disjoint.
-// Two straight segments that cross, cross once, and no motion that respects the
-// pricks could part them; so shortcuts do not cross. Hence loops stay simple,
-// disjoint and nested as they were, with vertices on the sides on which they
-// were. (Loops may touch in a vertex, and go on to do so; a shortcut from one
-// such vertex to another is not taken.) Vertices that do not stay need not be
-// heeded: two walls closer than the tolerance are thinned out together.
+// Why the topology stays. Prick the plane at all vertices that stay. Disjoint
+// runs are moved to their shortcuts without crossing a prick. Two straight
+// segments that cross, cross once, and no motion that respects the pricks could
+// part them; so shortcuts do not cross, and loops stay simple, disjoint and
+// nested as they were. (Loops may go on to touch in a vertex; a shortcut from
+// one such vertex to another is not taken.) Vertices that do not stay need not
+// be heeded: two walls closer than the tolerance are thinned out together.
 //
-// A loop as small as the tolerance would dwindle to a sliver; so loops keep at
-// least half of their area and at most double it.
-//
-// The cost is linear in practice.
+// Loops keep at least half of their area and at most double it, lest those as
+// small as the tolerance dwindle to slivers. The cost is linear in practice.
 
 #include <cstddef>
 #include <cstdint>

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/formats/slc_reader.h"
@@ -54,11 +53,9 @@ bool is_within_reach(double value) {
 bool is_within_reach(const Layer& layer) {
   return is_within_reach(layer.bottom) && is_within_reach(layer.top) &&
          is_within_reach(layer.section_z) &&
-         std::all_of(layer.contours.points.begin(), layer.contours.points.end(),
-                     [](const Vec2& point) {
-                       return is_within_reach(point.x) &&
-                              is_within_reach(point.y);
-                     });
+         std::ranges::all_of(layer.contours.points, [](const Vec2& point) {
+           return is_within_reach(point.x) && is_within_reach(point.y);
+         });
 }
 
 }  // namespace

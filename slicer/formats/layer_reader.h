@@ -1,10 +1,9 @@
 #pragma once
 // Layers back from files, whatever their format (docs/formats.md).
 //
-// All who read layers use this one way in: `lamina view`, `inspect`, `compare`.
-// Files come from anywhere, so nothing in them is trusted: what breaks the
-// format's frame is a FileError with its line or byte offset. What merely
-// breaks a rule (loops that cross, layers that do not rise) is handed over.
+// Nothing in a file is trusted: what breaks the format's frame is a FileError
+// with its line or byte offset. What merely breaks a rule (loops that cross,
+// layers that do not rise) is handed over.
 
 #include <functional>
 #include <string>

@@ -19,9 +19,7 @@ using Json = nlohmann::json;
 constexpr unsigned kMostPixels = 65536;  // along a side
 
 [[noreturn]] void fail(const std::string& name, std::string_view fault) {
-  throw FileError({Severity::kError,
-                   {},
-                   fmt::format("Can't use printer '{}': {}", name, fault)});
+  throw FileError(fmt::format("Can't use printer '{}': {}", name, fault));
 }
 
 Vec2 read_direction(const Json& json) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -34,12 +33,9 @@ std::string value_of(std::string_view header, std::string_view key) {
       break;
     }
   }
-  const auto is_blank = [](char c) {
-    return c == ' ' || c == '\r' || c == '\n' || c == '\t';
-  };
-  while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
-  while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
-  return std::string(rest);
+  constexpr std::string_view kBlanks = " \r\n\t";
+  skip(rest, kBlanks);
+  return std::string(rest.substr(0, rest.find_last_not_of(kBlanks) + 1));
 }
 
 // "minx,maxx miny,maxy minz,maxz"
@@ -112,18 +108,19 @@ void SlcReader::require_finite(float value) const {
   fail(fmt::format("a number before byte {} is not finite", offset_));
 }
 
-void SlcReader::read_header() {
+// The header without its end.
+std::string SlcReader::read_header_text() {
   std::array<char, 8> begin{};
   const std::size_t got =
       std::fread(begin.data(), 1, begin.size(), file_.get());
   offset_ = got;
-  header_.text.assign(begin.data(), got);
-  if (header_.text.starts_with("Slice V")) {
+  std::string text(begin.data(), got);
+  if (text.starts_with("Slice V")) {
     fail(
         "this is a Stratasys slice file (\"Slice V0\"), another format with "
         "the suffix .slc");
   }
-  if (!header_.text.starts_with("-SLCVER")) {
+  if (!text.starts_with("-SLCVER")) {
     // VTK's volumes begin with "<columns> <rows> <slices> …".
     const bool is_vtk = got > 0 && begin[0] >= '0' && begin[0] <= '9';
     fail(is_vtk ? "this is a VTK volume, another format with the suffix .slc"
@@ -132,30 +129,29 @@ void SlcReader::read_header() {
   while (true) {
     const char c = read_value<char>("the header");
     if (c == '\x1A') break;
-    header_.text.push_back(c);
-    if (header_.text.size() >= kLongestHeader) {
+    text.push_back(c);
+    if (text.size() >= kLongestHeader) {
       fail("the header has no end (0x1A) within 2048 bytes");
     }
   }
   std::array<char, kReservedSize> reserved;
   read(reserved.data(), reserved.size(), "the 256 reserved bytes");
+  return text;
+}
 
-  std::string& text = header_.text;
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
-    text.pop_back();
-  }
-  header_.version = value_of(text, "-SLCVER");
-  header_.unit = value_of(text, "-UNIT");
-  header_.type = value_of(text, "-TYPE");
-  header_.package = value_of(text, "-PACKAGE");
-  header_.deviation = split_deviation(header_.package);
-  header_.extents = parse_extents(value_of(text, "-EXTENTS"));
-  if (header_.unit == "INCH") {
+void SlcReader::read_header() {
+  const std::string text = read_header_text();
+  const std::string unit = value_of(text, "-UNIT");
+  if (unit == "INCH") {
     mm_per_unit_ = kMillimetresPerInch;
-  } else if (header_.unit != "MM") {
-    fail(fmt::format("unknown unit '{}' (MM or INCH was expected)",
-                     header_.unit));
+  } else if (unit != "MM") {
+    fail(fmt::format("unknown unit '{}' (MM or INCH was expected)", unit));
   }
+  facts_.format = "SLC " + value_of(text, "-SLCVER");
+  facts_.header = fmt::format("{}, unit {}", value_of(text, "-TYPE"), unit);
+  facts_.writer = value_of(text, "-PACKAGE");
+  facts_.deviation = split_deviation(facts_.writer);
+  facts_.extents = parse_extents(value_of(text, "-EXTENTS"));
 }
 
 void SlcReader::read_sampling() {
@@ -164,20 +160,8 @@ void SlcReader::read_sampling() {
   for (unsigned i = 0; i < rows; ++i) {
     const auto row = read_value<std::array<float, 4>>("the sampling table");
     for (const float value : row) require_finite(value);
-    sampling_.push_back({row[0], row[1], row[2]});
+    facts_.sampling.push_back({row[0], row[1], row[2]});
   }
-}
-
-LayerFileFacts SlcReader::facts() const {
-  LayerFileFacts facts;
-  facts.format = "SLC " + header_.version;
-  facts.writer = header_.package;
-  facts.deviation = header_.deviation;
-  facts.header = fmt::format("{}, unit {}", header_.type, header_.unit);
-  facts.sampling = sampling_;
-  facts.extents = header_.extents;
-  facts.top = top_;
-  return facts;
 }
 
 bool SlcReader::read_layer(SlcLayer& layer) {
@@ -186,13 +170,13 @@ bool SlcReader::read_layer(SlcLayer& layer) {
   require_finite(z);
   layer.z = static_cast<double>(z) * mm_per_unit_;
   if (boundaries == kEndOfLayers) {
-    top_ = layer.z;
+    facts_.top = layer.z;
     layer.boundaries.clear();
     return false;
   }
   // The row in force is the last one that begins at or below z.
-  const SamplingRow* row = &sampling_.front();
-  for (const SamplingRow& candidate : sampling_) {
+  const SamplingRow* row = &facts_.sampling.front();
+  for (const SamplingRow& candidate : facts_.sampling) {
     if (candidate.min_z <= z) row = &candidate;
   }
   layer.thickness = static_cast<double>(row->thickness) * mm_per_unit_;

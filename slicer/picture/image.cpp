@@ -23,7 +23,7 @@ void keep_bytes(png_structp /*png*/) {}  // the OutputFile flushes itself
 // libpng would use longjmp; an exception passes through its C frames as well,
 // since Debian builds it with unwind tables.
 [[noreturn]] void throw_png_error(png_structp /*png*/, png_const_charp words) {
-  throw FileError({Severity::kError, {}, std::string("PNG: ") + words});
+  throw FileError(std::string("PNG: ") + words);
 }
 
 std::uint8_t to_byte(float value) {

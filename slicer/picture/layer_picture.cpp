@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
@@ -145,10 +146,7 @@ class LayerPicture {
     stroke(stretches, ThinKind::kGap, kGap);
 
     std::vector<ThinFeature> features = find_thin_features(layer_, width);
-    std::sort(features.begin(), features.end(),
-              [](const ThinFeature& a, const ThinFeature& b) {
-                return a.width < b.width;
-              });
+    std::ranges::sort(features, {}, &ThinFeature::width);
     const std::size_t count = std::min(features.size(), kMostLabels);
     for (std::size_t i = 0; i < count; ++i) {
       const Vec2 place = map_(features[i].place);
@@ -192,7 +190,7 @@ class LayerPicture {
     }
     const Vec2 middle = box.center();
     const Vec2 way = middle - place;
-    const double length = std::sqrt(way.x * way.x + way.y * way.y);
+    const double length = glm::length(way);
     if (length > kRingRadius) {
       lines.add_stroke(place + way * (kRingRadius / length), middle, 1.2);
     }
@@ -224,11 +222,10 @@ class LayerPicture {
     for (int ring = 0; ring < 12; ++ring) {
       for (int way = 0; way < 16; ++way) {
         const Bounds box = box_at(way, 44 + 18 * ring);
-        if (std::none_of(
-                taken_.begin(), taken_.end(),
-                [&](const Bounds& other) { return box.meets(other); })) {
-          return box;
-        }
+        const auto is_met = [&](const Bounds& other) {
+          return box.meets(other);
+        };
+        if (std::ranges::none_of(taken_, is_met)) return box;
       }
     }
     return box_at(0, 44);
@@ -238,9 +235,8 @@ class LayerPicture {
     if (features.empty()) {
       return fmt::format("nothing thinner than {:g} mm", options_.min_feature);
     }
-    const auto walls = std::count_if(
-        features.begin(), features.end(),
-        [](const auto& feature) { return feature.kind == ThinKind::kWall; });
+    const auto walls =
+        std::ranges::count(features, ThinKind::kWall, &ThinFeature::kind);
     return fmt::format("thinner than {:g} mm: walls {}, gaps {}",
                        options_.min_feature, walls,
                        features.size() - static_cast<std::size_t>(walls));

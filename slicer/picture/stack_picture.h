@@ -1,16 +1,14 @@
 #pragma once
 // All layers of a part stacked up and lit: the solid that the printer makes.
 //
-// No surface is reconstructed. OpenGL draws the layers as they are, plates with
-// upright sides, and returns for each pixel the place that it shows. Light
-// needs a normal there. Those of the plates are of no use, since all sides are
-// upright and all tops are level: the normal is that of the surface which the
-// plates approximate. Between two sections the solid is where the depth in the
-// one and the depth in the other, mixed by height, are more than 0 (the
-// shape-based interpolation of Raya and Udupa 1990); how those depths change
-// from layer to layer and along a layer is the gradient of that solid, and its
-// direction the normal. So slopes of layers look as smooth as they are,
-// whatever the layers' thickness, while facets, edges and gaps stay.
+// No surface is reconstructed. OpenGL draws the layers as plates with upright
+// sides, and returns for each pixel the place that it shows. Light takes its
+// normal there from the surface that the plates approximate: between two
+// sections the solid is where the depth in the one and the depth in the other,
+// mixed by height, are more than 0 (the shape-based interpolation of Raya and
+// Udupa 1990), and the gradient of that depth is normal to it. So slopes look
+// as smooth as they are, whatever the layers' thickness; facets, edges and gaps
+// stay.
 //
 // How much sky a place sees follows from the points around it in the picture.
 

@@ -103,11 +103,7 @@ std::string replaced(std::string_view text, char letter,
                      std::string_view replacement) {
   std::string result;
   for (const char c : text) {
-    if (c == letter) {
-      result += replacement;
-    } else {
-      result += c;
-    }
+    result += c == letter ? replacement : std::string_view(&c, 1);
   }
   return result;
 }
@@ -216,11 +212,8 @@ class PageMaker {
     for (std::size_t i = 0; i < features.size(); ++i) {
       if (!is_low(features[i], options_.min_feature)) listed.push_back(i);
     }
-    std::stable_sort(
-        listed.begin(), listed.end(), [&](std::size_t a, std::size_t b) {
-          return std::pair(is_edge(features[a]), features[a].width) <
-                 std::pair(is_edge(features[b]), features[b].width);
-        });
+    std::ranges::stable_sort(
+        listed, {}, [&](std::size_t i) { return rank_of(features[i]); });
     Json rows = Json::array();
     for (const std::size_t i : listed) {
       const ThinFeature& feature = features[i];

@@ -2,13 +2,11 @@
 // All layers as one page for a browser: a file that needs no network and no
 // other file.
 //
-// The page is a template (slicer/picture/viewer) with two things put in. A JSON
-// object holds the measures of the part and of each layer, so that the page
-// shows the numbers of `lamina inspect`, not sums of its own. The contours are
-// a stream of integers: steps from one corner to the next in units of 1e-4 mm,
-// in zigzag form and 7 bits a byte, so that small numbers take one byte;
-// deflated and in base64. That is some 3 bytes a corner, and every browser
-// since 2023 inflates it by itself.
+// The page is a template (slicer/picture/viewer) with two things put in: the
+// measures that `lamina inspect` shows, as JSON, and the contours as a stream
+// of integers: steps from one corner to the next in units of 1e-4 mm, in zigzag
+// form and 7 bits a byte; deflated and in base64. That is some 3 bytes a
+// corner, and every browser since 2023 inflates it by itself.
 
 #include <string>
 #include <vector>

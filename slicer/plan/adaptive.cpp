@@ -242,10 +242,8 @@ std::uint16_t greatest_multiple(const AdaptiveThickness& thickness) {
 
 [[noreturn]] void refuse(const SurfaceHeights& heights, double unit) {
   throw GeometryError(
-      {Severity::kError,
-       {},
-       fmt::format("{} mm are too high for adaptive layers of {} mm or more",
-                   heights.high - heights.low, unit)});
+      fmt::format("{} mm are too high for adaptive layers of {} mm or more",
+                  heights.high - heights.low, unit));
 }
 
 }  // namespace

@@ -1,24 +1,20 @@
 #pragma once
 // Layers as thick as the surface allows (`--adaptive`).
 //
-// Layers are steps on a slanting surface. Between the corners of two steps and
-// the surface there is, measured along its normal n,
+// Between the corners of two steps and a slanting surface there is, measured
+// along its normal n,
 //   cusp = t · |n_z|                          (t: thickness of the layer)
 // after Dolenc and Mäkelä, Slicing procedures for layered manufacturing
-// techniques, CAD 26 (1994). So a layer may be as thick as the most demanding
-// normal in it allows: t = cusp / |n_z|.
+// techniques, CAD 26 (1994). They take the normal of the surface where it
+// passes the layer's lower side; here every facet that comes into the layer
+// counts, so that the bound holds in all of it: t = cusp / |n_z| for the most
+// demanding one. Since sections stand in the middle of layers, the surface is
+// never farther than half a cusp from the steps.
 //
-// Departures. They take the normal of the surface where it passes the layer's
-// lower side; here every facet that comes into the layer anywhere counts, so
-// that the bound holds in all of it. Since sections stand in the middle of
-// layers, the surface is never farther than half a cusp from the steps.
-//
-// A ply is as high as the thinnest layer; plies are counted from the lowest
-// point. The normals that come into a ply limit the layers with it (normals of
-// boundary faces, so that what the Boolean hides has no say), and layers are
-// stacked from plies (detail/stacking.h). Flat faces, peaks and pits make no
-// steps: where one lies on a border of plies a layer ends there, else its ply
-// is a layer of its own.
+// A ply is as high as the thinnest layer. The boundary faces that come into a
+// ply limit the layers with it, and layers are stacked from plies
+// (detail/stacking.h). Flat faces, peaks and pits make no steps: where one lies
+// on a border of plies a layer ends there, else its ply is a layer of its own.
 
 #include <cstddef>
 #include <limits>

@@ -4,10 +4,8 @@
 // After Byun and Lee, Determination of the optimal build direction for
 // different rapid prototyping processes using multi-criterion decision making,
 // Robotics and Computer-Integrated Manufacturing 22 (2006): the direction whose
-// steps deviate least from the surface, then the one that is built soonest. The
-// deviation is the sum over the surface of area times cusp (adaptive.h); facets
-// square to the direction make no step. The time is the height, for layers take
-// the same time whatever is in them.
+// steps deviate least from the surface, by the sum of area times cusp
+// (adaptive.h), then the lowest, for each layer takes the same time.
 //
 // Both are the same upside down. The least surface that hangs over and wants
 // supports, as theirs too, decides between those, and then the most surface

@@ -26,11 +26,9 @@ void require_layers(const csg::Scene& scene, double thickness) {
   const double count = (scene.box.high.z - scene.box.low.z) / thickness;
   if (count <= kMostLayers) return;
   throw GeometryError(
-      {Severity::kError,
-       {},
-       fmt::format("Too many layers: {:.3g} of {:g} mm, at most {:g} can be; "
-                   "--layer makes them thicker",
-                   count, thickness, kMostLayers)});
+      fmt::format("Too many layers: {:.3g} of {:g} mm, at most {:g} can be; "
+                  "--layer makes them thicker",
+                  count, thickness, kMostLayers));
 }
 
 // Reports faults of our own, which should never happen.
@@ -76,24 +74,38 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 }
 
 [[noreturn]] void throw_empty(const SliceReport& report) {
-  throw GeometryError({Severity::kError,
-                       {},
-                       report.losses.vanished_regions > 0
-                           ? "Nothing is left of the design after compensation."
-                           : "Current top level object is empty.",
-                       {}});
+  throw GeometryError(report.losses.vanished_regions > 0
+                          ? "Nothing is left of the design after compensation."
+                          : "Current top level object is empty.");
 }
 
 [[noreturn]] void throw_out_of_range(const SliceReport& report,
                                      const LayerNumbers& wanted) {
-  throw GeometryError({Severity::kError,
-                       {},
-                       fmt::format("There is no layer {}: the layers are 1 to "
-                                   "{}",
-                                   wanted.first, report.layers_there)});
+  throw GeometryError(
+      fmt::format("There is no layer {}: the layers are 1 to {}", wanted.first,
+                  report.layers_there));
+}
+
+// In the plane z = 0.
+Box3 box_of(const ldni::Contours& contours) {
+  Box3 box;
+  box.low.z = box.high.z = 0;
+  for (const Vec2& point : contours.points) {
+    box.low = glm::min(box.low, Vec3(point, 0));
+    box.high = glm::max(box.high, Vec3(point, 0));
+  }
+  return box;
 }
 
 }  // namespace
+
+std::optional<Deviation> promised_deviation(const Settings& settings) {
+  if (settings.contour == ContourMode::kPaper) return std::nullopt;
+  Deviation deviation;
+  deviation.simplification = settings.tolerance;
+  if (settings.compensation != 0) deviation.compensation = kArcTolerance;
+  return deviation;
+}
 
 ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings) {
   if (scene.box.is_empty() && settings.heights.empty()) throw_empty({});
@@ -145,21 +157,6 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   }
   return report;
 }
-
-namespace {
-
-// In the plane z = 0.
-Box3 box_of(const ldni::Contours& contours) {
-  Box3 box;
-  box.low.z = box.high.z = 0;
-  for (const Vec2& point : contours.points) {
-    box.low = glm::min(box.low, Vec3(point, 0));
-    box.high = glm::max(box.high, Vec3(point, 0));
-  }
-  return box;
-}
-
-}  // namespace
 
 SliceReport slice_outline(const planar::Region& outline,
                           const Settings& settings, LayerSink& sink,

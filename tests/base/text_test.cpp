@@ -32,9 +32,7 @@ TEST(NumberText, ValuesAndStreamsDifferInExponentsAndZero) {
 }
 
 TEST(QuotedText, EscapesWhatALiteralCannotHold) {
-  std::string text;
-  append_quoted("a\t\"b\"\\\n", text);
-  EXPECT_EQ(text, R"("a\t\"b\"\\\n")");
+  EXPECT_EQ(in_quotes("a\t\"b\"\\\n"), R"("a\t\"b\"\\\n")");
 }
 
 }  // namespace

@@ -262,17 +262,22 @@ TEST(Batch, MakesAPieceOfEveryParameterSet) {
   EXPECT_EQ(read_file(folder.file("3-thin.echo")), "ECHO: 2\n");
 }
 
-TEST(Batch, ReportsEveryPiece) {
+// Makes a piece and fails at another. Returns the report.
+std::string report_of_two(const std::string& report) {
   const TemporaryFolder folder;
   folder.write("a.scad",
                "size = 1; assert(size < 5, \"large, too\");"
                "cube(size);");
   folder.write("t.csv", "name,size\na,2\nb,9\n");
-  std::vector<std::string> words = {"batch",    "a.scad", "--table",
-                                    "t.csv",    "-o",     "{name}.slc",
-                                    "--report", "r.json"};
-  EXPECT_EQ(run(folder, words).status, 1);
-  const auto report = nlohmann::json::parse(read_file(folder.file("r.json")));
+  EXPECT_EQ(run(folder, {"batch", "a.scad", "--table", "t.csv", "-o",
+                         "{name}.slc", "--report", report})
+                .status,
+            1);
+  return read_file(folder.file(report));
+}
+
+TEST(Batch, ReportsEveryPieceAsJson) {
+  const auto report = nlohmann::json::parse(report_of_two("r.json"));
   EXPECT_EQ(report["done"], 1);
   EXPECT_EQ(report["failed"], 1);
   const auto& piece = report["pieces"][0];
@@ -283,10 +288,10 @@ TEST(Batch, ReportsEveryPiece) {
   EXPECT_EQ(piece["report"]["layers"], 40);
   EXPECT_NEAR(piece["report"]["volume_mm3"], 8, 1e-9);
   EXPECT_TRUE(has(report["pieces"][1]["error"], "large, too"));
+}
 
-  words.back() = "r.csv";
-  run(folder, words);
-  const Source source("r.csv", read_file(folder.file("r.csv")));
+TEST(Batch, ReportsEveryPieceAsATable) {
+  const Source source("r.csv", report_of_two("r.csv"));
   const Csv csv = read_csv(source);
   ASSERT_EQ(csv.rows.size(), 3U);
   EXPECT_EQ(csv.rows[1].cells.at(3), "40");

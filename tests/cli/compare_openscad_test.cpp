@@ -30,6 +30,7 @@ bool contains(const std::string& text, const std::string& words) {
 
 TEST(CompareWithOpenscad, RendersTheDesignWithItsDefinitions) {
   const TemporaryFolder folder;
+  const TemporaryFolder scratch;
   folder.write("a.scad", kDesign);
   folder.write("sets.json", R"({"parameterSets": {"large": {"r": "2.5"}}})");
   for (const std::vector<std::string>& options :
@@ -37,17 +38,17 @@ TEST(CompareWithOpenscad, RendersTheDesignWithItsDefinitions) {
                                              {"-D", "r=3"},
                                              {"-p", "sets.json", "-P", "large"},
                                              {"--axis", "x"}}) {
-    std::vector<std::string> words = {"compare",  "a.scad",      "--against",
-                                      "openscad", "--tolerance", "1e-4"};
+    std::vector<std::string> words = {
+        "env",          "TMPDIR=" + scratch.path(),
+        LAMINA_PROGRAM, "compare",
+        "a.scad",       "--against",
+        "openscad",     "--tolerance",
+        "1e-4"};
     words.insert(words.end(), options.begin(), options.end());
-    const ProcessResult result = run(folder, words);
+    const ProcessResult result = support::run_process(words, folder.path());
     EXPECT_EQ(result.status, 0) << result.output << result.errors;
     EXPECT_TRUE(contains(result.output, "OpenSCAD version 2021.01"));
-  }
-  // Nothing is left behind.
-  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path())) {
-    EXPECT_FALSE(entry.path().filename().string().starts_with(".lamina."))
-        << entry.path();
+    EXPECT_EQ(scratch.entry_count(), 0U) << "left behind";
   }
 }
 

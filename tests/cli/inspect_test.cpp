@@ -70,7 +70,7 @@ json inspected(const TemporaryFolder& folder, std::vector<std::string> words) {
   return json::parse(result.output);
 }
 
-TEST(Inspect, WeighsAndMeasuresThePart) {
+TEST(Inspect, MeasuresThePart) {
   const TemporaryFolder folder;
   folder.write("a.scad", kPlate);
   ASSERT_EQ(run(folder, {"a.scad", "--layer", "0.5"}).status, 0);
@@ -83,7 +83,16 @@ TEST(Inspect, WeighsAndMeasuresThePart) {
   EXPECT_NEAR(found.at("layers")[3].at("area_mm2").get<double>(), 175, 1e-4);
   EXPECT_NEAR(found.at("layers")[3].at("perimeter_mm").get<double>(), 80, 1e-4);
   EXPECT_EQ(found.at("defects"), 0);
-  // 0.875 cm³ of each.
+  const auto text = run(folder, {"inspect", "a.slc"}).output;
+  EXPECT_TRUE(has(text, "(20.0000 x 10.0000 x 5.0000 mm)")) << text;
+}
+
+// 0.875 cm³ of each metal.
+TEST(Inspect, WeighsThePart) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kPlate);
+  ASSERT_EQ(run(folder, {"a.scad", "--layer", "0.5"}).status, 0);
+  const json found = inspected(folder, {"a.slc"});
   const json& weights = found.at("weight_g");
   EXPECT_NEAR(weights.at("gold 18k yellow").get<double>(), 13.475, 1e-4);
   EXPECT_NEAR(weights.at("sterling silver").get<double>(), 9.065, 1e-4);
@@ -91,7 +100,6 @@ TEST(Inspect, WeighsAndMeasuresThePart) {
   const auto text = run(folder, {"inspect", "a.slc"}).output;
   EXPECT_TRUE(has(text, "weight        13.475 g  gold 18k yellow (15.4 g/cm³)"))
       << text;
-  EXPECT_TRUE(has(text, "(20.0000 x 10.0000 x 5.0000 mm)")) << text;
 }
 
 TEST(Inspect, AllFormatsAndTheDesignItselfTellTheSame) {

@@ -22,7 +22,7 @@ int try_confined(const std::string& folder,
                  const std::function<bool()>& attempt) {
   const pid_t child = ::fork();
   if (child == 0) {
-    restrict_process(FileAccess({folder, {}, false}));
+    restrict_process(FileAccess::within({folder, {}, false}));
     errno = 0;
     ::_exit(attempt() ? 0 : errno);
   }

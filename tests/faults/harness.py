@@ -109,6 +109,7 @@ class Harness:
         self.pool = concurrent.futures.ThreadPoolExecutor(threads)
         self.wanted = {}  # of each job: its outputs and what it prints ("-")
         self.broken = []
+        self.left_out = []
 
     def close(self):
         self.pool.shutdown()
@@ -243,6 +244,11 @@ class Harness:
         if not self.is_quick or len(places) <= most:
             return places
         return self.random.sample(places, most)
+
+    def leave_out(self, name, why):
+        """A case that this machine cannot run is not run, and the table says so."""
+        self.left_out.append(name)
+        print(f"{name:<64}{0:>7}  NOT RUN: {why}", flush=True)
 
     def case(self, name, runs):
         """runs: (words that tell which it is, arguments of run())."""

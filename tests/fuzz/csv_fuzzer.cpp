@@ -8,7 +8,7 @@
 #include "base/diagnostic.h"
 #include "base/source.h"
 #include "parser/cell.h"
-#include "parser/variables.h"
+#include "parser/tree_facts.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;
@@ -18,8 +18,8 @@ namespace {
 void take(const std::string& cell) {
   csv_cell(cell);
   if (cell.empty()) return;
-  for (const VariableKind kind :
-       {VariableKind::kString, VariableKind::kNumber}) {
+  for (const ast::ValueType kind :
+       {ast::ValueType::kString, ast::ValueType::kNumber}) {
     try {
       value_of_cell(cell, kind, DecimalSign::kPointOrComma);
     } catch (const FileError&) {

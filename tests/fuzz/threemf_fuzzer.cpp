@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "base/file/format_error.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;

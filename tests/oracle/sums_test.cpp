@@ -126,6 +126,24 @@ TEST(Sums, OfBooleans) {
        " cylinder(h = 3, r = 0.6, $fn = 4); }"});
 }
 
+// Bowls, rings and pierced cubes: their translates meet in rings, which a
+// winding number that counts an Euler characteristic would take for nothing.
+// Few facets, since CGAL cuts both into convex pieces.
+TEST(Sums, OfTwoSolidsThatAreNotConvex) {
+  const std::string bowl =
+      "difference() { cylinder(2, 1, 2, $fn = 5); translate([0, 0, 1])"
+      " cylinder(2, 0.5, 1.5, $fn = 3); }";
+  const std::string pierced =
+      "difference() { cube(1, center = true);"
+      " cylinder(r = 0.3, h = 2, center = true, $fn = 3); }";
+  const std::string ring =
+      "rotate_extrude($fn = 3) translate([2, 0]) circle(0.4, $fn = 3);";
+  expect_what_nef_finds({bowl, pierced});
+  expect_what_nef_finds({"rotate([10, 20, 30]) " + pierced, bowl});
+  expect_what_nef_finds({bowl, "rotate([170, 5, 0]) scale(0.4) " + bowl});
+  expect_what_nef_finds({ring, "rotate([80, 30, 10]) scale(0.7) " + ring});
+}
+
 TEST(Sums, OfThreeAndFourOperands) {
   expect_what_nef_finds({kThorn, kEll, "cube([0.5, 0.25, 0.75]);"});
   expect_what_nef_finds({"cube(1);", kThorn, "cylinder(1, 1, 0, $fn = 5);",

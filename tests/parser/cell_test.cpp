@@ -12,9 +12,9 @@
 namespace lamina {
 namespace {
 
-using enum VariableKind;
+using enum ast::ValueType;
 
-std::string value(const std::string& cell, VariableKind kind = kAny,
+std::string value(const std::string& cell, ast::ValueType kind = kAny,
                   DecimalSign decimal = DecimalSign::kPoint) {
   try {
     return value_of_cell(cell, kind, decimal);
@@ -23,7 +23,7 @@ std::string value(const std::string& cell, VariableKind kind = kAny,
   }
 }
 
-bool is_refused(const std::string& cell, VariableKind kind,
+bool is_refused(const std::string& cell, ast::ValueType kind,
                 const std::string& words) {
   return value(cell, kind).starts_with(words);
 }
@@ -82,7 +82,7 @@ TEST(Cell, IsAVectorAsAWholeOrNotAtAll) {
 }
 
 TEST(Cell, MayHaveADecimalCommaWhereCellsAreSeparatedOtherwise) {
-  const auto with_comma = [](const std::string& cell, VariableKind kind) {
+  const auto with_comma = [](const std::string& cell, ast::ValueType kind) {
     return value(cell, kind, DecimalSign::kPointOrComma);
   };
   EXPECT_EQ(with_comma("54,5", kAny), "54.5");

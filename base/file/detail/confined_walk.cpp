@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <climits>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 #include <utility>
 

@@ -1,14 +1,12 @@
 #pragma once
 // The way to a file, taken step by step without leaving some folders.
 //
-// The kernel follows symbolic links wherever they lead, and what it was asked
-// about a moment ago can be another file now. So each part of a path is opened
-// by itself, below the folder opened before it and never through a link; links
-// are read and their words walked like any others. What lies outside is never
-// asked for: there the walk is one over words, until these name a permitted
-// folder again. openat2() with RESOLVE_BENEATH does much of it, but refuses
-// links by absolute paths that stay inside, and is missing or forbidden in some
-// containers.
+// The kernel follows symbolic links wherever they lead, and a name can mean
+// another file a moment later. So each part of a path is opened by itself, below
+// the folder opened before it and never through a link; links are read and their
+// words walked like any others. What lies outside is never asked for: the walk
+// goes over words there, until these name a permitted folder again. openat2()
+// refuses absolute links that stay inside, and some containers forbid it.
 
 #include <cerrno>
 #include <span>

@@ -2,20 +2,57 @@
 // What built-in functions have in common: reading arguments, warning of them.
 
 #include <cstddef>
-#include <string>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "csg/eval/code/code.h"
 #include "csg/eval/run/interpreter.h"
 
 namespace lamina::csg {
 
+// Warns and returns undef, as do those below.
+Value wrong_count(const CallCode& code, Frame& frame);
+
 inline Value argument(const CallCode& code, std::size_t i, Frame& frame) {
   return run(code.arguments[i].value, frame);
 }
 
-// Warn and return undef, the result of the call.
-Value warn(const CallCode& code, Frame& frame, std::string message);
-Value wrong_count(const CallCode& code, Frame& frame);
+// What `make_result` makes of the one argument of a function.
+template <typename MakeResult>
+Value with_argument(const CallCode& code, Frame& frame,
+                    const MakeResult& make_result) {
+  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  Value spill;
+  return make_result(look(code.arguments[0].value, frame, spill));
+}
+
+// The value of each parameter, undef where none was given, of a function that
+// takes arguments by name as well. Warns of arguments that belong to no
+// parameter.
+//
+// positional  how many of the parameters arguments without a name reach
+std::vector<Value> run_named_arguments(
+    std::span<const std::string_view> parameters, std::size_t positional,
+    const CallCode& code, Frame& frame);
+
+template <typename... Parts>
+Value warn(const CallCode& code, Frame& frame,
+           fmt::format_string<Parts...> words, Parts&&... parts) {
+  frame.in.warn(code.range, fmt::format(words, std::forward<Parts>(parts)...));
+  return Value();
+}
+// The same; the message names the file relative to the used file that calls.
+template <typename... Parts>
+Value warn_in_file(const CallCode& code, Frame& frame,
+                   fmt::format_string<Parts...> words, Parts&&... parts) {
+  frame.in.warn(code.range, fmt::format(words, std::forward<Parts>(parts)...),
+                frame.document);
+  return Value();
+}
 Value wrong_type(const CallCode& code, Frame& frame);
 
 }  // namespace lamina::csg

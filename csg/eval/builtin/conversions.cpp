@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "csg/eval/value/integers.h"
+#include "csg/eval/value/operators.h"
 
 namespace lamina::csg {
 
@@ -53,7 +53,7 @@ std::optional<double> to_finite(const Value& value) {
   return value.as_number();
 }
 
-int to_int(const Value& value) { return cut_to_int(value.number_or_zero()); }
+int to_int(const Value& value) { return cut_to<int>(value.number_or_zero()); }
 
 Facets current_facets(Interpreter& in) {
   return {in.dynamic_number(kFn), in.dynamic_number(kFa),

@@ -13,12 +13,11 @@ namespace lamina::csg {
 
 namespace fs = std::filesystem;
 
-std::string find_file(std::string_view name, const BuiltinModuleCode& code,
-                      Frame& frame) {
-  const fs::path own = fs::absolute(code.unit->source->path());
+std::string find_file(std::string_view name, const ModuleCall& call) {
+  const fs::path own = fs::absolute(call.code.unit->source->path());
   std::string path =
-      find_file(name, own.parent_path().string(), code.range, frame.in);
-  frame.in.add_file(path);
+      find_file(name, own.parent_path().string(), call.code.range, call.in);
+  call.in.add_file(path);
   return path;
 }
 
@@ -31,10 +30,11 @@ std::string find_file(std::string_view name, const std::string& from,
   if (fs::path(name).is_absolute()) return std::string(name);
   const fs::path fallback = fs::path(in.design_folder()) / name;
   if (!access.is_there(here) && access.is_there(fallback)) {
-    in.deprecate({}, fmt::format("Imported file ({}) found in document root "
-                                 "instead of relative to the importing module. "
-                                 "This behavior is deprecated",
-                                 name));
+    in.deprecate(
+        {}, fmt::format(
+                "Imported file ({}) found in document root instead of relative "
+                "to the importing module. This behavior is deprecated",
+                name));
     return fallback.string();
   }
   return here.string();
@@ -50,34 +50,26 @@ std::string relative_path(const std::string& path, Frame& frame) {
 }
 
 std::string relative_quoted(const std::string& path, Frame& frame) {
-  std::string text;
-  append_quoted(relative_path(path, frame), text);
-  return text;
+  return in_quotes(relative_path(path, frame));
 }
 
 Vec2 read_origin(const Value& origin, std::string_view shown_name,
-                 const BuiltinModuleCode& code, Frame& frame) {
+                 const ModuleCall& call) {
   const std::optional<Vec2> given = to_vec2(origin);
   const bool is_fine =
       given && std::isfinite(given->x) && std::isfinite(given->y);
   if (!origin.is_undef() && !is_fine) {
-    frame.in.warn(code.range,
-                  fmt::format("{}(..., origin={}) could not be converted",
-                              shown_name, to_echo(origin)));
+    call.warn("{}(..., origin={}) could not be converted", shown_name,
+              to_echo(origin));
   }
   return given.value_or(Vec2(0.0));
 }
 
 std::string drawing_text(const ImportParams& drawing, Frame& frame) {
-  std::string text =
-      "file = " + relative_quoted(std::string(drawing.path), frame);
-  text += ", layer = ";
-  append_quoted(drawing.layer, text);
-  text += ", origin = [";
-  append_stream_number(drawing.origin.x, text);
-  text += ", ";
-  append_stream_number(drawing.origin.y, text);
-  return text + "], ";
+  return fmt::format("file = {}, layer = {}, origin = [{:g}, {:g}], ",
+                     relative_quoted(std::string(drawing.path), frame),
+                     in_quotes(drawing.layer), drawing.origin.x,
+                     drawing.origin.y);
 }
 
 std::string timestamp_text(const std::string& path, Frame& frame) {

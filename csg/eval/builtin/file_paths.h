@@ -5,8 +5,7 @@
 #include <string_view>
 
 #include "base/vec.h"
-#include "csg/eval/code/code.h"
-#include "csg/eval/run/interpreter.h"
+#include "csg/eval/builtin/modules.h"
 #include "csg/tree.h"
 
 namespace lamina::csg {
@@ -15,8 +14,7 @@ namespace lamina::csg {
 // file that holds the call or, deprecated, in the design's folder. Empty for an
 // empty name. The file need not exist; the design depends on it all the same.
 // Throws AccessError where it may not be read.
-std::string find_file(std::string_view name, const BuiltinModuleCode& code,
-                      Frame& frame);
+std::string find_file(std::string_view name, const ModuleCall& call);
 // The same for a file that code of the folder `from` names at `place`.
 std::string find_file(std::string_view name, const std::string& from,
                       SourceRange place, Interpreter& in);
@@ -27,7 +25,7 @@ std::string relative_quoted(const std::string& path, Frame& frame);
 
 // The deprecated `origin` of a drawing; messages call the module `shown_name`.
 Vec2 read_origin(const Value& origin, std::string_view shown_name,
-                 const BuiltinModuleCode& code, Frame& frame);
+                 const ModuleCall& call);
 
 // "file = …, layer = …, origin = […], ".
 std::string drawing_text(const ImportParams& drawing, Frame& frame);

@@ -19,103 +19,70 @@ namespace lamina::csg {
 
 namespace {
 
-void append_facets(const Facets& facets, std::string& text) {
-  text += "$fn = ";
-  append_stream_number(facets.fn, text);
-  text += ", $fa = ";
-  append_stream_number(facets.fa, text);
-  text += ", $fs = ";
-  append_stream_number(facets.fs, text);
-}
-
-void append_number_field(std::string_view name, double number,
-                         std::string& text) {
-  text += name;
-  text += " = ";
-  append_stream_number(number, text);
-  text += ", ";
+std::string facets_text(const Facets& facets) {
+  return fmt::format("$fn = {:g}, $fa = {:g}, $fs = {:g}", facets.fn, facets.fa,
+                     facets.fs);
 }
 
 // Makes a leaf that stands for itself in `.csg` with `csg_text`.
 template <typename Leaf, typename Params>
-void make_leaf(Params params, const std::string& csg_text,
-               const BuiltinModuleCode& code, Frame& frame) {
-  Interpreter& in = frame.in;
-  params.csg_text = in.keep_text(csg_text);
-  in.make_node(Leaf{in.keep(params)}, code, in.node_mark());
+void make_leaf(Params params, std::string_view csg_text,
+               const ModuleCall& call) {
+  params.csg_text = call.in.keep_text(csg_text);
+  call.in.make_node(Leaf{call.in.keep(params)}, call.code, call.in.node_mark());
 }
 
 // --- text -------------------------------------------------------------------
 
 void text(const BuiltinModuleCode& code, Frame& frame) {
-  enum {
-    kText,
-    kSize,
-    kFont,
-    kDirection,
-    kLanguage,
-    kScript,
-    kHalign,
-    kValign,
-    kSpacing
+  const ModuleCall call(code, frame);
+  const auto keep_text = [&](std::string_view name, std::string_view fallback) {
+    return call.in.keep_text(string_or(call[name], fallback));
   };
-  const ModuleArguments arguments(code, frame);
-  Interpreter& in = frame.in;
-  const std::string_view content = string_or(arguments[kText], "");
-  const std::string script =
-      text_script(content, string_or(arguments[kScript], ""));
   TextParams params;
-  params.text = in.keep_text(content);
-  params.size = number_or(arguments[kSize], 10.0);
-  params.spacing = number_or(arguments[kSpacing], 1.0);
-  params.font = in.keep_text(string_or(arguments[kFont], ""));
-  params.direction = in.keep_text(
-      text_direction(script, string_or(arguments[kDirection], "")));
-  params.language = in.keep_text(string_or(arguments[kLanguage], "en"));
-  params.script = in.keep_text(script);
-  params.halign = in.keep_text(string_or(arguments[kHalign], "left"));
-  params.valign = in.keep_text(string_or(arguments[kValign], "baseline"));
-  params.facets = current_facets(in);
-  std::string csg = "text(";
+  params.text = keep_text("text", "");
+  params.size = number_or(call["size"], 10.0);
+  params.spacing = number_or(call["spacing"], 1.0);
+  params.font = keep_text("font", "");
+  params.script = call.in.keep_text(
+      text_script(params.text, string_or(call["script"], "")));
+  params.direction =
+      text_direction(params.script, string_or(call["direction"], ""));
+  params.language = keep_text("language", "en");
+  params.halign = keep_text("halign", "left");
+  params.valign = keep_text("valign", "baseline");
+  params.facets = current_facets(call.in);
   // OpenSCAD quotes these strings without escaping anything.
-  const auto append_string = [&csg](std::string_view name,
-                                    std::string_view value) {
-    csg += name;
-    csg += " = \"";
-    csg += value;
-    csg += "\", ";
-  };
-  append_string("text", params.text);
-  append_number_field("size", params.size, csg);
-  append_number_field("spacing", params.spacing, csg);
-  append_string("font", params.font);
-  append_string("direction", params.direction);
-  append_string("language", params.language);
-  if (!script.empty()) append_string("script", script);
-  append_string("halign", params.halign);
-  append_string("valign", params.valign);
-  append_facets(params.facets, csg);
-  make_leaf<Text>(params, csg + ")", code, frame);
+  std::string csg = fmt::format(
+      "text(text = \"{}\", size = {:g}, spacing = {:g}, font = \"{}\", "
+      "direction = \"{}\", language = \"{}\", ",
+      params.text, params.size, params.spacing, params.font, params.direction,
+      params.language);
+  if (!params.script.empty()) {
+    csg += fmt::format("script = \"{}\", ", params.script);
+  }
+  csg += fmt::format("halign = \"{}\", valign = \"{}\", {})", params.halign,
+                     params.valign, facets_text(params.facets));
+  make_leaf<Text>(params, csg, call);
 }
 
 // --- surface ----------------------------------------------------------------
 
 void surface(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kFile, kCenter, kConvexity, kInvert };
-  const ModuleArguments arguments(code, frame);
-  const Value& file = arguments[kFile];
+  const ModuleCall call(code, frame);
+  const Value& file = call["file"];
   const std::string path =
-      find_file(file.is_undef() ? "" : to_text(file), code, frame);
+      find_file(file.is_undef() ? "" : to_text(file), call);
   SurfaceParams params;
   params.path = frame.in.keep_text(path);
-  params.center = is_set(arguments[kCenter]);
-  params.invert = is_set(arguments[kInvert]);
-  params.convexity = std::max(to_int(arguments[kConvexity]), 1);
+  params.center = is_set(call["center"]);
+  params.invert = is_set(call["invert"]);
+  params.convexity = std::max(to_int(call["convexity"]), 1);
   const std::string csg =
       fmt::format("surface(file = {}, center = {}, invert = {}, {})",
                   relative_quoted(path, frame), params.center, params.invert,
                   timestamp_text(path, frame));
-  make_leaf<Surface>(params, csg, code, frame);
+  make_leaf<Surface>(params, csg, call);
 }
 
 // --- import -----------------------------------------------------------------
@@ -149,64 +116,50 @@ Value renamed(const Value& value, const Value& old, std::string_view old_name,
 }
 
 double read_dpi(const Value& value, const Value& origin,
-                const BuiltinModuleCode& code, Frame& frame) {
+                const ModuleCall& call) {
   constexpr double kDefaultDpi = 72.0;
   const double dpi = number_or(value, kDefaultDpi);
   if (!(dpi < 0.001)) return dpi;
   // The origin and the second file are wrong in OpenSCAD, too.
-  const std::string file = relative_path(code.range.source->path(), frame);
-  frame.in.warn({}, fmt::format("Invalid dpi value giving, using default of {} "
-                                "dpi. Value must be positive and >= 0.001, "
-                                "file {}, import() at line {}",
-                                to_echo(origin), file, file));
+  const std::string file =
+      relative_path(call.code.range.source->path(), call.frame);
+  call.in.warn(
+      {},
+      fmt::format("Invalid dpi value giving, using default of {} dpi. Value "
+                  "must be positive and >= 0.001, file {}, import() at line {}",
+                  to_echo(origin), file, file));
   return kDefaultDpi;
 }
 
 void import(const BuiltinModuleCode& code, Frame& frame) {
-  enum {
-    kFile,
-    kLayer,
-    kConvexity,
-    kOrigin,
-    kScale,
-    kWidth,
-    kHeight,
-    kFilename,
-    kLayername,
-    kCenter,
-    kDpi
-  };
-  const ModuleArguments arguments(code, frame);
-  const Value file = renamed(arguments[kFile], arguments[kFilename], "filename",
-                             "file", frame);
+  const ModuleCall call(code, frame);
+  const Value file =
+      renamed(call["file"], call["filename"], "filename", "file", frame);
   const std::string path =
-      find_file(file.is_undef() ? "" : to_text(file), code, frame);
-  const Value layer = renamed(arguments[kLayer], arguments[kLayername],
-                              "layername", "layer", frame);
+      find_file(file.is_undef() ? "" : to_text(file), call);
+  const Value layer =
+      renamed(call["layer"], call["layername"], "layername", "layer", frame);
   Interpreter& in = frame.in;
   ImportParams params;
   params.path = in.keep_text(path);
   params.format = import_format(code.name, path);
   params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
   // The name is wrong in OpenSCAD, too.
-  params.origin =
-      read_origin(arguments[kOrigin], "linear_extrude", code, frame);
-  params.center = is_set(arguments[kCenter]);
-  params.dpi = read_dpi(arguments[kDpi], arguments[kOrigin], code, frame);
-  const double scale = arguments[kScale].number_or_zero();
+  params.origin = read_origin(call["origin"], "linear_extrude", call);
+  params.center = is_set(call["center"]);
+  params.dpi = read_dpi(call["dpi"], call["origin"], call);
+  const double scale = call["scale"].number_or_zero();
   params.scale = scale <= 0 ? 1 : scale;
-  params.convexity = std::max(to_int(arguments[kConvexity]), 1);
+  params.convexity = std::max(to_int(call["convexity"]), 1);
   params.facets = current_facets(in);
   std::string csg = "import(" + drawing_text(params, frame);
   if (params.format == ImportFormat::kSvg) {
-    csg += fmt::format("center = {}, ", params.center);
-    append_number_field("dpi", params.dpi, csg);
+    csg += fmt::format("center = {}, dpi = {:g}, ", params.center, params.dpi);
   }
-  append_number_field("scale", params.scale, csg);
-  csg += fmt::format("convexity = {}, ", params.convexity);
-  append_facets(params.facets, csg);
-  make_leaf<Import>(params, csg + ", " + timestamp_text(path, frame) + ")",
-                    code, frame);
+  csg += fmt::format("scale = {:g}, convexity = {}, {}, {})", params.scale,
+                     params.convexity, facets_text(params.facets),
+                     timestamp_text(path, frame));
+  make_leaf<Import>(params, csg, call);
 }
 
 }  // namespace

@@ -3,15 +3,9 @@
 #include <cmath>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include "csg/eval/builtin/call.h"
-#include "csg/eval/builtin/dxf.h"
-#include "csg/eval/builtin/metrics.h"
-#include "csg/eval/builtin/objects.h"
-#include "csg/eval/builtin/search.h"
 #include "csg/eval/run/interpreter.h"
-#include "csg/eval/value/integers.h"
+#include "csg/eval/value/operators.h"
 
 namespace lamina::csg {
 
@@ -48,35 +42,32 @@ Value builtin_parent_module(const CallCode& code, Frame& frame) {
   } else if (code.arguments.size() > 1) {
     return wrong_count(code, frame);
   }
-  const int n = cut_to_int(number);
+  const int n = cut_to<int>(number);
   const auto& names = frame.in.module_names;
   if (n < 0) {
-    return warn(code, frame,
-                fmt::format("Negative parent module index ({}) "
-                            "not allowed",
-                            n));
+    return warn(code, frame, "Negative parent module index ({}) not allowed",
+                n);
   }
   if (n >= static_cast<int>(names.size())) {
     return warn(code, frame,
-                fmt::format("Parent module index ({}) greater than the number "
-                            "of modules on the stack",
-                            n));
+                "Parent module index ({}) greater than the number of modules "
+                "on the stack",
+                n);
   }
   return Value::string(names[names.size() - 1 - static_cast<std::size_t>(n)]);
 }
 
 template <Type type>
 Value is_type(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 1) return wrong_count(code, frame);
-  Value spill;
-  return Value(look(code.arguments[0].value, frame, spill).type() == type);
+  return with_argument(code, frame, [](const Value& value) {
+    return Value(value.type() == type);
+  });
 }
 
 Value builtin_is_num(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 1) return wrong_count(code, frame);
-  Value spill;
-  const Value& value = look(code.arguments[0].value, frame, spill);
-  return Value(value.is_number() && !std::isnan(value.as_number()));
+  return with_argument(code, frame, [](const Value& value) {
+    return Value(value.is_number() && !std::isnan(value.as_number()));
+  });
 }
 
 std::span<const BuiltinFunctionRow> program_rows() {
@@ -122,17 +113,15 @@ const Table& builtin_table() {
 }  // namespace
 
 Value builtin_is_undef(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 1) return wrong_count(code, frame);
-  Value spill;
-  return Value(look(code.arguments[0].value, frame, spill).is_undef());
+  return with_argument(
+      code, frame, [](const Value& value) { return Value(value.is_undef()); });
 }
 
 Value call_math(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 1) return wrong_count(code, frame);
-  Value spill;
-  const Value& value = look(code.arguments[0].value, frame, spill);
-  if (!value.is_number()) return wrong_type(code, frame);
-  return Value(code.math(value.as_number()));
+  return with_argument(code, frame, [&](const Value& value) {
+    return value.is_number() ? Value(code.math(value.as_number()))
+                             : wrong_type(code, frame);
+  });
 }
 
 const BuiltinFunctionRow* find_builtin_function(std::string_view name) {

@@ -1,7 +1,7 @@
 #include "csg/eval/builtin/json.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -37,17 +37,20 @@ class ValueReader : public nlohmann::json_sax<Json> {
   bool string(std::string& text) override { return add(Value::string(text)); }
   bool binary(Json::binary_t&) override { return false; }
 
-  bool start_object(std::size_t) override { return open(); }
-  bool start_array(std::size_t) override { return open(); }
+  bool start_object(std::size_t) override { return open(true); }
+  bool start_array(std::size_t) override { return open(false); }
   bool key(std::string& name) override {
-    open_.back().keys.push_back(name);
+    open_.back().key = name;
     return true;
   }
-  bool end_array() override {
-    const Container array = close();
-    return add(Value::vector(array.values));
+  bool end_array() override { return add(Value::vector(close().elements)); }
+  bool end_object() override {
+    ObjectBuilder builder;
+    for (const auto& [name, member] : close().members) {
+      builder.set(Value::string(name), member);
+    }
+    return add(builder.finish());
   }
-  bool end_object() override { return add(make_object(close())); }
 
   bool parse_error(std::size_t, const std::string&,
                    const nlohmann::detail::exception& error) override {
@@ -56,24 +59,30 @@ class ValueReader : public nlohmann::json_sax<Json> {
   }
 
  private:
+  // An array, or an object, which sorts its members and keeps the last of one
+  // name.
   struct Container {
-    std::vector<std::string> keys;  // of an object
-    std::vector<Value> values;
+    bool is_object = false;
+    std::string key;  // of the member that comes next
+    std::map<std::string, Value> members;
+    std::vector<Value> elements;
   };
 
   bool add(Value added) {
     if (open_.empty()) {
       value = std::move(added);
+    } else if (Container& container = open_.back(); container.is_object) {
+      container.members[container.key] = std::move(added);
     } else {
-      open_.back().values.push_back(std::move(added));
+      container.elements.push_back(std::move(added));
     }
     return true;
   }
 
-  bool open() {
+  bool open(bool is_object) {
     // As deep as calls may be nested: echo and == go as deep as the value.
     constexpr std::size_t kDeepest = 200000;
-    open_.emplace_back();
+    open_.emplace_back().is_object = is_object;
     if (open_.size() <= kDeepest) return true;
     fault = "nested too deeply";
     return false;
@@ -83,20 +92,6 @@ class ValueReader : public nlohmann::json_sax<Json> {
     Container closed = std::move(open_.back());
     open_.pop_back();
     return closed;
-  }
-
-  static Value make_object(const Container& container) {
-    const std::vector<std::string>& keys = container.keys;
-    std::vector<std::size_t> order(keys.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(
-        order.begin(), order.end(),
-        [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
-    ObjectBuilder builder;
-    for (const std::size_t i : order) {
-      builder.set(Value::string(keys[i]), container.values[i]);
-    }
-    return builder.finish();
   }
 
   std::vector<Container> open_;

@@ -1,4 +1,4 @@
-#include "csg/eval/builtin/metrics.h"
+// textmetrics() and fontmetrics() (see functions.h).
 
 #include <algorithm>
 #include <optional>
@@ -8,12 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/conversions.h"
-#include "csg/eval/builtin/named_arguments.h"
+#include "csg/eval/builtin/functions.h"
 #include "csg/eval/builtin/script.h"
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/object.h"
 #include "csg/eval/value/text.h"
 #include "csg/text_measurer.h"
@@ -54,9 +52,9 @@ class TextArguments {
     params.spacing = number_or((*this)["spacing"], 1);
     params.font = string_or((*this)["font"], "");
     script_ = text_script(params.text, string_or((*this)["script"], ""));
-    direction_ = text_direction(script_, string_or((*this)["direction"], ""));
     params.script = script_;
-    params.direction = direction_;
+    params.direction =
+        text_direction(script_, string_or((*this)["direction"], ""));
     params.language = string_or((*this)["language"], "en");
     params.halign = string_or((*this)["halign"], "left");
     params.valign = string_or((*this)["valign"], "baseline");
@@ -75,22 +73,20 @@ class TextArguments {
   void check(std::string_view name, Type expected) {
     const Value& value = (*this)[name];
     if (value.is_undef() || value.type() == expected) return;
-    warn(fmt::format("{}(..., {}={}) Invalid type: expected {}, found {}",
-                     code_.name, name, to_echo(value), type_name(expected),
-                     type_name(value.type())));
+    warn_in_file(code_, frame_,
+                 "{}(..., {}={}) Invalid type: expected {}, found {}",
+                 code_.name, name, to_echo(value), type_name(expected),
+                 type_name(value.type()));
   }
 
   double size() {
     const Value& em = (*this)["em"];
     if (em.is_undef()) return number_or((*this)["size"], kDefaultSize);
     if (!(*this)["size"].is_undef()) {
-      warn(fmt::format("{}: \"size\" ignored when \"em\" is set", code_.name));
+      warn_in_file(code_, frame_, "{}: \"size\" ignored when \"em\" is set",
+                   code_.name);
     }
     return em.number_or_zero() * kSizePerEm;
-  }
-
-  void warn(std::string words) {
-    frame_.in.warn(code_.range, std::move(words), frame_.document);
   }
 
   std::span<const std::string_view> names_;
@@ -98,7 +94,6 @@ class TextArguments {
   const CallCode& code_;
   Frame& frame_;
   std::string script_;
-  std::string direction_;
 };
 
 Value to_value(Vec2 v) {
@@ -132,8 +127,8 @@ auto ask(const CallCode& code, Frame& frame, const Measure& measure)
   if (measurer == nullptr) return std::nullopt;
   std::vector<std::string> warnings;
   auto metrics = measure(*measurer, warnings);
-  for (std::string& warning : warnings) {
-    frame.in.warn(code.range, std::move(warning), frame.document);
+  for (const std::string& warning : warnings) {
+    warn_in_file(code, frame, "{}", warning);
   }
   return metrics;
 }

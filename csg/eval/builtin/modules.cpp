@@ -4,13 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/code/argument_plan.h"
 #include "csg/eval/run/each_value.h"
-#include "csg/eval/value/integers.h"
+#include "csg/eval/value/operators.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
 
-ModuleArguments::ModuleArguments(const BuiltinModuleCode& code, Frame& frame) {
+ModuleCall::ModuleCall(const BuiltinModuleCode& called, Frame& caller)
+    : code(called), frame(caller), in(caller.in) {
   for (const std::string& warning : code.plan->warnings) {
     frame.in.warn(code.range, warning, frame.document);
   }
@@ -24,11 +26,19 @@ ModuleArguments::ModuleArguments(const BuiltinModuleCode& code, Frame& frame) {
   }
 }
 
-void warn(const BuiltinModuleCode& code, Frame& frame, std::string message) {
-  frame.in.warn(code.range, std::move(message));
+const Value& ModuleCall::operator[](std::string_view parameter) const {
+  std::size_t i = 0;
+  while (code.parameters[i].name != parameter) ++i;
+  return values_[i];
 }
 
 namespace {
+
+template <typename... Parts>
+void warn(SourceRange place, Frame& frame, fmt::format_string<Parts...> words,
+          Parts&&... parts) {
+  frame.in.warn(place, fmt::format(words, std::forward<Parts>(parts)...));
+}
 
 // --- echo -------------------------------------------------------------------
 
@@ -52,12 +62,10 @@ void run_child(std::size_t n, Frame& frame) {
 // One of the children by number.
 void child_at(int n, Frame& frame) {
   if (n < 0) {
-    frame.in.warn({},
-                  fmt::format("Negative children index ({}) not allowed", n));
+    warn({}, frame, "Negative children index ({}) not allowed", n);
   } else if (static_cast<std::size_t>(n) >= count_children(frame)) {
-    frame.in.warn({}, fmt::format("Children index ({}) out of bounds ({} "
-                                  "children)",
-                                  n, count_children(frame)));
+    warn({}, frame, "Children index ({}) out of bounds ({} children)", n,
+         count_children(frame));
   } else {
     run_child(static_cast<std::size_t>(n), frame);
   }
@@ -76,17 +84,17 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
   const Value which = run(code.arguments[0].value, frame);
   switch (which.type()) {
     case Type::kNumber:
-      child_at(cut_to_int(which.as_number()), frame);
+      child_at(cut_to<int>(which.as_number()), frame);
       return;
     case Type::kVector:
       for (const Value& one : which.as_vector()) {
         if (one.is_number()) {
-          child_at(cut_to_int(one.as_number()), frame);
+          child_at(cut_to<int>(one.as_number()), frame);
         } else {
-          frame.in.warn(
-              {}, fmt::format("Bad parameter type ({}) for children, only "
-                              "accept: empty, number, vector, range.",
-                              to_text(one)));
+          warn({}, frame,
+               "Bad parameter type ({}) for children, only "
+               "accept: empty, number, vector, range.",
+               to_text(one));
         }
       }
       break;
@@ -94,22 +102,20 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
       const Range& range = which.as_range();
       const std::uint32_t count = range.count();
       if (count >= kMostStatementElements) {
-        frame.in.warn(code.range,
-                      fmt::format("Bad range parameter for children: too many "
-                                  "elements ({})",
-                                  count));
+        warn(code.range, frame,
+             "Bad range parameter for children: too many elements ({})", count);
         return;
       }
       for (std::uint32_t i = 0; range.step != 0 && i < count; ++i) {
-        child_at(cut_to_int(range.at(i)), frame);
+        child_at(cut_to<int>(range.at(i)), frame);
       }
       break;
     }
     default:
-      frame.in.warn(code.range,
-                    fmt::format("Bad parameter type ({}) for children, only "
-                                "accept: empty, number, vector, range",
-                                to_echo(which)));
+      warn(code.range, frame,
+           "Bad parameter type ({}) for children, only "
+           "accept: empty, number, vector, range",
+           to_echo(which));
       return;
   }
   frame.in.make_node(Group{}, code, mark);
@@ -117,25 +123,22 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
 
 // The old child(n), one child only.
 void child(const BuiltinModuleCode& code, Frame& frame) {
-  frame.in.deprecate({},
-                     "child() will be removed in future releases. Use "
-                     "children() instead.");
+  frame.in.deprecate(
+      {},
+      "child() will be removed in future releases. Use children() instead.");
   int n = 0;
   if (!code.arguments.empty()) {
     const Value which = run(code.arguments[0].value, frame);
-    if (which.is_number()) n = cut_to_int(which.as_number());
+    if (which.is_number()) n = cut_to<int>(which.as_number());
     if (n < 0) {
-      frame.in.warn(code.range, fmt::format("Negative child index ({}) not "
-                                            "allowed",
-                                            n));
+      warn(code.range, frame, "Negative child index ({}) not allowed", n);
       return;
     }
   }
   if (frame.children == nullptr) return;
   if (static_cast<std::size_t>(n) >= count_children(frame)) {
-    frame.in.warn(code.range, fmt::format("Child index ({}) out of bounds ({} "
-                                          "children)",
-                                          n, count_children(frame)));
+    warn(code.range, frame, "Child index ({}) out of bounds ({} children)", n,
+         count_children(frame));
     return;
   }
   run_child(static_cast<std::size_t>(n), frame);
@@ -153,12 +156,7 @@ void add_rows(const std::vector<BuiltinModuleRow>& rows, Table& table) {
     entry.positional_count = row.positional.size();
     std::vector<std::string_view> names = row.positional;
     names.insert(names.end(), row.optional.begin(), row.optional.end());
-    for (std::uint32_t i = 0; i < names.size(); ++i) {
-      Parameter parameter;
-      parameter.name = names[i];
-      parameter.target = {Target::Kind::kSlot, i, nullptr};
-      entry.parameters.push_back(parameter);
-    }
+    entry.parameters = make_parameters(names);
     table[row.name] = std::move(entry);
   }
 }

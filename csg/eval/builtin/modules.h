@@ -4,9 +4,13 @@
 
 #include <cstddef>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "csg/eval/code/code.h"
+#include "csg/eval/run/interpreter.h"
 
 namespace lamina::csg {
 
@@ -23,20 +27,41 @@ const BuiltinModuleEntry* find_builtin_module(std::string_view name);
 
 // --- For the files that define them ---
 
-// The values that a call gives to a module's parameters, in the order of the
-// entry; undef where it gives none.
-class ModuleArguments {
+// A call of a module, and the values that it gives to parameters.
+class ModuleCall {
  public:
-  ModuleArguments(const BuiltinModuleCode& code, Frame& frame);
-  const Value& operator[](std::size_t i) const { return values_[i]; }
+  // Runs the arguments.
+  ModuleCall(const BuiltinModuleCode& called, Frame& caller);
+  // The value of a parameter, which must be one of the module's; undef where
+  // the call gives none.
+  const Value& operator[](std::string_view parameter) const;
+
+  // Warns at the call.
+  template <typename... Values>
+  void warn(fmt::format_string<Values...> words, Values&&... values) const {
+    in.warn(code.range, fmt::format(words, std::forward<Values>(values)...));
+  }
+
+  const BuiltinModuleCode& code;
+  Frame& frame;
+  Interpreter& in;
 
  private:
   static constexpr std::size_t kMost = 12;
   Value values_[kMost];
 };
 
-// Warns at the call.
-void warn(const BuiltinModuleCode& code, Frame& frame, std::string message);
+// Runs a module that changes its children; `make` makes the operation of the
+// call, and sees what is assigned among the children.
+template <auto make>
+void run_operation(const BuiltinModuleCode& code, Frame& frame) {
+  const std::size_t mark = frame.in.node_mark();
+  const ModuleCall call(code, frame);
+  run_assignments(*code.block, frame);
+  const auto op = make(call);
+  run_statements(*code.block, frame);
+  frame.in.make_node(op, code, mark);
+}
 
 // Entries of one file: name, handler, positional parameters, further ones.
 struct BuiltinModuleRow {

@@ -12,27 +12,18 @@
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
 #include "csg/eval/run/interpreter.h"
-#include "csg/eval/value/comparison.h"
+#include "csg/eval/value/operators.h"
 
 namespace lamina::csg {
 
 namespace {
 
-double sign(double x) { return x < 0 ? -1.0 : x > 0 ? 1.0 : 0.0; }
-
 double tan_deg(double x) {
   // Beyond this the fraction of a turn is lost.
   constexpr double kHuge = 360.0 * 0x1p52;
-  const auto cycles = std::fabs(x) < kHuge
-                          ? static_cast<std::int64_t>(std::floor(x / 180.0))
-                          : 0;
-  if (x < 180.0 && x >= 0.0) {
-    // Already in the first half turn.
-  } else if (x < kHuge && x > -kHuge) {
-    x -= 180.0 * static_cast<double>(cycles);
-  } else {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  if (!(std::fabs(x) < kHuge)) return std::numeric_limits<double>::quiet_NaN();
+  const auto cycles = static_cast<std::int64_t>(std::floor(x / 180.0));
+  x -= 180.0 * static_cast<double>(cycles);
   const bool is_even = cycles % 2 == 0;
   const bool is_opposed = x > 90.0;
   if (is_opposed) x = 180.0 - x;
@@ -72,13 +63,6 @@ double acos_deg(double x) {
 double atan_deg(double x) {
   return exact_degrees<tan_deg>(to_degrees(std::atan(x)), x);
 }
-double math_abs(double x) { return std::fabs(x); }
-double math_round(double x) { return std::round(x); }
-double math_ceil(double x) { return std::ceil(x); }
-double math_floor(double x) { return std::floor(x); }
-double math_sqrt(double x) { return std::sqrt(x); }
-double math_exp(double x) { return std::exp(x); }
-double math_ln(double x) { return std::log(x); }
 
 template <double (*function)(double, double)>
 Value of_two_numbers(const CallCode& code, Frame& frame) {
@@ -160,7 +144,7 @@ std::uint32_t hash_number(double v) {
 double finite_or(double x, double fallback, std::string_view which,
                  const CallCode& code, Frame& frame) {
   if (std::isfinite(x)) return x;
-  warn(code, frame, fmt::format("rands() range {} cannot be infinite", which));
+  warn(code, frame, "rands() range {} cannot be infinite", which);
   frame.in.warn({}, fmt::format("resetting to {:f}", fallback));
   return fallback;
 }
@@ -205,20 +189,23 @@ Value builtin_rands(const CallCode& code, Frame& frame) {
 
 std::span<const BuiltinFunctionRow> number_rows() {
   static constexpr BuiltinFunctionRow kRows[] = {
-      {"abs", call_math, math_abs},
-      {"sign", call_math, sign},
+      {"abs", call_math, [](double x) { return std::fabs(x); }},
+      {"sign", call_math,
+       [](double x) { return x < 0   ? -1.0
+                             : x > 0 ? 1.0
+                                     : 0.0; }},
       {"sin", call_math, sin_deg},
       {"cos", call_math, cos_deg},
       {"tan", call_math, tan_deg},
       {"asin", call_math, asin_deg},
       {"acos", call_math, acos_deg},
       {"atan", call_math, atan_deg},
-      {"round", call_math, math_round},
-      {"ceil", call_math, math_ceil},
-      {"floor", call_math, math_floor},
-      {"sqrt", call_math, math_sqrt},
-      {"exp", call_math, math_exp},
-      {"ln", call_math, math_ln},
+      {"round", call_math, [](double x) { return std::round(x); }},
+      {"ceil", call_math, [](double x) { return std::ceil(x); }},
+      {"floor", call_math, [](double x) { return std::floor(x); }},
+      {"sqrt", call_math, [](double x) { return std::sqrt(x); }},
+      {"exp", call_math, [](double x) { return std::exp(x); }},
+      {"ln", call_math, [](double x) { return std::log(x); }},
       {"atan2", of_two_numbers<atan2_deg>},
       {"pow", of_two_numbers<math_pow>},
       {"log", builtin_log},

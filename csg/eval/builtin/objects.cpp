@@ -1,4 +1,4 @@
-#include "csg/eval/builtin/objects.h"
+// Functions about objects (see functions.h).
 
 #include <filesystem>
 #include <string>
@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/file_paths.h"
+#include "csg/eval/builtin/functions.h"
 #include "csg/eval/builtin/json.h"
-#include "csg/eval/builtin/named_arguments.h"
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/object.h"
 #include "csg/eval/value/text.h"
 
@@ -19,28 +19,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Value warn(const CallCode& code, Frame& frame, std::string message) {
-  frame.in.warn(code.range, std::move(message), frame.document);
-  return Value();
-}
-
 bool has_count(std::size_t expected, const CallCode& code, Frame& frame) {
   if (code.arguments.size() == expected) return true;
-  warn(code, frame,
-       fmt::format("{}() number of parameters does not match: expected {}, "
-                   "found {}",
-                   code.name, expected, code.arguments.size()));
+  warn_in_file(
+      code, frame,
+      "{}() number of parameters does not match: expected {}, found {}",
+      code.name, expected, code.arguments.size());
   return false;
 }
 
 bool has_type(Type expected, std::size_t i, const Value& value,
               const CallCode& code, Frame& frame) {
   if (value.type() == expected) return true;
-  warn(code, frame,
-       fmt::format("{}() parameter could not be converted: argument {}: "
-                   "expected {}, found {} ({})",
-                   code.name, i, type_name(expected), type_name(value.type()),
-                   to_echo(value)));
+  warn_in_file(code, frame,
+               "{}() parameter could not be converted: argument {}: expected "
+               "{}, found {} ({})",
+               code.name, i, type_name(expected), type_name(value.type()),
+               to_echo(value));
   return false;
 }
 
@@ -116,7 +111,7 @@ Value builtin_object(const CallCode& code, Frame& frame) {
       continue;
     }
     std::string fault = edit(value, i, builder);
-    if (!fault.empty()) return warn(code, frame, std::move(fault));
+    if (!fault.empty()) return warn_in_file(code, frame, "{}", fault);
   }
   return builder.finish();
 }
@@ -149,12 +144,11 @@ Value builtin_import(const CallCode& code, Frame& frame) {
   frame.in.add_file(path);
   JsonResult result = read_json(path, frame.in.file_access());
   if (!result.can_read) {
-    return warn(code, frame, fmt::format("Could not read file '{}'", path));
+    return warn_in_file(code, frame, "Could not read file '{}'", path);
   }
   if (!result.fault.empty()) {
-    return warn(
-        code, frame,
-        fmt::format("Failed to parse file '{}': {}", path, result.fault));
+    return warn_in_file(code, frame, "Failed to parse file '{}': {}", path,
+                        result.fault);
   }
   return std::move(result.value);
 }

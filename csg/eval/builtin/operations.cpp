@@ -2,6 +2,7 @@
 // offset, projection, color, render.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -13,7 +14,6 @@
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/file_paths.h"
 #include "csg/eval/builtin/modules.h"
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -32,123 +32,91 @@ void plain_operation(const BuiltinModuleCode& code, Frame& frame) {
 
 // --- color, render ----------------------------------------------------------
 
-void color(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kColor, kAlpha };
-  Interpreter& in = frame.in;
-  const std::size_t mark = in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  run_assignments(*code.block, frame);
+Color color(const ModuleCall& call) {
   // OpenSCAD keeps colors in single precision; -1 stands for "none".
-  float rgba[4] = {-1, -1, -1, 1};
-  const Value& given = arguments[kColor];
+  std::array<float, 4> rgba = {-1, -1, -1, 1};
+  const Value& given = call["c"];
   if (given.is_vector()) {
     const std::span<const Value> parts = given.as_vector();
     for (std::size_t i = 0; i < 4; ++i) {
       rgba[i] = i < parts.size() ? static_cast<float>(parts[i].number_or_zero())
                                  : 1.0F;
       if (rgba[i] > 1 || rgba[i] < 0) {
-        warn(code, frame,
-             fmt::format("color() expects numbers between 0.0 and 1.0. Value "
-                         "of {:.1f} is out of range",
-                         rgba[i]));
+        call.warn(
+            "color() expects numbers between 0.0 and 1.0. Value of {:.1f} is "
+            "out of range",
+            rgba[i]);
       }
     }
   } else if (given.is_string()) {
     const std::string name = lower_case(given.as_string());
     if (const auto found = find_color(name)) {
-      std::copy(found->begin(), found->end(), rgba);
+      rgba = *found;
     } else {
-      warn(code, frame, fmt::format("Unable to parse color \"{}\"", name));
-      in.note("Please see https://en.wikipedia.org/wiki/Web_colors");
+      call.warn("Unable to parse color \"{}\"", name);
+      call.in.note("Please see https://en.wikipedia.org/wiki/Web_colors");
     }
   }
-  if (arguments[kAlpha].is_number()) {
-    rgba[3] = static_cast<float>(arguments[kAlpha].as_number());
+  if (call["alpha"].is_number()) {
+    rgba[3] = static_cast<float>(call["alpha"].as_number());
   }
-  run_statements(*code.block, frame);
-  in.make_node(Color{Vec4(rgba[0], rgba[1], rgba[2], rgba[3])}, code, mark);
+  return {Vec4(rgba[0], rgba[1], rgba[2], rgba[3])};
 }
 
-void render(const BuiltinModuleCode& code, Frame& frame) {
-  const std::size_t mark = frame.in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  run_block(*code.block, frame);
-  Render render;
-  render.convexity = arguments[0].is_number() ? to_int(arguments[0]) : 1;
-  frame.in.make_node(render, code, mark);
+Render render(const ModuleCall& call) {
+  const Value& convexity = call["convexity"];
+  return {convexity.is_number() ? to_int(convexity) : 1};
 }
 
 // --- hull, fill, minkowski, resize ------------------------------------------
 
-template <typename Op>
-void outline_operation(const BuiltinModuleCode& code, Frame& frame) {
-  const std::size_t mark = frame.in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  run_block(*code.block, frame);
-  frame.in.make_node(Op{}, code, mark);
+template <typename Outline>
+Outline outline(const ModuleCall&) {
+  return {};
 }
 
-void minkowski(const BuiltinModuleCode& code, Frame& frame) {
-  const std::size_t mark = frame.in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  run_block(*code.block, frame);
-  frame.in.make_node(Minkowski{to_int(arguments[0])}, code, mark);
+Minkowski minkowski(const ModuleCall& call) {
+  return {to_int(call["convexity"])};
 }
 
-void resize(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kNewSize, kAuto, kConvexity };
-  const std::size_t mark = frame.in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  Resize resize{Vec3(0.0), {}, to_int(arguments[kConvexity])};
-  const std::span<const Value> sizes = arguments[kNewSize].elements();
+Resize resize(const ModuleCall& call) {
+  Resize resize{Vec3(0.0), {}, to_int(call["convexity"])};
+  const std::span<const Value> sizes = call["newsize"].elements();
   for (std::size_t i = 0; i < std::min<std::size_t>(sizes.size(), 3); ++i) {
     resize.new_size[static_cast<int>(i)] = sizes[i].number_or_zero();
   }
-  const Value& automatic = arguments[kAuto];
+  const Value& automatic = call["auto"];
   for (std::size_t i = 0; i < 3; ++i) {
     const std::span<const Value> flags = automatic.elements();
     if (i < flags.size()) resize.auto_size[i] = flags[i].is_true();
     if (automatic.is_bool()) resize.auto_size[i] = automatic.as_bool();
   }
-  run_block(*code.block, frame);
-  frame.in.make_node(resize, code, mark);
+  return resize;
 }
 
 // --- From 2D to 3D and back -------------------------------------------------
 
-void projection(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kCut, kConvexity };
-  const std::size_t mark = frame.in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  Projection projection;
-  projection.cut = is_set(arguments[kCut]);
-  projection.convexity = to_int(arguments[kConvexity]);
-  run_block(*code.block, frame);
-  frame.in.make_node(projection, code, mark);
+Projection projection(const ModuleCall& call) {
+  return {is_set(call["cut"]), to_int(call["convexity"])};
 }
 
-void offset(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kR, kDelta, kChamfer };
-  const std::size_t mark = frame.in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  run_assignments(*code.block, frame);
+Offset offset(const ModuleCall& call) {
   Offset offset;
-  offset.facets = current_facets(frame.in);
+  offset.facets = current_facets(call.in);
   offset.amount = 1;
-  if (arguments[kR].is_number()) {
-    offset.amount = arguments[kR].as_number();
-  } else if (arguments[kDelta].is_number()) {
-    offset.amount = arguments[kDelta].as_number();
+  if (call["r"].is_number()) {
+    offset.amount = call["r"].as_number();
+  } else if (call["delta"].is_number()) {
+    offset.amount = call["delta"].as_number();
     offset.is_delta = true;
-    offset.chamfer = is_set(arguments[kChamfer]);
+    offset.chamfer = is_set(call["chamfer"]);
   }
-  run_statements(*code.block, frame);
-  frame.in.make_node(offset, code, mark);
+  return offset;
 }
 
 // The deprecated scale= of extrusions.
 Vec2 read_extrusion_scale(const Value& scale, const Value& origin,
-                          const BuiltinModuleCode& code, Frame& frame) {
+                          const ModuleCall& call) {
   Vec2 factors(1.0);
   bool is_fine = true;
   if (const std::optional<double> number = to_finite(scale)) {
@@ -161,88 +129,76 @@ Vec2 read_extrusion_scale(const Value& scale, const Value& origin,
   }
   // OpenSCAD asks for the origin here, not for the scale.
   if (!origin.is_undef() && !is_fine) {
-    warn(code, frame,
-         fmt::format("linear_extrude(..., scale={}) could not be converted",
-                     to_echo(scale)));
+    call.warn("linear_extrude(..., scale={}) could not be converted",
+              to_echo(scale));
   }
   return Vec2(std::max(factors.x, 0.0), std::max(factors.y, 0.0));
 }
 
-// Makes the node that the deprecated file= stands for: a drawing to extrude.
+// What the deprecated file= stands for: a drawing to extrude.
 ImportParams import_drawing(const Value& file, const Value& layer, Vec2 origin,
-                            double scale, const BuiltinModuleCode& code,
-                            Frame& frame) {
-  Interpreter& in = frame.in;
+                            double scale, const ModuleCall& call) {
   ImportParams params;
-  params.path = in.keep_text(find_file(to_text(file), code, frame));
+  params.path = call.in.keep_text(find_file(to_text(file), call));
   params.format = ImportFormat::kDxf;
-  params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
+  params.layer = call.in.keep_text(layer.is_undef() ? "" : to_text(layer));
   params.origin = origin;
   params.scale = scale;
-  params.facets = current_facets(in);
+  params.facets = current_facets(call.in);
   return params;
 }
 
-// Puts the drawing below the extrusion that comes next. The extrusion's text
-// identifies it.
-void make_drawing(ImportParams drawing, std::string_view csg_text,
-                  const BuiltinModuleCode& code, Frame& frame) {
-  Interpreter& in = frame.in;
-  drawing.csg_text = csg_text;
-  in.make_node(Import{in.keep(drawing)}, code, in.node_mark());
+// Puts the drawing below the extrusion that comes next, whose `.csg` text
+// identifies it. Returns that text, kept.
+std::string_view make_drawing(ImportParams drawing, std::string_view csg_text,
+                              const ModuleCall& call) {
+  Interpreter& in = call.in;
+  drawing.csg_text = in.keep_text(csg_text);
+  in.make_node(Import{in.keep(drawing)}, call.code, in.node_mark());
+  return drawing.csg_text;
+}
+
+void deprecate_file(std::string_view module, const ModuleCall& call) {
+  call.in.deprecate(
+      {}, fmt::format("Support for reading files in {} will be removed in "
+                      "future releases. Use a child import() instead.",
+                      module));
 }
 
 void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
-  enum {
-    kFile,
-    kLayer,
-    kHeight,
-    kOrigin,
-    kScale,
-    kCenter,
-    kTwist,
-    kSlices,
-    kConvexity
-  };
   Interpreter& in = frame.in;
   const std::size_t mark = in.node_mark();
-  const ModuleArguments arguments(code, frame);
+  const ModuleCall call(code, frame);
   run_assignments(*code.block, frame);
   LinearExtrudeParams params;
   params.facets = current_facets(in);
-  const Value& file = arguments[kFile];
-  if (file.is_string()) {
-    in.deprecate({},
-                 "Support for reading files in linear_extrude will be removed "
-                 "in future releases. Use a child import() instead.");
-  }
-  if (!arguments[kHeight].is_undef()) {
-    params.height = to_finite(arguments[kHeight]).value_or(params.height);
+  const Value& file = call["file"];
+  if (file.is_string()) deprecate_file("linear_extrude", call);
+  if (!call["height"].is_undef()) {
+    params.height = to_finite(call["height"]).value_or(params.height);
   } else if (code.late_argument != nullptr) {
     const Value height = run(code.late_argument, frame);
     params.height = to_finite(height).value_or(params.height);
   }
   if (params.height <= 0) params.height = 0;  // -0 is printed otherwise
-  params.convexity = std::max(
-      to_finite(arguments[kConvexity]) ? to_int(arguments[kConvexity]) : 1, 1);
-  const Vec2 origin =
-      read_origin(arguments[kOrigin], "linear_extrude", code, frame);
-  params.scale =
-      read_extrusion_scale(arguments[kScale], arguments[kOrigin], code, frame);
-  params.center = is_set(arguments[kCenter]);
-  if (to_finite(arguments[kSlices])) {
-    params.slices = std::max(to_int(arguments[kSlices]), 0);
+  params.convexity =
+      std::max(to_finite(call["convexity"]) ? to_int(call["convexity"]) : 1, 1);
+  const Vec2 origin = read_origin(call["origin"], "linear_extrude", call);
+  params.scale = read_extrusion_scale(call["scale"], call["origin"], call);
+  params.center = is_set(call["center"]);
+  if (to_finite(call["slices"])) {
+    params.slices = std::max(to_int(call["slices"]), 0);
   }
-  params.twist_deg = to_finite(arguments[kTwist]).value_or(0.0);
+  params.twist_deg = to_finite(call["twist"]).value_or(0.0);
   params.has_twist = params.twist_deg != 0.0;
   if (file.is_string() && !file.as_string().empty()) {
-    const ImportParams drawing = import_drawing(file, arguments[kLayer], origin,
-                                                params.scale.x, code, frame);
-    std::string text = "linear_extrude(" + drawing_text(drawing, frame);
-    text += timestamp_text(std::string(drawing.path), frame) + ", ";
+    const ImportParams drawing =
+        import_drawing(file, call["layer"], origin, params.scale.x, call);
+    std::string text =
+        fmt::format("linear_extrude({}{}, ", drawing_text(drawing, frame),
+                    timestamp_text(std::string(drawing.path), frame));
     append_linear_extrude(params, text);
-    params.csg_text = in.keep_text(text + ")");
-    make_drawing(drawing, params.csg_text, code, frame);
+    params.csg_text = make_drawing(drawing, text + ")", call);
   } else {
     run_statements(*code.block, frame);
   }
@@ -250,39 +206,31 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
 }
 
 void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
-  enum { kFile, kLayer, kOrigin, kScale, kConvexity, kAngle };
   Interpreter& in = frame.in;
   const std::size_t mark = in.node_mark();
-  const ModuleArguments arguments(code, frame);
+  const ModuleCall call(code, frame);
   run_assignments(*code.block, frame);
   RotateExtrude extrude;
   extrude.facets = current_facets(in);
-  const Value& file = arguments[kFile];
-  if (!file.is_undef()) {
-    in.deprecate({},
-                 "Support for reading files in rotate_extrude will be removed "
-                 "in future releases. Use a child import() instead.");
-  }
-  extrude.convexity = to_int(arguments[kConvexity]);
+  const Value& file = call["file"];
+  if (!file.is_undef()) deprecate_file("rotate_extrude", call);
+  extrude.convexity = to_int(call["convexity"]);
   if (extrude.convexity <= 0) extrude.convexity = 2;
-  const Vec2 origin =
-      read_origin(arguments[kOrigin], "rotate_extrude", code, frame);
-  extrude.angle_deg = to_finite(arguments[kAngle]).value_or(360.0);
+  const Vec2 origin = read_origin(call["origin"], "rotate_extrude", call);
+  extrude.angle_deg = to_finite(call["angle"]).value_or(360.0);
   if (extrude.angle_deg <= -360 || extrude.angle_deg > 360) {
     extrude.angle_deg = 360;
   }
   if (!file.is_undef() && !to_text(file).empty()) {
-    const double given = arguments[kScale].number_or_zero();
+    const double given = call["scale"].number_or_zero();
     const double scale = given <= 0 ? 1 : given;
     const ImportParams drawing =
-        import_drawing(file, arguments[kLayer], origin, scale, code, frame);
-    std::string text = "rotate_extrude(" + drawing_text(drawing, frame);
-    text += "scale = ";
-    append_stream_number(scale, text);
-    text += ", " + timestamp_text(std::string(drawing.path), frame) + ", ";
+        import_drawing(file, call["layer"], origin, scale, call);
+    std::string text = fmt::format(
+        "rotate_extrude({}scale = {:g}, {}, ", drawing_text(drawing, frame),
+        scale, timestamp_text(std::string(drawing.path), frame));
     append_rotate_extrude(extrude, text);
-    extrude.csg_text = in.keep_text(text + ")");
-    make_drawing(drawing, extrude.csg_text, code, frame);
+    extrude.csg_text = make_drawing(drawing, text + ")", call);
   } else {
     run_statements(*code.block, frame);
   }
@@ -292,37 +240,34 @@ void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
 }  // namespace
 
 std::vector<BuiltinModuleRow> operation_rows() {
+  const std::vector<std::string_view> linear = {"file",   "layer", "height",
+                                                "origin", "scale", "center",
+                                                "twist",  "slices"};
+  const std::vector<std::string_view> around = {"file", "layer", "origin",
+                                                "scale"};
   return {
       {"group", plain_operation<Group>, {}},
       {"union", plain_operation<Union>, {}},
       {"difference", plain_operation<Difference>, {}},
       {"intersection", plain_operation<Intersection>, {}},
-      {"color", color, {"c", "alpha"}},
-      {"render", render, {"convexity"}},
-      {"hull", outline_operation<Hull>, {}},
-      {"fill", outline_operation<Fill>, {}},
-      {"minkowski", minkowski, {"convexity"}},
-      {"resize", resize, {"newsize", "auto", "convexity"}},
-      {"projection", projection, {"cut"}, {"convexity"}},
-      {"offset", offset, {"r"}, {"delta", "chamfer"}},
-      {"linear_extrude",
-       linear_extrude,
-       {"file", "layer", "height", "origin", "scale", "center", "twist",
-        "slices"},
-       {"convexity"}},
+      {"color", run_operation<color>, {"c", "alpha"}},
+      {"render", run_operation<render>, {"convexity"}},
+      {"hull", run_operation<outline<Hull>>, {}},
+      {"fill", run_operation<outline<Fill>>, {}},
+      {"minkowski", run_operation<minkowski>, {"convexity"}},
+      {"resize", run_operation<resize>, {"newsize", "auto", "convexity"}},
+      {"projection", run_operation<projection>, {"cut"}, {"convexity"}},
+      {"offset", run_operation<offset>, {"r"}, {"delta", "chamfer"}},
+      {"linear_extrude", linear_extrude, linear, {"convexity"}},
       {"dxf_linear_extrude",
        linear_extrude,
-       {"file", "layer", "height", "origin", "scale", "center", "twist",
-        "slices"},
+       linear,
        {"convexity"},
        "linear_extrude()"},
-      {"rotate_extrude",
-       rotate_extrude,
-       {"file", "layer", "origin", "scale"},
-       {"convexity", "angle"}},
+      {"rotate_extrude", rotate_extrude, around, {"convexity", "angle"}},
       {"dxf_rotate_extrude",
        rotate_extrude,
-       {"file", "layer", "origin", "scale"},
+       around,
        {"convexity", "angle"},
        "rotate_extrude()"},
   };

@@ -67,9 +67,8 @@ std::string_view script_of(std::uint32_t c) {
 
 // Four letters, the first one capital, as in ISO 15924.
 std::string normalized(std::string_view asked) {
-  std::string tag(asked.substr(0, 4));
+  std::string tag = lower_case(asked.substr(0, 4));
   tag.resize(4, ' ');
-  for (char& c : tag) c = lower_case(c);
   tag[0] = upper_case(tag[0]);
   return tag;
 }
@@ -91,22 +90,13 @@ std::string text_script(std::string_view text, std::string_view asked) {
   return std::string(script);
 }
 
-std::string text_direction(std::string_view script, std::string_view asked) {
-  switch (asked.empty() ? '\0' : asked[0]) {
-    case 'l':
-    case 'L':
-      return "ltr";
-    case 'r':
-    case 'R':
-      return "rtl";
-    case 't':
-    case 'T':
-      return "ttb";
-    case 'b':
-    case 'B':
-      return "btt";
-    default:
-      break;
+std::string_view text_direction(std::string_view script,
+                                std::string_view asked) {
+  constexpr std::string_view kDirections[] = {"ltr", "rtl", "ttb", "btt"};
+  for (const std::string_view direction : kDirections) {
+    if (!asked.empty() && lower_case(asked[0]) == direction[0]) {
+      return direction;
+    }
   }
   const bool is_right_to_left = script == "Arab" || script == "Hebr" ||
                                 script == "Syrc" || script == "Thaa";

@@ -12,6 +12,7 @@ namespace lamina::csg {
 std::string text_script(std::string_view text, std::string_view asked);
 
 // "ltr", "rtl", "ttb" or "btt": as asked, else by the script.
-std::string text_direction(std::string_view script, std::string_view asked);
+std::string_view text_direction(std::string_view script,
+                                std::string_view asked);
 
 }  // namespace lamina::csg

@@ -1,14 +1,11 @@
-#include "csg/eval/builtin/search.h"
+// search() (see functions.h).
 
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "base/utf8.h"
 #include "csg/eval/builtin/call.h"
-#include "csg/eval/run/interpreter.h"
-#include "csg/eval/value/comparison.h"
-#include "csg/eval/value/integers.h"
+#include "csg/eval/builtin/functions.h"
+#include "csg/eval/value/operators.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -102,15 +99,14 @@ Value search_in_table(const Value& wanted, const Value& table,
         limits.matches != 0 && matches.size() >= limits.matches;
     if (bad_row < rows.size() && !is_full) {
       warn(code, frame,
-           fmt::format("Invalid entry in search vector at index {}, required "
-                       "number of values in the entry: {}. Invalid entry: {}",
-                       bad_row, limits.column + 1, to_echo(rows[bad_row])));
+           "Invalid entry in search vector at index {}, required number of "
+           "values in the entry: {}. Invalid entry: {}",
+           bad_row, limits.column + 1, to_echo(rows[bad_row]));
       return Value::vector({});
     }
     if (matches.empty()) {
-      warn(code, frame,
-           fmt::format("search term not found: \"{}\"",
-                       to_text(wanted.character(i))));
+      warn(code, frame, "search term not found: \"{}\"",
+           to_text(wanted.character(i)));
     }
     push_matches(std::move(matches), limits, false, out);
   }
@@ -118,7 +114,7 @@ Value search_in_table(const Value& wanted, const Value& table,
 }
 
 std::uint32_t to_count(double number) {
-  return static_cast<std::uint32_t>(cut_to_int64(number));
+  return static_cast<std::uint32_t>(cut_to<std::int64_t>(number));
 }
 
 }  // namespace

@@ -39,19 +39,11 @@ void append_characters(const Value& value, Frame& frame, std::string& text) {
         append_characters(element, frame, text);
       }
       return;
-    case Type::kRange: {
-      const Range& range = value.as_range();
-      const std::uint32_t count = range.count();
-      if (count >= kMostStatementElements) {
-        frame.in.warn({}, fmt::format("Bad range parameter in for statement: "
-                                      "too many elements ({}).",
-                                      count));
-        return;
-      }
-      if (range.step == 0) return;
-      for (std::uint32_t i = 0; i < count; ++i) append_utf8(range.at(i), text);
+    case Type::kRange:
+      for_each_value(
+          value, kMostStatementElements, {}, frame,
+          [&](const Value& one) { append_utf8(one.as_number(), text); });
       return;
-    }
     default:
       return;
   }
@@ -70,44 +62,37 @@ Value builtin_ord(const CallCode& code, Frame& frame) {
   if (n == 0) return Value();
   if (n > 1) {
     return warn(code, frame,
-                fmt::format("ord() called with {} arguments, only 1 argument "
-                            "expected",
-                            n));
+                "ord() called with {} arguments, only 1 argument expected", n);
   }
   const Value value = argument(code, 0, frame);
   if (!value.is_string()) {
-    return warn(code, frame,
-                fmt::format("ord() argument {} is not of type "
-                            "string",
-                            to_echo(value)));
+    return warn(code, frame, "ord() argument {} is not of type string",
+                to_echo(value));
   }
   // To OpenSCAD a string ends at its first zero byte.
   std::string_view text = value.as_string();
   text = text.substr(0, text.find('\0'));
   if (!is_valid_utf8(text)) {
-    return warn(code, frame,
-                fmt::format("ord() argument '{}' is not a valid "
-                            "utf8 string",
-                            text));
+    return warn(code, frame, "ord() argument '{}' is not a valid utf8 string",
+                text);
   }
   if (text.empty()) return Value();
   return Value(static_cast<double>(first_code_point(text)));
 }
 
 Value builtin_len(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 1) return wrong_count(code, frame);
-  Value spill;
-  const Value& value = look(code.arguments[0].value, frame, spill);
-  if (value.is_vector()) {
-    return Value(static_cast<double>(value.as_vector().size()));
-  }
-  if (value.is_string()) {
-    return Value(static_cast<double>(value.character_count()));
-  }
-  if (value.is_object()) {
-    return Value(static_cast<double>(value.as_object().places.size()));
-  }
-  return wrong_type(code, frame);
+  return with_argument(code, frame, [&](const Value& value) {
+    if (value.is_vector()) {
+      return Value(static_cast<double>(value.as_vector().size()));
+    }
+    if (value.is_string()) {
+      return Value(static_cast<double>(value.character_count()));
+    }
+    if (value.is_object()) {
+      return Value(static_cast<double>(value.as_object().places.size()));
+    }
+    return wrong_type(code, frame);
+  });
 }
 
 }  // namespace

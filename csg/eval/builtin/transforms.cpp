@@ -6,12 +6,9 @@
 #include <optional>
 #include <span>
 
-#include <fmt/format.h>
-
 #include "csg/degrees.h"
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/modules.h"
-#include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -23,31 +20,45 @@ void set(Mat4& matrix, int row, int column, double value) {
   matrix[column][row] = value;
 }
 
-Mat4 scale_matrix(const Value& v, const BuiltinModuleCode& code, Frame& frame) {
+// OpenSCAD multiplies matrices that scale and turn by the identity, which makes
+// a column NaN where a number in it is not finite.
+Mat4 times_identity(const Mat4& matrix) {
+  Mat4 product = matrix;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      const double others =
+          matrix[column][(row + 1) % 3] + matrix[column][(row + 2) % 3];
+      if (!std::isfinite(others)) product[column][row] += 0.0 * others;
+    }
+  }
+  return product;
+}
+
+Mat4 scale_matrix(const ModuleCall& call) {
+  const Value& v = call["v"];
   Vec3 factors(1.0);
   if (!read_vec3(v, 1.0, factors)) {
     if (v.is_number()) {
       factors = Vec3(v.as_number());
     } else {
-      warn(code, frame,
-           fmt::format("Unable to convert scale({}) parameter to a number, a "
-                       "vec3 or vec2 of numbers or a number",
-                       to_echo(v)));
+      call.warn(
+          "Unable to convert scale({}) parameter to a number, a vec3 or vec2 "
+          "of numbers or a number",
+          to_echo(v));
     }
   }
   const auto is_fine = [](double x) { return x != 0 && std::isfinite(x); };
-  if (frame.in.options().check_ranges &&
+  if (call.in.options().check_ranges &&
       !(is_fine(factors.x) && is_fine(factors.y) && is_fine(factors.z))) {
-    warn(code, frame, fmt::format("scale({})", to_echo(v)));
+    call.warn("scale({})", to_echo(v));
   }
   Mat4 matrix(1.0);
   for (int i = 0; i < 3; ++i) set(matrix, i, i, factors[i]);
-  return matrix;
+  return times_identity(matrix);
 }
 
 // About x, then y, then z.
-Mat4 euler_matrix(const Value& a, const Value& v, const BuiltinModuleCode& code,
-                  Frame& frame) {
+Mat4 euler_matrix(const Value& a, const Value& v, const ModuleCall& call) {
   const std::span<const Value> angles = a.as_vector();
   double sine[3] = {0, 0, 0};
   double cosine[3] = {1, 1, 1};
@@ -65,17 +76,15 @@ Mat4 euler_matrix(const Value& a, const Value& v, const BuiltinModuleCode& code,
   }
   const bool has_axis = !v.is_undef();
   if (is_fine && has_axis) {
-    warn(code, frame,
-         fmt::format("When parameter a is supplied as vector, v is ignored "
-                     "rotate(a={}, v={})",
-                     to_echo(a), to_echo(v)));
+    call.warn(
+        "When parameter a is supplied as vector, v is ignored rotate(a={}, "
+        "v={})",
+        to_echo(a), to_echo(v));
   } else if (!is_fine && has_axis) {
-    warn(code, frame,
-         fmt::format("Problem converting rotate(a={}, v={}) parameter",
-                     to_echo(a), to_echo(v)));
+    call.warn("Problem converting rotate(a={}, v={}) parameter", to_echo(a),
+              to_echo(v));
   } else if (!is_fine) {
-    warn(code, frame,
-         fmt::format("Problem converting rotate(a={}) parameter", to_echo(a)));
+    call.warn("Problem converting rotate(a={}) parameter", to_echo(a));
   }
   const auto [sx, sy, sz] = sine;
   const auto [cx, cy, cz] = cosine;
@@ -113,59 +122,57 @@ Mat4 axis_matrix(double angle, const Vec3& v) {
   return matrix;
 }
 
-Mat4 rotation_matrix(const Value& a, const Value& v,
-                     const BuiltinModuleCode& code, Frame& frame) {
-  if (a.is_vector()) return euler_matrix(a, v, code, frame);
+Mat4 rotation_matrix(const ModuleCall& call) {
+  const Value& a = call["a"];
+  const Value& v = call["v"];
+  if (a.is_vector()) return times_identity(euler_matrix(a, v, call));
   const std::optional<double> angle = to_finite(a);
   Vec3 axis(0, 0, 1);
   const bool has_axis = read_vec3(v, 0.0, axis);
   if (!v.is_undef() && !has_axis) {
-    warn(code, frame,
-         angle ? fmt::format("Problem converting rotate(..., v={}) parameter",
-                             to_echo(v))
-               : fmt::format("Problem converting rotate(a={}, v={}) parameter",
-                             to_echo(a), to_echo(v)));
+    if (angle) {
+      call.warn("Problem converting rotate(..., v={}) parameter", to_echo(v));
+    } else {
+      call.warn("Problem converting rotate(a={}, v={}) parameter", to_echo(a),
+                to_echo(v));
+    }
   } else if (!angle) {
-    warn(code, frame,
-         fmt::format("Problem converting rotate(a={}) parameter", to_echo(a)));
+    call.warn("Problem converting rotate(a={}) parameter", to_echo(a));
   }
-  return axis_matrix(angle.value_or(0.0), axis);
+  return times_identity(axis_matrix(angle.value_or(0.0), axis));
 }
 
-Mat4 mirror_matrix(const Value& v, const BuiltinModuleCode& code,
-                   Frame& frame) {
+Mat4 mirror_matrix(const ModuleCall& call) {
+  const Value& v = call["v"];
   Vec3 n(1, 0, 0);
   if (!read_vec3(v, 0.0, n)) {
-    warn(code, frame,
-         fmt::format("Unable to convert mirror({}) parameter to "
-                     "a vec3 or vec2 of numbers",
-                     to_echo(v)));
+    call.warn(
+        "Unable to convert mirror({}) parameter to a vec3 or vec2 of numbers",
+        to_echo(v));
   }
   Mat4 matrix(1.0);
   if (n == Vec3(0.0)) return matrix;
   const double squared = n.x * n.x + n.y * n.y + n.z * n.z;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      const double outer = row == column ? 1.0 : 0.0;
-      set(matrix, row, column,
-          row == column ? outer - 2 * n[row] * n[row] / squared
-                        : -2 * n[column] * n[row] / squared);
+      const double reflected = -2 * n[column] * n[row] / squared;
+      set(matrix, row, column, row == column ? 1 + reflected : reflected);
     }
   }
   return matrix;
 }
 
-Mat4 translation_matrix(const Value& v, const BuiltinModuleCode& code,
-                        Frame& frame) {
+Mat4 translation_matrix(const ModuleCall& call) {
+  const Value& v = call["v"];
   Vec3 shift(0.0);
   const bool is_fine = read_vec3(v, 0.0, shift) && std::isfinite(shift.x) &&
                        std::isfinite(shift.y) && std::isfinite(shift.z);
   Mat4 matrix(1.0);
   if (!is_fine) {
-    warn(code, frame,
-         fmt::format("Unable to convert translate({}) parameter "
-                     "to a vec3 or vec2 of numbers",
-                     to_echo(v)));
+    call.warn(
+        "Unable to convert translate({}) parameter to a vec3 or vec2 of "
+        "numbers",
+        to_echo(v));
     return matrix;
   }
   for (int i = 0; i < 3; ++i) set(matrix, i, 3, shift[i]);
@@ -174,10 +181,9 @@ Mat4 translation_matrix(const Value& v, const BuiltinModuleCode& code,
 
 // The identity with the elements that the rows give, divided by the last
 // element.
-Mat4 given_matrix(const Value& m) {
+Mat4 given_matrix(const ModuleCall& call) {
   Mat4 matrix(1.0);
-  if (!m.is_vector()) return matrix;
-  const std::span<const Value> rows = m.as_vector();
+  const std::span<const Value> rows = call["m"].elements();
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 4); ++i) {
     const std::span<const Value> row = rows[i].elements();
     for (std::size_t j = 0; j < std::min<std::size_t>(row.size(), 4); ++j) {
@@ -194,60 +200,22 @@ Mat4 given_matrix(const Value& m) {
   return matrix;
 }
 
-// OpenSCAD multiplies these matrices by the identity, which makes a column NaN
-// where a number in it is not finite.
-Mat4 times_identity(const Mat4& matrix) {
-  Mat4 product = matrix;
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) {
-      const double others =
-          matrix[column][(row + 1) % 3] + matrix[column][(row + 2) % 3];
-      if (!std::isfinite(others)) product[column][row] += 0.0 * others;
-    }
-  }
-  return product;
-}
+using MakeMatrix = Mat4(const ModuleCall&);
 
-enum class TransformKind { kScale, kRotate, kMirror, kTranslate, kMatrix };
-
-template <TransformKind kind>
-void transform(const BuiltinModuleCode& code, Frame& frame) {
-  Interpreter& in = frame.in;
-  const std::size_t mark = in.node_mark();
-  const ModuleArguments arguments(code, frame);
-  run_assignments(*code.block, frame);
-  Mat4 matrix;
-  switch (kind) {
-    case TransformKind::kScale:
-      matrix = times_identity(scale_matrix(arguments[0], code, frame));
-      break;
-    case TransformKind::kRotate:
-      matrix = times_identity(
-          rotation_matrix(arguments[0], arguments[1], code, frame));
-      break;
-    case TransformKind::kMirror:
-      matrix = mirror_matrix(arguments[0], code, frame);
-      break;
-    case TransformKind::kTranslate:
-      matrix = translation_matrix(arguments[0], code, frame);
-      break;
-    case TransformKind::kMatrix:
-      matrix = given_matrix(arguments[0]);
-      break;
-  }
-  run_statements(*code.block, frame);
-  in.make_node(Transform{in.keep_matrix(matrix)}, code, mark);
+template <MakeMatrix make>
+Transform transform(const ModuleCall& call) {
+  return {call.in.keep_matrix(make(call))};
 }
 
 }  // namespace
 
 std::vector<BuiltinModuleRow> transform_rows() {
   return {
-      {"scale", transform<TransformKind::kScale>, {"v"}},
-      {"rotate", transform<TransformKind::kRotate>, {"a", "v"}},
-      {"mirror", transform<TransformKind::kMirror>, {"v"}},
-      {"translate", transform<TransformKind::kTranslate>, {"v"}},
-      {"multmatrix", transform<TransformKind::kMatrix>, {"m"}},
+      {"scale", run_operation<transform<scale_matrix>>, {"v"}},
+      {"rotate", run_operation<transform<rotation_matrix>>, {"a", "v"}},
+      {"mirror", run_operation<transform<mirror_matrix>>, {"v"}},
+      {"translate", run_operation<transform<translation_matrix>>, {"v"}},
+      {"multmatrix", run_operation<transform<given_matrix>>, {"m"}},
   };
 }
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
 #include "csg/eval/run/interpreter.h"
@@ -92,9 +90,8 @@ Value builtin_lookup(const CallCode& code, Frame& frame) {
   if (code.arguments.size() != 2) return wrong_count(code, frame);
   const Value key = argument(code, 0, frame);
   if (!key.is_number() || !std::isfinite(key.as_number())) {
-    return warn(code, frame,
-                fmt::format("lookup({}, ...) first argument is not a number",
-                            to_echo(argument(code, 0, frame))));
+    return warn(code, frame, "lookup({}, ...) first argument is not a number",
+                to_echo(argument(code, 0, frame)));
   }
   const double p = key.as_number();
   const Value table = argument(code, 1, frame);

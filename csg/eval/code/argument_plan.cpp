@@ -26,6 +26,16 @@ const Parameter* ParameterIndex::find(std::string_view name) const {
   return nullptr;
 }
 
+std::vector<Parameter> make_parameters(
+    std::span<const std::string_view> names) {
+  std::vector<Parameter> parameters(names.size());
+  for (std::uint32_t i = 0; i < names.size(); ++i) {
+    parameters[i].name = names[i];
+    parameters[i].target = {Target::Kind::kSlot, i, nullptr};
+  }
+  return parameters;
+}
+
 ArgumentPlan plan_arguments(std::span<const Parameter> parameters,
                             std::size_t positional,
                             std::span<const WrittenArgument> arguments,

@@ -25,6 +25,9 @@ class ParameterIndex {
   std::unordered_map<std::string_view, const Parameter*> table_;
 };
 
+// Parameters without fallbacks, in the slots from 0 on.
+std::vector<Parameter> make_parameters(std::span<const std::string_view> names);
+
 // Whether arguments that meet no parameter are warned of.
 enum class Surplus : std::uint8_t { kWarn, kSilent };
 

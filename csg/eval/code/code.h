@@ -3,27 +3,23 @@
 // runs.
 //
 // Design. A tree of small nodes, each with a pointer to the function that runs
-// it ("closure generation"). Against bytecode with registers it is as fast
-// where it counts (a call, a vector operation, a csg node cost more than
-// dispatch), and each construct of the language stays one readable function.
-// Against a variant with one large switch it needs a fifth of the C++ stack,
-// since every function's frame holds only its own temporaries: that is what
-// makes recursion 100,000 deep cheap.
+// it ("closure generation"). It is as fast as bytecode with registers where it
+// counts (a call, a vector operation, a csg node cost more than dispatch), and
+// each construct of the language stays one readable function. A variant with
+// one large switch would need five times the C++ stack, since its frame holds
+// the temporaries of all cases: so recursion 100,000 deep is cheap.
 //
 // Names are gone: a variable is a slot in the frame of its activation (a file,
 // a call of a module or function), found by a number of hops along the static
 // links. OpenSCAD assigns in order, and a variable that is not assigned yet
-// does not hide the one outside. What the resolver cannot decide is checked at
-// run time: where the slot is unset, the next outer variable is read
-// (`otherwise`). `$` variables have dynamic scope: one value per name, saved
-// and restored around scopes (shallow binding), so that looking one up is one
-// load.
+// does not hide the one outside: where a slot is unset at run time, the next
+// outer variable is read (`otherwise`). `$` variables have dynamic scope: one
+// value per name, saved and restored around scopes (shallow binding).
 //
-// Resolved code is frozen: running it changes nothing in it. What the
-// interpreter wants to remember about a node it keeps in tables of its own,
-// under the number that the node has. Bodies of files, functions and modules
-// are resolved when they are first entered, so that a library costs what is
-// used of it; the resolver alone fills them in, each once.
+// Resolved code is frozen: what the interpreter wants to remember about a node
+// it keeps in tables of its own, under the node's number. The resolver alone
+// fills in the bodies of files, functions and modules, when they are first
+// entered, so that a library costs what is used of it.
 
 #include <cstdint>
 #include <span>
@@ -176,7 +172,7 @@ struct VectorCode : Expression {
 
 // `name = value` in let, for, and assignments.
 struct Binding {
-  Target target;
+  Target target = {};
   std::string_view name;
   const Expression* value = nullptr;
   bool is_duplicate = false;  // reported and dropped
@@ -392,7 +388,6 @@ struct UserModuleCode : InstantiationCode {
   std::span<const WrittenArgument> arguments;
   ArgumentPlan* plan = nullptr;
 };
-struct UnknownModuleCode : InstantiationCode {};
 struct IfCode : InstantiationCode {
   const Expression* condition = nullptr;
   const Block* otherwise = nullptr;  // null: no `else`
@@ -412,9 +407,9 @@ struct BuiltinModuleCode;
 using BuiltinModule = void (*)(const BuiltinModuleCode&, Frame&);
 struct BuiltinModuleCode : InstantiationCode {
   BuiltinModule handler = nullptr;
+  std::span<const Parameter> parameters;
   std::span<const WrittenArgument> arguments;
   ArgumentPlan* plan = nullptr;
-  std::uint32_t parameter_count = 0;
   const Unit* unit = nullptr;
   // The first argument of linear_extrude, resolved inside its block.
   const Expression* late_argument = nullptr;

@@ -4,7 +4,7 @@
 
 #include "csg/eval/builtin/functions.h"
 #include "csg/eval/resolve/expression.h"
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 
 namespace lamina::csg {
 
@@ -28,7 +28,7 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
       code->callee = variable;
       code->run = run_call_value;
     }
-    const auto callee = resolver_.find_function(*scope_, name->name);
+    const auto callee = resolver_.find(*scope_, name->name, &Scope::functions);
     if (callee.code == nullptr) {
       const BuiltinFunctionRow* row = find_builtin_function(name->name);
       if (row != nullptr) {
@@ -134,9 +134,7 @@ const Expression* ExpressionResolver::function_literal(
   Scope& inner = resolver_.open_scope(*scope_, activation);
   resolver_.resolve_callable(literal, written.parameters, *written.body, inner,
                              *scope_);
-  auto* code = resolver_.make<LiteralCode>();
-  code->run = run_function_literal;
-  code->range = range;
+  auto* code = make<LiteralCode>(run_function_literal, range);
   code->literal = &literal;
   return code;
 }

@@ -3,21 +3,13 @@
 #include <variant>
 
 #include "csg/eval/resolve/expression.h"
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 
 namespace lamina::csg {
 
 struct ElementVisitor {
   ExpressionResolver& self;
   const ast::Expr& expr;
-
-  template <typename T>
-  T* make(Element::Emit emit) const {
-    T* code = self.resolver_.make<T>();
-    code->emit = emit;
-    code->range = expr.range;
-    return code;
-  }
 
   const Element* operator()(const ast::ForElements& loop) const {
     return self.for_element(loop.bindings, 0, *loop.body, expr.range);
@@ -26,7 +18,7 @@ struct ElementVisitor {
     return self.for_c_element(loop, expr.range);
   }
   const Element* operator()(const ast::IfElements& written) const {
-    auto* code = make<IfElement>(emit_if);
+    auto* code = self.make<IfElement>(emit_if, expr.range);
     code->condition = self.resolve(*written.condition);
     code->if_true = self.element(*written.if_true);
     if (written.if_false != nullptr) {
@@ -35,20 +27,20 @@ struct ElementVisitor {
     return code;
   }
   const Element* operator()(const ast::EachElements& each) const {
-    auto* code = make<EachElement>(emit_each);
+    auto* code = self.make<EachElement>(emit_each, expr.range);
     code->body = self.element(*each.body);
     return code;
   }
   const Element* operator()(const ast::LetElements& let) const {
     const NestedScope nested(self.resolver_, self.scope_);
-    auto* code = make<LetElement>(emit_let);
+    auto* code = self.make<LetElement>(emit_let, expr.range);
     code->bindings = self.sequential_bindings(let.bindings, expr.range, false);
     code->body = self.element(*let.body);
     return code;
   }
   template <typename T>
   const Element* operator()(const T&) const {
-    auto* code = make<Element>(emit_value);
+    auto* code = self.make<Element>(emit_value, expr.range);
     code->value = self.resolve(expr);
     return code;
   }
@@ -64,20 +56,11 @@ const Element* ExpressionResolver::for_element(ast::Arguments bindings,
                                                SourceRange range) {
   if (first == bindings.size()) return element(body);
   const ast::Argument& written = bindings[first];
-  auto* code = resolver_.make<ForElement>();
-  code->emit = emit_for;
-  code->range = range;
-  code->binding.name = written.name;
-  code->binding.range = range;
-  code->binding.value = resolve(*written.value);
+  auto* code = make<ForElement>(emit_for, range);
+  code->binding = {
+      .name = written.name, .value = resolve(*written.value), .range = range};
   const NestedScope nested(resolver_, scope_);
-  Variable* variable = nullptr;
-  if (!is_dynamic_name(written.name)) {
-    variable = declare(written.name, false);
-    variable->is_set = true;
-    variable->is_repeated = true;
-  }
-  code->binding.target = target(written.name, variable);
+  code->binding.target = declare_set(written.name, false, true);
   code->body = for_element(bindings, first + 1, body, range);
   return code;
 }
@@ -85,9 +68,7 @@ const Element* ExpressionResolver::for_element(ast::Arguments bindings,
 const Element* ExpressionResolver::for_c_element(const ast::ForCElements& loop,
                                                  SourceRange range) {
   const NestedScope nested(resolver_, scope_);
-  auto* code = resolver_.make<ForCElement>();
-  code->emit = emit_for_c;
-  code->range = range;
+  auto* code = make<ForCElement>(emit_for_c, range);
   std::vector<Variable*> updated;
   for (const ast::Argument& update : loop.head->update) {
     if (update.name.empty() || is_dynamic_name(update.name)) continue;

@@ -3,7 +3,7 @@
 #include <unordered_set>
 #include <variant>
 
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/operators.h"
 #include "parser/tree_facts.h"
 
@@ -47,9 +47,7 @@ bool is_silent(const ast::Expr& expr) {
 
 const Expression* ExpressionResolver::constant(Value value, SourceRange range) {
   const Value& kept = resolver_.keep_constant(std::move(value));
-  auto* code = resolver_.make<Constant>();
-  code->run = run_constant;
-  code->range = range;
+  auto* code = make<Constant>(run_constant, range);
   code->kind = Kind::kConstant;
   code->value = &kept;
   return code;
@@ -60,13 +58,9 @@ struct ExpressionVisitor {
   SourceRange range;
   ExpressionResolver::Position position;
 
-  Resolver& resolver() const { return self.resolver_; }
   template <typename T>
   T* make(Expression::Runner run) const {
-    T* code = resolver().make<T>();
-    code->run = run;
-    code->range = range;
-    return code;
+    return self.make<T>(run, range);
   }
 
   const Expression* operator()(const ast::Undef&) const {
@@ -123,7 +117,7 @@ struct ExpressionVisitor {
       return self.constant(values.finish(), range);
     }
     auto* code = make<VectorCode>(run_vector);
-    code->elements = resolver().keep(elements);
+    code->elements = self.resolver_.keep(elements);
     return code;
   }
   const Expression* operator()(const ast::Range& written) const {
@@ -225,9 +219,7 @@ const Expression* ExpressionResolver::let(const ast::Let& let,
                                           SourceRange range,
                                           Position position) {
   const NestedScope nested(resolver_, scope_);
-  auto* code = resolver_.make<LetCode>();
-  code->run = run_let;
-  code->range = range;
+  auto* code = make<LetCode>(run_let, range);
   code->kind = Kind::kLet;
   code->bindings = sequential_bindings(let.bindings, range, false);
   code->body = resolve(*let.body, position);
@@ -279,17 +271,9 @@ const AssertCode* ExpressionResolver::assertion(ast::Arguments written,
                                                 const ast::Expr* body,
                                                 SourceRange range,
                                                 Position position) {
-  static const std::vector<Parameter> kParameters = [] {
-    std::vector<Parameter> parameters(2);
-    parameters[0].name = "condition";
-    parameters[0].target = {Target::Kind::kSlot, 0, nullptr};
-    parameters[1].name = "message";
-    parameters[1].target = {Target::Kind::kSlot, 1, nullptr};
-    return parameters;
-  }();
-  auto* code = resolver_.make<AssertCode>();
-  code->run = run_assert_expression;
-  code->range = range;
+  static constexpr std::string_view kNames[] = {"condition", "message"};
+  static const std::vector<Parameter> kParameters = make_parameters(kNames);
+  auto* code = make<AssertCode>(run_assert_expression, range);
   code->kind = Kind::kAssert;
   const std::span<const WrittenArgument> given = arguments(written);
   code->plan = &resolver_.keep_plan(

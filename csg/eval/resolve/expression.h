@@ -41,6 +41,10 @@ class ExpressionResolver {
   // Declares a variable of the scope at hand (a slot of its activation).
   Variable* declare(std::string_view name, bool is_statement_level);
   Target target(std::string_view name, Variable* variable);
+  // Where the value of a name goes that has one from here on: a variable that
+  // is declared, or a `$` variable.
+  Target declare_set(std::string_view name, bool is_statement_level,
+                     bool is_repeated);
 
   Scope& scope() { return *scope_; }
 
@@ -66,6 +70,22 @@ class ExpressionResolver {
   std::uint32_t capture(Activation& literal, Variable& variable);
   const Expression* load(Variable& variable, SourceRange range,
                          bool* is_certain);
+
+  // Nodes of code, by the function that runs them.
+  template <typename T>
+  T* make(Expression::Runner run, SourceRange range) {
+    T* code = resolver_.make<T>();
+    code->run = run;
+    code->range = range;
+    return code;
+  }
+  template <typename T>
+  T* make(Element::Emit emit, SourceRange range) {
+    T* code = resolver_.make<T>();
+    code->emit = emit;
+    code->range = range;
+    return code;
+  }
 
   Resolver& resolver_;
   Scope* scope_;

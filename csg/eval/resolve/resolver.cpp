@@ -129,34 +129,36 @@ void Resolver::resolve(const Unit& asked) {
   if (unit.is_resolved) return;
   unit.is_resolved = true;
   StatementResolver resolver(*this, *unit.scope);
-  unit.body = unit.document == nullptr
-                  ? resolver.body(unit.program->statements)
-                  : resolver.assignments_only(unit.program->statements);
+  unit.body = resolver.body(unit.program->statements, unit.document != nullptr);
   unit.slot_count = unit.activation.slot_count;
 }
 
+namespace {
+
+// A new function or module of the scope.
+template <typename Named, typename Written>
+Named& add_named(std::deque<Named>& all, const Written& written,
+                 SourceRange range, Scope& scope) {
+  Named& named = all.emplace_back();
+  named.number = static_cast<std::uint32_t>(all.size() - 1);
+  named.name = written.name;
+  named.definition = &written;
+  named.range = range;
+  named.scope = &scope;
+  named.unit = scope.unit;
+  return named;
+}
+
+}  // namespace
+
 Function& Resolver::new_function(const ast::FunctionDefinition& written,
                                  SourceRange range, Scope& scope) {
-  Function& function = functions_.emplace_back();
-  function.number = static_cast<std::uint32_t>(functions_.size() - 1);
-  function.name = written.name;
-  function.definition = &written;
-  function.range = range;
-  function.scope = &scope;
-  function.unit = scope.unit;
-  return function;
+  return add_named(functions_, written, range, scope);
 }
 
 Module& Resolver::new_module(const ast::ModuleDefinition& written,
                              SourceRange range, Scope& scope) {
-  Module& module = modules_.emplace_back();
-  module.number = static_cast<std::uint32_t>(modules_.size() - 1);
-  module.name = written.name;
-  module.definition = &written;
-  module.range = range;
-  module.scope = &scope;
-  module.unit = scope.unit;
-  return module;
+  return add_named(modules_, written, range, scope);
 }
 
 // Functions and modules are known in their whole scope; the last of a name
@@ -176,33 +178,6 @@ void Resolver::declare(Scope& scope, ast::Statements statements) {
       scope.modules[module->name] = &declared;
     }
   }
-}
-
-template <typename Named>
-Resolver::Callee<Named> Resolver::find(
-    const Scope& scope, std::string_view name,
-    std::unordered_map<std::string_view, Named*> Scope::*table) {
-  for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
-    const auto found = (s->*table).find(name);
-    if (found != (s->*table).end()) return {found->second, false};
-  }
-  for (const ast::Use* use : scope.unit->uses) {
-    const DeclaredUnit* unit = used_unit(*use);
-    if (unit == nullptr) continue;
-    const auto found = (unit->scope->*table).find(name);
-    if (found != (unit->scope->*table).end()) return {found->second, true};
-  }
-  return {};
-}
-
-Resolver::Callee<Function> Resolver::find_function(const Scope& scope,
-                                                   std::string_view name) {
-  return find(scope, name, &Scope::functions);
-}
-
-Resolver::Callee<Module> Resolver::find_module(const Scope& scope,
-                                               std::string_view name) {
-  return find(scope, name, &Scope::modules);
 }
 
 // --- Parameters -------------------------------------------------------------

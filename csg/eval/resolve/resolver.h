@@ -4,14 +4,13 @@
 // Scopes follow OpenSCAD: a file, a module, a `{ … }` behind an instantiation,
 // a for, let or function each open one. Frames are per activation: a file, a
 // call of a module, a function or a function literal; the scopes inside share
-// its slots. Files are declared when first needed, functions and modules are
-// resolved when first called, so that a library costs what is used of it.
+// its slots. Files are declared when first needed.
 //
-// A function literal may outlive the call that made it. Variables of
-// expressions (parameters of functions, let, for in a comprehension) are
-// therefore captured by value, or by a shared box where they get their value
-// later or repeatedly. Variables of statements cannot be outlived, since no
-// module returns a value: they are reached through the static link.
+// A function literal may outlive the call that made it. It captures variables
+// of expressions (parameters of functions, let, for in a comprehension) by
+// value, or by a shared box where they get their value later or repeatedly.
+// Variables of statements live longer than it, since no module returns a value:
+// they are reached through the static link.
 
 #include <cstdint>
 #include <deque>
@@ -174,8 +173,23 @@ class Resolver : public LazyResolver {
       std::span<const Parameter> parameters,
       const std::vector<std::string_view>& names, std::uint32_t first_slot);
   DeclaredUnit* used_unit(const ast::Use& use);
-  Callee<Function> find_function(const Scope& scope, std::string_view name);
-  Callee<Module> find_module(const Scope& scope, std::string_view name);
+  // Finds a function or module (`table`) that `scope` sees.
+  template <typename Named>
+  Callee<Named> find(
+      const Scope& scope, std::string_view name,
+      std::unordered_map<std::string_view, Named*> Scope::*table) {
+    for (const Scope* s = scope.home; s != nullptr; s = s->next_home()) {
+      const auto found = (s->*table).find(name);
+      if (found != (s->*table).end()) return {found->second, false};
+    }
+    for (const ast::Use* use : scope.unit->uses) {
+      const DeclaredUnit* unit = used_unit(*use);
+      if (unit == nullptr) continue;
+      const auto found = (unit->scope->*table).find(name);
+      if (found != (unit->scope->*table).end()) return {found->second, true};
+    }
+    return {};
+  }
   // A version of the callee with further parameters, for arguments whose names
   // are no parameters: OpenSCAD warns of them, but the callee sees those
   // variables.
@@ -202,10 +216,6 @@ class Resolver : public LazyResolver {
 
  private:
   DeclaredUnit& declared_unit(const ast::Program& program);
-  template <typename Named>
-  Callee<Named> find(
-      const Scope& scope, std::string_view name,
-      std::unordered_map<std::string_view, Named*> Scope::*table);
   Function& new_function(const ast::FunctionDefinition& written,
                          SourceRange range, Scope& scope);
   Module& new_module(const ast::ModuleDefinition& written, SourceRange range,

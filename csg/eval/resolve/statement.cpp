@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "csg/eval/builtin/modules.h"
-#include "csg/eval/run/statement.h"
+#include "csg/eval/run/runners.h"
 #include "parser/tree_facts.h"
 
 namespace lamina::csg {
@@ -19,16 +19,10 @@ T* StatementResolver::make(InstantiationCode::Runner run, SourceRange range) {
 
 // --- Bodies -----------------------------------------------------------------
 
-Block StatementResolver::body(ast::Statements statements) {
+Block StatementResolver::body(ast::Statements statements, bool is_used) {
   Block block;
   block.assignments = assignments(statements, nullptr);
-  block.statements = instantiations(statements);
-  return block;
-}
-
-Block StatementResolver::assignments_only(ast::Statements statements) {
-  Block block;
-  block.assignments = assignments(statements, nullptr);
+  if (!is_used) block.statements = instantiations(statements);
   return block;
 }
 
@@ -98,10 +92,12 @@ std::span<const InstantiationCode* const> StatementResolver::instantiations(
   return resolver_.keep(codes);
 }
 
-Block* StatementResolver::block(ast::Statements statements) {
+Block* StatementResolver::block(ast::Statements statements,
+                                const std::function<void()>& resolve_between) {
   const NestedScope open(resolver_, scope_);
   auto* block = resolver_.make<Block>();
   block->assignments = assignments(statements, nullptr);
+  if (resolve_between) resolve_between();
   block->statements = instantiations(statements);
   block->resets = resolver_.keep(scope_->resets);
   return block;
@@ -125,7 +121,7 @@ const InstantiationCode* StatementResolver::instantiation(
 
 const InstantiationCode* StatementResolver::call(
     const ast::Instantiation& written, SourceRange range) {
-  const auto callee = resolver_.find_module(*scope_, written.name);
+  const auto callee = resolver_.find(*scope_, written.name, &Scope::modules);
   InstantiationCode* code = callee.code != nullptr
                                 ? user_module(written, range, callee)
                                 : builtin(written, range);
@@ -144,16 +140,13 @@ InstantiationCode* StatementResolver::user_module(
     code->hops =
         scope_->activation->count_hops(*callee.code->scope->activation);
   }
-  const NestedScope open(resolver_, scope_);
-  code->block = resolver_.make<Block>();
-  code->block->assignments = assignments(written.children, nullptr);
-  code->arguments = expressions().arguments(written.arguments);
-  code->module = &resolver_.with_extras(*callee.code, code->arguments);
-  code->plan = &resolver_.keep_plan(plan_arguments(
-      code->module->parameters, callee.code->parameters.size(), code->arguments,
-      resolver_.names(), resolver_.module_surplus()));
-  code->block->statements = instantiations(written.children);
-  code->block->resets = resolver_.keep(scope_->resets);
+  code->block = block(written.children, [&] {
+    code->arguments = expressions().arguments(written.arguments);
+    code->module = &resolver_.with_extras(*callee.code, code->arguments);
+    code->plan = &resolver_.keep_plan(plan_arguments(
+        code->module->parameters, callee.code->parameters.size(),
+        code->arguments, resolver_.names(), resolver_.module_surplus()));
+  });
   return code;
 }
 
@@ -174,17 +167,12 @@ InstantiationCode* StatementResolver::loop(const ast::Instantiation& written,
   std::vector<Binding> bindings;
   for (const ast::Argument& argument : written.arguments) {
     ExpressionResolver resolver = expressions();
-    Binding binding;
-    binding.name = argument.name;
-    binding.range = range;
-    binding.value = resolver.resolve(*argument.value);
-    Variable* variable = nullptr;
-    if (!is_dynamic_name(argument.name)) {
-      variable = resolver.declare(argument.name, true);
-      variable->is_set = true;
-    }
-    binding.target = resolver.target(argument.name, variable);
-    bindings.push_back(binding);
+    const Expression* value = resolver.resolve(*argument.value);
+    bindings.push_back(
+        {.target = resolver.declare_set(argument.name, true, true),
+         .name = argument.name,
+         .value = value,
+         .range = range});
   }
   code->bindings = resolver_.keep(bindings);
   code->block = block(written.children);
@@ -209,21 +197,13 @@ InstantiationCode* StatementResolver::assign(const ast::Instantiation& written,
   std::vector<Binding> bindings;
   for (const ast::Argument& argument : written.arguments) {
     if (argument.name.empty()) continue;
-    Binding binding;
-    binding.name = argument.name;
-    binding.range = range;
-    binding.value = expressions().resolve(*argument.value);
-    bindings.push_back(binding);
+    bindings.push_back({.name = argument.name,
+                        .value = expressions().resolve(*argument.value),
+                        .range = range});
   }
   const NestedScope open(resolver_, scope_);
   for (Binding& binding : bindings) {
-    ExpressionResolver resolver = expressions();
-    Variable* variable = nullptr;
-    if (!is_dynamic_name(binding.name)) {
-      variable = resolver.declare(binding.name, true);
-      variable->is_set = true;
-    }
-    binding.target = resolver.target(binding.name, variable);
+    binding.target = expressions().declare_set(binding.name, true, false);
   }
   code->bindings = resolver_.keep(bindings);
   code->block = block(written.children);
@@ -246,27 +226,23 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
   }
   const BuiltinModuleEntry* entry = find_builtin_module(name);
   if (entry == nullptr) {
-    return make<UnknownModuleCode>(run_unknown_module, range);
+    return make<InstantiationCode>(run_unknown_module, range);
   }
   auto* code = make<BuiltinModuleCode>(run_builtin_module, range);
   code->handler = entry->handler;
+  code->parameters = entry->parameters;
   code->unit = scope_->unit;
   code->deprecated_for = entry->replacement;
   code->arguments = expressions().arguments(written.arguments);
   code->plan = &resolver_.keep_plan(
       plan_arguments(entry->parameters, entry->positional_count,
                      code->arguments, resolver_.names()));
-  code->parameter_count = static_cast<std::uint32_t>(entry->parameters.size());
-
-  const NestedScope open(resolver_, scope_);
-  code->block = resolver_.make<Block>();
-  code->block->assignments = assignments(written.children, nullptr);
-  if (entry->needs_late_argument && !written.arguments.empty() &&
-      written.arguments[0].name.empty()) {
-    code->late_argument = expressions().resolve(*written.arguments[0].value);
-  }
-  code->block->statements = instantiations(written.children);
-  code->block->resets = resolver_.keep(scope_->resets);
+  code->block = block(written.children, [&] {
+    if (entry->needs_late_argument && !written.arguments.empty() &&
+        written.arguments[0].name.empty()) {
+      code->late_argument = expressions().resolve(*written.arguments[0].value);
+    }
+  });
   return code;
 }
 

@@ -2,6 +2,8 @@
 // Resolving statements: bodies of files and modules, and instantiations (see
 // resolver.h).
 
+#include <functional>
+
 #include "csg/eval/code/code.h"
 #include "csg/eval/resolve/expression.h"
 #include "csg/eval/resolve/resolver.h"
@@ -14,10 +16,9 @@ class StatementResolver {
   StatementResolver(Resolver& resolver, Scope& scope)
       : resolver_(resolver), scope_(&scope) {}
 
-  // Statements of a file, in its scope.
-  Block body(ast::Statements statements);
-  // Statements of a used file, whose instantiations make nothing.
-  Block assignments_only(ast::Statements statements);
+  // Statements of a file, in its scope: of a used file the assignments only,
+  // for its instantiations make nothing.
+  Block body(ast::Statements statements, bool is_used);
   // Parameters and body of a module, in its own scope.
   void module(Module& module);
 
@@ -25,8 +26,10 @@ class StatementResolver {
   Bindings assignments(ast::Statements statements, Module* module);
   std::span<const InstantiationCode* const> instantiations(
       ast::Statements statements);
-  // A `{ … }` in a scope of its own.
-  Block* block(ast::Statements statements);
+  // A `{ … }` in a scope of its own. `resolve_between` resolves what sees its
+  // assignments and stands before its instantiations.
+  Block* block(ast::Statements statements,
+               const std::function<void()>& resolve_between = nullptr);
 
   const InstantiationCode* instantiation(const ast::Statement& statement);
   const InstantiationCode* call(const ast::Instantiation& written,

@@ -4,7 +4,7 @@
 
 #include "csg/eval/resolve/expression.h"
 #include "csg/eval/resolve/prefixed_literal.h"
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 
 namespace lamina::csg {
 
@@ -24,6 +24,18 @@ Target ExpressionResolver::target(std::string_view name, Variable* variable) {
     return {Target::Kind::kDynamic, resolver_.names().number_of(name), nullptr};
   }
   return {Target::Kind::kSlot, variable->slot, variable};
+}
+
+Target ExpressionResolver::declare_set(std::string_view name,
+                                       bool is_statement_level,
+                                       bool is_repeated) {
+  Variable* variable = nullptr;
+  if (!is_dynamic_name(name)) {
+    variable = declare(name, is_statement_level);
+    variable->is_set = true;
+    variable->is_repeated = is_repeated;
+  }
+  return target(name, variable);
 }
 
 // Returns the index of a captured variable in the closures of `literal`.
@@ -105,9 +117,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
                                                SourceRange range,
                                                Unknown unknown) {
   if (is_dynamic_name(name)) {
-    auto* code = resolver_.make<DynamicVariable>();
-    code->run = run_dynamic;
-    code->range = range;
+    auto* code = make<DynamicVariable>(run_dynamic, range);
     code->index = resolver_.names().number_of(name);
     code->name = name;
     code->is_silent = unknown == Unknown::kSilent;
@@ -137,9 +147,7 @@ const Expression* ExpressionResolver::variable(std::string_view name,
     } else if (unknown == Unknown::kSilent) {
       otherwise = constant(Value(), range);
     } else {
-      auto* code = resolver_.make<UnknownVariable>();
-      code->run = run_unknown_variable;
-      code->range = range;
+      auto* code = make<UnknownVariable>(run_unknown_variable, range);
       code->name = name;
       otherwise = code;
     }
@@ -158,9 +166,7 @@ const Expression* ExpressionResolver::prefixed_literal(std::string_view name,
                                                        SourceRange range) {
   const PrefixedLiteral literal = read_prefixed_literal(name);
   if (literal.warning.empty()) return constant(Value(literal.value), range);
-  auto* code = resolver_.make<InexactLiteral>();
-  code->run = run_inexact_literal;
-  code->range = range;
+  auto* code = make<InexactLiteral>(run_inexact_literal, range);
   code->value = literal.value;
   code->warning = resolver_.keep_text(literal.warning);
   return code;

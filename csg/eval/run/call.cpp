@@ -1,11 +1,11 @@
-// Running function literals, calls and bodies (see expression.h).
+// Running function literals, calls and bodies (see runners.h).
 
 #include <cassert>
 
 #include <fmt/format.h>
 
-#include "csg/eval/run/expression.h"
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -195,14 +195,8 @@ Value call_function(const CallCode& code, Frame& frame) {
   const DynamicScope scope(frame.in);
   Frame callee{frame.in};
   callee.document = function.unit->document;
-  if (code.is_foreign) {
-    callee.link = &frame.in.enter_unit(*function.unit);
-  } else {
-    callee.link = &frame;
-    for (std::uint32_t i = 0; i < code.hops; ++i) {
-      callee.link = callee.link->link;
-    }
-  }
+  callee.link = code.is_foreign ? &frame.in.enter_unit(*function.unit)
+                                : follow_links(frame, code.hops);
   Value* memory = LAMINA_FRAME_MEMORY(function.slot_count);
   const FrameSlots slots(callee, memory, function.slot_count);
   pass_arguments(*code.plan, function.parameters, code.arguments, code.range,

@@ -1,9 +1,9 @@
-// Running vectors and comprehensions (see expression.h).
+// Running vectors and comprehensions (see runners.h).
 
 #include <fmt/format.h>
 
 #include "csg/eval/run/each_value.h"
-#include "csg/eval/run/expression.h"
+#include "csg/eval/run/runners.h"
 
 namespace lamina::csg {
 
@@ -44,9 +44,9 @@ std::size_t count_values(const Value& values) {
 
 void warn_of_long_range(std::uint32_t count, SourceRange place, Frame& frame) {
   warn(frame, place,
-       fmt::format("Bad range parameter in for statement: too many elements "
-                   "({})",
-                   count));
+       fmt::format(
+           "Bad range parameter in for statement: too many elements ({})",
+           count));
 }
 
 void emit_for(const Element& element, Frame& frame, VectorBuilder& out) {

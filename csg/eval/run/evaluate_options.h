@@ -8,8 +8,7 @@
 
 namespace lamina::csg {
 
-// Far more nested calls than any design needs, few enough to fail within a
-// second.
+// More than any design needs; endless recursion gets there within a second.
 inline constexpr std::uint32_t kMostNestedCalls = 300000;
 
 struct EvaluateOptions {

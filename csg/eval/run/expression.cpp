@@ -1,10 +1,11 @@
-#include "csg/eval/run/expression.h"
+// Running variables, conditions, ranges and let (see runners.h).
 
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/operators.h"
 #include "csg/eval/value/text.h"
 
@@ -46,9 +47,7 @@ Value run_outer(const Expression& expression, Frame& frame) {
 }
 Value run_far_outer(const Expression& expression, Frame& frame) {
   const auto& code = as<VariableLoad>(expression);
-  const Frame* home = &frame;
-  for (std::uint32_t i = 0; i < code.hops; ++i) home = home->link;
-  return load(code, home->slots[code.slot], frame);
+  return load(code, follow_links(frame, code.hops)->slots[code.slot], frame);
 }
 Value run_captured(const Expression& expression, Frame& frame) {
   return load(as<VariableLoad>(expression),

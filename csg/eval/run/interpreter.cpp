@@ -44,11 +44,8 @@ Interpreter::~Interpreter() {
       const Value let_go = std::move(box->value);
       box->value = Value();
     }
-    if (boxes_.next != box) continue;
-    // Another value still holds it: only take it out of the list.
-    boxes_.next = box->next;
-    if (box->next != nullptr) box->next->previous = &boxes_;
-    box->previous = box->next = nullptr;
+    // Another value may still hold it.
+    if (boxes_.next == box) box->leave_list();
   }
 }
 
@@ -57,11 +54,10 @@ Interpreter::~Interpreter() {
 void Interpreter::warn(SourceRange range, std::string message,
                        const Source* document) {
   ++effects_;
-  Diagnostic diagnostic;
-  diagnostic.severity = Severity::kWarning;
-  diagnostic.range = range;
-  diagnostic.message = std::move(message);
-  diagnostic.document = document;
+  Diagnostic diagnostic{.severity = Severity::kWarning,
+                        .range = range,
+                        .message = std::move(message),
+                        .document = document};
   // The calls that lead to a hard warning are noted like those of an error.
   if (diagnostics_.has_hard_warnings()) end_with(std::move(diagnostic));
   diagnostics_.report(std::move(diagnostic));
@@ -77,12 +73,10 @@ void Interpreter::deprecate(SourceRange range, std::string message,
                         range.source->line_column(range.begin).line);
   }
   if (!deprecations_.emplace(std::move(place), message).second) return;
-  Diagnostic diagnostic;
-  diagnostic.severity = Severity::kDeprecated;
-  diagnostic.range = range;
-  diagnostic.message = std::move(message);
-  diagnostic.document = document;
-  diagnostics_.report(std::move(diagnostic));
+  diagnostics_.report({.severity = Severity::kDeprecated,
+                       .range = range,
+                       .message = std::move(message),
+                       .document = document});
 }
 
 void Interpreter::echo(std::string text) {
@@ -92,19 +86,13 @@ void Interpreter::echo(std::string text) {
 
 void Interpreter::note(std::string text) {
   ++effects_;
-  Diagnostic diagnostic;
-  diagnostic.severity = Severity::kPlain;
-  diagnostic.message = std::move(text);
-  diagnostics_.report(std::move(diagnostic));
+  diagnostics_.report({Severity::kPlain, {}, std::move(text)});
 }
 
 void Interpreter::fail(SourceRange range, std::string message,
                        const Source* document) {
-  Diagnostic diagnostic;
-  diagnostic.range = range;
-  diagnostic.message = std::move(message);
-  diagnostic.document = document;
-  end_with(std::move(diagnostic));
+  end_with(
+      {.range = range, .message = std::move(message), .document = document});
 }
 
 void Interpreter::end_with(Diagnostic diagnostic) {
@@ -128,11 +116,10 @@ void Interpreter::note_call(std::string_view name, SourceRange range,
 void Interpreter::fail_recursion(SourceRange range, std::string_view kind,
                                  std::string_view name,
                                  const Source* document) {
-  Diagnostic diagnostic;
-  diagnostic.range = range;
-  diagnostic.message =
-      fmt::format("Recursion detected calling {} '{}'", kind, name);
-  diagnostic.document = document;
+  Diagnostic diagnostic{
+      .range = range,
+      .message = fmt::format("Recursion detected calling {} '{}'", kind, name),
+      .document = document};
   if (depth_ > options_.max_depth) {
     diagnostic.hints.push_back(
         {range, fmt::format("{} calls are nested, the limit of --max-depth",
@@ -266,9 +253,9 @@ void Interpreter::make_node(decltype(Node::op) op,
                             const InstantiationCode& code, std::size_t mark) {
   if (mark == nodes_.size() && leaf_count_++ == options_.max_leaves) {
     fail(code.range,
-         fmt::format("Too many leaves: more than the {} that --max-leaves "
-                     "allows",
-                     options_.max_leaves),
+         fmt::format(
+             "Too many leaves: more than the {} that --max-leaves allows",
+             options_.max_leaves),
          nullptr);
   }
   Node* node = arena_.make(Node());

@@ -333,6 +333,13 @@ class FrameSlots {
   std::uint32_t count_;
 };
 
+// The frame that many static links away.
+inline Frame* follow_links(Frame& frame, std::uint32_t hops) {
+  Frame* outer = &frame;
+  for (; hops > 0; --hops) outer = outer->link;
+  return outer;
+}
+
 // --- Running code -----------------------------------------------------------
 
 inline Value run(const Expression* code, Frame& frame) {

@@ -1,9 +1,10 @@
-// Running operators (see expression.h).
+// Running operators (see runners.h).
 
 #include <cmath>
+#include <functional>
 
-#include "csg/eval/run/expression.h"
 #include "csg/eval/run/interpreter.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/operators.h"
 
 namespace lamina::csg {
@@ -59,35 +60,13 @@ Expression::Runner unary_runner(ast::UnaryOp op) {
 
 namespace {
 
-template <BinaryOp op>
-Value on_numbers(double a, double b) {
-  if constexpr (op == BinaryOp::kEqual) {
-    return Value(a == b);
-  } else if constexpr (op == BinaryOp::kNotEqual) {
-    return Value(a != b);
-  } else if constexpr (op == BinaryOp::kLess) {
-    return Value(a < b);
-  } else if constexpr (op == BinaryOp::kLessEqual) {
-    return Value(a <= b);
-  } else if constexpr (op == BinaryOp::kGreater) {
-    return Value(a > b);
-  } else if constexpr (op == BinaryOp::kGreaterEqual) {
-    return Value(a >= b);
-  } else if constexpr (op == BinaryOp::kAdd) {
-    return Value(a + b);
-  } else if constexpr (op == BinaryOp::kSubtract) {
-    return Value(a - b);
-  } else if constexpr (op == BinaryOp::kMultiply) {
-    return Value(a * b);
-  } else if constexpr (op == BinaryOp::kDivide) {
-    return Value(a / b);
-  } else if constexpr (op == BinaryOp::kModulo) {
-    return Value(modulo(a, b));
-  } else {
-    static_assert(op == BinaryOp::kPower);
-    return Value(std::pow(a, b));
-  }
-}
+// What the operators without a functor in the standard library do to numbers.
+struct Modulo {
+  double operator()(double a, double b) const { return modulo(a, b); }
+};
+struct Power {
+  double operator()(double a, double b) const { return std::pow(a, b); }
+};
 
 // How the value of an operand is reached. Most operands are plain variables,
 // constants and results; the resolver knows which, so that running need not
@@ -108,29 +87,25 @@ Reach reach_of(const Expression& code) {
   }
 }
 
+// Constants and results have operands of their own: neither has a spill to
+// destroy, and a result is made where it stays.
 template <Reach reach>
 class Operand {
  public:
-  Operand(const Expression* code, Frame& frame)
-      : value_(look(code, frame, spill_)) {}
+  Operand(const Expression* code, Frame& frame) : value_(find(code, frame)) {}
   const Value& value() const { return value_; }
   Value take() { return csg::take(value_, spill_); }
 
  private:
-  Value spill_;
-  const Value& value_;
-};
-template <>
-class Operand<Reach::kLocal> {
- public:
-  Operand(const Expression* code, Frame& frame)
-      : value_(is_plain(frame.slots[code->slot])
-                   ? frame.slots[code->slot]
-                   : look_further(code, frame, spill_)) {}
-  const Value& value() const { return value_; }
-  Value take() { return csg::take(value_, spill_); }
+  const Value& find(const Expression* code, Frame& frame) {
+    if constexpr (reach == Reach::kLocal) {
+      const Value& local = frame.slots[code->slot];
+      return is_plain(local) ? local : look_further(code, frame, spill_);
+    } else {
+      return look(code, frame, spill_);
+    }
+  }
 
- private:
   Value spill_;
   const Value& value_;
 };
@@ -138,7 +113,7 @@ template <>
 class Operand<Reach::kConstant> {
  public:
   Operand(const Expression* code, Frame&)
-      : value_(*static_cast<const Constant*>(code)->value) {}
+      : value_(*as<Constant>(*code).value) {}
   const Value& value() const { return value_; }
   Value take() { return value_; }
 
@@ -171,7 +146,7 @@ template <typename Left, typename Right>
 
 // Evaluates the right operand first, as the released openscad does: that is the
 // order of their messages.
-template <BinaryOp op, Reach left_reach, Reach right_reach>
+template <typename OnNumbers, Reach left_reach, Reach right_reach>
 Value run_binary(const Expression& expression, Frame& frame) {
   const auto& code = as<BinaryCode>(expression);
   Operand<right_reach> right(code.right, frame);
@@ -179,7 +154,7 @@ Value run_binary(const Expression& expression, Frame& frame) {
   const Value& a = left.value();
   const Value& b = right.value();
   if (a.is_number() && b.is_number()) [[likely]] {
-    return on_numbers<op>(a.as_number(), b.as_number());
+    return Value(OnNumbers()(a.as_number(), b.as_number()));
   }
   return run_binary_any(code, left, right, frame);
 }
@@ -200,28 +175,28 @@ Value run_or(const Expression& expression, Frame& frame) {
   return Value(is_true(code.left, frame) || is_true(code.right, frame));
 }
 
-template <BinaryOp op, Reach left>
+template <typename OnNumbers, Reach left>
 Expression::Runner runner_for(const Expression& right) {
   switch (reach_of(right)) {
     case Reach::kLocal:
-      return run_binary<op, left, Reach::kLocal>;
+      return run_binary<OnNumbers, left, Reach::kLocal>;
     case Reach::kConstant:
-      return run_binary<op, left, Reach::kConstant>;
+      return run_binary<OnNumbers, left, Reach::kConstant>;
     case Reach::kComputed:
-      return run_binary<op, left, Reach::kComputed>;
+      return run_binary<OnNumbers, left, Reach::kComputed>;
     default:
-      return run_binary<op, left, Reach::kLooked>;
+      return run_binary<OnNumbers, left, Reach::kLooked>;
   }
 }
-template <BinaryOp op>
+template <typename OnNumbers>
 Expression::Runner runner_for(const Expression& left, const Expression& right) {
   switch (reach_of(left)) {
     case Reach::kLocal:
-      return runner_for<op, Reach::kLocal>(right);
+      return runner_for<OnNumbers, Reach::kLocal>(right);
     case Reach::kComputed:
-      return runner_for<op, Reach::kComputed>(right);
+      return runner_for<OnNumbers, Reach::kComputed>(right);
     default:
-      return runner_for<op, Reach::kLooked>(right);
+      return runner_for<OnNumbers, Reach::kLooked>(right);
   }
 }
 
@@ -235,34 +210,34 @@ Expression::Runner binary_runner(BinaryOp op, const Expression& left,
     case BinaryOp::kAnd:
       return run_and;
     case BinaryOp::kEqual:
-      return runner_for<BinaryOp::kEqual>(left, right);
+      return runner_for<std::equal_to<>>(left, right);
     case BinaryOp::kNotEqual:
-      return runner_for<BinaryOp::kNotEqual>(left, right);
+      return runner_for<std::not_equal_to<>>(left, right);
     case BinaryOp::kLess:
-      return runner_for<BinaryOp::kLess>(left, right);
+      return runner_for<std::less<>>(left, right);
     case BinaryOp::kLessEqual:
-      return runner_for<BinaryOp::kLessEqual>(left, right);
+      return runner_for<std::less_equal<>>(left, right);
     case BinaryOp::kGreater:
-      return runner_for<BinaryOp::kGreater>(left, right);
+      return runner_for<std::greater<>>(left, right);
     case BinaryOp::kGreaterEqual:
-      return runner_for<BinaryOp::kGreaterEqual>(left, right);
+      return runner_for<std::greater_equal<>>(left, right);
     case BinaryOp::kBitOr:
     case BinaryOp::kBitAnd:
     case BinaryOp::kShiftLeft:
     case BinaryOp::kShiftRight:
       return run_bitwise;
     case BinaryOp::kAdd:
-      return runner_for<BinaryOp::kAdd>(left, right);
+      return runner_for<std::plus<>>(left, right);
     case BinaryOp::kSubtract:
-      return runner_for<BinaryOp::kSubtract>(left, right);
+      return runner_for<std::minus<>>(left, right);
     case BinaryOp::kMultiply:
-      return runner_for<BinaryOp::kMultiply>(left, right);
+      return runner_for<std::multiplies<>>(left, right);
     case BinaryOp::kDivide:
-      return runner_for<BinaryOp::kDivide>(left, right);
+      return runner_for<std::divides<>>(left, right);
     case BinaryOp::kModulo:
-      return runner_for<BinaryOp::kModulo>(left, right);
+      return runner_for<Modulo>(left, right);
     default:
-      return runner_for<BinaryOp::kPower>(left, right);
+      return runner_for<Power>(left, right);
   }
 }
 

@@ -3,9 +3,8 @@
 //
 // Source: Matsumoto and Nishimura, "Mersenne Twister", ACM TOMACS 8 (1998),
 // with the seeding of their 2002 version. Departure: state words are seeded and
-// twisted one by one, as they are needed. Noise functions of libraries seed
-// anew for every two numbers; making all 624 words each time took most of the
-// evaluation.
+// twisted as they are needed. Noise functions of libraries seed anew for every
+// two numbers; all 624 words each time took most of the evaluation.
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,11 @@
-#include "csg/eval/run/statement.h"
+// Running instantiations (see runners.h).
 
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "csg/eval/run/each_value.h"
+#include "csg/eval/run/runners.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -102,14 +103,8 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
   // Run the children's assignments first: arguments may use them.
   run_assignments(*code.block, frame);
   Frame callee{in};
-  if (code.is_foreign) {
-    callee.link = &in.enter_unit(*module.unit);
-  } else {
-    callee.link = &frame;
-    for (std::uint32_t i = 0; i < code.hops; ++i) {
-      callee.link = callee.link->link;
-    }
-  }
+  callee.link = code.is_foreign ? &in.enter_unit(*module.unit)
+                                : follow_links(frame, code.hops);
   callee.document = module.unit->document;
   callee.children = code.block;
   callee.children_frame = &frame;

@@ -1,13 +1,11 @@
-#include "csg/eval/value/comparison.h"
+// Comparing values (see operators.h).
 
 #include <algorithm>
 #include <optional>
 #include <span>
 
-#include <fmt/format.h>
-
 #include "csg/eval/value/object.h"
-#include "csg/eval/value/undefined.h"
+#include "csg/eval/value/operators.h"
 #include "parser/ast_printer.h"
 
 namespace lamina::csg {
@@ -104,10 +102,9 @@ Value compare(BinaryOp op, const Value& left, const Value& right,
       return Value(is_less_range(a, b, or_equal));
     }
     default:
-      reason.text =
-          fmt::format("operation undefined ({} {} {})", type_name(left.type()),
-                      ast::symbol(op), type_name(right.type()));
-      return Value();
+      return undefined_because(reason, "operation undefined ({} {} {})",
+                               type_name(left.type()), ast::symbol(op),
+                               type_name(right.type()));
   }
 }
 

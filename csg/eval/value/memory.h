@@ -2,16 +2,14 @@
 // Memory for values.
 //
 // A design makes values by the million, most of them short strings and vectors
-// of two or three numbers that die soon. malloc costs as much as running the
-// code around it, and the kernel as much again for each fresh page. So small
-// blocks come from chunks, by size in steps of 16 bytes, and a freed block is
-// the next one of its size to be given out; large blocks and chunks ask the
-// kernel for huge pages.
-//
-// One pool for each thread: a value is freed on the thread that made it. When
-// its last block is freed, a pool gives all its chunks back, so that what comes
-// after the evaluation finds the memory free.
+// of two or three numbers that die soon. malloc would cost as much as running
+// the code around it, and fresh pages as much again. So small blocks come from
+// chunks, by size in steps of 16 bytes, and a freed block is the next of its
+// size to be given out; large blocks and chunks ask the kernel for huge pages.
 // Measured on bench/scenes/lang/listcomp.scad: a third less processor time.
+//
+// Each thread has a pool; a value is freed on the thread that made it. With its
+// last block a pool gives back all its chunks, for what comes after.
 
 #include <cstddef>
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "csg/eval/value/comparison.h"
+#include "csg/eval/value/operators.h"
 #include "parser/ast.h"
 
 namespace lamina::csg {

@@ -5,13 +5,8 @@
 #include <limits>
 #include <string_view>
 
-#include <fmt/format.h>
-
-#include "csg/eval/value/comparison.h"
-#include "csg/eval/value/integers.h"
 #include "csg/eval/value/object.h"
-#include "csg/eval/value/products.h"
-#include "csg/eval/value/undefined.h"
+#include "parser/ast_printer.h"
 
 namespace lamina::csg {
 
@@ -134,13 +129,13 @@ Value divide(Value&& left, Value&& right, Reason& reason) {
 
 // Bitwise operators see numbers cut to integers of 64 bits in two's complement.
 Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
-  const std::int64_t a = cut_to_int64(left);
-  const std::int64_t b = cut_to_int64(right);
+  const std::int64_t a = cut_to<std::int64_t>(left);
+  const std::int64_t b = cut_to<std::int64_t>(right);
   const bool is_shift =
       op == BinaryOp::kShiftLeft || op == BinaryOp::kShiftRight;
   if (is_shift && (b < 0 || b >= 64)) {
-    reason.text = b < 0 ? "negative shift" : "shift too large";
-    return Value();
+    return undefined_because(reason, "{}",
+                             b < 0 ? "negative shift" : "shift too large");
   }
   switch (op) {
     case BinaryOp::kBitOr:
@@ -157,14 +152,20 @@ Value apply_bitwise(BinaryOp op, double left, double right, Reason& reason) {
 
 Value invert(const Value& value, Reason& reason) {
   if (value.is_number()) {
-    return Value(static_cast<double>(~cut_to_int64(value.as_number())));
+    return Value(static_cast<double>(~cut_to<std::int64_t>(value.as_number())));
   }
-  reason.text =
-      fmt::format("undefined operation (~{})", type_name(value.type()));
-  return Value();
+  return undefined_because(reason, "undefined operation (~{})",
+                           type_name(value.type()));
 }
 
 }  // namespace
+
+Value undefined(BinaryOp op, const Value& left, const Value& right,
+                Reason& reason) {
+  return undefined_because(reason, "undefined operation ({} {} {})",
+                           type_name(left.type()), ast::symbol(op),
+                           type_name(right.type()));
+}
 
 Value apply_binary(BinaryOp op, Value left, Value right, Reason& reason) {
   switch (op) {
@@ -219,9 +220,8 @@ Value negate(Value value, Reason& reason) {
                           return negate(std::move(element), unused);
                         });
   }
-  reason.text =
-      fmt::format("undefined operation (-{})", type_name(value.type()));
-  return Value();
+  return undefined_because(reason, "undefined operation (-{})",
+                           type_name(value.type()));
 }
 
 Value index(const Value& object, const Value& index) {

@@ -1,8 +1,6 @@
-#include "csg/eval/value/products.h"
+// Products of vectors and matrices (see operators.h).
 
-#include <fmt/format.h>
-
-#include "csg/eval/value/undefined.h"
+#include "csg/eval/value/operators.h"
 
 namespace lamina::csg {
 
@@ -14,22 +12,20 @@ Value multiply_matrix_by_vector(std::span<const Value> matrix,
   for (std::size_t i = 0; i < matrix.size(); ++i) {
     const std::span<const Value> row = matrix[i].elements();
     if (!matrix[i].is_vector() || row.size() != vector.size()) {
-      reason.text =
-          fmt::format("Matrix must be rectangular. Problem at row {}", i);
-      return Value();
+      return undefined_because(
+          reason, "Matrix must be rectangular. Problem at row {}", i);
     }
     double sum = 0;
     for (std::size_t j = 0; j < row.size(); ++j) {
       if (!row[j].is_number()) {
-        reason.text = fmt::format(
+        return undefined_because(
+            reason,
             "Matrix must contain only numbers. Problem at row {}, col {}", i,
             j);
-        return Value();
       }
       if (!vector[j].is_number()) {
-        reason.text = fmt::format(
-            "Vector must contain only numbers. Problem at index {}", j);
-        return Value();
+        return undefined_because(
+            reason, "Vector must contain only numbers. Problem at index {}", j);
       }
       sum += row[j].as_number() * vector[j].as_number();
     }
@@ -39,8 +35,11 @@ Value multiply_matrix_by_vector(std::span<const Value> matrix,
 }
 
 // The message on a faulty element, which OpenSCAD says twice here.
-Value refuse(const std::string& message, Reason& reason) {
-  reason = {message, message};
+template <typename... Parts>
+Value refuse(Reason& reason, fmt::format_string<Parts...> words,
+             Parts&&... parts) {
+  undefined_because(reason, words, std::forward<Parts>(parts)...);
+  reason.said_before = reason.text;
   return Value();
 }
 
@@ -53,22 +52,18 @@ Value multiply_vector_by_matrix(std::span<const Value> vector,
     for (std::size_t j = 0; j < vector.size(); ++j) {
       const std::span<const Value> row = matrix[j].elements();
       if (!matrix[j].is_vector() || row.size() != columns) {
-        return refuse(
-            fmt::format("Matrix must be rectangular. Problem at row {}", j),
-            reason);
+        return refuse(reason, "Matrix must be rectangular. Problem at row {}",
+                      j);
       }
       if (!vector[j].is_number()) {
         return refuse(
-            fmt::format("Vector must contain only numbers. Problem at index {}",
-                        j),
-            reason);
+            reason, "Vector must contain only numbers. Problem at index {}", j);
       }
       if (!row[i].is_number()) {
         return refuse(
-            fmt::format(
-                "Matrix must contain only numbers. Problem at row {}, col {}",
-                j, i),
-            reason);
+            reason,
+            "Matrix must contain only numbers. Problem at row {}, col {}", j,
+            i);
       }
       sum += vector[j].as_number() * row[i].as_number();
     }
@@ -83,11 +78,11 @@ Value multiply_matrices(std::span<const Value> left,
   for (std::size_t i = 0; i < left.size(); ++i) {
     const std::span<const Value> row = left[i].elements();
     if (row.size() != right.size()) {
-      reason.text = fmt::format(
+      return undefined_because(
+          reason,
           "matrix*matrix left operand row length does not match right operand "
           "row count ({} != {}) at row {}",
           row.size(), right.size(), i);
-      return Value();
     }
     Value product = multiply_vector_by_matrix(row, right, reason);
     if (product.is_undef()) {
@@ -117,43 +112,44 @@ Value dot_product(std::span<const Value> a, std::span<const Value> b,
 Value multiply_vectors(std::span<const Value> a, std::span<const Value> b,
                        Reason& reason) {
   if (a.empty() || b.empty()) {
-    reason.text = "Multiplication is undefined on empty vectors";
-    return Value();
+    return undefined_because(reason,
+                             "Multiplication is undefined on empty vectors");
   }
   const Value& first = a[0];
   const Value& second = b[0];
   if (first.is_number() && second.is_number()) {
     if (a.size() == b.size()) return dot_product(a, b, reason);
-    reason.text =
-        fmt::format("vector*vector requires matching lengths ({} != {})",
-                    a.size(), b.size());
-  } else if (first.is_number() && second.is_vector()) {
+    return undefined_because(
+        reason, "vector*vector requires matching lengths ({} != {})", a.size(),
+        b.size());
+  }
+  if (first.is_number() && second.is_vector()) {
     if (a.size() == b.size()) return multiply_vector_by_matrix(a, b, reason);
-    reason.text = fmt::format(
-        "vector*matrix requires vector length to match matrix row count ({} "
-        "!= {})",
-        a.size(), b.size());
-  } else if (first.is_vector() && second.is_number()) {
+    return undefined_because(reason,
+                             "vector*matrix requires vector length to match "
+                             "matrix row count ({} != {})",
+                             a.size(), b.size());
+  }
+  if (first.is_vector() && second.is_number()) {
     const std::size_t columns = first.as_vector().size();
     if (columns == b.size()) return multiply_matrix_by_vector(a, b, reason);
-    reason.text = fmt::format(
-        "matrix*vector requires matrix column count to match vector length "
-        "({} != {})",
-        columns, b.size());
-  } else if (first.is_vector() && second.is_vector()) {
+    return undefined_because(reason,
+                             "matrix*vector requires matrix column count to "
+                             "match vector length ({} != {})",
+                             columns, b.size());
+  }
+  if (first.is_vector() && second.is_vector()) {
     const std::size_t columns = first.as_vector().size();
     if (columns == b.size()) return multiply_matrices(a, b, reason);
-    reason.text = fmt::format(
-        "matrix*matrix requires left operand column count to match right "
-        "operand row count ({} != {})",
-        columns, b.size());
-  } else {
-    reason.text = fmt::format(
-        "undefined vector*vector multiplication where first elements are "
-        "types {} and {}",
-        type_name(first.type()), type_name(second.type()));
+    return undefined_because(reason,
+                             "matrix*matrix requires left operand column count "
+                             "to match right operand row count ({} != {})",
+                             columns, b.size());
   }
-  return Value();
+  return undefined_because(reason,
+                           "undefined vector*vector multiplication where first "
+                           "elements are types {} and {}",
+                           type_name(first.type()), type_name(second.type()));
 }
 
 }  // namespace lamina::csg

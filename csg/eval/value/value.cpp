@@ -15,32 +15,20 @@ namespace {
 
 constexpr std::size_t kMaxLength = std::numeric_limits<std::uint32_t>::max();
 
-// Bytes of a T with `count` elements behind it.
-template <typename T, typename Element>
+// Bytes of a Buffer with `count` elements behind it.
+template <typename Buffer>
 std::size_t buffer_bytes(std::size_t count) {
-  return sizeof(T) + count * sizeof(Element);
+  return sizeof(Buffer) + count * sizeof(*std::declval<Buffer>().data());
 }
-std::size_t bytes_of(const StringBuffer& buffer) {
-  return buffer_bytes<StringBuffer, char>(buffer.capacity);
-}
-std::size_t bytes_of(const VectorBuffer& buffer) {
-  return buffer_bytes<VectorBuffer, Value>(buffer.capacity);
+template <typename Buffer>
+std::size_t bytes_of(const Buffer& buffer) {
+  return buffer_bytes<Buffer>(buffer.capacity);
 }
 
-StringBuffer* allocate_string(std::size_t capacity) {
+template <typename Buffer>
+Buffer* allocate(std::size_t capacity) {
   if (capacity > kMaxLength) throw std::bad_alloc();
-  auto* buffer =
-      new (allocate_block(buffer_bytes<StringBuffer, char>(capacity)))
-          StringBuffer;
-  buffer->capacity = static_cast<std::uint32_t>(capacity);
-  return buffer;
-}
-
-VectorBuffer* allocate_vector(std::size_t capacity) {
-  if (capacity > kMaxLength) throw std::bad_alloc();
-  auto* buffer =
-      new (allocate_block(buffer_bytes<VectorBuffer, Value>(capacity)))
-          VectorBuffer;
+  auto* buffer = new (allocate_block(buffer_bytes<Buffer>(capacity))) Buffer;
   buffer->capacity = static_cast<std::uint32_t>(capacity);
   return buffer;
 }
@@ -48,11 +36,14 @@ VectorBuffer* allocate_vector(std::size_t capacity) {
 VectorBuffer* resize_vector(VectorBuffer* buffer, std::size_t capacity) {
   if (capacity > kMaxLength) throw std::bad_alloc();
   buffer = static_cast<VectorBuffer*>(resize_block(
-      buffer, bytes_of(*buffer), buffer_bytes<VectorBuffer, Value>(capacity)));
+      buffer, bytes_of(*buffer), buffer_bytes<VectorBuffer>(capacity)));
   buffer->capacity = static_cast<std::uint32_t>(capacity);
   return buffer;
 }
 
+void copy_values(std::string_view from, char* to) {
+  std::copy(from.begin(), from.end(), to);
+}
 void copy_values(std::span<const Value> from, Value* to) {
   for (const Value& value : from) new (to++) Value(value);
 }
@@ -90,24 +81,11 @@ StringBuffer* ascii_string(unsigned char c) {
 }  // namespace
 
 std::string_view type_name(Type type) {
-  switch (type) {
-    case Type::kBool:
-      return "bool";
-    case Type::kNumber:
-      return "number";
-    case Type::kString:
-      return "string";
-    case Type::kVector:
-      return "vector";
-    case Type::kRange:
-      return "range";
-    case Type::kFunction:
-      return "function";
-    case Type::kObject:
-      return "object";
-    default:
-      return "undefined";
-  }
+  // In the order of the types.
+  constexpr std::string_view kNames[] = {
+      "undefined", "undefined", "bool",     "number", "string",
+      "vector",    "range",     "function", "object", "undefined"};
+  return kNames[static_cast<std::size_t>(type)];
 }
 
 std::uint32_t Range::count() const {
@@ -127,14 +105,14 @@ Value Value::string(std::string_view text) {
     ++shared->references;
     return adopt(Type::kString, shared, 1);
   }
-  StringBuffer* buffer = allocate_string(text.size());
-  std::copy(text.begin(), text.end(), buffer->data());
+  StringBuffer* buffer = allocate<StringBuffer>(text.size());
+  copy_values(text, buffer->data());
   buffer->used = static_cast<std::uint32_t>(text.size());
   return adopt(Type::kString, buffer, buffer->used);
 }
 
 Value Value::vector(std::span<const Value> elements) {
-  VectorBuffer* buffer = allocate_vector(elements.size());
+  VectorBuffer* buffer = allocate<VectorBuffer>(elements.size());
   copy_values(elements, buffer->data());
   buffer->used = buffer->capacity;
   return adopt(Type::kVector, buffer, buffer->used);
@@ -226,38 +204,31 @@ Value Value::character(std::uint32_t i) const {
 
 // --- Appending ------------------------------------------------------------
 
-Value Value::with_appended(std::string_view text) const {
-  StringBuffer& old = string_buffer();
-  const std::size_t needed = length_ + text.size();
-  if (text.empty()) return *this;
+// A string or vector of a buffer's first elements and more behind them. Where
+// `length` elements are all that the buffer holds and it has room, it is
+// shared.
+template <typename Buffer, typename Elements>
+Value Value::append(Buffer& old, Elements more, std::size_t long_size) const {
+  if (more.empty()) return *this;
+  const std::size_t needed = length_ + more.size();
+  Buffer* buffer = &old;
   if (length_ != old.used || needed > old.capacity) {
-    StringBuffer* buffer = allocate_string(grown(needed, kLongString));
-    std::memcpy(buffer->data(), old.data(), length_);
-    std::memcpy(buffer->data() + length_, text.data(), text.size());
-    buffer->used = static_cast<std::uint32_t>(needed);
-    return adopt(Type::kString, buffer, buffer->used);
+    buffer = allocate<Buffer>(grown(needed, long_size));
+    copy_values(Elements(old.data(), length_), buffer->data());
+  } else {
+    ++old.references;
   }
-  std::memcpy(old.data() + length_, text.data(), text.size());
-  old.used = static_cast<std::uint32_t>(needed);
-  ++old.references;
-  return adopt(Type::kString, &old, old.used);
+  copy_values(more, buffer->data() + length_);
+  buffer->used = static_cast<std::uint32_t>(needed);
+  return adopt(type_, buffer, buffer->used);
+}
+
+Value Value::with_appended(std::string_view text) const {
+  return append(string_buffer(), text, kLongString);
 }
 
 Value Value::with_appended(std::span<const Value> elements) const {
-  VectorBuffer& old = vector_buffer();
-  const std::size_t needed = length_ + elements.size();
-  if (elements.empty()) return *this;
-  if (length_ != old.used || needed > old.capacity) {
-    VectorBuffer* buffer = allocate_vector(grown(needed, kLongVector));
-    copy_values(as_vector(), buffer->data());
-    copy_values(elements, buffer->data() + length_);
-    buffer->used = static_cast<std::uint32_t>(needed);
-    return adopt(Type::kVector, buffer, buffer->used);
-  }
-  copy_values(elements, old.data() + length_);
-  old.used = static_cast<std::uint32_t>(needed);
-  ++old.references;
-  return adopt(Type::kVector, &old, old.used);
+  return append(vector_buffer(), elements, kLongVector);
 }
 
 // --- Freeing --------------------------------------------------------------
@@ -293,7 +264,8 @@ void Value::destroy() {
       delete static_cast<Closure*>(payload_.counted);
       return;
     case Type::kBox:
-      delete_box(&as_box());
+      as_box().leave_list();
+      delete &as_box();
       return;
     default:
       break;
@@ -318,12 +290,6 @@ void Value::destroy() {
   }
 }
 
-void delete_box(Box* box) {
-  if (box->previous != nullptr) box->previous->next = box->next;
-  if (box->next != nullptr) box->next->previous = box->previous;
-  delete box;
-}
-
 // --- VectorBuilder --------------------------------------------------------
 
 VectorBuilder::~VectorBuilder() {
@@ -332,7 +298,7 @@ VectorBuilder::~VectorBuilder() {
 
 void VectorBuilder::reserve(std::size_t capacity) {
   if (capacity <= capacity_) return;
-  buffer_ = buffer_ == nullptr ? allocate_vector(capacity)
+  buffer_ = buffer_ == nullptr ? allocate<VectorBuffer>(capacity)
                                : resize_vector(buffer_, capacity);
   capacity_ = buffer_->capacity;
 }
@@ -352,7 +318,7 @@ void VectorBuilder::push_all(std::span<const Value> values) {
 
 Value VectorBuilder::finish() {
   if (buffer_ == nullptr) {
-    buffer_ = allocate_vector(0);
+    buffer_ = allocate<VectorBuffer>(0);
   } else if (capacity_ != size_) {
     buffer_ = resize_vector(buffer_, size_);
   }

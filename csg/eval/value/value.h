@@ -6,12 +6,10 @@
 // pointer to a counted, immutable object; copying one never allocates. The
 // counts are not atomic: one evaluator runs on one thread.
 //
-// The length of a string or vector stands in the Value, not in the buffer. So
-// a longer string may share the buffer of its own beginning: appending to a
-// value that ends where the used part of its buffer ends writes behind it,
-// which no other holder can see. `concat(v, [x])` and `str(s, c)` in a loop
-// therefore cost amortised O(1) instead of a copy of all that came before,
-// without any analysis of who else holds the value.
+// The length of a string or vector stands in the Value, not in the buffer. So a
+// longer string may share the buffer of its own beginning: appending where the
+// used part of the buffer ends writes behind it, which no other holder can see.
+// `concat(v, [x])` and `str(s, c)` in a loop cost amortised O(1).
 //
 // Freeing never recurses: a vector nested a million deep dies in a loop.
 
@@ -21,7 +19,6 @@
 #include <cstring>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -242,6 +239,8 @@ class Value {
   void release() {
     if (--payload_.counted->references == 0) destroy();
   }
+  template <typename Buffer, typename Elements>
+  Value append(Buffer& old, Elements more, std::size_t long_size) const;
   void destroy();
   void join(VectorBuffer*& dying);
   StringBuffer& string_buffer() const {
@@ -272,6 +271,12 @@ struct Box : Counted {
   Value value = Value::unset();
   Box* previous = nullptr;
   Box* next = nullptr;
+
+  void leave_list() {
+    if (previous != nullptr) previous->next = next;
+    if (next != nullptr) next->previous = previous;
+    previous = next = nullptr;
+  }
 };
 
 // What a function that was taken out of an object is: that function, and the
@@ -302,9 +307,6 @@ inline const Closure& Value::as_function() const {
 inline Box& Value::as_box() const {
   return *static_cast<Box*>(payload_.counted);
 }
-
-// Takes a box out of its list and frees it.
-void delete_box(Box* box);
 
 // Collects the elements of a vector.
 class VectorBuilder {

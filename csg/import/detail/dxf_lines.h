@@ -4,12 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "base/vec.h"
 #include "csg/import/dxf.h"
+#include "csg/vertex_table.h"
 
 namespace lamina::csg {
 
@@ -26,17 +25,8 @@ class DxfGrid {
   std::size_t size() const { return points_.size(); }
 
  private:
-  using Cell = std::pair<std::int64_t, std::int64_t>;
-  struct Hash {
-    std::size_t operator()(const Cell& cell) const {
-      const auto x = static_cast<std::uint64_t>(cell.first);
-      const auto y = static_cast<std::uint64_t>(cell.second);
-      return ((x << 32 | x >> 32) ^ y) * 0x9e3779b97f4a7c15u >> 7;
-    }
-  };
-
-  std::unordered_map<Cell, std::uint32_t, Hash> cells_;
-  std::vector<Vec2> points_;
+  VertexTable cells_;         // in steps of the grid; numbered as the points
+  std::vector<Vec2> points_;  // [mm]
 };
 
 using DxfLine = std::array<std::uint32_t, 2>;  // points of the grid

@@ -101,6 +101,10 @@ class Lowerer {
   void report_strays(const Operands& operands);
   Shape lower_children(const Node& node, const Affine& world, BooleanOp op);
 
+  // Leaves a scene that was lowered apart on top of the stack, as the parts of
+  // its program.
+  void place_scene(const Scene& scene, const Affine& world);
+
   // --- lower_leaves.cpp -----------------------------------------------------
   Shape lower_op(const Cube& cube, const Node& node, const Affine& world);
   Shape lower_op(const Sphere& sphere, const Node& node, const Affine& world);
@@ -170,12 +174,9 @@ class Lowerer {
   // --- lower_minkowski.cpp --------------------------------------------------
   Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
   std::vector<Scene> take_scenes(const std::vector<std::size_t>& begins);
+  // The sum of all of them, in node's coordinates. At least one.
+  Operand add_terms(std::vector<Operand> terms, const Node& node);
   void place_sum(const Operand& sum, const Node& node, const Affine& world);
-
-  // --- place_scene.cpp ------------------------------------------------------
-  // Leaves a scene that was lowered apart on top of the stack, as its
-  // program's parts.
-  void place_scene(const Scene& scene, const Affine& world);
 
   struct KeptBox {
     std::uint32_t leaf = 0;
@@ -198,6 +199,17 @@ class Lowerer {
 // counter-clockwise.
 planar::Region transform_region(planar::Region region, const Mat4& matrix,
                                 SourceRange range, Diagnostics& diagnostics);
+
+// Reports the first malformed point; returns whether there is none.
+//
+// type  "vec2" or "vec3"
+bool check_points(std::string_view wrong_point, std::string_view type,
+                  SourceRange range, Diagnostics& diagnostics);
+
+// index  as OpenSCAD shows it
+// list   "faces" or "paths"
+void warn_of_index(std::uint64_t index, std::string_view list, std::size_t i,
+                   std::size_t k, SourceRange range, Diagnostics& diagnostics);
 
 // Throws GeometryError, with the node's chain of calls.
 [[noreturn]] void fail_unsupported(const Node& node, std::string_view module);

@@ -32,11 +32,10 @@ class ProgramBuilder {
   // Forgets what is flat.
   void drop_flat();
 
-  // The operands are the parts from each begin up to the next one, the last
-  // operand's up to the top. At least one operand; an operand may be empty.
-  // What is flat counts as empty.
-  void apply_difference(std::span<const std::size_t> begins);
-  void apply_intersection(std::span<const std::size_t> begins);
+  // Replaces the operands by the result of the operator. They are the parts
+  // from each begin up to the next one, the last operand's up to the top; an
+  // operand may be empty. What is flat counts as empty.
+  void apply(BooleanOp op, std::span<const std::size_t> begins);
 
   // Copies the parts from begin up to end into the scene, box included, as
   // finish() would.
@@ -47,6 +46,9 @@ class ProgramBuilder {
   void finish(Scene& scene);
 
  private:
+  void apply_difference(std::span<const std::size_t> begins);
+  void apply_intersection(std::span<const std::size_t> begins);
+
   struct Part {
     std::uint32_t index = 0;  // into instances_ or operators_
     bool is_operator = false;

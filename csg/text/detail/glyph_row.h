@@ -1,11 +1,13 @@
 #pragma once
-// A text as a row of glyphs: shaped by HarfBuzz, loaded by FreeType.
+// A text as a row of glyphs: shaped by HarfBuzz, loaded by FreeType; where the
+// row stands, and how large it is.
 
 #include <vector>
 
 #include "base/vec.h"
 #include "csg/text/detail/engine.h"
 #include "csg/text/detail/font_cache.h"
+#include "csg/text_measurer.h"
 #include "csg/tree.h"
 
 namespace lamina::text {
@@ -37,5 +39,19 @@ constexpr double kShrink = 1 / 1.024;
 // messages  gets glyphs that cannot be loaded
 GlyphRow shape(const csg::TextParams& params, const Font& font,
                std::vector<Message>& messages);
+
+// Where text() of OpenSCAD 2021.01 puts the first glyph's origin: halign and
+// valign.
+//
+// messages  gets unknown alignments
+Vec2 align(const csg::TextParams& params, const GlyphRow& row,
+           std::vector<Message>& messages);
+
+// textmetrics(): the measures of what text() draws.
+csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,
+                         std::vector<Message>& messages);
+
+// fontmetrics() at a size.
+csg::FontMetrics measure(double size, const Font& font);
 
 }  // namespace lamina::text

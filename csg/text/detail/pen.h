@@ -38,6 +38,9 @@ class Pen {
   // Chords of a curve whose second derivative is at most `bend`, before
   // scaling.
   int chord_count(double bend) const;
+  // point_at  gives the curve's point at the share a of its way; b is 1 - a
+  template <typename PointAt>
+  void add_curve(double bend, Vec2 to, const PointAt& point_at);
   void add(Vec2 point);
   void close();
 

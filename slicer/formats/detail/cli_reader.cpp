@@ -16,7 +16,6 @@
 
 #include <fmt/format.h>
 
-#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

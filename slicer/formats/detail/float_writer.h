@@ -1,13 +1,17 @@
 #pragma once
 // What the writers of float32 contours (SLC, CLI, SVG, 3MF) have in common.
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "slicer/formats/detail/file_writer.h"
+#include <fmt/format.h>
+
+#include "base/diagnostic.h"
 #include "slicer/formats/detail/float_contours.h"
+#include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
 
@@ -46,13 +50,23 @@ class FloatWriter : public FileWriter {
 
   // Throws FileError where a layer at `height` [mm] falls on the float32 height
   // of the one before, or below it.
-  void check_rise(float before, double height) const;
+  void check_rise(float before, double height) const {
+    if (static_cast<float>(height) > before) return;
+    throw FileError(fmt::format(
+        "Can't write '{}': the layers at {} and {} mm are one in {}'s 32-bit "
+        "numbers",
+        output_.path(), before, height, format_));
+  }
 
   FloatContours contours_;
 
  private:
   const char* const format_;
 };
+
+static_assert(std::endian::native == std::endian::little,
+              "SLC and CLI are little-endian and written as numbers lie in "
+              "memory");
 
 // Numbers as they lie in memory.
 template <typename Value>

@@ -145,8 +145,7 @@ Json profile_of(const ImageStack& stack) {
 
 Json info_of(const ImageLayer& layer) {
   const auto& regions = layer.regions;
-  const auto [smallest, largest] =
-      std::minmax_element(regions.begin(), regions.end());
+  const auto [smallest, largest] = std::ranges::minmax_element(regions);
   return {
       {"TotalSolidArea", std::accumulate(regions.begin(), regions.end(), 0.0)},
       {"LargestArea", regions.empty() ? 0 : *largest},

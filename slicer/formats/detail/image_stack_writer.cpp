@@ -29,70 +29,11 @@ namespace {
 // A part as large as the panel fits, whatever rounding its numbers saw.
 constexpr double kSlack = 1e-3;  // [pixels]
 
-// Where the images and texts of a stack go, by name.
-class StackOutput {
- public:
-  virtual ~StackOutput() = default;
-  virtual void add_image(const std::string& name, std::string_view bytes) = 0;
-  virtual void add_text(const std::string& name, std::string_view bytes) = 0;
-  virtual void finish() = 0;
-  virtual void commit() = 0;
-  virtual std::uint64_t size() const = 0;
-};
-
-class FolderStack : public StackOutput {
- public:
-  FolderStack(const std::string& path, TemporaryFiles& files)
-      : folder_(path, kFolderContents, files) {}
-
-  void add_image(const std::string& name, std::string_view bytes) override {
-    folder_.add(name, bytes);
-  }
-  void add_text(const std::string& name, std::string_view bytes) override {
-    folder_.add(name, bytes);
-  }
-  void finish() override {}
-  void commit() override { folder_.commit(); }
-  std::uint64_t size() const override { return folder_.size(); }
-
- private:
-  OutputFolder folder_;
-};
-
-class ArchiveStack : public StackOutput {
- public:
-  ArchiveStack(const std::string& path, TemporaryFiles& files)
-      : file_(path, files), archive_(file_) {}
-
-  void add_image(const std::string& name, std::string_view bytes) override {
-    archive_.add_packed(name, bytes);
-  }
-  void add_text(const std::string& name, std::string_view bytes) override {
-    archive_.add_text(name, bytes);
-  }
-  void finish() override { archive_.finish(); }
-  void commit() override { file_.commit(); }
-  std::uint64_t size() const override { return file_.size(); }
-
- private:
-  OutputFile file_;
-  ZipOutput archive_;
-};
-
 // The name of the print job, which printers show: "ring" of "out/ring.sl1".
 std::string job_name(const std::string& path) {
   std::string name = path.substr(path.rfind('/') + 1);
   name.resize(std::min(name.size(), name.rfind('.')));
   return name.empty() || name == "-" ? "lamina" : name;
-}
-
-std::unique_ptr<StackOutput> open_stack(OutputFormat format,
-                                        const std::string& path,
-                                        TemporaryFiles& files) {
-  if (format == OutputFormat::kPng) {
-    return std::make_unique<FolderStack>(path, files);
-  }
-  return std::make_unique<ArchiveStack>(path, files);
 }
 
 // The layer's thickness without the rounding of its heights.
@@ -103,13 +44,11 @@ double thickness_of(const Layer& layer) {
 
 class ImageStackWriter : public LayerWriter {
  public:
-  ImageStackWriter(OutputFormat format, const Panel& panel,
-                   const std::string& path, TemporaryFiles& temporary_files)
-      : output_(open_stack(format, path, temporary_files)) {
-    stack_.format = format;
+  ImageStackWriter(const WriterOptions& options, const std::string& path) {
+    stack_.format = options.format;
     stack_.job = job_name(path);
-    stack_.panel = panel;
-    map_ = panel.map_around(Vec2(0));
+    stack_.panel = options.panel;
+    map_ = options.panel.map_around(Vec2(0));
   }
 
   void begin(const Box3& box) override {
@@ -130,8 +69,7 @@ class ImageStackWriter : public LayerWriter {
   void take(const Layer& layer) override {
     ImageLayer measures = measure(layer);
     const std::string name = image_name(stack_, stack_.layers.size());
-    output_->add_image(name,
-                       layer.encoded.empty() ? encode(layer) : layer.encoded);
+    add_image(name, layer.encoded.empty() ? encode(layer) : layer.encoded);
     note_thickness(measures.thickness);
     stack_.volume +=
         std::accumulate(measures.regions.begin(), measures.regions.end(), 0.0) *
@@ -141,13 +79,13 @@ class ImageStackWriter : public LayerWriter {
 
   void finish(Diagnostics& /*diagnostics*/) override {
     for (const StackText& text : stack_texts(stack_)) {
-      output_->add_text(text.name, text.text);
+      add_text(text.name, text.text);
     }
-    output_->finish();
   }
 
-  void commit() override { output_->commit(); }
-  std::uint64_t size() const override { return output_->size(); }
+ protected:
+  virtual void add_image(const std::string& name, std::string_view bytes) = 0;
+  virtual void add_text(const std::string& name, std::string_view bytes) = 0;
 
  private:
   // Throws GeometryError where the layer reaches beyond the panel.
@@ -172,29 +110,72 @@ class ImageStackWriter : public LayerWriter {
       measures.high = glm::min(measures.high, size);
       return measures;
     }
-    throw GeometryError(
-        {Severity::kError,
-         {},
-         fmt::format(
-             "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
-             "({}): the layer at {:.6g} mm reaches beyond it",
-             panel.width * panel.pixel.x, panel.height * panel.pixel.y,
-             panel.name, layer.section_z)});
+    throw GeometryError(fmt::format(
+        "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
+        "({}): the layer at {:.6g} mm reaches beyond it",
+        panel.width * panel.pixel.x, panel.height * panel.pixel.y, panel.name,
+        layer.section_z));
   }
 
   void note_thickness(double thickness) {
     if (stack_.layers.empty()) stack_.layer_thickness = thickness;
     if (stack_.layer_thickness == thickness) return;
     if (stack_.format != OutputFormat::kPng) {
-      throw GeometryError(
-          {Severity::kError, {}, ".sl1 and .zip need layers of one thickness"});
+      throw GeometryError(".sl1 and .zip need layers of one thickness");
     }
     stack_.layer_thickness = 0;
   }
 
-  std::unique_ptr<StackOutput> output_;
   ImageStack stack_;
   PixelMap map_;
+};
+
+class FolderWriter : public ImageStackWriter {
+ public:
+  FolderWriter(const WriterOptions& options, const std::string& path,
+               TemporaryFiles& files)
+      : ImageStackWriter(options, path),
+        folder_(path, kFolderContents, files) {}
+
+  void commit() override { folder_.commit(); }
+  std::uint64_t size() const override { return folder_.size(); }
+
+ private:
+  void add_image(const std::string& name, std::string_view bytes) override {
+    folder_.add(name, bytes);
+  }
+  void add_text(const std::string& name, std::string_view bytes) override {
+    folder_.add(name, bytes);
+  }
+
+  OutputFolder folder_;
+};
+
+class ArchiveWriter : public ImageStackWriter {
+ public:
+  ArchiveWriter(const WriterOptions& options, const std::string& path,
+                TemporaryFiles& files)
+      : ImageStackWriter(options, path),
+        file_(OutputFile::open(path, files)),
+        archive_(file_) {}
+
+  void finish(Diagnostics& diagnostics) override {
+    ImageStackWriter::finish(diagnostics);
+    archive_.finish();
+  }
+  void commit() override { file_.commit(); }
+  std::uint64_t size() const override { return file_.size(); }
+
+ private:
+  void add_image(const std::string& name, std::string_view bytes) override {
+    archive_.add_packed(name, bytes);
+  }
+  void add_text(const std::string& name, std::string_view bytes) override {
+    archive_.add_text(name, bytes);
+  }
+
+  OutputFile file_;
+  ZipOutput archive_;
 };
 
 }  // namespace
@@ -202,8 +183,10 @@ class ImageStackWriter : public LayerWriter {
 std::unique_ptr<LayerWriter> make_image_stack_writer(
     const WriterOptions& options, const std::string& path,
     TemporaryFiles& temporary_files) {
-  return std::make_unique<ImageStackWriter>(options.format, options.panel, path,
-                                            temporary_files);
+  if (options.format == OutputFormat::kPng) {
+    return std::make_unique<FolderWriter>(options, path, temporary_files);
+  }
+  return std::make_unique<ArchiveWriter>(options, path, temporary_files);
 }
 
 }  // namespace lamina::slicer

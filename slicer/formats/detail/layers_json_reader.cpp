@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/loop_area.h"
-#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

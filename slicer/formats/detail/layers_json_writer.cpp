@@ -11,7 +11,6 @@
 
 #include "base/file/text_output.h"
 #include "base/loop_area.h"
-#include "slicer/formats/detail/file_writer.h"
 #include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {

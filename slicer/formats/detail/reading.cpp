@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -19,17 +18,13 @@
 namespace lamina::slicer {
 
 void fail_to_read(const std::string& path, std::string_view message) {
-  throw FileError(
-      {Severity::kError, {}, fmt::format("{}: {}", path, message), {}});
+  throw FileError(fmt::format("{}: {}", path, message));
 }
 
 void fail_to_open(const std::string& path) {
   throw FileError(
-      {Severity::kError,
-       {},
-       fmt::format("Can't open input file '{}': {}", path,
-                   errno == 0 ? "not a regular file" : std::strerror(errno)),
-       {}});
+      fmt::format("Can't open input file '{}': {}", path,
+                  errno == 0 ? "not a regular file" : std::strerror(errno)));
 }
 
 FileBytes open_to_read(const std::string& path, const FileAccess& access) {

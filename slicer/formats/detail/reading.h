@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "base/file/file_access.h"
 #include "base/file/file_bytes.h"
 #include "base/vec.h"
 #include "ldni/section/contours.h"
+#include "slicer/formats/layer_reader.h"
 
 namespace lamina::slicer {
 
@@ -42,5 +42,14 @@ enum class LoopKind { kOuter, kHole };
 // as its kind must. What has fewer than three points is left out.
 void add_loop(std::span<const Vec2> points, LoopKind kind,
               ldni::Contours& contours);
+
+// The readers behind read_layers(): one for each format, in a source file of
+// its name. SLC has slc_reader.h.
+using ReadLayers = LayerFileFacts(const std::string& path,
+                                  const TakeLayer& take,
+                                  const FileAccess& access);
+ReadLayers read_cli;
+ReadLayers read_layers_json;
+ReadLayers read_svg;
 
 }  // namespace lamina::slicer

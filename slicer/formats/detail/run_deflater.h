@@ -2,13 +2,11 @@
 // Packs bytes that come in runs (stretches of equal bytes), as the rows of a
 // layer's image do, into a zlib stream.
 //
-// Most of a panel is black and most of a part is white, so an image of millions
-// of bytes is some thousands of runs. zlib looks at every byte, which took
-// hundreds of times as long as making the layers themselves; here a run costs
-// about the same however long it is: its deflate codes and its part in the
-// checksum follow from its length. The stream is one block in one fixed Huffman
-// code, made for images of layers (RFC 1950, RFC 1951); files are as small as
-// zlib's.
+// An image of millions of bytes is some thousands of runs. zlib looks at every
+// byte, which took hundreds of times as long as making the layers; here the
+// codes of a run and its part in the checksum follow from its length. The
+// stream is one block in one fixed Huffman code, made for images of layers (RFC
+// 1950, RFC 1951); files are as small as zlib's.
 
 #include <cstdint>
 #include <string>

@@ -17,7 +17,6 @@
 #include "base/file/text_output.h"
 #include "base/version.h"
 #include "slicer/formats/detail/float_writer.h"
-#include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
 namespace {
@@ -88,11 +87,9 @@ class SlcWriter : public FloatWriter {
   void add_row(const Layer& layer) {
     if (rows_.size() == kMostRows) {
       throw FileError(
-          {Severity::kError,
-           {},
-           fmt::format("Can't write '{}': the thickness of layers changes more "
-                       "often than SLC's table, which holds {} rows, can say",
-                       output_.path(), kMostRows)});
+          fmt::format("Can't write '{}': the thickness of layers changes more "
+                      "often than SLC's table, which holds {} rows, can say",
+                      output_.path(), kMostRows));
     }
     thickness_ = layer.top - layer.bottom;
     rows_.push_back({static_cast<float>(layer.bottom),

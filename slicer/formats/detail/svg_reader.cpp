@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -16,7 +15,6 @@
 #include <pugixml.hpp>
 
 #include "base/file/xml.h"
-#include "slicer/formats/detail/readers.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

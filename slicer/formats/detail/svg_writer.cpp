@@ -14,7 +14,6 @@
 #include "base/file/text_output.h"
 #include "base/version.h"
 #include "slicer/formats/detail/float_writer.h"
-#include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
 namespace {

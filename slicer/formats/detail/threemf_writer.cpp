@@ -17,7 +17,6 @@
 #include "base/file/zip_output.h"
 #include "base/version.h"
 #include "slicer/formats/detail/float_writer.h"
-#include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "slicer/contour/layer_edges.h"
 #include "slicer/picture/detail/lettering.h"
@@ -18,9 +19,9 @@ constexpr Rgb kOutline = {0.36F, 0.25F, 0.06F};
 }  // namespace
 
 void Bounds::add(const ldni::Contours& contours) {
-  for (const Vec2& p : contours.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  for (const Vec2& point : contours.points) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
   }
 }
 

@@ -18,9 +18,8 @@ constexpr std::size_t kMostRows = 512;
 LayerDistance::LayerDistance(const ldni::Contours& contours, double reach)
     : reach_(reach) {
   if (contours.is_empty()) return;
-  const auto [lowest, highest] = std::minmax_element(
-      contours.points.begin(), contours.points.end(),
-      [](const Vec2& a, const Vec2& b) { return a.y < b.y; });
+  const auto [lowest, highest] =
+      std::ranges::minmax_element(contours.points, {}, &Vec2::y);
   low_ = lowest->y;
   const std::size_t rows =
       std::clamp<std::size_t>(contours.points.size() / 2, 1, kMostRows);
@@ -72,15 +71,13 @@ LayerDistance::Depth LayerDistance::at(Vec2 place) const {
   // From the row of the place outwards, while a row can hold a nearer edge.
   const int middle = row_of(place.y);
   look(middle);
-  for (int row = middle - 1; row >= 0; --row) {
-    const double gap = place.y - (low_ + (row + 1) * row_height_);
-    if (gap > 0 && gap * gap >= nearest) break;
-    look(row);
-  }
-  for (int row = middle + 1; row < row_count_; ++row) {
-    const double gap = low_ + row * row_height_ - place.y;
-    if (gap > 0 && gap * gap >= nearest) break;
-    look(row);
+  for (const int step : {-1, 1}) {
+    for (int row = middle + step; row >= 0 && row < row_count_; row += step) {
+      const double side = low_ + (step < 0 ? row + 1 : row) * row_height_;
+      const double gap = (side - place.y) * step;
+      if (gap > 0 && gap * gap >= nearest) break;
+      look(row);
+    }
   }
 
   const double sign = is_inside(place) ? 1 : -1;

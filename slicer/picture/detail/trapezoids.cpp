@@ -1,6 +1,7 @@
 #include "slicer/picture/detail/trapezoids.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -21,13 +22,8 @@ struct Edge {
 
 // A pair of edges with the solid between them, since `bottom`.
 struct Strip {
-  std::uint32_t left;
-  std::uint32_t right;
+  std::array<std::uint32_t, 2> sides;  // left, right
   double bottom;
-
-  bool has_sides_of(const Strip& other) const {
-    return left == other.left && right == other.right;
-  }
 };
 
 class TrapezoidSweep {
@@ -36,9 +32,8 @@ class TrapezoidSweep {
                  std::vector<Trapezoid>& trapezoids)
       : trapezoids_(trapezoids) {
     visit_edges(contours, [&](Vec2 from, Vec2 to) { add_edge(from, to); });
-    std::sort(edges_.begin(), edges_.end(),
-              [](const Edge& a, const Edge& b) { return a.low.y < b.low.y; });
-    std::sort(heights_.begin(), heights_.end());
+    std::ranges::sort(edges_, {}, [](const Edge& edge) { return edge.low.y; });
+    std::ranges::sort(heights_);
     heights_.erase(std::unique(heights_.begin(), heights_.end()),
                    heights_.end());
   }
@@ -67,8 +62,7 @@ class TrapezoidSweep {
     }
     const double middle = (bottom + top) / 2;
     for (Active& active : active_) active.x = edges_[active.edge].x_at(middle);
-    std::sort(active_.begin(), active_.end(),
-              [](const Active& a, const Active& b) { return a.x < b.x; });
+    std::ranges::sort(active_, {}, &Active::x);
 
     std::vector<Strip> strips;
     int winding = 0;
@@ -76,9 +70,9 @@ class TrapezoidSweep {
       const bool was_outside = winding == 0;
       winding += edges_[active.edge].winding;
       if (was_outside) {
-        strips.push_back({active.edge, active.edge, bottom});
+        strips.push_back({{active.edge, active.edge}, bottom});
       } else if (winding == 0) {
-        strips.back().right = active.edge;
+        strips.back().sides[1] = active.edge;
       }
     }
     replace_strips(std::move(strips), bottom);
@@ -87,9 +81,7 @@ class TrapezoidSweep {
   // Ends the strips that do not go on beyond `height`.
   void replace_strips(std::vector<Strip> strips, double height) {
     for (const Strip& old : strips_) {
-      const auto same = std::find_if(
-          strips.begin(), strips.end(),
-          [&](const Strip& strip) { return strip.has_sides_of(old); });
+      const auto same = std::ranges::find(strips, old.sides, &Strip::sides);
       if (same == strips.end()) {
         finish(old, height);
       } else {
@@ -100,8 +92,8 @@ class TrapezoidSweep {
   }
 
   void finish(const Strip& strip, double top) {
-    const Edge& left = edges_[strip.left];
-    const Edge& right = edges_[strip.right];
+    const Edge& left = edges_[strip.sides[0]];
+    const Edge& right = edges_[strip.sides[1]];
     trapezoids_.push_back({strip.bottom, top, left.x_at(strip.bottom),
                            right.x_at(strip.bottom), left.x_at(top),
                            right.x_at(top)});

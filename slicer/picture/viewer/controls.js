@@ -12,6 +12,8 @@ const kIcons = {
 };
 
 const byId = (id) => document.getElementById(id);
+const placeOf = (event) => [event.offsetX, event.offsetY];
+const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
 class Viewer {
   constructor(part) {
@@ -23,7 +25,6 @@ class Viewer {
     this.state = {
       index: 0, below: false, thin: part.minFeature > 0, pointer: null, ends: [],
     };
-    this.pointers = new Map();
     this.describePart();
     this.listFeatures();
     this.bindSlider();
@@ -161,8 +162,13 @@ class Viewer {
     slider.onpointerleave = () => { byId("hint").hidden = true; };
     byId("profile").onwheel = (event) => {
       event.preventDefault();
-      this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
+      this.leaf(event);
     };
+  }
+
+  // Goes up or down by a layer, as the wheel turns.
+  leaf(event) {
+    this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
   }
 
   toggle(name) {
@@ -235,15 +241,9 @@ class Viewer {
   }
 
   bindKeys() {
-    const middle = () => this.room().map((length) => length / 2);
     const zoom = (factor) => {
-      if (this.isSolid) {
-        this.zoomSolid(factor);
-        return;
-      }
-      this.isFitted = false;
-      this.view.zoom(factor, middle());
-      this.draw();
+      if (this.isSolid) this.zoomSolid(factor);
+      else this.zoomDrawing(factor, this.room().map((length) => length / 2));
     };
     const move = (layers) => this.choose(this.state.index + layers);
     const keys = {
@@ -269,40 +269,53 @@ class Viewer {
     });
   }
 
-  bindPointers() {
-    const canvas = this.drawing.canvas;
-    const place = (event) => [event.offsetX, event.offsetY];
+  // The wheel calls zoom(factor, place), or leafs with Shift. A pointer that moves
+  // while it is down calls drag(from, to, hold); `hold` is where another one is
+  // down, if any is. Returns the pointers that are down.
+  bindCanvas(canvas, zoom, drag) {
+    const held = new Map();
     canvas.onwheel = (event) => {
       event.preventDefault();
-      if (event.shiftKey) {
-        this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
-        return;
-      }
-      this.isFitted = false;
       const lines = event.deltaMode === 1 ? 30 : 1;
-      this.view.zoom(Math.exp(-event.deltaY * lines * .0016), place(event));
-      this.draw();
+      if (event.shiftKey) this.leaf(event);
+      else zoom(Math.exp(-event.deltaY * lines * .0016), placeOf(event));
     };
-    canvas.onpointerdown = (event) => {
+    canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
-      this.pointers.set(event.pointerId, place(event));
+      held.set(event.pointerId, placeOf(event));
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!held.has(event.pointerId)) return;
+      const [, hold] = [...held].find(([id]) => id !== event.pointerId) || [];
+      drag(held.get(event.pointerId), placeOf(event), hold);
+      held.set(event.pointerId, placeOf(event));
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      canvas.addEventListener(end, (event) => held.delete(event.pointerId));
+    }
+    return held;
+  }
+
+  bindPointers() {
+    const {canvas} = this.drawing;
+    const held = this.bindCanvas(canvas,
+        (factor, at) => this.zoomDrawing(factor, at),
+        (from, to, hold) => this.drag(from, to, hold));
+    canvas.onpointerdown = () => {
       this.travel = 0;
       canvas.classList.add("panning");
     };
     canvas.onpointermove = (event) => {
-      if (this.pointers.has(event.pointerId)) this.drag(event.pointerId, place(event));
-      this.state.pointer = place(event);
+      this.state.pointer = placeOf(event);
       const [x, y] = this.view.toPart(this.state.pointer);
       byId("pointer").textContent =
           `x ${(x + this.part.low[0]).toFixed(3)}  y ${(y + this.part.low[1]).toFixed(3)} mm`;
       this.draw();
     };
     canvas.onpointerup = canvas.onpointercancel = (event) => {
-      const isLast = this.pointers.size === 1;
-      this.pointers.delete(event.pointerId);
       canvas.classList.remove("panning");
-      if (isLast && this.travel < kClickReach && event.type === "pointerup") {
-        this.click(place(event));
+      if (held.size === 0 && this.travel < kClickReach && event.type === "pointerup") {
+        this.click(placeOf(event));
       }
     };
     canvas.onpointerleave = () => {
@@ -312,6 +325,12 @@ class Viewer {
     };
   }
 
+  zoomDrawing(factor, at) {
+    this.isFitted = false;
+    this.view.zoom(factor, at);
+    this.draw();
+  }
+
   zoomSolid(factor) {
     this.solid.zoomed = Math.min(50, Math.max(.2, this.solid.zoomed * factor));
     this.draw();
@@ -319,51 +338,26 @@ class Viewer {
 
   bindOrbit() {
     const {canvas} = this.solid;
-    const held = new Map();
-    const place = (event) => [event.offsetX, event.offsetY];
-    canvas.onwheel = (event) => {
-      event.preventDefault();
-      if (event.shiftKey) {
-        this.choose(this.state.index - Math.sign(event.deltaY || event.deltaX));
-      } else {
-        this.zoomSolid(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 30 : 1) * .0016));
-      }
-    };
-    canvas.onpointerdown = (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      held.set(event.pointerId, place(event));
-    };
-    canvas.onpointermove = (event) => {
-      if (!held.has(event.pointerId)) return;
-      const from = held.get(event.pointerId);
-      const to = place(event);
-      const other = [...held].find(([id]) => id !== event.pointerId);
-      const apart = (a, b) => Math.max(1, Math.hypot(a[0] - b[0], a[1] - b[1]));
-      if (other) this.zoomSolid(apart(to, other[1]) / apart(from, other[1]));
+    const stretch = (from, to, hold) =>
+      this.zoomSolid(Math.max(1, distance(to, hold)) / Math.max(1, distance(from, hold)));
+    this.bindCanvas(canvas, (factor) => this.zoomSolid(factor), (from, to, hold) => {
+      if (hold) stretch(from, to, hold);
       else this.solid.turn(to[0] - from[0], to[1] - from[1]);
-      held.set(event.pointerId, to);
       this.draw();
-    };
-    canvas.onpointerup = canvas.onpointercancel =
-        (event) => held.delete(event.pointerId);
+    });
     canvas.ondblclick = () => this.fit();
   }
 
   // One pointer moves the part, two of them stretch it.
-  drag(id, to) {
-    const from = this.pointers.get(id);
-    const others = [...this.pointers].filter(([other]) => other !== id);
-    const apart = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
-    this.travel += apart(from, to);
+  drag(from, to, hold) {
+    this.travel += distance(from, to);
     this.isFitted = this.isFitted && this.travel < kClickReach;
-    if (others.length === 0) {
+    if (hold) {
+      this.view.zoom(distance(to, hold) / Math.max(1, distance(from, hold)), hold);
+    } else {
       this.view.x += to[0] - from[0];
       this.view.y += to[1] - from[1];
-    } else {
-      const [, hold] = others[0];
-      this.view.zoom(apart(to, hold) / Math.max(1, apart(from, hold)), hold);
     }
-    this.pointers.set(id, to);
   }
 
   click(at) {

@@ -53,15 +53,13 @@ class Depths {
       }
     };
     look(middle, true);
-    for (let row = middle - 1; row >= 0; --row) {
-      const gap = y - this.low - (row + 1) * this.height;
-      if (gap > 0 && gap * gap >= nearest) break;
-      look(row, false);
-    }
-    for (let row = middle + 1; row < this.rows.length; ++row) {
-      const gap = this.low + row * this.height - y;
-      if (gap > 0 && gap * gap >= nearest) break;
-      look(row, false);
+    for (const step of [-1, 1]) {
+      for (let row = middle + step; row in this.rows; row += step) {
+        const side = this.low + (step < 0 ? row + 1 : row) * this.height;
+        const gap = (side - y) * step;
+        if (gap > 0 && gap * gap >= nearest) break;
+        look(row, false);
+      }
     }
     return Math.sqrt(nearest) * (winding === 0 ? -1 : 1);
   }

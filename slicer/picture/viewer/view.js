@@ -132,19 +132,27 @@ class Drawing {
     }
   }
 
-  drawGrid({context, width, height}) {
-    const step = roundLength(110 / this.view.scale);
+  // Adds lines across the ticks of both rulers, between two distances from the
+  // canvas's left and upper side; none for ticks nearer to those than `least`.
+  addTicks({context, width, height}, step, least, from, to) {
+    this.forTicks(0, step, width, (x) => {
+      if (x < least) return;
+      context.moveTo(Math.round(x) + .5, from);
+      context.lineTo(Math.round(x) + .5, to);
+    });
+    this.forTicks(1, step, height, (y) => {
+      if (y < least) return;
+      context.moveTo(from, Math.round(y) + .5);
+      context.lineTo(to, Math.round(y) + .5);
+    });
+  }
+
+  drawGrid(sheet) {
+    const {context, width, height} = sheet;
     context.strokeStyle = color("line");
     context.lineWidth = 1;
     context.beginPath();
-    this.forTicks(0, step, width, (x) => {
-      context.moveTo(Math.round(x) + .5, 0);
-      context.lineTo(Math.round(x) + .5, height);
-    });
-    this.forTicks(1, step, height, (y) => {
-      context.moveTo(0, Math.round(y) + .5);
-      context.lineTo(width, Math.round(y) + .5);
-    });
+    this.addTicks(sheet, roundLength(110 / this.view.scale), 0, 0, Math.max(width, height));
     context.stroke();
   }
 
@@ -176,7 +184,8 @@ class Drawing {
     }
   }
 
-  drawRulers({context, width, height}, pointer) {
+  drawRulers(sheet, pointer) {
+    const {context, width, height} = sheet;
     context.fillStyle = color("paper");
     context.fillRect(0, 0, width, kRuler);
     context.fillRect(0, 0, kRuler, height);
@@ -187,16 +196,7 @@ class Drawing {
     context.lineWidth = 1;
     context.beginPath();
     for (const [part, length] of [[1, 9], [.1, 4]]) {
-      this.forTicks(0, step * part, width, (x) => {
-        if (x < kRuler) return;
-        context.moveTo(Math.round(x) + .5, kRuler - length);
-        context.lineTo(Math.round(x) + .5, kRuler);
-      });
-      this.forTicks(1, step * part, height, (y) => {
-        if (y < kRuler) return;
-        context.moveTo(kRuler - length, Math.round(y) + .5);
-        context.lineTo(kRuler, Math.round(y) + .5);
-      });
+      this.addTicks(sheet, step * part, kRuler, kRuler - length, kRuler);
     }
     context.stroke();
     this.forTicks(0, step, width, (x, mm) => {

@@ -70,7 +70,7 @@ class Stacker {
       borders.push_back(border);
       if (!goes_on) size = best_sizes_[border];
     }
-    std::reverse(borders.begin(), borders.end());
+    std::ranges::reverse(borders);
     return borders;
   }
 

@@ -6,9 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>

@@ -32,7 +32,7 @@ class ConfinedAccess : public testing::Test {
   }
 
   FileAccess access() const {
-    return FileAccess({all_.file("root"), {all_.file("more")}, false});
+    return FileAccess::within({all_.file("root"), {all_.file("more")}, false});
   }
   void link(const std::string& target, const std::string& name) const {
     fs::create_symlink(target, all_.file(name));
@@ -105,7 +105,7 @@ TEST_F(ConfinedAccess, FollowsLinksInsideAndNoOthers) {
 }
 
 TEST_F(ConfinedAccess, AWholeFileSystemIsAFolder) {
-  const FileAccess files({"/", {}, false});
+  const FileAccess files = FileAccess::within({"/", {}, false});
   EXPECT_EQ(
       files.read(all_.file("root/../../../../../../" + all_.file("root/in")))
           .value_or(""),

@@ -22,7 +22,7 @@ using support::TemporaryFolder;
 TEST(OutputFile, AppearsOnlyWhenCommitted) {
   const TemporaryFolder folder;
   TemporaryFiles files;
-  OutputFile output(folder.file("a"), files);
+  OutputFile output = OutputFile::open(folder.file("a"), files);
   output.write("hello");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
   output.commit();
@@ -33,7 +33,7 @@ TEST(OutputFile, AppearsOnlyWhenCommitted) {
 TEST(OutputFile, LeavesNothingBehindWithoutCommit) {
   const TemporaryFolder folder;
   TemporaryFiles files;
-  { OutputFile(folder.file("a"), files).write("hello"); }
+  { OutputFile::open(folder.file("a"), files).write("hello"); }
   EXPECT_EQ(folder.entry_count(), 0U);
 }
 
@@ -41,14 +41,14 @@ TEST(OutputFile, KeepsTheOldFileWithoutCommit) {
   const TemporaryFolder folder;
   TemporaryFiles files;
   folder.write("a", "old");
-  { OutputFile(folder.file("a"), files).write("new"); }
+  { OutputFile::open(folder.file("a"), files).write("new"); }
   EXPECT_EQ(read_file(folder.file("a")), "old");
 }
 
 TEST(OutputFile, PatchesWhatWasWrittenBeforeAcrossItsBuffer) {
   const TemporaryFolder folder;
   TemporaryFiles files;
-  OutputFile output(folder.file("a"), files);
+  OutputFile output = OutputFile::open(folder.file("a"), files);
   const std::string large(3'000'000, 'x');
   output.write(large);
   output.patch(1, "yy");
@@ -65,7 +65,7 @@ TEST(OutputFile, InsertsBetweenWhatWasWrittenBefore) {
   TemporaryFiles files;
   std::string expected;
   for (int i = 0; i < 200'000; ++i) expected += std::to_string(i);
-  OutputFile output(folder.file("a"), files);
+  OutputFile output = OutputFile::open(folder.file("a"), files);
   output.write(expected);
   const std::string piece(1000, '-');
   output.insert(7, piece);
@@ -83,7 +83,7 @@ TEST(OutputFile, WritesThroughASymbolicLink) {
   TemporaryFiles files;
   folder.write("target", "old");
   std::filesystem::create_symlink(folder.file("target"), folder.file("link"));
-  OutputFile output(folder.file("link"), files);
+  OutputFile output = OutputFile::open(folder.file("link"), files);
   output.write("new");
   output.commit();
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
@@ -92,7 +92,7 @@ TEST(OutputFile, WritesThroughASymbolicLink) {
 
 TEST(OutputFile, LeavesADeviceADevice) {
   TemporaryFiles files;
-  OutputFile output("/dev/null", files);
+  OutputFile output = OutputFile::open("/dev/null", files);
   output.write("gone");
   output.commit();
   struct stat status {};
@@ -103,10 +103,11 @@ TEST(OutputFile, LeavesADeviceADevice) {
 TEST(OutputFile, SaysWhyItCannotBeMade) {
   TemporaryFiles files;
   const TemporaryFolder folder;
-  EXPECT_THROW(OutputFile(folder.file("no/such/folder"), files), FileError);
-  EXPECT_THROW(OutputFile(folder.path(), files), FileError);
+  EXPECT_THROW(OutputFile::open(folder.file("no/such/folder"), files),
+               FileError);
+  EXPECT_THROW(OutputFile::open(folder.path(), files), FileError);
   try {
-    OutputFile(folder.file("no/a.slc"), files);
+    OutputFile::open(folder.file("no/a.slc"), files);
   } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("no/a.slc"), std::string::npos);
   }
@@ -114,7 +115,7 @@ TEST(OutputFile, SaysWhyItCannotBeMade) {
 
 TEST(OutputFile, AFullDiskIsAnError) {
   TemporaryFiles files;
-  OutputFile output("/dev/full", files);
+  OutputFile output = OutputFile::open("/dev/full", files);
   output.write("x");
   EXPECT_THROW(output.commit(), FileError);
 }
@@ -122,7 +123,7 @@ TEST(OutputFile, AFullDiskIsAnError) {
 TEST(OutputFile, HasNoNameWhileItIsWritten) {
   const TemporaryFolder folder;
   TemporaryFiles files;
-  OutputFile output(folder.file("a"), files);
+  OutputFile output = OutputFile::open(folder.file("a"), files);
   output.write(std::string(1'000'000, 'x'));
   EXPECT_EQ(folder.entry_count(), 0U);
   output.commit();
@@ -135,7 +136,7 @@ TEST(OutputFile, ObeysTheMask) {
   TemporaryFiles files;
   const mode_t mask = ::umask(027);
   for (int i = 0; i < 2; ++i) {  // new, then replaced
-    OutputFile output(folder.file("a"), files);
+    OutputFile output = OutputFile::open(folder.file("a"), files);
     output.commit();
     struct stat status {};
     ASSERT_EQ(::stat(folder.file("a").c_str(), &status), 0);
@@ -213,7 +214,7 @@ TEST(TemporaryFiles, AnAbandonedFileIsRemovedWhenItsNameIsNeeded) {
   TemporaryFiles files;
   folder.write("a", "old");
   folder.write(".a.lamina-0", "of a killed run");
-  OutputFile output(folder.file("a"), files);
+  OutputFile output = OutputFile::open(folder.file("a"), files);
   output.write("new");
   output.commit();
   EXPECT_EQ(read_file(folder.file("a")), "new");
@@ -225,7 +226,7 @@ TEST(TemporaryFiles, NamesOfTheGreatestLengthHaveAHiddenOne) {
   TemporaryFiles files;
   const std::string name(255, 'a');
   folder.write(name, "old");
-  OutputFile output(folder.file(name), files);
+  OutputFile output = OutputFile::open(folder.file(name), files);
   output.write("new");
   output.commit();
   EXPECT_EQ(read_file(folder.file(name)), "new");

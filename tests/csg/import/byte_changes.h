@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file/format_error.h"
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 
 namespace lamina::csg {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 #include "tests/csg/import/byte_changes.h"
 
 namespace lamina::csg {

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "csg/import/mesh_readers.h"
+#include "csg/import/mesh_file.h"
 #include "tests/csg/import/byte_changes.h"
 
 namespace lamina::csg {

@@ -2,6 +2,7 @@
 
 #include "csg/text/typesetter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -409,17 +410,47 @@ TEST_F(TypesetterTest, ABrokenFontFileIsReportedAndLeftOut) {
                                       "Can't register font '" + noise + "'"}));
 }
 
-// Glyphs behind the cut cannot be loaded; those before it can.
-TEST_F(TypesetterTest, AFontCutInItsGlyphsDoesNoHarm) {
+TEST_F(TypesetterTest, ACutFontIsReplacedByAnother) {
   const support::TemporaryFolder folder;
   const std::string whole = renamed_font();
   for (std::size_t size = 20000; size < whole.size(); size += 30000) {
-    Typesetter typesetter({LAMINA_MODULES}, diagnostics_);
+    Diagnostics diagnostics;
+    Typesetter typesetter({LAMINA_MODULES}, diagnostics);
     typesetter.add_fonts({folder.write("cut.ttf", whole.substr(0, size))});
     csg::TextParams params = params_of("The quick brown fox");
     params.font = "Ziberation Sans";
-    typesetter.outline(params, {4}, {}, diagnostics_);
+    EXPECT_FALSE(typesetter.outline(params, {4}, {}, diagnostics).empty());
+    ASSERT_EQ(diagnostics.all().size(), 1U) << size;
+    EXPECT_TRUE(diagnostics.all()[0].message.starts_with(
+        "Font 'Ziberation Sans' not found, "))
+        << diagnostics.all()[0].message;
   }
+}
+
+TEST_F(TypesetterTest, GlyphsThatAreNoiseAreLeftOutAndNamed) {
+  const support::TemporaryFolder folder;
+  const std::string whole = renamed_font();
+  const std::size_t whole_count = set("The quick brown fox").size();
+  std::size_t left_out = 0;
+  for (std::size_t at = 20000; at < whole.size(); at += 10000) {
+    std::string noisy = whole;
+    for (std::size_t i = at; i < std::min(at + 3000, noisy.size()); ++i) {
+      noisy[i] = static_cast<char>(i * i >> 3);
+    }
+    Diagnostics diagnostics;
+    Typesetter typesetter({LAMINA_MODULES}, diagnostics);
+    typesetter.add_fonts({folder.write("noisy.ttf", noisy)});
+    csg::TextParams params = params_of("The quick brown fox");
+    params.font = "Ziberation Sans";
+    const Contours contours = typesetter.outline(params, {4}, {}, diagnostics);
+    EXPECT_EQ(contours.size() < whole_count, !diagnostics.all().empty()) << at;
+    for (const Diagnostic& message : diagnostics.all()) {
+      EXPECT_TRUE(message.message.starts_with("Could not load glyph "))
+          << message.message;
+    }
+    left_out += diagnostics.all().size();
+  }
+  EXPECT_GT(left_out, 0U);
 }
 
 // Pages of a mapped file that are gone would end the process.
@@ -439,7 +470,7 @@ TEST_F(TypesetterTest, AFontThatIsEmptiedMeanwhileStaysWhole) {
 TEST_F(TypesetterTest, AFontThatTheMachineCannotReadIsAnError) {
   const support::TemporaryFolder folder;
   const std::string file = folder.write("own.ttf", renamed_font());
-  const FileAccess access({folder.path(), {}, false});
+  const FileAccess access = FileAccess::within({folder.path(), {}, false});
   const auto whole = set("A");  // opens the module, too
   for (const FileAccess* const files : {&access, &kAllFiles}) {
     Typesetter typesetter({LAMINA_MODULES}, diagnostics_, *files);

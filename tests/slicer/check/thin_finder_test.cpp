@@ -85,6 +85,14 @@ std::size_t count(const std::vector<ThinStretch>& stretches, ThinKind kind) {
       [kind](const ThinStretch& stretch) { return stretch.kind == kind; }));
 }
 
+double total_length(const std::vector<ThinStretch>& stretches, ThinKind kind) {
+  double length = 0;
+  for (const ThinStretch& stretch : stretches) {
+    if (stretch.kind == kind) length += glm::distance(stretch.from, stretch.to);
+  }
+  return length;
+}
+
 // --- Closed formulas ---------------------------------------------------------
 
 TEST(ThinFinder, APlateIsAsThickAsItIs) {
@@ -338,6 +346,71 @@ TEST(ThinFinder, WallsAndGapsChangePlacesWithSolidAndVoid) {
     EXPECT_EQ(count(a, ThinKind::kWall), count(b, ThinKind::kGap));
     EXPECT_EQ(count(a, ThinKind::kGap), count(b, ThinKind::kWall));
   }
+}
+
+// The disk between the sides y = 0 and y = 1 rolls level with the corner that
+// ends its way, but for rounding. Whichever of the corner's edges comes first,
+// it ends there.
+TEST(ThinFinder, ADiskThatRollsTowardsACornerEndsThere) {
+  Points loop = {{-2.5000120007012918, -3.4999919923722689},
+                 {-1.5000120007069488, -3.4999953839064295},
+                 {-1.5000001303506547, 3.4972025999283926e-16},
+                 {0, 2.6645352591003761e-16},
+                 {0, -0.5},
+                 {4, -0.5},
+                 {4, 2},
+                 {0, 2},
+                 {0, 0.5},
+                 {-0.49999999999999967, 0.5},
+                 {-0.49999999999999967, 0.99999999999999978},
+                 {-1.9999999999999993, 0.99999999999999989},
+                 {-1.9999999999999993, 0.50000631210482593},
+                 {-2.4999984348669706, 0.50000800786659805}};
+  for (std::size_t start = 0; start < loop.size(); ++start) {
+    SCOPED_TRACE(start);
+    const auto stretches = find(contours_of({loop}), 2);
+    EXPECT_TRUE(std::ranges::any_of(stretches, [](const ThinStretch& stretch) {
+      return stretch.kind == ThinKind::kWall &&
+             std::abs(stretch.width - 1) < 1e-9 &&
+             glm::distance(stretch.place, Vec2(-1.25, 0.5)) < 1e-6;
+    }));
+    std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+  }
+}
+
+// The order of loops, and the point where each begins, number the edges anew.
+TEST(ThinFinder, TheOrderOfEdgesDoesNotMatter) {
+  std::mt19937_64 random(11);
+  std::size_t found = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Contours contours = section(
+        seed,
+        static_cast<support::SceneStyle>(seed % support::kSceneStyleCount),
+        0.1 * static_cast<double>(seed % 7) - 0.3);
+    std::vector<Points> loops;
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const auto loop = contours.loop(i);
+      loops.emplace_back(loop.begin(), loop.end());
+      const auto shift = static_cast<std::ptrdiff_t>(random() % loop.size());
+      std::rotate(loops.back().begin(), loops.back().begin() + shift,
+                  loops.back().end());
+    }
+    std::shuffle(loops.begin(), loops.end(), random);
+    // Round numbers: walls and gaps of many designs are just as wide.
+    for (const double width : {0.1, 0.5, 1.0, 2.0}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << " width " << width);
+      const auto a = find(contours, width);
+      const auto b = find(contours_of(loops), width);
+      for (const ThinKind kind : {ThinKind::kWall, ThinKind::kGap}) {
+        ASSERT_EQ(count(a, kind) > 0, count(b, kind) > 0);
+        if (count(a, kind) == 0) continue;
+        ASSERT_NEAR(least_width(a, kind), least_width(b, kind), 1e-7);
+        ASSERT_NEAR(total_length(a, kind), total_length(b, kind), 1e-5);
+      }
+      found += a.size();
+    }
+  }
+  EXPECT_GT(found, 1000U);
 }
 
 // --- The definition, by trial ------------------------------------------------

@@ -1,5 +1,7 @@
 #include "slicer/formats/slc_reader.h"
 
+#include <cmath>
+#include <cstddef>
 #include <random>
 #include <string>
 #include <vector>
@@ -41,7 +43,10 @@ struct Closing {
 
 // Reads everything; returns the words of the error, or nothing. The file lies
 // in memory: there are thousands.
-std::string error_of(const std::string& bytes) {
+//
+// look  called with each layer before the error
+template <typename Look>
+std::string read_all(const std::string& bytes, const Look& look) {
   const int file = ::memfd_create("slc", 0);
   EXPECT_EQ(::write(file, bytes.data(), bytes.size()),
             static_cast<ssize_t>(bytes.size()));
@@ -49,24 +54,27 @@ std::string error_of(const std::string& bytes) {
   try {
     SlcReader reader("/proc/self/fd/" + std::to_string(file));
     SlcLayer layer;
-    while (reader.read_layer(layer)) to_layer(layer);
+    while (reader.read_layer(layer)) look(layer);
   } catch (const FileError& error) {
     return error.what();
   }
   return {};
 }
 
+std::string error_of(const std::string& bytes) {
+  return read_all(bytes, [](const SlcLayer& layer) { to_layer(layer); });
+}
+
 TEST(SlcReader, ReadsWhatIsThere) {
   const TemporaryFolder folder;
   SlcReader reader(folder.write("a.slc", kHead + kTable + kLayer + kEnd));
-  EXPECT_EQ(reader.header().version, "2.0");
-  EXPECT_EQ(reader.header().unit, "MM");
-  EXPECT_EQ(reader.header().type, "PART");
-  EXPECT_EQ(reader.header().package, "other 1.0");
-  ASSERT_TRUE(reader.header().extents.has_value());
-  EXPECT_EQ((*reader.header().extents)[1], Vec2(0, 30));
-  ASSERT_EQ(reader.sampling().size(), 1U);
-  EXPECT_EQ(reader.sampling()[0].thickness, 0.5F);
+  EXPECT_EQ(reader.facts().format, "SLC 2.0");
+  EXPECT_EQ(reader.facts().header, "PART, unit MM");
+  EXPECT_EQ(reader.facts().writer, "other 1.0");
+  ASSERT_TRUE(reader.facts().extents.has_value());
+  EXPECT_EQ((*reader.facts().extents)[1], Vec2(0, 30));
+  ASSERT_EQ(reader.facts().sampling.size(), 1U);
+  EXPECT_EQ(reader.facts().sampling[0].thickness, 0.5F);
 
   SlcLayer layer;
   ASSERT_TRUE(reader.read_layer(layer));
@@ -76,7 +84,7 @@ TEST(SlcReader, ReadsWhatIsThere) {
   EXPECT_EQ(layer.boundaries[0].gaps, 1U);
   EXPECT_EQ(layer.boundaries[0].points, (std::vector<Vec2>{{1, 2}, {2, 1}}));
   EXPECT_FALSE(reader.read_layer(layer));
-  EXPECT_EQ(reader.top(), 1.0);
+  EXPECT_EQ(reader.facts().top, 1.0);
 }
 
 // The blank is that of one word or of the other.
@@ -85,8 +93,8 @@ TEST(SlcReader, TakesNoBoundWithoutANumber) {
   head.replace(head.find("other 1.0"), 9, "other within mm");
   const TemporaryFolder folder;
   const SlcReader reader(folder.write("a.slc", head + kTable + kEnd));
-  EXPECT_FALSE(reader.header().deviation.has_value());
-  EXPECT_EQ(reader.header().package, "other within mm");
+  EXPECT_FALSE(reader.facts().deviation.has_value());
+  EXPECT_EQ(reader.facts().writer, "other within mm");
 }
 
 TEST(SlcReader, InchesBecomeMillimetres) {
@@ -137,17 +145,39 @@ TEST(SlcReader, RefusesCoordinatesThatAreNoNumbers) {
   EXPECT_NE(error_of(kHead + kTable + layer + kEnd), "");
 }
 
-TEST(SlcReader, SurvivesChangedBytes) {
+// All numbers are finite, no layer has more vertices than the file has bytes
+// for, and none gets lost on the way to the layer's contours.
+TEST(SlcReader, ChangedBytesAreErrorsOrGiveSoundLayers) {
   const std::string whole = kHead + kTable + kLayer + kLayer + kEnd;
   std::mt19937 random(1);
+  int refused = 0;
+  int read_all_the_same = 0;
   for (int run = 0; run < 2000; ++run) {
     std::string bytes = whole;
     const auto changes = 1 + random() % 4;
     for (unsigned i = 0; i < changes; ++i) {
       bytes[random() % bytes.size()] = static_cast<char>(random());
     }
-    error_of(bytes);  // an error or none, but it returns
+    const std::string error = read_all(bytes, [&](const SlcLayer& layer) {
+      std::size_t vertices = 0;
+      for (const WrittenLoop& loop : layer.boundaries) {
+        const std::size_t size = loop.points.size();
+        vertices +=
+            size - (size > 1 && loop.points.front() == loop.points.back());
+        for (const Vec2& point : loop.points) {
+          EXPECT_TRUE(std::isfinite(point.x) && std::isfinite(point.y));
+        }
+      }
+      EXPECT_LE(8 * vertices, bytes.size());
+      EXPECT_TRUE(std::isfinite(layer.z) && std::isfinite(layer.thickness));
+      const Layer read = to_layer(layer);
+      EXPECT_EQ(read.contours.loop_count(), layer.boundaries.size());
+      EXPECT_EQ(read.contours.points.size(), vertices);
+    });
+    ++(error.empty() ? read_all_the_same : refused);
   }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(read_all_the_same, 100);
 }
 
 TEST(SlcReader, AMissingFileIsAnError) {

@@ -96,9 +96,9 @@ TEST(SlcWriter, NotesInTheHeaderWhatContoursDeviateBy) {
       << bytes.substr(0, 100);
   const TemporaryFolder folder;
   const SlcReader reader(folder.write("a.slc", bytes));
-  EXPECT_EQ(reader.header().package, "lamina " + std::string(version()));
-  ASSERT_TRUE(reader.header().deviation);
-  EXPECT_NEAR(*reader.header().deviation, 0.001 + std::ldexp(std::sqrt(2), -22),
+  EXPECT_EQ(reader.facts().writer, "lamina " + std::string(version()));
+  ASSERT_TRUE(reader.facts().deviation);
+  EXPECT_NEAR(*reader.facts().deviation, 0.001 + std::ldexp(std::sqrt(2), -22),
               1e-11);
 }
 
@@ -115,7 +115,7 @@ TEST(SlcWriter, TellsEachRunOfLayersOfOneThicknessInARowOfItsOwn) {
   layers[5].contours.clear();
   const TemporaryFolder folder;
   SlcReader reader(folder.write("a.slc", write_slc(layers)));
-  const auto& rows = reader.sampling();
+  const auto& rows = reader.facts().sampling;
   ASSERT_EQ(rows.size(), 4U);
   const double starts[] = {-1, -0.7, -0.1, 0.1};
   const double thicknesses[] = {0.1, 0.3, 0.2, 0.1};
@@ -131,7 +131,7 @@ TEST(SlcWriter, TellsEachRunOfLayersOfOneThicknessInARowOfItsOwn) {
     EXPECT_EQ(layer.boundaries.size(), written.contours.loop_count());
   }
   EXPECT_FALSE(reader.read_layer(layer));
-  EXPECT_NEAR(reader.top(), z, 1e-6);
+  EXPECT_NEAR(reader.facts().top.value(), z, 1e-6);
 }
 
 TEST(SlcWriter, RefusesMoreRunsThanItsTableHasRows) {
@@ -146,7 +146,7 @@ TEST(SlcWriter, RefusesMoreRunsThanItsTableHasRows) {
   layers.pop_back();
   const TemporaryFolder folder;
   const SlcReader reader(folder.write("a.slc", write_slc(layers)));
-  EXPECT_EQ(reader.sampling().size(), 255U);
+  EXPECT_EQ(reader.facts().sampling.size(), 255U);
 }
 
 TEST(SlcWriter, NotesTheCompensationInTheTable) {
@@ -154,8 +154,8 @@ TEST(SlcWriter, NotesTheCompensationInTheTable) {
   layer.compensation = -0.25;
   const TemporaryFolder folder;
   SlcReader reader(folder.write("a.slc", write_slc({layer})));
-  ASSERT_EQ(reader.sampling().size(), 1U);
-  EXPECT_EQ(reader.sampling()[0].line_width_compensation, -0.25F);
+  ASSERT_EQ(reader.facts().sampling.size(), 1U);
+  EXPECT_EQ(reader.facts().sampling[0].line_width_compensation, -0.25F);
 }
 
 TEST(SlcWriter, HeaderEndsWithin2048BytesAndHolds1AOnlyThere) {

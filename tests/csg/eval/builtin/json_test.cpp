@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/eval/value/comparison.h"
+#include "csg/eval/value/operators.h"
 #include "csg/eval/value/text.h"
 #include "tests/csg/eval/evaluate_text.h"
 #include "tests/support/temporary_folder.h"

@@ -9,8 +9,6 @@
 namespace lamina::csg {
 namespace {
 
-TEST(Value, IsSmall) { EXPECT_EQ(sizeof(Value), 16); }
-
 TEST(Value, AppendingLeavesTheOldValueAsItWas) {
   const Value ab = Value::string("ab");
   const Value abc = ab.with_appended("c");

@@ -1,4 +1,4 @@
-#include "csg/eval/builtin/dxf.h"
+// dxf_dim() and dxf_cross() (see functions.h).
 
 #include <array>
 #include <cmath>
@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
 #include "csg/degrees.h"
+#include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/file_paths.h"
-#include "csg/eval/run/interpreter.h"
+#include "csg/eval/builtin/functions.h"
 #include "csg/eval/value/text.h"
 #include "csg/import/dxf.h"
 
@@ -32,10 +31,6 @@ struct Query {
   Vec2 origin = Vec2(0.0);
   double scale = 1;
 };
-
-void warn(const CallCode& code, Frame& frame, std::string message) {
-  frame.in.warn(code.range, std::move(message));
-}
 
 std::string folder_of(const Frame& frame) {
   if (frame.document == nullptr) return frame.in.design_folder();
@@ -60,19 +55,16 @@ Query read_query(Kind kind, const CallCode& code, Frame& frame) {
       const std::optional<Vec2> origin = to_vec2(value);
       if (origin) query.origin = *origin;
       if (!origin || !std::isfinite(origin->x) || !std::isfinite(origin->y)) {
-        warn(code, frame,
-             fmt::format("{}(..., origin={}) could not be "
-                         "converted",
-                         code.name, to_echo(value)));
+        warn(code, frame, "{}(..., origin={}) could not be converted",
+             code.name, to_echo(value));
       }
     } else if (argument.name == "scale") {
       if (value.is_number()) query.scale = value.as_number();
     } else if (argument.name == "name" && kind == Kind::kDim) {
       query.name = to_text(value);
     } else {
-      warn(code, frame,
-           fmt::format("{}(..., {}=...) is not supported", code.name,
-                       argument.name));
+      warn(code, frame, "{}(..., {}=...) is not supported", code.name,
+           argument.name);
     }
   }
   return query;
@@ -83,8 +75,7 @@ bool can_open(const Query& query, const CallCode& code, Frame& frame) {
     frame.in.add_file(query.path);
     return true;
   }
-  warn(code, frame,
-       fmt::format("Can't open DXF file '{}'!", query.written_file));
+  warn(code, frame, "Can't open DXF file '{}'!", query.written_file);
   return false;
 }
 
@@ -99,8 +90,7 @@ DxfDrawing read_drawing(const Query& query, const CallCode& code,
     const auto bytes = FileBytes::open(query.path, frame.in.file_access());
     if (bytes) drawing = parse_dxf(bytes->view(), options);
   } catch (const FormatError& fault) {
-    warn(code, frame,
-         fmt::format("{} importing file '{}'", fault.what(), query.path));
+    warn(code, frame, "{} importing file '{}'", fault.what(), query.path);
   }
   for (const std::string& warning : drawing.warnings) {
     frame.in.warn({}, warning);
@@ -150,15 +140,12 @@ Value builtin_dxf_dim(const CallCode& code, Frame& frame) {
     if (const std::optional<double> length = length_of(dimension)) {
       return Value(*length);
     }
-    warn(code, frame,
-         fmt::format("Dimension '{}' in '{}', layer '{}' has unsupported type!",
-                     query.name, query.written_file, query.layer));
-    return Value();
+    return warn(code, frame,
+                "Dimension '{}' in '{}', layer '{}' has unsupported type!",
+                query.name, query.written_file, query.layer);
   }
-  warn(code, frame,
-       fmt::format("Can't find dimension '{}' in '{}', layer '{}'!", query.name,
-                   query.written_file, query.layer));
-  return Value();
+  return warn(code, frame, "Can't find dimension '{}' in '{}', layer '{}'!",
+              query.name, query.written_file, query.layer);
 }
 
 Value builtin_dxf_cross(const CallCode& code, Frame& frame) {
@@ -181,10 +168,8 @@ Value builtin_dxf_cross(const CallCode& code, Frame& frame) {
       return Value::numbers(meeting);
     }
   }
-  warn(code, frame,
-       fmt::format("Can't find cross in '{}', layer '{}'!", query.written_file,
-                   query.layer));
-  return Value();
+  return warn(code, frame, "Can't find cross in '{}', layer '{}'!",
+              query.written_file, query.layer);
 }
 
 }  // namespace lamina::csg

@@ -1,5 +1,6 @@
 #pragma once
-// The functions that run expressions (Expression::run, Element::emit).
+// The functions that run code (Expression::run, Element::emit,
+// InstantiationCode::run).
 
 #include "csg/eval/code/code.h"
 #include "csg/eval/value/value.h"
@@ -46,5 +47,15 @@ void emit_for_c(const Element& element, Frame& frame, VectorBuilder& out);
 void emit_if(const Element& element, Frame& frame, VectorBuilder& out);
 void emit_each(const Element& element, Frame& frame, VectorBuilder& out);
 void emit_let(const Element& element, Frame& frame, VectorBuilder& out);
+
+void run_user_module(const InstantiationCode& instantiation, Frame& frame);
+void run_builtin_module(const InstantiationCode& instantiation, Frame& frame);
+void run_unknown_module(const InstantiationCode& instantiation, Frame& frame);
+void run_if(const InstantiationCode& instantiation, Frame& frame);
+// for and intersection_for.
+void run_for(const InstantiationCode& instantiation, Frame& frame);
+void run_let_module(const InstantiationCode& instantiation, Frame& frame);
+void run_assign(const InstantiationCode& instantiation, Frame& frame);
+void run_assert_module(const InstantiationCode& instantiation, Frame& frame);
 
 }  // namespace lamina::csg
