@@ -104,9 +104,10 @@ class Bench:
         return {**json.loads(report.read_text()),
                 "process_seconds": cost.seconds}
 
-    def measure(self, commands, times=1):
+    def measure(self, commands, times=1, pick=statistics.median):
         """The median report of each of `commands` (lists of arguments), field
-        by field; a Failure for one that fails. `times` as many runs."""
+        by field, or what `pick` takes of the runs; a Failure for one that
+        fails. `times` as many runs."""
         reports = [[] for _ in commands]
         failed = {}
         for _ in range(self.runs * times):
@@ -118,12 +119,12 @@ class Bench:
                 except Failure as failure:
                     failed[i] = failure
                     self.failures.append(failure)
-        return [failed[i] if i in failed else median_report(reports[i])
+        return [failed[i] if i in failed else report_of(reports[i], pick)
                 for i in range(len(commands))]
 
 
-def median_report(reports):
-    return {key: statistics.median(report[key] for report in reports)
+def report_of(reports, pick):
+    return {key: pick(report[key] for report in reports)
             for key, value in reports[0].items()
             if isinstance(value, (int, float))}
 

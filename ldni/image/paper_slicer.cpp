@@ -50,6 +50,19 @@ std::uint32_t choose_layers_per_block(const PaperPlan& plan) {
       layers, 1, std::max(plan.layers.layer_count(), 1U)));
 }
 
+// Returns how many samples the fullest pixel of `image` has.
+std::uint32_t count_peels(const LeafImages& images, const LeafImage& image) {
+  const std::size_t first = image.first_pixel;
+  std::uint32_t begin = first == 0 ? 0 : images.ends[first - 1];
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < image.box.pixel_count(); ++i) {
+    const std::uint32_t end = images.ends[first + i];
+    most = std::max(most, end - begin);
+    begin = end;
+  }
+  return most;
+}
+
 }  // namespace
 
 PaperPlan make_paper_plan(const csg::Scene& scene, const LayerGrid& layers,
@@ -73,7 +86,9 @@ std::unique_ptr<Sampler> PaperPlan::make_sampler() const {
 }
 
 PaperSlicer::PaperSlicer(const PaperPlan& plan)
-    : plan_(plan), sampler_(plan.make_sampler()), boolean_(plan.scene) {}
+    : plan_(plan), sampler_(plan.make_sampler()), boolean_(plan.scene) {
+  counts_.leaves.resize(plan.scene.instances.size());
+}
 
 PaperCounts PaperSlicer::counts() const {
   PaperCounts counts = counts_;
@@ -89,7 +104,11 @@ void PaperSlicer::sample_block(std::uint32_t first_layer,
         sample_box(plan_, plan_.scene.instances[i]), first_layer, layer_count);
     if (!box.is_empty()) sampler_->sample(i, box, images_);
   }
-  counts_.pixels += images_.ends.size();
+  for (const LeafImage& image : images_.images) {
+    LeafImageSize& leaf = counts_.leaves[image.instance];
+    leaf.pixels += image.box.pixel_count();
+    leaf.peels = std::max(leaf.peels, count_peels(images_, image));
+  }
   counts_.samples += images_.samples.size();
 }
 

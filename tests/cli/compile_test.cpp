@@ -368,6 +368,11 @@ TEST(Compile, ReportCountsTheDepthImages) {
   EXPECT_NEAR(local.at("image_pixels").get<double>(), 2 * 20 * 20, 100);
   EXPECT_NEAR(global.at("image_pixels").get<double>(), 2 * 100 * 20, 100);
   EXPECT_GT(global.at("image_bytes"), local.at("image_bytes"));
+  // A depth and a colour, 7 bytes, for each of two peels.
+  for (const auto& report : {local, global}) {
+    EXPECT_EQ(report.at("dense_image_bytes").get<std::uint64_t>(),
+              2 * 7 * report.at("image_pixels").get<std::uint64_t>());
+  }
 }
 
 // --- What goes wrong ------------------------------------------------------

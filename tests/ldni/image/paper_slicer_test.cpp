@@ -224,13 +224,34 @@ TEST(PaperSlicer, CountsTheImagesThatBoxesNeed) {
     slicer.sample_block(0, layers.layer_count());
     counts[boxes == BoxMode::kGlobal] = slicer.counts();
     if (boxes == BoxMode::kGlobal) {
-      EXPECT_EQ(slicer.counts().pixels, scene.instances.size() *
-                                            plan.rays.ray_count() *
-                                            layers.layer_count());
+      EXPECT_EQ(slicer.counts().pixels(), scene.instances.size() *
+                                              plan.rays.ray_count() *
+                                              layers.layer_count());
     }
   }
   EXPECT_EQ(counts[0].samples, counts[1].samples);
-  EXPECT_LT(counts[0].pixels, counts[1].pixels);
+  EXPECT_LT(counts[0].pixels(), counts[1].pixels());
+}
+
+// A ray crosses an upright torus four times in the middle and twice in the
+// topmost layers; its dense image has four peels everywhere.
+TEST(PaperSlicer, CountsTheMostPeelsOfAllBlocksAndThreads) {
+  Scene scene = support::scene_of(BooleanOp::kUnion);
+  scene.leaves.push_back(support::mesh_leaf(support::torus_mesh(20, 2, 0.6)));
+  support::place_leaf(scene, 0,
+                      support::turn_about({0, 1, 0}, std::numbers::pi / 2));
+  support::cover_instances(scene);
+  const LayerGrid layers =
+      LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.1);
+  const PaperPlan plan = plan_of(scene, layers, {});
+  PaperSlicer slicers[] = {PaperSlicer(plan), PaperSlicer(plan)};
+  for (std::uint32_t layer = 0; layer < layers.layer_count(); ++layer) {
+    slicers[layer == 0 ? 0 : 1].sample_block(layer, 1);
+  }
+  EXPECT_EQ(slicers[0].counts().leaves[0].peels, 2U);
+  PaperCounts sum;
+  for (const PaperSlicer& slicer : slicers) sum += slicer.counts();
+  EXPECT_EQ(sum.dense_image_bytes(), 7 * 4 * sum.pixels());
 }
 
 TEST(PaperSlicer, AnEmptySceneHasEmptyLayers) {

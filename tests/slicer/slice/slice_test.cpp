@@ -137,11 +137,11 @@ TEST(Slice, ThePapersPitchDefaultsToTheLayersThickness) {
   };
   const ldni::PaperCounts open = counts_for(0);
   const ldni::PaperCounts equal = counts_for(settings.layer_thickness);
-  EXPECT_GT(open.pixels, 0U);
-  EXPECT_EQ(open.pixels, equal.pixels);
+  EXPECT_GT(open.pixels(), 0U);
+  EXPECT_EQ(open.pixels(), equal.pixels());
   EXPECT_EQ(open.samples, equal.samples);
   EXPECT_EQ(open.intervals, equal.intervals);
-  EXPECT_NE(open.pixels, counts_for(0.1).pixels);
+  EXPECT_NE(open.pixels(), counts_for(0.1).pixels());
 }
 
 TEST(SliceOutline, CountsTheHolesAndTheArea) {
