@@ -66,7 +66,7 @@ Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
   leaf.meshes.push_back(
       takes_corners_ ? make_corners(params, node.range, diagnostics_)
                      : make_polyhedron(params, node.range, diagnostics_));
-  leaf.may_overlap_itself = true;
+  leaf.may_overlap_itself = !is_star_shaped(leaf.meshes.front());
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};
 }
