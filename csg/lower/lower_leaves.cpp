@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -72,6 +73,42 @@ Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
   }
   repair_and_report(mesh, range, diagnostics);
   return mesh;
+}
+
+// Whether every ray from the mean of the mesh's vertices leaves the solid once,
+// as of every convex solid: then it cannot overlap itself. Turned inside out it
+// is not star-shaped.
+//
+// All faces are seen from inside, and together they cover the sphere of
+// directions once. That sphere is covered as often in every direction, since
+// the mesh is closed. Solid angles by Van Oosterom and Strackee 1983.
+bool is_star_shaped(const Mesh& mesh) {
+  // Faces that pass nearer to the mean may be seen either way [of the size].
+  constexpr double kLeastDistance = 1e-6;
+  if (mesh.triangles.empty()) return false;
+  Vec3 mean(0);
+  for (const Vec3& vertex : mesh.vertices) mean += vertex;
+  mean /= static_cast<double>(mesh.vertices.size());
+  double size = 0;
+  for (const Vec3& vertex : mesh.vertices) {
+    size = std::max(size, glm::distance(vertex, mean));
+  }
+  double solid_angle = 0;
+  for (const auto& triangle : mesh.triangles) {
+    const Vec3 a = mesh.vertices[triangle[0]] - mean;
+    const Vec3 b = mesh.vertices[triangle[1]] - mean;
+    const Vec3 c = mesh.vertices[triangle[2]] - mean;
+    const double volume = glm::dot(a, glm::cross(b, c));
+    const double area = glm::length(glm::cross(b - a, c - a));
+    if (volume < kLeastDistance * size * area) return false;
+    const double la = glm::length(a);
+    const double lb = glm::length(b);
+    const double lc = glm::length(c);
+    solid_angle +=
+        2 * std::atan2(volume, la * lb * lc + glm::dot(a, b) * lc +
+                                   glm::dot(b, c) * la + glm::dot(c, a) * lb);
+  }
+  return std::abs(solid_angle - 4 * std::numbers::pi) < std::numbers::pi;
 }
 
 // The corners of the faces alone, each as a triangle of no area. Faults of the
@@ -149,7 +186,7 @@ Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
   leaf.meshes.push_back(
       takes_corners_ ? make_corners(params, node.range, diagnostics_)
                      : make_polyhedron(params, node.range, diagnostics_));
-  leaf.may_overlap_itself = true;
+  leaf.may_overlap_itself = !is_star_shaped(leaf.meshes.front());
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};
 }

@@ -34,6 +34,37 @@ TEST_F(PolyhedronTest, TurnedInsideOutItIsTheSameSolid) {
   EXPECT_TRUE(diagnostics.all().empty());
 }
 
+TEST_F(PolyhedronTest, OverlapsItselfOnlyWhereItIsNotSeenWholeFromItsMiddle) {
+  const auto may_overlap = [this](std::vector<Vec3> points,
+                                  const Faces& faces) {
+    return run_solid({b.polyhedron(std::move(points), faces)})
+        .leaves[0]
+        .may_overlap_itself;
+  };
+  EXPECT_FALSE(may_overlap(kBoxPoints, kBoxFaces));
+  // A dent in the lid, seen from the middle all the same.
+  std::vector<Vec3> points = kBoxPoints;
+  points.push_back({1, 1.5, 3});
+  Faces faces = kBoxFaces;
+  faces[1] = {4, 7, 8};
+  faces.insert(faces.end(), {{7, 6, 8}, {6, 5, 8}, {5, 4, 8}});
+  EXPECT_FALSE(may_overlap(points, faces));
+  // As deep as to come out below, the box is inside out there.
+  points.back().z = -1;
+  EXPECT_TRUE(may_overlap(points, faces));
+  // A box in a box: seen whole, yet twice.
+  points = kBoxPoints;
+  faces = kBoxFaces;
+  for (const Vec3& point : kBoxPoints) {
+    points.push_back(0.5 * (point + Vec3(1, 1.5, 2)));
+  }
+  for (std::vector<std::uint32_t> face : kBoxFaces) {
+    for (std::uint32_t& corner : face) corner += 8;
+    faces.push_back(face);
+  }
+  EXPECT_TRUE(may_overlap(points, faces));
+}
+
 TEST_F(PolyhedronTest, ATurnedFaceIsTurnedBack) {
   Faces faces = kBoxFaces;
   std::reverse(faces[2].begin(), faces[2].end());
