@@ -46,6 +46,8 @@ class Cascade;
 // leaves. One object per thread: it owns the scratch that layers share.
 class KineticRay {
  public:
+  // The scene must outlive the object.
+  //
   // pitch  distance of the look-ahead rays [mm]; 0 = auto. A speed knob only.
   KineticRay(const csg::Scene& scene, double pitch);
   ~KineticRay();

@@ -48,33 +48,15 @@ csg::Scene scene_of_two(csg::BooleanOp op) {
   return scene;
 }
 
-// What the ray needs of a scene: the program, and of each instance its parent,
-// its box, and whether its leaf may overlap itself.
-csg::Scene without_surfaces(const csg::Scene& scene) {
-  csg::Scene bare;
-  bare.program = scene.program;
-  bare.leaves.resize(2);
-  bare.leaves[1].may_overlap_itself = true;
-  bare.instances.reserve(scene.instances.size());
-  for (const csg::Instance& instance : scene.instances) {
-    csg::Instance& copy = bare.instances.emplace_back();
-    copy.leaf = scene.leaves[instance.leaf].may_overlap_itself ? 1 : 0;
-    copy.parent = instance.parent;
-    copy.is_minuend = instance.is_minuend;
-    copy.box = instance.box;
-  }
-  return bare;
-}
-
 }  // namespace
 
 // A Boolean of the cascade: the whole scene, or some operands of one operator
 // of it.
 class Cascade::Group {
  public:
-  explicit Group(csg::Scene scene)
-      : scene_(std::move(scene)),
-        states_(scene_, ProgramStates::Rule::kNonZero) {}
+  // The scene must outlive the object.
+  explicit Group(const csg::Scene& scene)
+      : scene_(scene), states_(scene, ProgramStates::Rule::kNonZero) {}
 
   ProgramStates& states() { return states_; }
   std::uint64_t states_met() const;
@@ -121,9 +103,10 @@ class Cascade::Group {
   void choose_halves(std::vector<Operand>& operands) const;
   void make_halves(const std::vector<Operand>& operands);
 
-  const csg::Scene scene_;  // without surfaces
+  const csg::Scene& scene_;
   ProgramStates states_;
   bool may_part_ = true;
+  std::array<csg::Scene, 2> half_scenes_;  // without surfaces
   std::array<std::unique_ptr<Group>, 2> halves_;
   // An instance: its half, and its number there.
   std::vector<std::pair<bool, std::uint32_t>> places_;
@@ -207,7 +190,7 @@ void Cascade::Group::choose_halves(std::vector<Operand>& operands) const {
 
 void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
   constexpr std::uint32_t kRoot = 0;
-  std::array<csg::Scene, 2> scenes;
+  std::array<csg::Scene, 2>& scenes = half_scenes_;
   std::vector<std::pair<bool, std::uint32_t>> nodes(scene_.program.size());
   places_.resize(scene_.instances.size());
   std::array<std::uint32_t, 2> counts{};
@@ -217,7 +200,9 @@ void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
         operand.is_second;
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    scenes[i].leaves = scene_.leaves;
+    // Of leaves only this matters: the second kind may overlap itself.
+    scenes[i].leaves.resize(2);
+    scenes[i].leaves[1].may_overlap_itself = true;
     // Of what is subtracted, and of a difference's first operand.
     const csg::BooleanOp op = this->op() == csg::BooleanOp::kIntersection
                                   ? this->op()
@@ -242,6 +227,7 @@ void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
   }
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
     csg::Instance instance = scene_.instances[i];
+    instance.leaf = scene_.leaves[instance.leaf].may_overlap_itself ? 1 : 0;
     auto& [is_second, number] = places_[i];
     if (instance.parent != kRoot) is_second = nodes[instance.parent].first;
     instance.parent =
@@ -251,7 +237,7 @@ void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
     scene.instances.push_back(instance);
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    halves_[i] = std::make_unique<Group>(std::move(scenes[i]));
+    halves_[i] = std::make_unique<Group>(scenes[i]);
   }
 }
 
@@ -305,7 +291,7 @@ Cascade::Cascade(const csg::Scene& scene, const SweepOptions& options,
     : patience_(patience),
       ray_(options),
       resolver_(kClusterWidth, kResolvedMergeDistance),
-      root_(std::make_unique<Group>(without_surfaces(scene))) {
+      root_(std::make_unique<Group>(scene)) {
   for (const csg::BooleanOp op :
        {csg::BooleanOp::kUnion, csg::BooleanOp::kIntersection,
         csg::BooleanOp::kDifference}) {

@@ -32,6 +32,8 @@ namespace lamina::ldni::detail {
 
 class Cascade {
  public:
+  // The scene must outlive the object.
+  //
   // patience  the swaps that are borne before a sweep is given up, in units of
   //           the usual number. At 0 all that crosses is cascaded.
   Cascade(const csg::Scene& scene, const SweepOptions& options,
