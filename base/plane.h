@@ -27,8 +27,7 @@ inline bool precedes(Vec2 a, Vec2 b) {
 }
 
 // +1 where a, b, c run counter-clockwise, -1 clockwise, 0 on one line. Exact
-// for coordinates whose differences are doubles, and whose products neither
-// overflow nor underflow.
+// for coordinates whose products neither overflow nor underflow.
 int orientation(Vec2 a, Vec2 b, Vec2 c);
 
 // Compares directions by angle from +x, in [0, 360°): -1, 0 or 1. Exact as

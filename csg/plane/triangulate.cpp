@@ -119,10 +119,9 @@ class EarClipper {
       const Vec2 a = corners_[c].point;
       const Vec2 b = corners_[n].point;
       // The solid is left of its edges: only rising edges face the ray.
-      if (a.y <= p.y && p.y <= b.y) {
-        const double t = b.y > a.y ? (p.y - a.y) / (b.y - a.y) : 0;
-        const double x = b.y > a.y ? a.x + t * (b.x - a.x) : std::min(a.x, b.x);
-        if (x >= p.x && x < least_x) {
+      if (a.y <= p.y && p.y <= b.y && is_right_of(p, a, b)) {
+        const double x = std::max(p.x, x_at(p.y, a, b));
+        if (x < least_x) {
           least_x = x;
           best = a.y == p.y ? c : b.y == p.y ? n : a.x > b.x ? c : n;
         }
@@ -131,6 +130,17 @@ class EarClipper {
       if (c == outer) break;
     }
     return closest_between(outer, p, {least_x, p.y}, best);
+  }
+
+  // Whether the edge, which does not fall, is met by the ray from p.
+  static bool is_right_of(Vec2 p, Vec2 a, Vec2 b) {
+    return a.y < b.y ? orientation(a, b, p) >= 0 : std::min(a.x, b.x) >= p.x;
+  }
+
+  static double x_at(double y, Vec2 a, Vec2 b) {
+    if (a.y == b.y) return std::min(a.x, b.x);
+    if (y == b.y) return b.x;
+    return a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
   }
 
   std::uint32_t closest_between(std::uint32_t outer, Vec2 p, Vec2 hit,
