@@ -1,13 +1,13 @@
 #include "ldni/sweep/kinetic_ray.h"
 
-#include "csg/tie_distance.h"
 #include "ldni/sweep/detail/cascade.h"
 
 namespace lamina::ldni {
 
-KineticRay::KineticRay(const csg::Scene& scene, double pitch)
+KineticRay::KineticRay(const csg::Scene& scene, double pitch,
+                       double tie_distance)
     : cascade_(std::make_unique<detail::Cascade>(
-          scene, detail::SweepOptions{pitch, kTieDistance, kClusterWidth})) {}
+          scene, detail::SweepOptions{pitch, tie_distance, kClusterWidth})) {}
 
 KineticRay::~KineticRay() = default;
 

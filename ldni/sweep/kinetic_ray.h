@@ -32,6 +32,7 @@
 #include <memory>
 
 #include "csg/scene.h"
+#include "csg/tie_distance.h"
 #include "ldni/section/chains.h"
 #include "ldni/section/contours.h"
 #include "ldni/sweep/sweep_counts.h"
@@ -48,8 +49,11 @@ class KineticRay {
  public:
   // The scene must outlive the object.
   //
-  // pitch  distance of the look-ahead rays [mm]; 0 = auto. A speed knob only.
-  KineticRay(const csg::Scene& scene, double pitch);
+  // pitch         distance of the look-ahead rays [mm]; 0 = auto. A speed knob
+  //               only.
+  // tie_distance  samples nearer than this are one [mm]
+  KineticRay(const csg::Scene& scene, double pitch,
+             double tie_distance = kTieDistance);
   ~KineticRay();
 
   // Replaces `contours` by the loops of layer `layer` of `block`.

@@ -20,9 +20,9 @@ csg::Scene one_leaf() {
 }  // namespace
 
 struct LoopResolver::State {
-  State(double tie_distance, double merge_distance)
+  State(double tie_distance, double merge_distance, FillRule rule)
       : scene(one_leaf()),
-        states(scene, detail::ProgramStates::Rule::kPositive),
+        states(scene, rule),
         sweep({0, tie_distance, merge_distance}) {
     block.layer_count = 1;
   }
@@ -34,8 +34,9 @@ struct LoopResolver::State {
   ChainBlock block;
 };
 
-LoopResolver::LoopResolver(double tie_distance, double merge_distance)
-    : state_(std::make_unique<State>(tie_distance, merge_distance)) {}
+LoopResolver::LoopResolver(double tie_distance, double merge_distance,
+                           FillRule rule)
+    : state_(std::make_unique<State>(tie_distance, merge_distance, rule)) {}
 
 LoopResolver::~LoopResolver() = default;
 

@@ -1,11 +1,11 @@
 #pragma once
-// Makes loops regular that run into themselves or each other: solid is where
-// the winding number is positive. The moving ray does it, with one leaf that
-// may overlap itself.
+// Makes loops regular that run into themselves or each other. The moving ray
+// does it, with one leaf that may overlap itself.
 
 #include <memory>
 
 #include "ldni/section/contours.h"
+#include "ldni/sweep/fill_rule.h"
 #include "ldni/sweep/sweep_counts.h"
 
 namespace lamina::ldni {
@@ -16,7 +16,8 @@ class LoopResolver {
   // merge_distance  points nearer than this are one, and one that is nearer
   //                 than this to the line through its neighbours is left out
   //                 [mm]
-  LoopResolver(double tie_distance, double merge_distance);
+  // rule            which winding numbers are solid
+  LoopResolver(double tie_distance, double merge_distance, FillRule rule);
   ~LoopResolver();
 
   // Replaces the loops by those of the solid: simple, outer ones

@@ -37,7 +37,7 @@ Vec2 to_float(Vec2 point) { return {to_float(point.x), to_float(point.y)}; }
 
 }  // namespace
 
-LoopRounder::LoopRounder() : resolver_(0, 0) {}
+LoopRounder::LoopRounder() : resolver_(0, 0, ldni::FillRule::kPositive) {}
 
 void LoopRounder::round(ldni::Contours& contours, double clearance) {
   if (contours.is_empty()) return;

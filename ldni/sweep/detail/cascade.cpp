@@ -56,7 +56,7 @@ class Cascade::Group {
  public:
   // The scene must outlive the object.
   explicit Group(const csg::Scene& scene)
-      : scene_(scene), states_(scene, ProgramStates::Rule::kNonZero) {}
+      : scene_(scene), states_(scene, FillRule::kNonZero) {}
 
   ProgramStates& states() { return states_; }
   std::uint64_t states_met() const;
@@ -290,13 +290,7 @@ Cascade::Cascade(const csg::Scene& scene, const SweepOptions& options,
                  double patience)
     : patience_(patience),
       ray_(options),
-      resolver_(kClusterWidth, kResolvedMergeDistance),
       root_(std::make_unique<Group>(scene)) {
-  for (const csg::BooleanOp op :
-       {csg::BooleanOp::kUnion, csg::BooleanOp::kIntersection,
-        csg::BooleanOp::kDifference}) {
-    merges_.emplace_back(scene_of_two(op), ProgramStates::Rule::kNonZero);
-  }
   block_.layer_count = 1;
 }
 
@@ -361,7 +355,11 @@ bool Cascade::sweep_at_once(ProgramStates& states, const LayerChains& layer,
                             Contours& contours, const Patience& patience) {
   if (!ray_.sweep(layer, states, contours, patience)) return false;
   if (ray_.has_jumps()) {
-    resolver_.resolve(contours);
+    if (!resolver_) {
+      resolver_.emplace(kClusterWidth, kResolvedMergeDistance,
+                        FillRule::kPositive);
+    }
+    resolver_->resolve(contours);
     is_resolved_ = true;
   }
   return true;
@@ -380,8 +378,9 @@ void Cascade::merge(csg::BooleanOp op, const Contours& second,
     ++instance;
   }
   builder_.finish(block_);
-  sweep_at_once(merges_[static_cast<std::size_t>(op)], block_.chains_of(0),
-                contours, {});
+  auto& states = merges_[static_cast<std::size_t>(op)];
+  if (!states) states.emplace(scene_of_two(op), FillRule::kNonZero);
+  sweep_at_once(*states, block_.chains_of(0), contours, {});
 }
 
 SweepCounts Cascade::counts() const {
@@ -389,8 +388,9 @@ SweepCounts Cascade::counts() const {
   const SweepCounts swept = ray_.counts();
   counts += swept;
   counts.states = root_->states_met();
+  if (!resolver_) return counts;
   // Of the second sweeps only what went wrong counts.
-  const SweepCounts resolved = resolver_.counts();
+  const SweepCounts resolved = resolver_->counts();
   counts.unbalanced_clusters += resolved.unbalanced_clusters;
   counts.repaired_clusters += resolved.repaired_clusters;
   counts.capped_clusters += resolved.capped_clusters;

@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "csg/scene.h"
@@ -59,9 +60,10 @@ class Cascade {
 
   const double patience_;
   RaySweep ray_;
-  LoopResolver resolver_;
+  std::optional<LoopResolver> resolver_;  // made when it is needed
   std::unique_ptr<Group> root_;
-  std::vector<ProgramStates> merges_;  // of two contours, an operator
+  // Of two contours, an operator; made when they are needed.
+  std::array<std::optional<ProgramStates>, 3> merges_;
   ChainBuilder builder_;
   ChainBlock block_;  // of two contours
   SweepCounts counts_;

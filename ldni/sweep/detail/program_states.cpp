@@ -9,7 +9,7 @@
 namespace lamina::ldni::detail {
 namespace {
 
-constexpr std::size_t kFirstCapacity = 1024;  // of the tables; a power of 2
+constexpr std::size_t kFirstCapacity = 64;  // of the tables; a power of 2
 
 // Cells are forgotten between two layers when they are more than this, and
 // more than so many times those of the first layer since, so that the tables
@@ -35,7 +35,8 @@ std::size_t hash_of(std::uint32_t part, std::int32_t first,
 
 }  // namespace
 
-ProgramStates::ProgramStates(const csg::Scene& scene, Rule rule) : rule_(rule) {
+ProgramStates::ProgramStates(const csg::Scene& scene, FillRule rule)
+    : rule_(rule) {
   // The operators' parts have the operators' numbers.
   parts_.resize(scene.program.size());
   std::vector<std::vector<std::uint32_t>> operands(scene.program.size());
@@ -171,7 +172,7 @@ std::int32_t ProgramStates::value_of(const Cell& cell) const {
     case Kind::kSum:
       return value(cell.first) + value(cell.second);
     case Kind::kCount:
-      holds = rule_ == Rule::kNonZero ? cell.first != 0 : cell.first > 0;
+      holds = is_inside(cell.first, rule_);
       break;
     case Kind::kOperator:
       holds = cell.first + value(cell.second) >= part.threshold;

@@ -36,6 +36,7 @@
 #include <vector>
 
 #include "csg/scene.h"
+#include "ldni/sweep/fill_rule.h"
 
 namespace lamina::ldni::detail {
 
@@ -46,10 +47,8 @@ class ProgramStates {
   // Of what no leaf contains; never solid.
   static constexpr State kOutside = 0;
 
-  // Which counts of a leaf that may overlap itself are inside it.
-  enum class Rule : std::uint8_t { kNonZero, kPositive };
-
-  ProgramStates(const csg::Scene& scene, Rule rule);
+  // rule  which counts of a leaf that may overlap itself are inside it
+  ProgramStates(const csg::Scene& scene, FillRule rule);
 
   // The crossing of a chain of `instance`, upwards. Leaves that are counted
   // together have the same crossings.
@@ -131,7 +130,7 @@ class ProgramStates {
   void insert_crossing(State below, Crossing crossing, State above);
   void grow_crossings();
 
-  const Rule rule_;
+  const FillRule rule_;
   std::vector<Part> parts_;  // 0: the root
   // Of a chain of winding +1, an instance: the part whose first number it
   // changes, twice, and 1 where that becomes less.

@@ -1,6 +1,7 @@
 #include "ldni/sweep/detail/stitcher.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -29,7 +30,8 @@ double y_on_segment(const Vec2* segment, double x) {
 void Stitcher::begin() {
   arcs_.clear();
   ends_.clear();
-  pinches_.clear();
+  visits_.clear();
+  place_count_ = 0;
   has_jumps_ = false;
 }
 
@@ -117,8 +119,9 @@ void Stitcher::link_ends() {
   }
   assert(waiting_.empty());  // I4
   unlinked_ends_ += waiting_.size();
+  if (has_pinches_) list_visits();
   waiting_.clear();
-  linked_.clear();
+  has_linked_ = has_pinches_ = false;
   ends_.clear();
 }
 
@@ -132,11 +135,30 @@ void Stitcher::take_end(const ArcEnd& end) {
   const ArcEnd lower = waiting_.back();
   waiting_.pop_back();
   link(lower, end);
-  for (std::size_t i = linked_.size(); i-- > 0;) {
-    if (!are_near(linked_[i].point, lower.point, kPinchDistance)) break;
-    pinches_.push_back({linked_[i], lower});
+  const bool is_pinch =
+      has_linked_ && are_near(linked_upper_.point, lower.point, kPinchDistance);
+  has_pinches_ |= is_pinch;
+  if (is_pinch && arcs_[linked_upper_.arc].side > 0) {
+    exchange_partners(arc_before(linked_upper_), arc_before(lower));
+    if (!are_near(linked_lower_.point, lower.point, kPinchDistance) &&
+        !are_near(end.point, lower.point, kPinchDistance)) {
+      add_point(lower.point, arc_before(end));
+    }
+  } else {
+    linked_lower_ = lower;
   }
-  linked_.push_back(end);
+  linked_upper_ = end;
+  has_linked_ = true;
+}
+
+// A point of an upright edge: an arc without a length, after `arc`.
+void Stitcher::add_point(const Vec2& point, std::uint32_t arc) {
+  const auto number = static_cast<std::uint32_t>(arcs_.size());
+  const std::uint32_t next = arcs_[arc].next;
+  arcs_[arc].next = arcs_[next].previous = number;
+  arcs_.push_back(
+      {.left = point, .right = point, .next = next, .previous = arc});
+  added_points_.push_back(number);
 }
 
 void Stitcher::link(const ArcEnd& a, const ArcEnd& b) {
@@ -148,55 +170,99 @@ void Stitcher::link(const ArcEnd& a, const ArcEnd& b) {
   has_jumps_ |= jump > kClusterWidth && jump <= kMostJump * tie_distance_;
 }
 
+// The places in which ends of several links lie.
+void Stitcher::list_visits() {
+  for (std::size_t i = 0, end = 0; i < ends_.size(); i = end) {
+    bool is_pinch = false;
+    for (end = i + 1;
+         end < ends_.size() &&
+         are_near(ends_[end].point, ends_[end - 1].point, kPinchDistance);
+         ++end) {
+      is_pinch |= arc_before(ends_[end]) != arc_before(ends_[i]);
+    }
+    for (const std::uint32_t arc : added_points_) {
+      if (!are_near(arcs_[arc].left, ends_[i].point, kPinchDistance)) continue;
+      visits_.push_back({arc, false, place_count_});
+      is_pinch = true;
+    }
+    if (!is_pinch) continue;
+    for (std::size_t k = i; k < end; ++k) {
+      visits_.push_back({ends_[k].arc, ends_[k].is_head, place_count_});
+    }
+    ++place_count_;
+  }
+  added_points_.clear();
+}
+
+// Of two links, each of an arc and the next one.
+void Stitcher::exchange_partners(std::uint32_t a, std::uint32_t b) {
+  std::swap(arcs_[a].next, arcs_[b].next);
+  arcs_[arcs_[a].next].previous = a;
+  arcs_[arcs_[b].next].previous = b;
+}
+
 std::uint32_t Stitcher::arc_before(const ArcEnd& end) const {
   return end.is_head ? end.arc : arcs_[end.arc].previous;
 }
 
 void Stitcher::write_loops(Contours& contours) {
   contours.clear();
-  number_loops();
-  split_pinches();
-  // A loop is walked from its first arc; walked arcs lose their number.
+  if (!visits_.empty()) split_loops();
   pen_.begin(contours);
   for (std::uint32_t i = 0; i < arcs_.size(); ++i) {
-    if (arcs_[i].loop == kNoArc) continue;
+    if (arcs_[i].is_walked) continue;
     walk(i);
     pen_.close_loop();
   }
   pen_.lift();
 }
 
-void Stitcher::number_loops() {
-  loop_count_ = 0;
-  for (std::uint32_t i = 0; i < arcs_.size(); ++i) {
-    if (arcs_[i].loop == kNoArc) number_loop(i, loop_count_++);
+// Walks the loops that touch others or themselves. Where the way comes to a
+// place again, what lies between becomes a loop of its own.
+void Stitcher::split_loops() {
+  // Of each arc the places of tail and head.
+  std::vector<std::array<std::uint32_t, 2>> places(arcs_.size(),
+                                                   {kNoPlace, kNoPlace});
+  for (const Visit& visit : visits_) {
+    places[visit.arc][visit.is_head ? 1 : 0] = visit.place;
   }
-}
-
-void Stitcher::number_loop(std::uint32_t arc, std::uint32_t loop) {
-  while (arc != kNoArc && arcs_[arc].loop != loop) {
-    arcs_[arc].loop = loop;
-    arc = arcs_[arc].next;
-  }
-}
-
-void Stitcher::split_pinches() {
-  for (const Pinch& pinch : pinches_) {
-    const std::uint32_t a = arc_before(pinch.first);
-    const std::uint32_t b = arc_before(pinch.second);
-    if (a == b || arcs_[a].loop != arcs_[b].loop) continue;
-    std::swap(arcs_[a].next, arcs_[b].next);
-    arcs_[arcs_[a].next].previous = a;
-    arcs_[arcs_[b].next].previous = b;
-    number_loop(arcs_[a].next, loop_count_++);
+  std::vector<std::uint32_t> arc_before_place(place_count_, kNoArc);
+  std::vector<std::uint32_t> way;
+  std::vector<bool> is_done(arcs_.size());
+  for (const Visit& start : visits_) {
+    std::uint32_t arc = start.arc;
+    while (arc != kNoArc && !is_done[arc]) {
+      is_done[arc] = true;
+      const std::uint32_t next = arcs_[arc].next;
+      std::uint32_t before = arc;
+      const auto come_to = [&](std::uint32_t place) {
+        if (arc_before_place[place] == kNoArc) {
+          arc_before_place[place] = before;
+          way.push_back(place);
+          return;
+        }
+        exchange_partners(arc_before_place[place], before);
+        before = arc_before_place[place];
+        for (; way.back() != place; way.pop_back()) {
+          arc_before_place[way.back()] = kNoArc;
+        }
+      };
+      const std::uint32_t head = places[arc][1];
+      const std::uint32_t tail = next == kNoArc ? kNoPlace : places[next][0];
+      if (head != kNoPlace) come_to(head);
+      if (tail != kNoPlace && tail != head) come_to(tail);
+      arc = next;
+    }
+    for (const std::uint32_t place : way) arc_before_place[place] = kNoArc;
+    way.clear();
   }
 }
 
 void Stitcher::walk(std::uint32_t start) {
   for (std::uint32_t i = start; i != kNoArc;) {
     BoundaryArc& arc = arcs_[i];
-    if (arc.loop == kNoArc) break;
-    arc.loop = kNoArc;
+    if (arc.is_walked) break;
+    arc.is_walked = true;
     if (arc.side > 0) {
       pen_.draw_forward(arc.left, arc.vertices_begin, arc.vertices_end,
                         arc.right);

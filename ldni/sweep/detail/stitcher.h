@@ -12,9 +12,11 @@
 // (I4), so links close to loops whatever the rounding did; rounding can only
 // move a point.
 //
-// Where two pairs meet in a point and belong to one loop, that loop would
-// touch itself; exchanging their partners makes two loops of it. So regions
-// that touch in a point have loops of their own.
+// Where two pairs meet in a point, solid and empty sectors alternate around it.
+// Partners are exchanged so that each pair is linked across a solid sector: so
+// regions that touch in a point have loops of their own, and the inside of an
+// outer loop less the holes in it is connected. Then a loop may touch itself;
+// exchanging partners makes two loops of it.
 
 #include <cstdint>
 #include <span>
@@ -76,6 +78,7 @@ class Stitcher {
 
  private:
   static constexpr std::uint32_t kNoArc = 0xffffffff;
+  static constexpr std::uint32_t kNoPlace = 0xffffffff;
 
   struct BoundaryArc {
     Vec2 left;
@@ -84,8 +87,8 @@ class Stitcher {
     const Vec2* vertices_end = nullptr;
     std::uint32_t next = kNoArc;  // the walk goes on there
     std::uint32_t previous = kNoArc;
-    std::uint32_t loop = kNoArc;
     std::int8_t side = 1;
+    bool is_walked = false;
   };
   struct ArcEnd {
     double key = 0;
@@ -95,20 +98,22 @@ class Stitcher {
     bool is_head = false;  // the walk along the arc ends here
     bool is_left = false;  // of the event point
   };
-  // Ends of two linked pairs that meet in a point.
-  struct Pinch {
-    ArcEnd first;
-    ArcEnd second;
+  // An end in a place where others lie too.
+  struct Visit {
+    std::uint32_t arc = 0;
+    bool is_head = false;
+    std::uint32_t place = 0;
   };
 
   bool is_lower(const ArcEnd& a, const ArcEnd& b) const;
   void sort_ends();
   void take_end(const ArcEnd& end);
   void link(const ArcEnd& a, const ArcEnd& b);
+  void add_point(const Vec2& point, std::uint32_t arc);
+  void exchange_partners(std::uint32_t a, std::uint32_t b);
   std::uint32_t arc_before(const ArcEnd& end) const;
-  void number_loops();
-  void number_loop(std::uint32_t arc, std::uint32_t loop);
-  void split_pinches();
+  void list_visits();
+  void split_loops();
   void walk(std::uint32_t start);
 
   const double tie_distance_;
@@ -117,9 +122,16 @@ class Stitcher {
   std::vector<BoundaryArc> arcs_;
   std::vector<ArcEnd> ends_;
   std::vector<ArcEnd> waiting_;  // without partner, the lowest first
-  std::vector<ArcEnd> linked_;   // upper ends of the pairs of the event point
-  std::vector<Pinch> pinches_;
-  std::uint32_t loop_count_ = 0;
+  // Of the event point: whether two pairs met in a point, whether a pair was
+  // linked, the upper end of the last one, and the lower end of the link that
+  // the upper end is in.
+  bool has_pinches_ = false;
+  bool has_linked_ = false;
+  ArcEnd linked_lower_;
+  ArcEnd linked_upper_;
+  std::vector<std::uint32_t> added_points_;
+  std::vector<Visit> visits_;
+  std::uint32_t place_count_ = 0;
   std::uint64_t unlinked_ends_ = 0;
 };
 

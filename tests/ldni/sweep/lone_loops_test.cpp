@@ -38,7 +38,7 @@ class Layer {
     leaf.may_overlap_itself = may_overlap_itself;
     testing::SceneBuilder scene;
     scene.add(leaf);
-    const ProgramStates states(scene.finish(), ProgramStates::Rule::kNonZero);
+    const ProgramStates states(scene.finish(), FillRule::kNonZero);
     block.layer_count = 1;
     ChainBuilder builder;
     builder.begin(block);

@@ -17,7 +17,6 @@ using csg::BooleanOp;
 using testing::SceneBuilder;
 using Counts = std::vector<std::int32_t>;  // an instance
 using State = ProgramStates::State;
-using Rule = ProgramStates::Rule;
 
 csg::Leaf leaf(bool may_overlap_itself) {
   csg::Leaf cube = testing::cube_leaf({1, 1, 1});
@@ -28,14 +27,16 @@ csg::Leaf leaf(bool may_overlap_itself) {
 // The definition: the operators over leaves that contain the place or not.
 class Definition {
  public:
-  Definition(const csg::Scene& scene, Rule rule) : scene_(scene), rule_(rule) {}
+  Definition(const csg::Scene& scene, FillRule rule)
+      : scene_(scene), rule_(rule) {}
 
   bool is_solid(const Counts& counts) const { return holds(0, counts); }
 
  private:
   bool contains(std::uint32_t instance, const Counts& counts) const {
-    return rule_ == Rule::kNonZero ? counts[instance] != 0
-                                   : counts[instance] > 0;
+    const auto count = counts[instance];
+    if (rule_ == FillRule::kEvenOdd) return (count & 1) != 0;
+    return rule_ == FillRule::kNonZero ? count != 0 : count > 0;
   }
   bool holds(std::uint32_t node, const Counts& counts) const {
     bool is_any = false;
@@ -68,7 +69,7 @@ class Definition {
   }
 
   const csg::Scene& scene_;
-  const Rule rule_;
+  const FillRule rule_;
 };
 
 // (A + B - C) * (D - E); B and D may overlap themselves.
@@ -134,7 +135,8 @@ class Walk {
 
 TEST(ProgramStates, AreSolidWhereTheOperatorsSaySo) {
   const csg::Scene scene = scene_of_five();
-  for (const Rule rule : {Rule::kNonZero, Rule::kPositive}) {
+  for (const FillRule rule :
+       {FillRule::kNonZero, FillRule::kPositive, FillRule::kEvenOdd}) {
     ProgramStates states(scene, rule);
     const Definition definition(scene, rule);
     Walk walk(scene, states, 1);
@@ -152,7 +154,7 @@ TEST(ProgramStates, AreSolidWhereTheOperatorsSaySo) {
 
 TEST(ProgramStates, OfEqualCountsAreTheSame) {
   const csg::Scene scene = scene_of_five();
-  ProgramStates states(scene, Rule::kNonZero);
+  ProgramStates states(scene, FillRule::kNonZero);
   std::map<Counts, State> known;
   Walk walk(scene, states, 2);
   for (int i = 0; i < 5000; ++i) {
@@ -176,8 +178,8 @@ TEST(ProgramStates, AreAsManyAsAnOperatorHasSums) {
     SceneBuilder builder(op);
     for (std::uint32_t i = 0; i < kLeaves; ++i) builder.add(leaf(false));
     const csg::Scene scene = builder.finish();
-    ProgramStates states(scene, Rule::kNonZero);
-    const Definition definition(scene, Rule::kNonZero);
+    ProgramStates states(scene, FillRule::kNonZero);
+    const Definition definition(scene, FillRule::kNonZero);
     Walk walk(scene, states, 4);
     for (int i = 0; i < 5000; ++i) {
       walk.step();
@@ -208,8 +210,8 @@ TEST(ProgramStates, OfWideAndOfDeepProgramsAreRight) {
       builder.end();
     }
     const csg::Scene scene = builder.finish();
-    ProgramStates states(scene, Rule::kNonZero);
-    const Definition definition(scene, Rule::kNonZero);
+    ProgramStates states(scene, FillRule::kNonZero);
+    const Definition definition(scene, FillRule::kNonZero);
     Walk walk(scene, states, 5);
     for (int i = 0; i < 3000; ++i) {
       walk.step();
@@ -223,8 +225,8 @@ TEST(ProgramStates, OfWideAndOfDeepProgramsAreRight) {
 
 TEST(ProgramStates, ThatAreKeptStandForTheSameAsBefore) {
   const csg::Scene scene = scene_of_five();
-  ProgramStates states(scene, Rule::kNonZero);
-  const Definition definition(scene, Rule::kNonZero);
+  ProgramStates states(scene, FillRule::kNonZero);
+  const Definition definition(scene, FillRule::kNonZero);
   std::vector<Walk> walks;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     walks.emplace_back(scene, states, seed);
