@@ -211,7 +211,8 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
   constexpr double kShare = 0.5;
   const Shape shape = flatten_finely(node, world, kShare);
   if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
-  const ProfileRange range = profile_range(shape.region);
+  const planar::Region profile = put_on_axis(shape.region);
+  const ProfileRange range = profile_range(profile);
   if (range.crosses_axis()) {
     diagnostics_.error(
         node.range,
@@ -223,7 +224,7 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
   Fineness turn = fineness(op.facets, world);
   turn.chordal_error *= 1 - kShare;
   const int n = turn_fragments(range, op.angle_deg, turn);
-  place_leaf(extrude_around(shape.region, op.angle_deg, n), node, world);
+  place_leaf(extrude_around(profile, op.angle_deg, n), node, world);
   return {Dimension::kSolid};
 }
 

@@ -160,6 +160,16 @@ class PartTurn {
 
 }  // namespace
 
+Region put_on_axis(Region region) {
+  constexpr double kAxisDistance = 1e-8;
+  for (Contour& contour : region.contours) {
+    for (Vec2& point : contour) {
+      if (std::abs(point.x) < kAxisDistance) point.x = 0;
+    }
+  }
+  return region;
+}
+
 bool ProfileRange::crosses_axis() const {
   // As OpenSCAD: what is lost when the other side is added does not count.
   return high - low > high && high - low > std::abs(low);

@@ -17,6 +17,10 @@ namespace lamina::csg {
 Leaf extrude_linearly(const LinearExtrudeParams& params,
                       const planar::Region& region, double chordal_error);
 
+// The region with x = 0 where a point is as good as on the axis, within 1e-8
+// mm: rounding makes such. (OpenSCAD's grid of 2^-16 mm takes even more there.)
+planar::Region put_on_axis(planar::Region region);
+
 // Least and greatest x of the region, 0 included [mm].
 struct ProfileRange {
   double low = 0;

@@ -161,6 +161,16 @@ TEST_F(RotateExtrudeTest, PartsOfATurnTouchTheAxis) {
   }
 }
 
+// As where corners were computed.
+TEST_F(RotateExtrudeTest, RoundingDoesNotCrossTheAxis) {
+  const double beyond = -1e-14;
+  EXPECT_NEAR(
+      run_volume({b.node(
+          RotateExtrude{360, 2, {16}},
+          {b.translate({1 + beyond, 0, 0}, {b.node(Square{{2, 3}, true})})})}),
+      swept(16, 6, 1), 1e-9);
+}
+
 TEST_F(RotateExtrudeTest, MustNotCrossTheAxis) {
   EXPECT_TRUE(run({b.node(RotateExtrude{}, {b.node(Square{{4, 4}, true})})})
                   .is_empty());
