@@ -25,7 +25,7 @@ constexpr double kMostTriangles = 1e8;
 constexpr double kMostHeights = 1 << 23;
 
 // Up to here doubles are ten times finer than the distance at which faces tie,
-// and here ends the polygon clipper's grid [mm]. Layers of what lies beyond
+// and here ends the grid of offsets [mm]. Layers of what lies beyond
 // would be wrong, so it is refused.
 constexpr double kGreatestCoordinate = 1e9;
 

@@ -16,7 +16,7 @@
 #include "csg/boundary/box_tree.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/program_state.h"
 #include "csg/ternary_program.h"
 #include "csg/tie_distance.h"
@@ -265,7 +265,7 @@ class Finder {
     const Region& region(Side side, const Region& outline) {
       Known& known = at(side);
       if (!known.region) {
-        known.region = section_in_window(section_.contours(side), outline);
+        known.region = planar::clip(section_.contours(side).contours, outline);
       }
       return *known.region;
     }

@@ -1,11 +1,10 @@
 #include "csg/boundary/program_region.h"
 
-#include <array>
 #include <functional>
 #include <map>
 #include <utility>
 
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 
 namespace lamina::csg {
 namespace {
@@ -127,11 +126,6 @@ class Evaluation {
 };
 
 }  // namespace
-
-Region section_in_window(Region contours, const Region& window) {
-  const std::array<Region, 2> operands{std::move(contours), window};
-  return planar::intersect(operands);
-}
 
 std::optional<Region> evaluate_in_window(const Scene& scene,
                                          const ProgramState& state,

@@ -14,15 +14,8 @@ namespace lamina::csg {
 // A leaf that is neither wholly inside nor wholly outside.
 struct LiveInstance {
   std::uint32_t instance = 0;
-  planar::Region section;  // see section_in_window()
+  planar::Region section;  // in the window
 };
-
-// The part of a leaf's section that lies in the window.
-//
-// contours  with the leaf's winding numbers: inside is where they are not 0
-// throws    LimitExceeded for coordinates beyond kGreatestCoordinate
-planar::Region section_in_window(planar::Region contours,
-                                 const planar::Region& window);
 
 // Where in the window the program holds, given the sections of the leaves that
 // divide it; `state` has those of the others that contain all of it, and none

@@ -12,7 +12,7 @@
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
 #include "csg/boundary/united.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/program_state.h"
 #include "csg/tie_distance.h"
 
@@ -97,17 +97,6 @@ void add_shadow(const Leaf& leaf, const Affine& world_from_leaf,
   }
 }
 
-// Faces that were cut fit together only up to the clipper's grid. A gap between
-// them that is thinner than a tie is rounding.
-Region close_cracks(const Region& region) {
-  constexpr double kGrowth = 0.5 * kTieDistance;
-  // Not needed where every join is a miter.
-  constexpr double kArcTolerance = kGrowth;
-  const Region grown =
-      planar::offset(region, kGrowth, planar::Join::kMiter, kArcTolerance);
-  return planar::offset(grown, -kGrowth, planar::Join::kMiter, kArcTolerance);
-}
-
 // Where the program holds just above or just below the plane.
 Region evaluate_at(const Scene& scene, const Plane& plane,
                    const std::vector<std::uint32_t>& near,
@@ -119,7 +108,7 @@ Region evaluate_at(const Scene& scene, const Plane& plane,
   for (std::size_t i = 0; i < near.size(); ++i) {
     live.push_back(
         {near[i],
-         section_in_window(whole_section(leaves[i], plane, side), window)});
+         planar::clip(whole_section(leaves[i], plane, side).contours, window)});
   }
   const auto value =
       evaluate_in_window(scene, ProgramState(scene), live, window);
@@ -152,15 +141,12 @@ Region project(Scene scene) {
     add_shadow(scene.leaves[instance.leaf], instance.world_from_leaf, sum);
     add(sum);
   }
-  const bool was_cut = !scene.instances.empty();
   PolygonSum sum;
   for (const BoundaryFace& face : boundary_faces(scene)) {
     add_if_upwards(flatten(face.contours), sum);
   }
   add(sum);
-  const Region region =
-      planar::from_contours(shadows, planar::FillRule::kNonZero);
-  return was_cut ? close_cracks(region) : region;
+  return planar::from_contours(shadows, planar::FillRule::kNonZero);
 }
 
 Region cut_at_zero(const Scene& scene) {

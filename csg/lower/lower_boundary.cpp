@@ -8,7 +8,7 @@
 #include "csg/boundary/projection.h"
 #include "csg/boundary/scene_hull.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/convex_hull.h"
 
 namespace lamina::csg {

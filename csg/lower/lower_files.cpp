@@ -14,7 +14,8 @@
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/repair.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
+#include "csg/plane/offset.h"
 
 namespace lamina::csg {
 namespace {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/lower/detail/lowerer.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 
 namespace lamina::csg {
 namespace {

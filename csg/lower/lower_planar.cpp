@@ -4,9 +4,10 @@
 
 #include "csg/degrees.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/facets.h"
 #include "csg/plane/minkowski.h"
+#include "csg/plane/offset.h"
 #include "csg/text/typesetter.h"
 
 namespace lamina::csg {

@@ -14,9 +14,9 @@
 namespace lamina::csg {
 namespace {
 
-// A corner this far [mm] above the plane of a face lies in it: above what the
-// polygon clipper's grid of 1e-8 mm makes of a corner, a tenth of the tie
-// distance of the sweep.
+// A corner this far [mm] above the plane of a face lies in it: above the
+// distance at which edges of a region are one, a tenth of the tie distance of
+// the sweep.
 constexpr double kFlatDistance = 1e-7;
 
 }  // namespace

@@ -12,9 +12,8 @@ namespace lamina::csg {
 
 namespace {
 
-// Vertices this near to each other [mm] are one: above what the polygon
-// clipper's grid of 1e-8 mm makes of a point that two faces share, a tenth of
-// the tie distance of the sweep.
+// Vertices this near to each other [mm] are one: above the distance at which
+// edges of a region are one, a tenth of the tie distance of the sweep.
 constexpr double kJoinDistance = 1e-7;
 
 // For each point the first of a cluster of near ones.

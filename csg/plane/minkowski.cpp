@@ -7,7 +7,7 @@
 
 #include "base/loop_area.h"
 #include "base/plane.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/convex_faces.h"
 #include "csg/plane/triangulate.h"
 

@@ -2,9 +2,8 @@
 // Minkowski sums in the plane.
 //
 // Both regions are cut into convex polygons; the sum is the union of the sums
-// of any two. Corners of pieces are rounded to the clipper's grid first, so
-// that sums are exact and neighbours keep their common sides: the union has no
-// cracks.
+// of any two. Neighbours keep their common sides up to rounding, far below
+// the distance at which edges are one: the union has no cracks.
 
 #include "csg/plane/region.h"
 

@@ -1,6 +1,8 @@
 #include "csg/plane/region.h"
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "base/loop_area.h"
 #include "csg/plane/facets.h"
@@ -17,6 +19,21 @@ void drop_hairlines(Region& region, double width) {
   std::erase_if(region.contours, [&](const Contour& contour) {
     return std::abs(sliver_area(contour)) < 0.5 * width * perimeter(contour);
   });
+}
+
+Region to_region(const ldni::Contours& contours) {
+  Region region;
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const std::span<const Vec2> loop = contours.loop(i);
+    region.contours.emplace_back(loop.begin(), loop.end());
+  }
+  return region;
+}
+
+ldni::Contours to_contours(const Region& region) {
+  ldni::Contours contours;
+  for (const Contour& contour : region.contours) contours.add_loop(contour);
+  return contours;
 }
 
 Region square(Vec2 size, bool center) {

@@ -4,12 +4,12 @@
 // A region is taken apart contour by contour: an extrusion makes each one a
 // solid or a cavity of its own, fill() drops those that are holes, triangles
 // need an owner for each hole. So each contour is a simple polygon by itself,
-// and its direction shows what it is. Where contours touch the clipper keeps
-// neither promise; see link_edges.h.
+// and its direction shows what it is.
 
 #include <vector>
 
 #include "base/vec.h"
+#include "ldni/section/contours.h"
 
 namespace lamina::planar {
 
@@ -19,7 +19,7 @@ using Contour = std::vector<Vec2>;
 // Outer contours run counter-clockwise, holes clockwise: together they wind
 // once around each point inside and not at all around others. No contour goes
 // through a point twice. Contours may touch in points; they never cross, but
-// for the rounding of the clipper (1e-8 mm).
+// for rounding.
 //
 // Contours that a comment calls contours with winding numbers keep none of
 // this.
@@ -35,6 +35,10 @@ double area(const Region& region);
 
 // Drops contours whose mean width is less than `width` [mm].
 void drop_hairlines(Region& region, double width);
+
+// The same loops in the type of layers.
+Region to_region(const ldni::Contours& contours);
+ldni::Contours to_contours(const Region& region);
 
 // 2D modules. Empty where a size is not positive or not finite.
 Region square(Vec2 size, bool center);

@@ -7,9 +7,8 @@
 
 #include "base/loop_area.h"
 #include "base/plane.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/offset.h"
 #include "csg/tie_distance.h"
-#include "slicer/contour/regions.h"
 
 namespace lamina::slicer {
 namespace {
@@ -121,7 +120,7 @@ CompensationCounts& CompensationCounts::operator+=(
 
 CompensationCounts compensate(ldni::Contours& contours, double amount) {
   if (amount == 0 || contours.is_empty()) return {};
-  const Region before = to_region(contours);
+  const Region before = planar::to_region(contours);
   Region after = planar::offset(before, -amount, planar::Join::kRound,
                                 kArcTolerance / kArcExcess);
   // Drop what rounding left of walls exactly as thick as the beam.

@@ -75,21 +75,4 @@ std::vector<double> areas_of_regions(const ldni::Contours& contours) {
   return areas;
 }
 
-planar::Region to_region(const ldni::Contours& contours) {
-  planar::Region region;
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const std::span<const Vec2> loop = contours.loop(i);
-    region.contours.emplace_back(loop.begin(), loop.end());
-  }
-  return region;
-}
-
-ldni::Contours to_contours(const planar::Region& region) {
-  ldni::Contours contours;
-  for (const planar::Contour& contour : region.contours) {
-    contours.add_loop(contour);
-  }
-  return contours;
-}
-
 }  // namespace lamina::slicer

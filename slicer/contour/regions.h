@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "csg/plane/region.h"
 #include "ldni/section/contours.h"
 
 namespace lamina::slicer {
@@ -13,9 +12,5 @@ namespace lamina::slicer {
 //
 // contours  disjoint loops, outer ones counter-clockwise, holes clockwise
 std::vector<double> areas_of_regions(const ldni::Contours& contours);
-
-// The same loops in the types of layers and of plane Booleans.
-planar::Region to_region(const ldni::Contours& contours);
-ldni::Contours to_contours(const planar::Region& region);
 
 }  // namespace lamina::slicer

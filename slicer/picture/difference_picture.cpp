@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/loop_area.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/region.h"
-#include "slicer/contour/regions.h"
 #include "slicer/picture/detail/drawing.h"
 #include "slicer/picture/detail/lettering.h"
 
@@ -32,12 +31,12 @@ constexpr Rgb kOnlyB = {0.87F, 0.33F, 0.08F};
 constexpr Rgb kMark = {0.25F, 0.24F, 0.22F};
 
 // The magnified field shows this many times the greatest distance, but at least
-// the step of the clipper's grid [mm].
+// a tie distance of solids [mm].
 constexpr double kDistancesShown = 6;
 constexpr double kLeastShown = 1e-6;
 
 planar::Region region_of(const ldni::Contours& contours) {
-  return planar::from_contours(to_region(contours).contours,
+  return planar::from_contours(planar::to_region(contours).contours,
                                planar::FillRule::kNonZero);
 }
 

@@ -10,7 +10,6 @@
 #include "base/thread_clock.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/compensate.h"
-#include "slicer/contour/regions.h"
 #include "slicer/plan/adaptive.h"
 #include "slicer/slice/detail/block_slicer.h"
 #include "slicer/slice/detail/slice_job.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "tests/csg/lower/lower_fixture.h"
 
 namespace lamina::csg {

@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/memory_end.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
+#include "csg/plane/offset.h"
 
 namespace {
 // Allocations until one fails; none fails at 0.

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/loop_area.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "tests/csg/plane/lattice_walks.h"
 
 namespace lamina::planar {

@@ -13,7 +13,7 @@
 #include <sys/resource.h>
 
 #include "base/loop_area.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/region.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/region.h"
 #include "tests/support/contour_checks.h"
 

@@ -9,8 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/loop_area.h"
 #include "base/plane.h"
-#include "csg/plane/clip.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/minkowski.h"
 #include "tests/csg/plane/lattice_walks.h"
 
@@ -104,7 +105,7 @@ void expect_valid(const Region& region) {
   }
 }
 
-TEST(ClipLaws, AFillRuleSaysWhatIsInside) {
+TEST(PlaneBooleanLaws, AFillRuleSaysWhatIsInside) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     const auto contours = lattice_walks(seed);
@@ -125,7 +126,7 @@ TEST(ClipLaws, AFillRuleSaysWhatIsInside) {
 }
 
 // Now nothing meets but for the rounding.
-TEST(ClipLaws, AFillRuleSaysSoInAnyDirection) {
+TEST(PlaneBooleanLaws, AFillRuleSaysSoInAnyDirection) {
   constexpr double kAngle = 0.3;
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
@@ -146,7 +147,7 @@ TEST(ClipLaws, AFillRuleSaysSoInAnyDirection) {
   }
 }
 
-TEST(ClipLaws, OperatorsAreThoseOfSets) {
+TEST(PlaneBooleanLaws, OperatorsAreThoseOfSets) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     const Region a = from_contours(lattice_walks(2 * seed));
@@ -173,7 +174,7 @@ TEST(ClipLaws, OperatorsAreThoseOfSets) {
   }
 }
 
-TEST(ClipLaws, WhatARegionIsMadeOfMakesItAgain) {
+TEST(PlaneBooleanLaws, WhatARegionIsMadeOfMakesItAgain) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
     const Region region = from_contours(lattice_walks(seed));
@@ -185,7 +186,7 @@ TEST(ClipLaws, WhatARegionIsMadeOfMakesItAgain) {
   }
 }
 
-TEST(ClipLaws, AHoleThatTouchesItsOutlineIsAHole) {
+TEST(PlaneBooleanLaws, AHoleThatTouchesItsOutlineIsAHole) {
   const Contour contours[] = {{{0, 0}, {8, 0}, {8, 8}, {0, 8}},
                               {{0, 4}, {4, 2}, {6, 4}, {4, 6}}};
   const Region region = from_contours(contours);
@@ -195,7 +196,35 @@ TEST(ClipLaws, AHoleThatTouchesItsOutlineIsAHole) {
   EXPECT_EQ(area(fill(region)), 64);
 }
 
-TEST(ClipLaws, PetalsThatMeetInOnePointAreContours) {
+// Four holes that touch in a ring cut out what is between them: the middle is
+// an outline of its own, as the inside of an outline less its holes hangs
+// together. So it is whichever way the ring is turned.
+TEST(PlaneBooleanLaws, ARingOfHolesThatTouchLeavesAnIsland) {
+  for (const double angle : {0.0, 0.3, 0.7853981633974483}) {
+    SCOPED_TRACE(angle);
+    std::vector<Contour> contours = {{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}};
+    for (const Vec2 center :
+         {Vec2(3, 0), Vec2(0, 3), Vec2(-3, 0), Vec2(0, -3)}) {
+      contours.push_back({center + Vec2(-1.5, -1.5), center + Vec2(1.5, -1.5),
+                          center + Vec2(1.5, 1.5), center + Vec2(-1.5, 1.5)});
+    }
+    for (Contour& contour : contours) {
+      for (Vec2& p : contour) p = turned(p, angle);
+    }
+    const Region region = from_contours(contours);
+    EXPECT_NEAR(area(region), 18 * 18 - 4 * 9, 1e-9);
+    int outlines = 0;
+    for (const Contour& contour : region.contours) {
+      outlines += signed_area(contour) > 0;
+      EXPECT_FALSE(visits_a_point_twice(contour));
+    }
+    EXPECT_EQ(outlines, 2);
+    EXPECT_EQ(region.contours.size(), 3U);
+    EXPECT_NEAR(area(fill(region)), 18 * 18, 1e-9);
+  }
+}
+
+TEST(PlaneBooleanLaws, PetalsThatMeetInOnePointAreContours) {
   std::vector<Contour> petals;
   for (const Vec2 d : {Vec2(4, 1), Vec2(1, 4), Vec2(-4, 1), Vec2(-1, -4)}) {
     petals.push_back({{0, 0}, d, d + Vec2(-d.y, d.x) / 4.0});
@@ -212,7 +241,7 @@ double cpu_seconds() {
 
 // Under a second where nothing else runs; a minute and more if each vertex is
 // compared with each other one.
-TEST(ClipLaws, ManyVerticesTakeNoMinutes) {
+TEST(PlaneBooleanLaws, ManyVerticesTakeNoMinutes) {
   const double begin = cpu_seconds();
   const Region disc = circle(20, 200'000);
   Region moved = disc;

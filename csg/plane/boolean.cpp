@@ -1,0 +1,128 @@
+#include "csg/plane/boolean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <glm/common.hpp>
+
+#include "csg/limits.h"
+#include "csg/scene.h"
+#include "ldni/section/chain_builder.h"
+#include "ldni/section/chains.h"
+#include "ldni/section/contours.h"
+#include "ldni/sweep/kinetic_ray.h"
+#include "ldni/sweep/loop_resolver.h"
+
+namespace lamina::planar {
+namespace {
+
+// Edges nearer than this are one [mm], or nearer than what rounding does to the
+// crossings of edges so far from the origin.
+constexpr double kTieDistance = 3e-8;
+constexpr double kRoundingErrors = 16;  // of a crossing, in units of epsilon
+
+double tie_distance(double reach) {
+  return std::max(kTieDistance, kRoundingErrors * reach *
+                                    std::numeric_limits<double>::epsilon());
+}
+
+// The greatest coordinate of contours.
+double reach_of(std::span<const Contour> contours) {
+  double reach = 0;
+  for (const Contour& contour : contours) {
+    for (const Vec2 point : contour) {
+      if (csg::is_too_far(point.x) || csg::is_too_far(point.y)) {
+        csg::fail_too_far();
+      }
+      reach = std::max({reach, std::abs(point.x), std::abs(point.y)});
+    }
+  }
+  return reach;
+}
+
+// The operands of an operator as instances of a scene: the ray wants to know no
+// more of them than their boxes and whether they may overlap themselves.
+class Operands {
+ public:
+  explicit Operands(csg::BooleanOp op) {
+    scene_.leaves.resize(2);
+    scene_.leaves[1].may_overlap_itself = true;
+    scene_.program.push_back({op, 0, false, 0});
+    block_.layer_count = 1;
+    builder_.begin(block_);
+  }
+
+  void add(std::span<const Contour> contours, bool may_overlap_itself = false) {
+    csg::Instance& operand = scene_.instances.emplace_back();
+    operand.leaf = may_overlap_itself ? 1 : 0;
+    operand.is_minuend = scene_.program[0].child_count == 0;
+    for (const Contour& contour : contours) {
+      for (const Vec2 point : contour) {
+        operand.box.low = glm::min(operand.box.low, Vec3(point, 0));
+        operand.box.high = glm::max(operand.box.high, Vec3(point, 0));
+      }
+      builder_.loop() = contour;
+      builder_.close_loop(0, scene_.program[0].child_count, 1);
+    }
+    ++scene_.program[0].child_count;
+    reach_ = std::max(reach_, reach_of(contours));
+  }
+
+  Region evaluate() {
+    builder_.finish(block_);
+    ldni::Contours contours;
+    ldni::KineticRay(scene_, 0, tie_distance(reach_))
+        .sweep(block_, 0, contours);
+    return to_region(contours);
+  }
+
+ private:
+  csg::Scene scene_;
+  ldni::ChainBuilder builder_;
+  ldni::ChainBlock block_;
+  double reach_ = 0;
+};
+
+Region evaluate(csg::BooleanOp op, std::span<const Region> regions) {
+  Operands operands(op);
+  for (const Region& region : regions) operands.add(region.contours);
+  return operands.evaluate();
+}
+
+}  // namespace
+
+Region unite(std::span<const Region> regions) {
+  if (regions.empty()) return {};
+  if (regions.size() == 1) return regions[0];
+  return evaluate(csg::BooleanOp::kUnion, regions);
+}
+
+Region subtract(std::span<const Region> regions) {
+  if (regions.size() <= 1) return unite(regions);
+  return evaluate(csg::BooleanOp::kDifference, regions);
+}
+
+Region intersect(std::span<const Region> regions) {
+  if (regions.size() <= 1) return unite(regions);
+  return evaluate(csg::BooleanOp::kIntersection, regions);
+}
+
+Region clip(std::span<const Contour> contours, const Region& window) {
+  Operands operands(csg::BooleanOp::kIntersection);
+  operands.add(contours, true);
+  operands.add(window.contours);
+  return operands.evaluate();
+}
+
+Region from_contours(std::span<const Contour> contours, FillRule rule) {
+  ldni::Contours loops;
+  for (const Contour& contour : contours) loops.add_loop(contour);
+  ldni::LoopResolver(tie_distance(reach_of(contours)), ldni::kClusterWidth,
+                     rule)
+      .resolve(loops);
+  return to_region(loops);
+}
+
+}  // namespace lamina::planar

@@ -1,0 +1,38 @@
+#pragma once
+// Booleans of regions, by the moving ray of ldni/sweep.
+//
+// Corners of the result are corners of the operands, as they were, or places
+// where two edges cross, rounded once. Edges nearer than 3e-8 mm to each other
+// are one; faces of solids tie at thirty times that (csg/tie_distance.h).
+// Where many operands overlap they are swept group by group
+// (docs/decisions/0027-cascaded-sweeps.md), so the cost is near-linear in the
+// corners that come in and the crossings that come out.
+
+#include <span>
+
+#include "csg/plane/region.h"
+#include "ldni/sweep/fill_rule.h"
+
+namespace lamina::planar {
+
+// All of these throw csg::LimitExceeded for coordinates beyond
+// csg::kGreatestCoordinate.
+
+Region unite(std::span<const Region> regions);
+
+// The first region without the others.
+Region subtract(std::span<const Region> regions);
+
+Region intersect(std::span<const Region> regions);
+
+// What contours with winding numbers enclose in the window: where they are not
+// 0.
+Region clip(std::span<const Contour> contours, const Region& window);
+
+using ldni::FillRule;
+
+// The region that contours in any order and direction enclose; they may cross.
+Region from_contours(std::span<const Contour> contours,
+                     FillRule rule = FillRule::kEvenOdd);
+
+}  // namespace lamina::planar
