@@ -180,6 +180,39 @@ TEST(PointGrid, FindsPointsInARowAndInOnePlace) {
   expect_all_near(std::vector<Vec2>(20, Vec2(1, 1)), random, 5);
 }
 
+// A plate of small parts, and a part far from it.
+std::vector<Vec2> crowded_points() {
+  std::vector<Vec2> points;
+  for (int x = 0; x < 100; ++x) {
+    for (int y = 0; y < 100; ++y) points.emplace_back(0.001 * x, 0.001 * y);
+  }
+  for (int i = 0; i < 50; ++i) points.emplace_back(0.05 + 1e-9 * i, 0.05);
+  points.emplace_back(1000, 1000);
+  return points;
+}
+
+TEST(PointGrid, FindsPointsInACrowd) {
+  RandomPoints random(4);
+  expect_all_near(crowded_points(), random, 0.1);
+  std::vector<Vec2> twins(100, Vec2(1, 1));
+  twins.emplace_back(500, 500);
+  expect_all_near(twins, random, 2);
+}
+
+TEST(PointGrid, LooksAtFewPointsInACrowd) {
+  const std::vector<Vec2> points = crowded_points();
+  PointGrid grid;
+  grid.fill(points, all_of(points));
+  std::size_t looks = 0;
+  for (const Vec2& point : points) {
+    grid.has_near(point, point + Vec2(0.001, 0), 1e-6, [&](std::uint32_t) {
+      ++looks;
+      return false;
+    });
+  }
+  EXPECT_LT(looks, 30 * points.size());
+}
+
 TEST(PointGrid, HoldsOnlyTheMembersOfTheLastFill) {
   const std::vector<Vec2> points = {{0, 0}, {1, 0}, {2, 0}};
   const auto count = [&](const PointGrid& grid) {
