@@ -73,8 +73,8 @@ void fail_unsupported(const Node& node, std::string_view module) {
 }
 
 Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
-                 Diagnostics& diagnostics)
-    : options_(options), diagnostics_(diagnostics) {
+                 HullTable& hulls, Diagnostics& diagnostics)
+    : options_(options), hulls_(hulls), diagnostics_(diagnostics) {
   builder_.reserve(instances);
 }
 
@@ -102,7 +102,8 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   Survey found;
   survey(*tree.root, found);
   const Node* root = found.root_modifier ? found.root_modifier : tree.root;
-  Lowerer lowerer(found.childless, options, diagnostics);
+  HullTable hulls;
+  Lowerer lowerer(found.childless, options, hulls, diagnostics);
   Shape shape = lowerer.lower(
       *root, options.world_from_design * Mat4(glm::dmat3(options.scale)));
   if (!shape.region.is_empty()) {

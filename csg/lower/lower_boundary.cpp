@@ -6,7 +6,6 @@
 
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/projection.h"
-#include "csg/boundary/scene_hull.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/plane/boolean.h"
 #include "csg/plane/convex_hull.h"
@@ -103,7 +102,7 @@ Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
 Lowerer Lowerer::make_inner(const Node& node, const Affine& world) {
   LowerOptions options = options_;
   options.chordal_error = fineness({}, world).chordal_error;
-  return {node.children.size(), options, diagnostics_};
+  return {node.children.size(), options, hulls_, diagnostics_};
 }
 
 Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world,
@@ -124,7 +123,7 @@ Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
   }
   if (apart.scene.instances.empty()) return {};
   Leaf leaf;
-  leaf.meshes.push_back(convex_hull(std::move(apart.scene)));
+  leaf.meshes.push_back(hulls_.find_or_make(std::move(apart.scene)));
   place_leaf(std::move(leaf), node, world);
   return {Dimension::kSolid};
 }

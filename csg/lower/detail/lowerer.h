@@ -20,6 +20,7 @@
 
 #include "base/diagnostic.h"
 #include "csg/lower/detail/fineness.h"
+#include "csg/lower/detail/hull_table.h"
 #include "csg/lower/detail/leaf_store.h"
 #include "csg/lower/detail/program_builder.h"
 #include "csg/lower/lower.h"
@@ -51,7 +52,8 @@ concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
 class Lowerer {
  public:
   // instances  about as many as there will be
-  Lowerer(std::size_t instances, const LowerOptions& options,
+  // hulls      of the whole design; they outlive the lowerer
+  Lowerer(std::size_t instances, const LowerOptions& options, HullTable& hulls,
           Diagnostics& diagnostics);
 
   // The solid parts of the subtree are left on top of the builder's stack, in
@@ -185,6 +187,7 @@ class Lowerer {
   };
 
   LowerOptions options_;
+  HullTable& hulls_;
   Diagnostics& diagnostics_;
   // Of the next leaf only the corners count: it stands below a hull, without
   // siblings all the way. So its faces need not be closed.
