@@ -29,32 +29,24 @@ struct Segment {
   Vec2 end;
 };
 
-// The segments of faces in one plane, on one side.
+CutTriangle measure(const LeafFaces& faces, const Plane& plane,
+                    const LeafFaces::Triangle& corners) {
+  CutTriangle triangle{corners, {}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double h = plane.height(faces.vertices[corners[k]]);
+    triangle.heights[k] = std::abs(h) <= kTieDistance ? 0 : h;
+  }
+  return triangle;
+}
+
+// The segments of triangles in one plane, on one side.
 class Cutter {
  public:
   Cutter(const LeafFaces& faces, const Plane& plane, Side side)
       : faces_(faces), plane_(plane), side_(side) {}
 
-  void cut(std::size_t face, std::vector<Segment>& segments) const {
-    for (const auto& t : faces_.triangles_of(face)) {
-      std::array<double, 3> heights{};
-      for (std::size_t k = 0; k < 3; ++k) heights[k] = height(t[k]);
-      cut(t, heights, segments);
-    }
-  }
-
- private:
-  // 0 where the vertex lies on the plane.
-  double height(std::uint32_t vertex) const {
-    const double h = plane_.height(faces_.vertices[vertex]);
-    return std::abs(h) <= kTieDistance ? 0 : h;
-  }
-  bool is_above(double h) const {
-    return side_ == Side::kAbove ? h > 0 : h >= 0;
-  }
-
-  void cut(const LeafFaces::Triangle& t, const std::array<double, 3>& heights,
-           std::vector<Segment>& segments) const {
+  void cut(const CutTriangle& triangle, std::vector<Segment>& segments) const {
+    const auto& [t, heights] = triangle;
     // Counter-clockwise from outside, the edge that goes down stands where the
     // segment begins.
     Segment segment{};
@@ -77,6 +69,11 @@ class Cutter {
       }
     }
     if (is_cut) segments.push_back(segment);
+  }
+
+ private:
+  bool is_above(double h) const {
+    return side_ == Side::kAbove ? h > 0 : h >= 0;
   }
 
   Vec2 cross(std::uint32_t a, double height_a, std::uint32_t b,
@@ -222,6 +219,18 @@ std::vector<Box3> boxes_of(const LeafFaces& faces) {
   return boxes;
 }
 
+std::vector<Box3> boxes_of_triangles(const LeafFaces& faces, std::size_t face) {
+  std::vector<Box3> boxes;
+  for (const LeafFaces::Triangle& t : faces.triangles_of(face)) {
+    Box3& box = boxes.emplace_back();
+    for (const std::uint32_t corner : t) {
+      box.low = glm::min(box.low, faces.vertices[corner]);
+      box.high = glm::max(box.high, faces.vertices[corner]);
+    }
+  }
+  return boxes;
+}
+
 // Winding number of the section at a point of the plane, along the ray +u.
 int section_winding(const PlacedLeaf& leaf, const Plane& plane, Side side,
                     Vec2 c) {
@@ -232,8 +241,9 @@ int section_winding(const PlacedLeaf& leaf, const Plane& plane, Side side,
     const Vec2 high = plane.flatten(box.high) + kTieDistance;
     return low.y <= c.y && c.y <= high.y && c.x <= high.x && plane.meets(box);
   };
-  leaf.tree.visit(may_cross,
-                  [&](std::uint32_t face) { cutter.cut(face, segments); });
+  leaf.visit_triangles(may_cross, [&](const LeafFaces::Triangle& t) {
+    cutter.cut(measure(leaf.faces, plane, t), segments);
+  });
   int sum = 0;
   for (const Segment& segment : segments) {
     sum += crossing(segment.begin, segment.end, c);
@@ -288,7 +298,14 @@ bool Plane::meets(const Box3& box) const {
 }
 
 PlacedLeaf::PlacedLeaf(const Leaf& leaf, const Affine& world_from_leaf)
-    : faces(faces_of(leaf, world_from_leaf)), tree(boxes_of(faces)) {}
+    : faces(faces_of(leaf, world_from_leaf)), tree(boxes_of(faces)) {
+  // So few are cut one by one.
+  constexpr std::size_t kFewTriangles = 16;
+  for (std::uint32_t face = 0; face < faces.faces.size(); ++face) {
+    if (faces.triangles_of(face).size() <= kFewTriangles) continue;
+    triangle_trees.emplace(face, BoxTree(boxes_of_triangles(faces, face)));
+  }
+}
 
 bool contains(const PlacedLeaf& leaf, Vec3 point) {
   // Along +x. A face that the ray's line meets lies on one side of the point:
@@ -299,13 +316,11 @@ bool contains(const PlacedLeaf& leaf, Vec3 point) {
     return box.high.x >= point.x && box.low.y <= c.x && c.x <= box.high.y &&
            box.low.z <= c.y && c.y <= box.high.z;
   };
-  leaf.tree.visit(is_met, [&](std::uint32_t face) {
-    for (const auto& t : leaf.faces.triangles_of(face)) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 from = leaf.faces.vertices[t[i]];
-        const Vec3 to = leaf.faces.vertices[t[(i + 1) % 3]];
-        sum += crossing({from.y, from.z}, {to.y, to.z}, c);
-      }
+  leaf.visit_triangles(is_met, [&](const LeafFaces::Triangle& t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 from = leaf.faces.vertices[t[i]];
+      const Vec3 to = leaf.faces.vertices[t[(i + 1) % 3]];
+      sum += crossing({from.y, from.z}, {to.y, to.z}, c);
     }
   });
   return sum != 0;
@@ -330,21 +345,23 @@ WindowSection::WindowSection(const PlacedLeaf& leaf, const Plane& plane,
   const auto is_met = [&](const Box3& other) {
     return do_meet(box, other) && plane.meets(other);
   };
-  leaf.tree.visit(is_met, [&](std::uint32_t face) { faces_.push_back(face); });
-  for (const std::uint32_t face : faces_) {
-    for (const auto& t : leaf.faces.triangles_of(face)) {
-      for (const std::uint32_t corner : t) {
-        const double h = plane.height(leaf.faces.vertices[corner]);
-        is_touched_ = is_touched_ || std::abs(h) <= kTieDistance;
-      }
-    }
-  }
+  leaf.tree.visit(is_met, [&](std::uint32_t face) {
+    faces_.push_back(face);
+    leaf.visit_triangles(face, is_met, [&](const LeafFaces::Triangle& t) {
+      triangles_.push_back(measure(leaf.faces, plane, t));
+    });
+  });
+  is_touched_ = std::any_of(
+      triangles_.begin(), triangles_.end(), [](const CutTriangle& t) {
+        return std::find(t.heights.begin(), t.heights.end(), 0) !=
+               t.heights.end();
+      });
 }
 
 std::optional<bool> WindowSection::uniform_value(Side side) const {
   const Cutter cutter(leaf_.faces, plane_, side);
   std::vector<Segment> segments;
-  for (const std::uint32_t face : faces_) cutter.cut(face, segments);
+  for (const CutTriangle& t : triangles_) cutter.cut(t, segments);
   const auto comes_near = [&](const Segment& segment) {
     return is_near(window_, segment.begin, segment.end);
   };
@@ -355,7 +372,7 @@ std::optional<bool> WindowSection::uniform_value(Side side) const {
 planar::Region WindowSection::contours(Side side) const {
   const Cutter cutter(leaf_.faces, plane_, side);
   std::vector<Segment> segments;
-  for (const std::uint32_t face : faces_) cutter.cut(face, segments);
+  for (const CutTriangle& t : triangles_) cutter.cut(t, segments);
   Chains chains = Chainer(segments).take();
   const Frame frame(window_, chains);
   planar::Region result;
@@ -383,7 +400,11 @@ planar::Region whole_section(const PlacedLeaf& leaf, const Plane& plane,
   const Cutter cutter(leaf.faces, plane, side);
   std::vector<Segment> segments;
   leaf.tree.visit([&](const Box3& box) { return plane.meets(box); },
-                  [&](std::uint32_t face) { cutter.cut(face, segments); });
+                  [&](std::uint32_t face) {
+                    for (const auto& t : leaf.faces.triangles_of(face)) {
+                      cutter.cut(measure(leaf.faces, plane, t), segments);
+                    }
+                  });
   return {Chainer(segments).take().closed};
 }
 

@@ -8,8 +8,11 @@
 // then crossed or not, and its crossing is one point for both its faces. So
 // sections are closed by construction.
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "csg/boundary/box_tree.h"
@@ -47,9 +50,36 @@ class Plane {
 struct PlacedLeaf {
   PlacedLeaf(const Leaf& leaf, const Affine& world_from_leaf);
 
+  // Calls visit(triangle) for the triangles of a face whose boxes `test` holds
+  // for, and for some others; `test` as of BoxTree.
+  template <typename Test, typename Visit>
+  void visit_triangles(std::uint32_t face, const Test& test,
+                       const Visit& visit) const;
+  // Of all faces.
+  template <typename Test, typename Visit>
+  void visit_triangles(const Test& test, const Visit& visit) const {
+    tree.visit(test,
+               [&](std::uint32_t face) { visit_triangles(face, test, visit); });
+  }
+
   LeafFaces faces;
   BoxTree tree;  // of the faces' boxes
+  // The cap of a text has thousands of triangles, of which a window shows a
+  // few: of the triangles of such faces, by face.
+  std::unordered_map<std::uint32_t, BoxTree> triangle_trees;
 };
+
+template <typename Test, typename Visit>
+void PlacedLeaf::visit_triangles(std::uint32_t face, const Test& test,
+                                 const Visit& visit) const {
+  const std::span<const LeafFaces::Triangle> all = faces.triangles_of(face);
+  const auto found = triangle_trees.find(face);
+  if (found == triangle_trees.end()) {
+    for (const LeafFaces::Triangle& triangle : all) visit(triangle);
+  } else {
+    found->second.visit(test, [&](std::uint32_t i) { visit(all[i]); });
+  }
+}
 
 // Whether the point is inside. It must not lie in the box of any face.
 bool contains(const PlacedLeaf& leaf, Vec3 point);
@@ -63,6 +93,13 @@ struct Window {
 // kTieDistance more.
 Box3 box_of(const Plane& plane, const Window& window);
 
+// A triangle that the plane may cut.
+struct CutTriangle {
+  LeafFaces::Triangle corners;
+  // Of the corners above the plane; 0 where one lies on it.
+  std::array<double, 3> heights;
+};
+
 // The leaf's section, as far as the window shows it.
 class WindowSection {
  public:
@@ -72,7 +109,8 @@ class WindowSection {
   // Faces whose boxes meet the plane where the window is.
   const std::vector<std::uint32_t>& faces() const { return faces_; }
 
-  // Whether a vertex of them lies on the plane; if not, both sides are equal.
+  // Whether a vertex of what the window may show lies on the plane; if not,
+  // both sides are equal.
   bool is_touched() const { return is_touched_; }
 
   enum class Side { kBelow, kAbove };
@@ -90,6 +128,7 @@ class WindowSection {
   const Plane& plane_;
   Window window_;
   std::vector<std::uint32_t> faces_;
+  std::vector<CutTriangle> triangles_;  // of these faces, near the window
   bool is_touched_ = false;
 };
 
