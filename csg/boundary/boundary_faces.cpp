@@ -222,12 +222,23 @@ class Finder {
     std::vector<Cut> cuts;
     std::vector<Region> earlier;  // faces in this plane whose turn was before
     const auto add = [&](std::uint32_t other) {
-      const WindowSection section(leaves_[other], plane, window);
-      cuts.push_back({other, section});
-      if (!section.is_touched()) return;
-      add_earlier(other, section.faces(), face, plane, earlier);
+      WindowSection section(leaves_[other], plane, window);
+      if (section.is_touched()) {
+        add_earlier(other, section.faces(), face, plane, earlier);
+      }
+      cuts.push_back({other, std::move(section)});
     };
-    for (const std::uint32_t other : others) add(other);
+    // One leaf around the whole window often decides the program; the others
+    // need no sections then.
+    Settled known;
+    for (const std::uint32_t other : others) {
+      add(other);
+      note_uniform(cuts.back(), known);
+      if (program_.is_decided()) break;
+    }
+    const bool is_decided = program_.is_decided();
+    forget(known);
+    if (is_decided) return;
     if (!is_embedded()) add(self_);
 
     if (!earlier.empty()) {
@@ -284,6 +295,16 @@ class Finder {
     WindowSection section_;
     std::array<Known, 2> known_;
   };
+
+  // Notes a leaf that has all of the window inside, or nothing, on both sides
+  // of the plane.
+  void note_uniform(Cut& cut, Settled& known) {
+    if (!program_.matters(cut.instance())) return;
+    const auto below = cut.uniform_value(Side::kBelow);
+    if (below && below == cut.uniform_value(Side::kAbove)) {
+      note(cut.instance(), *below, known);
+    }
+  }
 
   std::optional<Region> evaluate(std::vector<Cut>& cuts, Side side,
                                  const Region& outline) {
