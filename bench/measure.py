@@ -4,6 +4,7 @@ Processor time is that of the whole process, from exec to its end, as the
 system counts it. Runs that are to be compared take turns, so that a busy
 machine slows all of them.
 """
+import hashlib
 import json
 import os
 import resource
@@ -69,6 +70,24 @@ def run_process(command, limit):
     if process.returncode != 0:
         raise Failure(output or f"ended with {process.returncode}")
     return Cost(seconds, usage.ru_maxrss * 1024, output)
+
+
+def designs_of(folder, digits="0123456789abcdef"):
+    """The paths in `folder` of its designs, in order: of those the md5 of whose
+    path begins with one of `digits`."""
+    designs = sorted(path.relative_to(folder)
+                     for path in folder.rglob("*.scad") if path.is_file())
+    designs = [design for design in designs
+               if hashlib.md5(os.fsencode(design)).hexdigest()[0] in digits]
+    if not designs:
+        sys.exit(f"no design in {folder}")
+    return designs
+
+
+def quantile(values, share):
+    """The value that `share` of them do not exceed."""
+    values = sorted(values)
+    return values[min(len(values) - 1, int(share * len(values)))]
 
 
 def seconds_text(seconds):

@@ -1,183 +1,43 @@
 // Geometry of the designs that come with OpenSCAD: its tests and examples.
 //
 // openscad and lamina render each. Sections of openscad's mesh at seven generic
-// heights, or the outline of a 2D design, judge lamina's layers: regions and
-// holes must be equal, the symmetric difference within openscad's own rounding
-// times the perimeter. A mesh that is open or overlaps itself in a
-// section, or that openscad left a part out of, is no judge of that design.
-// Every case leaves a row for the table that geometry_table_test checks;
-// docs/conformance.md lists the exceptions.
+// heights, or the outline of a 2D design, judge lamina's layers
+// (geometry_judge.h). Every case leaves a row for the table that
+// geometry_table_test checks; docs/conformance.md lists the exceptions.
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "tests/conformance/geometry_judge.h"
 #include "tests/conformance/geometry_rows.h"
 #include "tests/conformance/page.h"
 #include "tests/conformance/reference.h"
-#include "tests/oracle/exact_region.h"
-#include "tests/oracle/judge.h"
-#include "tests/oracle/openscad.h"
-#include "tests/oracle/world_scene.h"
-#include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace lamina::conformance {
 namespace {
 
 namespace fs = std::filesystem;
 
-using oracle::ExactRegion;
-
 const fs::path kData = LAMINA_OPENSCAD_DATA;
 
 constexpr std::size_t kHeights = 7;
-constexpr int kLaminaSeconds = 60;
 
-// OpenSCAD's own grid of 2D designs, 2^-16 mm, and a bit [mm].
-constexpr double kOpenScadDistance = 2e-5;
-
-struct LaminaResult {
-  bool is_empty = false;
-  std::string complaint;  // why there are no layers
-  std::vector<ldni::Contours> layers;
-};
-
-LaminaResult run_lamina(const fs::path& design,
-                        const std::vector<double>& heights) {
-  const support::TemporaryFolder folder;
-  const std::string output = folder.file("out.layers.json");
-  std::vector<std::string> arguments = {
-      "timeout",      std::to_string(kLaminaSeconds),
-      LAMINA_PROGRAM, design,
-      "-o",           output,
-      "--tolerance",  "0"};
-  if (!heights.empty()) {
-    arguments.push_back(fmt::format("--heights={}", fmt::join(heights, ",")));
-  }
-  const auto result = support::run_process(arguments);
-  LaminaResult lamina;
-  lamina.is_empty = result.errors.find("object is empty") != std::string::npos;
-  if (result.status != 0) {
-    const std::string& words = result.errors;
-    const std::size_t error = words.find("error: ");
-    lamina.complaint =
-        fmt::format("lamina ends with {}: {}", result.status,
-                    words.substr(error == std::string::npos ? 0 : error, 200));
-    return lamina;
-  }
-  const auto json = nlohmann::json::parse(support::read_file(output));
-  for (const auto& layer : json["layers"]) {
-    ldni::Contours contours;
-    for (const auto& contour : layer["contours"]) {
-      for (const auto& p : contour["points"])
-        contours.points.push_back({p[0], p[1]});
-      contours.ends.push_back(
-          static_cast<std::uint32_t>(contours.points.size()));
-    }
-    lamina.layers.push_back(std::move(contours));
-  }
-  return lamina;
-}
-
-struct Outcome {
-  std::string verdict;    // equal, empty, no-judge, differs
-  std::string complaint;  // where it is neither equal nor empty
-};
-
-std::vector<double> heights_of(const csg::Mesh& mesh) {
-  const auto [low, high] = std::minmax_element(
-      mesh.vertices.begin(), mesh.vertices.end(),
-      [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
-  return oracle::generic_heights({{mesh}, {}, {}, {}}, low->z, high->z,
-                                 kHeights);
-}
-
-// openscad's words where it left a part of the design out.
-std::string missing_part(const Reference& reference) {
-  constexpr std::string_view kWords =
-      "Unable to convert to CGAL_Nef_Polyhedron";
-  if (reference.words.find(kWords) == std::string::npos) return "";
-  return fmt::format("openscad left a part out: {}", kWords);
-}
-
-// Why openscad's mesh is no judge of a section that differs; empty: it is one.
-std::string fault_of(const Reference& reference, double z, double distance) {
-  if (const auto part = missing_part(reference); !part.empty()) return part;
-  const double overlap =
-      oracle::overlap_of_section(reference.mesh, z, distance);
-  const double allowed =
-      distance *
-      oracle::compare(oracle::exact_section(reference.mesh, z, distance),
-                      ExactRegion())
-          .expected_perimeter;
-  if (overlap <= allowed) return "";
-  return fmt::format("overlaps itself at z = {} in {:.3g} mm²", z, overlap);
-}
-
-Outcome judge_mesh(const Reference& reference, const fs::path& design) {
-  const csg::Mesh& mesh = reference.mesh;
-  const double distance = kOpenScadDistance + oracle::float32_spacing(mesh);
-  const bool is_outline = reference.kind == ReferenceKind::kOutline;
-  const std::vector<double> heights =
-      is_outline ? std::vector<double>{0.5} : heights_of(mesh);
-
-  std::vector<ExactRegion> sections;
-  for (const double z : heights) {
-    try {
-      sections.push_back(oracle::exact_section(mesh, z, distance));
-    } catch (const std::runtime_error& error) {
-      return {"no-judge", error.what()};
-    }
-  }
-  LaminaResult lamina =
-      run_lamina(design, is_outline ? std::vector<double>{} : heights);
-  if (lamina.is_empty) {
-    // Of a solid without volume, all sections are.
-    lamina.layers.resize(heights.size());
-  } else if (!lamina.complaint.empty()) {
-    return {"differs", lamina.complaint};
-  }
-  if (lamina.layers.size() != heights.size()) {
-    return {"differs", fmt::format("{} layers", lamina.layers.size())};
-  }
-  Outcome outcome = {"equal", ""};
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    const oracle::Verdict verdict =
-        oracle::judge(sections[i], lamina.layers[i], {distance, distance});
-    if (!verdict.complaint.empty()) {
-      const std::string fault = fault_of(reference, heights[i], distance);
-      if (!fault.empty()) return {"no-judge", fault};
-      outcome.verdict = "differs";
-      outcome.complaint +=
-          fmt::format("z = {}: {}\n", heights[i], verdict.complaint);
-    }
-  }
-  return outcome;
-}
-
-Outcome judge_design(const std::string& name) {
+Judgement judge_design(const std::string& name) {
   const fs::path design = kData / name;
   const Reference reference = render_reference(kData, design);
   switch (reference.kind) {
     case ReferenceKind::kSolid:
+      return judge_solid(reference, design,
+                         generic_heights(reference.mesh, kHeights));
     case ReferenceKind::kOutline:
-      return judge_mesh(reference, design);
-    case ReferenceKind::kEmpty: {
-      const LaminaResult lamina = run_lamina(design, {});
-      if (lamina.is_empty) return {"empty", ""};
-      if (const auto part = missing_part(reference); !part.empty()) {
-        return {"no-judge", part};
-      }
-      return {"differs", "openscad's is empty; " + lamina.complaint};
-    }
+      return judge_outline(reference, design);
+    case ReferenceKind::kEmpty:
+      return judge_empty(reference, design);
   }
   throw std::logic_error("no such kind");
 }
@@ -186,7 +46,7 @@ class Geometry : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Geometry, EqualsWhatOpenScadRenders) {
   const std::string& name = GetParam();
-  const Outcome outcome = judge_design(name);
+  const Judgement outcome = judge_design(name);
   write_row(LAMINA_GEOMETRY_ROWS, {name, outcome.verdict, outcome.complaint});
   if (is_exception(name)) {
     EXPECT_EQ(outcome.verdict, "differs")

@@ -1,0 +1,2 @@
+// openscad makes no solid, but an outline
+square(3);

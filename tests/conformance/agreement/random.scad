@@ -1,0 +1,2 @@
+// draw random numbers
+cube(rands(1, 2, 1)[0]);
