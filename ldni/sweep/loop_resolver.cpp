@@ -49,7 +49,8 @@ void LoopResolver::resolve(Contours& contours) {
     builder.close_loop(0, 0, 1);
   }
   builder.finish(state_->block);
-  state_->sweep.sweep(state_->block.chains_of(0), state_->states, contours);
+  state_->sweep.begin(state_->block.chains_of(0), state_->states);
+  state_->sweep.resume(contours, {});
 }
 
 SweepCounts LoopResolver::counts() const { return state_->sweep.counts(); }

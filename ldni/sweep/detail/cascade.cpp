@@ -26,6 +26,12 @@ constexpr double kMostSwapsOfSimple = 12;
 constexpr double kFirstShare = 0.25;
 constexpr double kFirstSwaps = 256;
 
+// Before that, after so many swaps for each chain, it is asked how much of the
+// chains lies where their leaves can matter. Where that is less than this share
+// the layer is clipped, and its sweep begins again.
+constexpr double kSwapsBeforeClipping = 1;
+constexpr double kMostWithin = 0.75;
+
 // Whether half of the chains belong to one leaf, which cannot be parted.
 bool is_mostly_one_leaf(std::span<const Chain> chains) {
   std::size_t longest = 0;
@@ -290,7 +296,9 @@ Cascade::Cascade(const csg::Scene& scene, const SweepOptions& options,
                  double patience)
     : patience_(patience),
       ray_(options),
-      root_(std::make_unique<Group>(scene)) {
+      root_(std::make_unique<Group>(scene)),
+      clips_(has_active_zones(scene)),
+      clipper_(scene) {
   block_.layer_count = 1;
 }
 
@@ -301,28 +309,50 @@ void Cascade::sweep(const LayerChains& layer, Contours& contours) {
   counts_.chains += layer.chains.size();
   for (const Chain& chain : layer.chains) counts_.points += chain.point_count;
   is_resolved_ = false;
-  sweep(*root_, layer, 0, contours);
-  if (is_resolved_) ++counts_.resolved_layers;
+  if (!clips_) {
+    sweep(*root_, layer, 0, contours);
+    return;
+  }
+  const Patience first =
+      patience_for(patience_ * kSwapsBeforeClipping, layer.chains.size());
+  if (sweep_at_once(root_->states(), layer, contours, first)) return;
+  clipper_.begin(layer);
+  if (clipper_.share_within() < kMostWithin) {
+    sweep(*root_, clipper_.clip(), 0, contours);
+    return;
+  }
+  if (resume(contours, patience_for(*root_, layer))) return;
+  sweep_halves(*root_, layer, ray_.swaps_per_chain(), contours);
 }
 
 // `expected_swaps`: for each chain.
 void Cascade::sweep(Group& group, const LayerChains& layer,
                     double expected_swaps, Contours& contours) {
-  if (patience_ > 0 && is_mostly_one_leaf(layer.chains)) {
-    sweep_at_once(group.states(), layer, contours, {});
-    return;
-  }
-  const double most_swaps =
-      patience_ *
-      (group.states().is_simple() ? kMostSwapsOfSimple : kMostSwaps);
-  if (expected_swaps <= most_swaps) {
-    const Patience patience{
-        most_swaps,
-        patience_ * kFirstSwaps + kFirstShare * most_swaps *
-                                      static_cast<double>(layer.chains.size())};
+  const Patience patience = patience_for(group, layer);
+  if (expected_swaps <= patience.swaps_per_chain) {
     if (sweep_at_once(group.states(), layer, contours, patience)) return;
     expected_swaps = ray_.swaps_per_chain();
   }
+  sweep_halves(group, layer, expected_swaps, contours);
+}
+
+Patience Cascade::patience_for(Group& group, const LayerChains& layer) const {
+  if (patience_ > 0 && is_mostly_one_leaf(layer.chains)) return {};
+  return patience_for(
+      patience_ *
+          (group.states().is_simple() ? kMostSwapsOfSimple : kMostSwaps),
+      layer.chains.size());
+}
+
+Patience Cascade::patience_for(double most_swaps,
+                               std::size_t chain_count) const {
+  return {most_swaps,
+          patience_ * kFirstSwaps +
+              kFirstShare * most_swaps * static_cast<double>(chain_count)};
+}
+
+void Cascade::sweep_halves(Group& group, const LayerChains& layer,
+                           double expected_swaps, Contours& contours) {
   if (!group.part()) {
     sweep_at_once(group.states(), layer, contours, {});
     return;
@@ -353,7 +383,13 @@ void Cascade::sweep_half(Group& half, const LayerChains& layer,
 
 bool Cascade::sweep_at_once(ProgramStates& states, const LayerChains& layer,
                             Contours& contours, const Patience& patience) {
-  if (!ray_.sweep(layer, states, contours, patience)) return false;
+  ray_.begin(layer, states);
+  return resume(contours, patience);
+}
+
+// Goes on with the sweep that was given up last.
+bool Cascade::resume(Contours& contours, const Patience& patience) {
+  if (!ray_.resume(contours, patience)) return false;
   if (ray_.has_jumps()) {
     if (!resolver_) {
       resolver_.emplace(kClusterWidth, kResolvedMergeDistance,

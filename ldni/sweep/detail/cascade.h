@@ -8,12 +8,16 @@
 // operands of one more sweep. What is hidden within a group is gone before the
 // groups meet, and the cost falls from n·k towards n·log n.
 //
-// Whether a sweep is given up depends on the layer alone, so contours do not
-// depend on threads; layers with few crossings are swept as ever. The contours
-// of a group are regular, so they toggle. Their points are vertices of leaves,
-// or crossings rounded once (2e-12 mm at 1e4 mm), far below a tie, so faces
-// that coincide still tie when their groups meet. I5 (ray_sweep.h) holds for
-// edges whose ends are such points.
+// Where leaves reach far beyond the places where they can matter, they are
+// clipped first (chain_clipper.h): crossings there are hidden as well, and a
+// layer that has few others is swept at once.
+//
+// Whether a sweep is given up or clipped depends on the layer alone, so
+// contours do not depend on threads; layers with few crossings are swept as
+// ever. The contours of a group are regular, so they toggle. Their points are
+// vertices of leaves, or crossings rounded once (2e-12 mm at 1e4 mm), far below
+// a tie, so faces that coincide still tie when their groups meet. I5
+// (ray_sweep.h) holds for edges whose ends are such points.
 
 #include <cstdint>
 #include <memory>
@@ -24,6 +28,7 @@
 #include "ldni/section/chain_builder.h"
 #include "ldni/section/chains.h"
 #include "ldni/section/contours.h"
+#include "ldni/sweep/detail/chain_clipper.h"
 #include "ldni/sweep/detail/program_states.h"
 #include "ldni/sweep/detail/ray_sweep.h"
 #include "ldni/sweep/loop_resolver.h"
@@ -52,16 +57,23 @@ class Cascade {
 
   void sweep(Group& group, const LayerChains& layer, double expected_swaps,
              Contours& contours);
+  Patience patience_for(Group& group, const LayerChains& layer) const;
+  Patience patience_for(double most_swaps, std::size_t chain_count) const;
+  void sweep_halves(Group& group, const LayerChains& layer,
+                    double expected_swaps, Contours& contours);
   void sweep_half(Group& half, const LayerChains& layer, double expected_swaps,
                   Contours& contours);
   bool sweep_at_once(ProgramStates& states, const LayerChains& layer,
                      Contours& contours, const Patience& patience);
+  bool resume(Contours& contours, const Patience& patience);
   void merge(csg::BooleanOp op, const Contours& second, Contours& contours);
 
   const double patience_;
   RaySweep ray_;
   std::optional<LoopResolver> resolver_;  // made when it is needed
   std::unique_ptr<Group> root_;
+  const bool clips_;  // where a sweep is given up
+  ChainClipper clipper_;
   // Of two contours, an operator; made when they are needed.
   std::array<std::optional<ProgramStates>, 3> merges_;
   ChainBuilder builder_;

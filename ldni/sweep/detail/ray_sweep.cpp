@@ -15,9 +15,7 @@ constexpr double kMostSlabsOfPitch = 1 << 16;
 
 }  // namespace
 
-bool RaySweep::sweep(const LayerChains& layer, ProgramStates& states,
-                     Contours& contours, const Patience& patience) {
-  begin_layer(layer, states);
+bool RaySweep::resume(Contours& contours, const Patience& patience) {
   while (next_endpoint_ < endpoints_.size()) {
     process_cluster(order_.next_event_point(endpoints_[next_endpoint_].x));
     if (static_cast<double>(order_.swaps()) >
@@ -37,7 +35,7 @@ SweepCounts RaySweep::counts() const {
   return counts;
 }
 
-void RaySweep::begin_layer(const LayerChains& layer, ProgramStates& states) {
+void RaySweep::begin(const LayerChains& layer, ProgramStates& states) {
   points_ = layer.points;
   chains_ = layer.chains;
   states_ = &states;

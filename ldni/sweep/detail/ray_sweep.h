@@ -81,11 +81,14 @@ class RaySweep {
   RaySweep(const RaySweep&) = delete;
   RaySweep& operator=(const RaySweep&) = delete;
 
-  // Replaces `contours` by the loops of a layer, whose chains are those of the
-  // instances of `states`. Gives up where neighbours swap more often than
-  // `patience` says: false, and `contours` is as before.
-  bool sweep(const LayerChains& layer, ProgramStates& states,
-             Contours& contours, const Patience& patience = {});
+  // Stands before a layer, whose chains are those of the instances of `states`.
+  // Both must outlive its sweep.
+  void begin(const LayerChains& layer, ProgramStates& states);
+
+  // Replaces `contours` by the loops of the layer. Gives up where neighbours
+  // have swapped more often than `patience` says: false, and `contours` is as
+  // before; the next call, with more patience, goes on from there.
+  bool resume(Contours& contours, const Patience& patience);
 
   // As of RayBoundary, for the last layer.
   bool has_jumps() const { return boundary_.has_jumps(); }
@@ -100,7 +103,6 @@ class RaySweep {
   }
 
  private:
-  void begin_layer(const LayerChains& layer, ProgramStates& states);
   std::uint32_t slab_count(double width, std::size_t point_count) const;
   void process_cluster(double x);
   // Chains that began, and half of them end too.

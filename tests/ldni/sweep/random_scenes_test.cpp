@@ -3,8 +3,9 @@
 // Beside every edge of the result and beside every edge of every leaf's
 // section, on both sides, and at random places, the contours must say what the
 // definition of the operators says of the leaves: contours that were swept as
-// ever, and contours of a cascade without patience. LAMINA_RANDOM_SCENES sets
-// how many scenes are tried, LAMINA_RANDOM_SEED the first seed.
+// ever, contours of a cascade without patience, and contours of clipped chains.
+// LAMINA_RANDOM_SCENES sets how many scenes are tried, LAMINA_RANDOM_SEED the
+// first seed.
 
 #include "tests/support/random_scenes.h"
 
@@ -25,6 +26,7 @@
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
 #include "ldni/sweep/detail/cascade.h"
+#include "ldni/sweep/detail/chain_clipper.h"
 #include "ldni/sweep/kinetic_ray.h"
 #include "tests/ldni/support/scene_builder.h"
 #include "tests/ldni/sweep/section_reference.h"
@@ -90,7 +92,10 @@ class SceneJudge {
     const LeafSectioner sectioner(scene, grid);
     sectioner.cut(0, grid.layer_count(), block_);
     KineticRay ray(scene, pitch);
-    detail::Cascade cascade(scene, {pitch, kTieDistance, kClusterWidth}, 0);
+    const detail::SweepOptions options{pitch, kTieDistance, kClusterWidth};
+    detail::Cascade cascade(scene, options, 0);
+    detail::Cascade clipped(scene, options);
+    detail::ChainClipper clipper(scene);
     SectionReference reference(scene);
     for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
       ++tally_.layers;
@@ -101,8 +106,13 @@ class SceneJudge {
       where_ += ", cascaded";
       cascade.sweep(block_.chains_of(l), contours_);
       judge_layer(scene, reference);
+      where_ = name_ + ", layer " + std::to_string(l) + ", clipped";
+      clipper.begin(block_.chains_of(l));
+      clipped.sweep(clipper.clip(), contours_);
+      judge_layer(scene, reference);
     }
-    for (const SweepCounts& counts : {ray.counts(), cascade.counts()}) {
+    for (const SweepCounts& counts :
+         {ray.counts(), cascade.counts(), clipped.counts()}) {
       EXPECT_EQ(counts.unbalanced_clusters, 0U) << name_;
       EXPECT_EQ(counts.capped_clusters, 0U) << name_;
       EXPECT_EQ(counts.repaired_clusters, 0U) << name_;

@@ -1,0 +1,64 @@
+#include "ldni/sweep/detail/active_zones.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <glm/common.hpp>
+
+namespace lamina::ldni::detail {
+namespace {
+
+void meet(Rectangle& box, const Rectangle& other) {
+  box.low = glm::max(box.low, other.low);
+  box.high = glm::min(box.high, other.high);
+}
+
+// Tells an operator of one of its operands.
+void add_operand(csg::BooleanOp op, bool is_minuend, const Rectangle& operand,
+                 Rectangle& box) {
+  if (op == csg::BooleanOp::kIntersection) {
+    meet(box, operand);
+  } else if (op == csg::BooleanOp::kUnion || is_minuend) {
+    box.low = glm::min(box.low, operand.low);
+    box.high = glm::max(box.high, operand.high);
+  }
+}
+
+}  // namespace
+
+bool has_active_zones(const csg::Scene& scene) {
+  return std::ranges::any_of(scene.program, [](const csg::BooleanNode& node) {
+    return node.op != csg::BooleanOp::kUnion;
+  });
+}
+
+std::vector<Rectangle> active_zones(const csg::Scene& scene,
+                                    std::span<const Rectangle> boxes) {
+  std::vector<Rectangle> zones(scene.program.size());
+  for (std::uint32_t i = 0; i < zones.size(); ++i) {
+    const csg::BooleanNode& node = scene.program[i];
+    // Of nothing at all an intersection is empty.
+    if (node.op == csg::BooleanOp::kIntersection && node.child_count > 0) {
+      zones[i] = {Vec2(-1e300), Vec2(1e300)};
+    }
+  }
+  const auto add = [&](std::uint32_t parent, bool is_minuend,
+                       const Rectangle& operand) {
+    add_operand(scene.program[parent].op, is_minuend, operand, zones[parent]);
+  };
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const csg::Instance& instance = scene.instances[i];
+    add(instance.parent, instance.is_minuend, boxes[i]);
+  }
+  // Parents stand before their children.
+  for (std::size_t i = zones.size(); i-- > 1;) {
+    const csg::BooleanNode& node = scene.program[i];
+    add(node.parent, node.is_minuend, zones[i]);
+  }
+  for (std::size_t i = 1; i < zones.size(); ++i) {
+    meet(zones[i], zones[scene.program[i].parent]);
+  }
+  return zones;
+}
+
+}  // namespace lamina::ldni::detail
