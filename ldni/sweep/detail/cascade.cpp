@@ -26,10 +26,10 @@ constexpr double kMostSwapsOfSimple = 12;
 constexpr double kFirstShare = 0.25;
 constexpr double kFirstSwaps = 256;
 
-// Before that, after so many swaps for each chain, it is asked how much of the
-// chains lies where their leaves can matter. Where that is less than this share
-// the layer is clipped, and its sweep begins again.
-constexpr double kSwapsBeforeClipping = 1;
+// Before that, after fewer swaps, it is asked how much of the chains lies where
+// their leaves can matter. Where that is less than this share the layer is
+// clipped, and its sweep begins again.
+constexpr Patience kBeforeClipping = {1, 32};
 constexpr double kMostWithin = 0.75;
 
 // Whether half of the chains belong to one leaf, which cannot be parted.
@@ -313,8 +313,8 @@ void Cascade::sweep(const LayerChains& layer, Contours& contours) {
     sweep(*root_, layer, 0, contours);
     return;
   }
-  const Patience first =
-      patience_for(patience_ * kSwapsBeforeClipping, layer.chains.size());
+  const Patience first{patience_ * kBeforeClipping.swaps_per_chain,
+                       patience_ * kBeforeClipping.first_swaps};
   if (sweep_at_once(root_->states(), layer, contours, first)) return;
   clipper_.begin(layer);
   if (clipper_.share_within() < kMostWithin) {
@@ -338,17 +338,12 @@ void Cascade::sweep(Group& group, const LayerChains& layer,
 
 Patience Cascade::patience_for(Group& group, const LayerChains& layer) const {
   if (patience_ > 0 && is_mostly_one_leaf(layer.chains)) return {};
-  return patience_for(
+  const double most_swaps =
       patience_ *
-          (group.states().is_simple() ? kMostSwapsOfSimple : kMostSwaps),
-      layer.chains.size());
-}
-
-Patience Cascade::patience_for(double most_swaps,
-                               std::size_t chain_count) const {
-  return {most_swaps,
-          patience_ * kFirstSwaps +
-              kFirstShare * most_swaps * static_cast<double>(chain_count)};
+      (group.states().is_simple() ? kMostSwapsOfSimple : kMostSwaps);
+  return {most_swaps, patience_ * kFirstSwaps +
+                          kFirstShare * most_swaps *
+                              static_cast<double>(layer.chains.size())};
 }
 
 void Cascade::sweep_halves(Group& group, const LayerChains& layer,

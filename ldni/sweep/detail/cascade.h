@@ -58,7 +58,6 @@ class Cascade {
   void sweep(Group& group, const LayerChains& layer, double expected_swaps,
              Contours& contours);
   Patience patience_for(Group& group, const LayerChains& layer) const;
-  Patience patience_for(double most_swaps, std::size_t chain_count) const;
   void sweep_halves(Group& group, const LayerChains& layer,
                     double expected_swaps, Contours& contours);
   void sweep_half(Group& half, const LayerChains& layer, double expected_swaps,
