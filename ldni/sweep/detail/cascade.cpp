@@ -309,10 +309,16 @@ void Cascade::sweep(const LayerChains& layer, Contours& contours) {
   counts_.chains += layer.chains.size();
   for (const Chain& chain : layer.chains) counts_.points += chain.point_count;
   is_resolved_ = false;
-  if (!clips_) {
+  if (clips_) {
+    clip_and_sweep(layer, contours);
+  } else {
     sweep(*root_, layer, 0, contours);
-    return;
   }
+  if (is_resolved_) ++counts_.resolved_layers;
+}
+
+// Clips the layer if it proves to be worthwhile.
+void Cascade::clip_and_sweep(const LayerChains& layer, Contours& contours) {
   const Patience first{patience_ * kBeforeClipping.swaps_per_chain,
                        patience_ * kBeforeClipping.first_swaps};
   if (sweep_at_once(root_->states(), layer, contours, first)) return;

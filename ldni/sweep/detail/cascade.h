@@ -55,6 +55,7 @@ class Cascade {
  private:
   class Group;
 
+  void clip_and_sweep(const LayerChains& layer, Contours& contours);
   void sweep(Group& group, const LayerChains& layer, double expected_swaps,
              Contours& contours);
   Patience patience_for(Group& group, const LayerChains& layer) const;
