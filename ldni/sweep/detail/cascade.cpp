@@ -30,7 +30,7 @@ constexpr double kFirstSwaps = 256;
 // their leaves can matter. Where that is less than this share the layer is
 // clipped, and its sweep begins again.
 constexpr Patience kBeforeClipping = {1, 32};
-constexpr double kMostWithin = 0.75;
+constexpr double kMostWithin = 0.7;
 
 // Whether half of the chains belong to one leaf, which cannot be parted.
 bool is_mostly_one_leaf(std::span<const Chain> chains) {
