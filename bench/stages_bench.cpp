@@ -97,7 +97,7 @@ void cut_and_sweep(benchmark::State& state, const std::string& scene_name,
   Design design(scene_name, definitions);
   const csg::Scene scene = design.make_scene();
   ldni::ChainBlock block;
-  ldni::KineticRay ray(scene, 0);
+  ldni::KineticRay ray(scene);
   ldni::Contours contours;
   std::size_t points = 0;
   for (auto _ : state) {

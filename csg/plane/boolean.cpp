@@ -14,18 +14,23 @@
 #include "ldni/section/contours.h"
 #include "ldni/sweep/kinetic_ray.h"
 #include "ldni/sweep/loop_resolver.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::planar {
 namespace {
 
 // Edges nearer than this are one [mm], or nearer than what rounding does to the
 // crossings of edges so far from the origin.
-constexpr double kTieDistance = 3e-8;
+constexpr double kEdgeDistance = 3e-8;
 constexpr double kRoundingErrors = 16;  // of a crossing, in units of epsilon
 
-double tie_distance(double reach) {
-  return std::max(kTieDistance, kRoundingErrors * reach *
-                                    std::numeric_limits<double>::epsilon());
+// Hardly a loop is too small: what one Boolean drops the next one misses, and a
+// needle that should have lost its tip is too long.
+ldni::SweepOptions options(double reach) {
+  const double rounding =
+      kRoundingErrors * reach * std::numeric_limits<double>::epsilon();
+  const double distance = std::max(kEdgeDistance, rounding);
+  return {.tie_distance = distance, .least_area = distance * distance};
 }
 
 // The greatest coordinate of contours.
@@ -73,8 +78,7 @@ class Operands {
   Region evaluate() {
     builder_.finish(block_);
     ldni::Contours contours;
-    ldni::KineticRay(scene_, 0, tie_distance(reach_))
-        .sweep(block_, 0, contours);
+    ldni::KineticRay(scene_, options(reach_)).sweep(block_, 0, contours);
     return to_region(contours);
   }
 
@@ -119,9 +123,7 @@ Region clip(std::span<const Contour> contours, const Region& window) {
 Region from_contours(std::span<const Contour> contours, FillRule rule) {
   ldni::Contours loops;
   for (const Contour& contour : contours) loops.add_loop(contour);
-  ldni::LoopResolver(tie_distance(reach_of(contours)), ldni::kClusterWidth,
-                     rule)
-      .resolve(loops);
+  ldni::LoopResolver(options(reach_of(contours)), rule).resolve(loops);
   return to_region(loops);
 }
 

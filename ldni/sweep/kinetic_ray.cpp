@@ -4,10 +4,8 @@
 
 namespace lamina::ldni {
 
-KineticRay::KineticRay(const csg::Scene& scene, double pitch,
-                       double tie_distance)
-    : cascade_(std::make_unique<detail::Cascade>(
-          scene, detail::SweepOptions{pitch, tie_distance, kClusterWidth})) {}
+KineticRay::KineticRay(const csg::Scene& scene, const SweepOptions& options)
+    : cascade_(std::make_unique<detail::Cascade>(scene, options)) {}
 
 KineticRay::~KineticRay() = default;
 

@@ -32,10 +32,10 @@
 #include <memory>
 
 #include "csg/scene.h"
-#include "csg/tie_distance.h"
 #include "ldni/section/chains.h"
 #include "ldni/section/contours.h"
 #include "ldni/sweep/sweep_counts.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni {
 
@@ -49,11 +49,8 @@ class KineticRay {
  public:
   // The scene must outlive the object.
   //
-  // pitch         distance of the look-ahead rays [mm]; 0 = auto. A speed knob
-  //               only.
-  // tie_distance  samples nearer than this are one [mm]
-  KineticRay(const csg::Scene& scene, double pitch,
-             double tie_distance = kTieDistance);
+  explicit KineticRay(const csg::Scene& scene,
+                      const SweepOptions& options = {});
   ~KineticRay();
 
   // Replaces `contours` by the loops of layer `layer` of `block`.

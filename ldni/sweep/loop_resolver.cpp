@@ -20,10 +20,8 @@ csg::Scene one_leaf() {
 }  // namespace
 
 struct LoopResolver::State {
-  State(double tie_distance, double merge_distance, FillRule rule)
-      : scene(one_leaf()),
-        states(scene, rule),
-        sweep({0, tie_distance, merge_distance}) {
+  State(const SweepOptions& options, FillRule rule)
+      : scene(one_leaf()), states(scene, rule), sweep(options) {
     block.layer_count = 1;
   }
 
@@ -34,9 +32,8 @@ struct LoopResolver::State {
   ChainBlock block;
 };
 
-LoopResolver::LoopResolver(double tie_distance, double merge_distance,
-                           FillRule rule)
-    : state_(std::make_unique<State>(tie_distance, merge_distance, rule)) {}
+LoopResolver::LoopResolver(const SweepOptions& options, FillRule rule)
+    : state_(std::make_unique<State>(options, rule)) {}
 
 LoopResolver::~LoopResolver() = default;
 

@@ -7,17 +7,14 @@
 #include "ldni/section/contours.h"
 #include "ldni/sweep/fill_rule.h"
 #include "ldni/sweep/sweep_counts.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni {
 
 class LoopResolver {
  public:
-  // tie_distance    edges nearer than this at both ends are one [mm]
-  // merge_distance  points nearer than this are one, and one that is nearer
-  //                 than this to the line through its neighbours is left out
-  //                 [mm]
-  // rule            which winding numbers are solid
-  LoopResolver(double tie_distance, double merge_distance, FillRule rule);
+  // rule  which winding numbers are solid
+  LoopResolver(const SweepOptions& options, FillRule rule);
   ~LoopResolver();
 
   // Replaces the loops by those of the solid: simple, outer ones

@@ -37,7 +37,9 @@ Vec2 to_float(Vec2 point) { return {to_float(point.x), to_float(point.y)}; }
 
 }  // namespace
 
-LoopRounder::LoopRounder() : resolver_(0, 0, ldni::FillRule::kPositive) {}
+LoopRounder::LoopRounder()
+    : resolver_({.tie_distance = 0, .merge_distance = 0},
+                ldni::FillRule::kPositive) {}
 
 void LoopRounder::round(ldni::Contours& contours, double clearance) {
   if (contours.is_empty()) return;

@@ -294,7 +294,8 @@ const Contours* Cascade::Group::find_kept(const LayerChains& layer) const {
 
 Cascade::Cascade(const csg::Scene& scene, const SweepOptions& options,
                  double patience)
-    : patience_(patience),
+    : options_(options),
+      patience_(patience),
       ray_(options),
       root_(std::make_unique<Group>(scene)),
       clips_(has_active_zones(scene)),
@@ -393,8 +394,10 @@ bool Cascade::resume(Contours& contours, const Patience& patience) {
   if (!ray_.resume(contours, patience)) return false;
   if (ray_.has_jumps()) {
     if (!resolver_) {
-      resolver_.emplace(kClusterWidth, kResolvedMergeDistance,
-                        FillRule::kPositive);
+      const SweepOptions resolved{.tie_distance = kClusterWidth,
+                                  .merge_distance = kResolvedMergeDistance,
+                                  .least_area = options_.least_area};
+      resolver_.emplace(resolved, FillRule::kPositive);
     }
     resolver_->resolve(contours);
     is_resolved_ = true;

@@ -68,6 +68,7 @@ class Cascade {
   bool resume(Contours& contours, const Patience& patience);
   void merge(csg::BooleanOp op, const Contours& second, Contours& contours);
 
+  const SweepOptions options_;
   const double patience_;
   RaySweep ray_;
   std::optional<LoopResolver> resolver_;  // made when it is needed

@@ -8,14 +8,6 @@
 #include "base/plane.h"
 
 namespace lamina::ldni::detail {
-namespace {
-
-// Loops with less area [mm²] are dropped: 31 nm squared, the leftovers of
-// faces that coincide up to rounding.
-constexpr double kLeastArea = 1e-9;
-
-}  // namespace
-
 void LoopPen::begin(Contours& contours) {
   contours_ = &contours;
   loop_begin_ = loop_end_ = contours.points.size();
@@ -106,7 +98,7 @@ bool LoopPen::is_redundant(const Vec2& before, const Vec2& point,
 }
 
 // Cleans the seam between the last and the first point, then keeps the loop if
-// it has any area.
+// it has area enough.
 void LoopPen::close_loop() {
   Vec2* const first = contours_->points.data() + loop_begin_;
   Vec2* begin = first;
@@ -123,7 +115,7 @@ void LoopPen::close_loop() {
     }
   }
   const std::span<const Vec2> kept(begin, end);
-  if (kept.size() >= 3 && std::abs(signed_area(kept)) >= kLeastArea) {
+  if (kept.size() >= 3 && std::abs(signed_area(kept)) >= least_area_) {
     if (begin != first) std::copy(begin, end, first);
     loop_begin_ += kept.size();
     contours_->ends.push_back(static_cast<std::uint32_t>(loop_begin_));

@@ -17,9 +17,11 @@ class LoopPen {
  public:
   // merge_distance  points nearer than this are one, and a point nearer than
   //                 this to the line through its neighbours is left out [mm]
-  explicit LoopPen(double merge_distance)
+  // least_area      loops with less are dropped [mm²]
+  LoopPen(double merge_distance, double least_area)
       : merge_distance_(merge_distance),
-        merge_squared_(merge_distance * merge_distance) {}
+        merge_squared_(merge_distance * merge_distance),
+        least_area_(least_area) {}
 
   // Adds loops to `contours` from here on, which the pen alone may change until
   // lift().
@@ -37,7 +39,7 @@ class LoopPen {
     draw(head, last - 1, last - first, -1, tail);
   }
 
-  // Ends the loop; one without an area is dropped.
+  // Ends the loop.
   void close_loop();
 
  private:
@@ -53,6 +55,7 @@ class LoopPen {
 
   const double merge_distance_;
   const double merge_squared_;
+  const double least_area_;
   Contours* contours_ = nullptr;
   std::size_t loop_begin_ = 0;  // in the points, which are kept longer
   std::size_t loop_end_ = 0;

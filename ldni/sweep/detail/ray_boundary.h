@@ -19,16 +19,17 @@
 #include "ldni/sweep/detail/ray_order.h"
 #include "ldni/sweep/detail/status.h"
 #include "ldni/sweep/detail/stitcher.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni::detail {
 
 class RayBoundary {
  public:
-  // `status` must outlive the object. Distances as of Stitcher.
-  RayBoundary(Status& status, double tie_distance, double merge_distance)
+  // `status` must outlive the object.
+  RayBoundary(Status& status, const SweepOptions& options)
       : status_(status),
-        tie_distance_(tie_distance),
-        stitcher_(tie_distance, merge_distance) {}
+        tie_distance_(options.tie_distance),
+        stitcher_(options) {}
 
   // Forgets the layer before. `states` must outlive the new one.
   void begin_layer(ProgramStates& states);

@@ -55,14 +55,9 @@
 #include "ldni/sweep/detail/ray_boundary.h"
 #include "ldni/sweep/detail/ray_order.h"
 #include "ldni/sweep/sweep_counts.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni::detail {
-
-struct SweepOptions {
-  double pitch = 0;           // of the look-ahead rays [mm]; 0 = auto
-  double tie_distance = 0;    // [mm]
-  double merge_distance = 0;  // of points of a loop [mm]
-};
 
 // Swaps of neighbours that a sweep bears: so many for each chain met so far,
 // and some at the beginning.
@@ -76,8 +71,7 @@ class RaySweep {
   explicit RaySweep(const SweepOptions& options)
       : pitch_(options.pitch),
         order_(options.tie_distance),
-        boundary_(order_.status(), options.tie_distance,
-                  options.merge_distance) {}
+        boundary_(order_.status(), options) {}
   RaySweep(const RaySweep&) = delete;
   RaySweep& operator=(const RaySweep&) = delete;
 

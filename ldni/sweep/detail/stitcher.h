@@ -25,6 +25,7 @@
 #include "base/vec.h"
 #include "ldni/section/contours.h"
 #include "ldni/sweep/detail/loop_pen.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni::detail {
 
@@ -34,11 +35,10 @@ constexpr double kMostJump = 4;
 
 class Stitcher {
  public:
-  // tie_distance    ends on one side of an event point nearer than this could
-  //                 tie [mm]
-  // merge_distance  as of LoopPen
-  Stitcher(double tie_distance, double merge_distance)
-      : tie_distance_(tie_distance), pen_(merge_distance) {}
+  // Ends on one side of an event point nearer than a tie could tie.
+  explicit Stitcher(const SweepOptions& options)
+      : tie_distance_(options.tie_distance),
+        pen_(options.merge_distance, options.least_area) {}
 
   // Forgets the layer before.
   void begin();

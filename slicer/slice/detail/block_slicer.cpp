@@ -19,7 +19,7 @@ class FaithfulSlicer : public BlockSlicer {
  public:
   FaithfulSlicer(const csg::Scene& scene, const ldni::LeafSectioner& sectioner,
                  double pitch)
-      : sectioner_(sectioner), ray_(scene, pitch) {}
+      : sectioner_(sectioner), ray_(scene, {.pitch = pitch}) {}
 
   void section(std::uint32_t first_layer, std::uint32_t layer_count) override {
     sectioner_.cut(first_layer, layer_count, chains_);

@@ -78,6 +78,24 @@ TEST(PlaneBoolean, GivesDecimalsBackAsTheyWere) {
   }
 }
 
+// A needle of 1.45 x 0.0075 mm; its tip below -3.75 has 7e-10 mm².
+TEST(PlaneBoolean, KeepsTheTipOfANeedle) {
+  const Region needle{{{{1.9843035783747469, -3.7504559383720459},
+                        {1.1388704966606291, -2.5662761646500027},
+                        {1.1313480052243756, -2.5672093259432893}}}};
+  for (const double y : {-3.0, -3.74, -3.75, -3.7504}) {
+    const Region below{{{{1, -5}, {2, -5}, {2, y}, {1, y}}}};
+    const Region operands[] = {needle, below};
+    const Region tip = intersect(operands);
+    EXPECT_GT(area(tip), 0);
+    EXPECT_NEAR(area(subtract(operands)) + area(tip), area(needle), 1e-15);
+    const Region rest[] = {needle, tip};
+    const Region stump = subtract(rest);
+    ASSERT_EQ(stump.contours.size(), 1U);
+    for (const Vec2 p : stump.contours[0]) EXPECT_GE(p.y, y - 1e-9);
+  }
+}
+
 TEST(PlaneBoolean, RefusesCoordinatesBeyondItsRange) {
   const Contour contour[] = {{{0, 0}, {1e12, 0}, {0, 1}}};
   EXPECT_THROW(from_contours(contour), csg::LimitExceeded);

@@ -128,7 +128,7 @@ void check_kinetic_ray(std::uint64_t seed, SceneStyle style) {
   sectioner.cut(0, at.layers.layer_count(), block);
   // Leaves keep to multiples of these pitches: rays run along walls.
   const double pitches[] = {0, 0.25, 0.02, 10};
-  KineticRay ray(at.scene, pitches[seed % 4]);
+  KineticRay ray(at.scene, {.pitch = pitches[seed % 4]});
   std::vector<Contours> contours(at.layers.layer_count());
   for (std::uint32_t layer = 0; layer < contours.size(); ++layer) {
     ray.sweep(block, layer, contours[layer]);

@@ -98,7 +98,7 @@ TEST(BrokenMeshes, GiveSoundLoopsAndAreCounted) {
     ChainBlock block;
     sectioner.cut(0, grid.layer_count(), block);
     open_paths += block.open_paths;
-    KineticRay ray(scene, 0);
+    KineticRay ray(scene);
     Contours contours;
     for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
       ray.sweep(block, l, contours);

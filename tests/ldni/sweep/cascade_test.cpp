@@ -38,7 +38,7 @@ Swept sweep(const csg::Scene& scene, double patience,
   const LeafSectioner sectioner(scene, grid);
   ChainBlock block;
   sectioner.cut(0, grid.layer_count(), block);
-  Cascade cascade(scene, {0, kTieDistance, kClusterWidth}, patience);
+  Cascade cascade(scene, {}, patience);
   Swept swept;
   swept.layers.resize(heights.size());
   for (std::uint32_t l = 0; l < heights.size(); ++l) {

@@ -51,7 +51,7 @@ class Layer {
     SweepCounts counts;
   };
   Swept sweep(const LayerChains& layer, double patience = kPatient) const {
-    Cascade cascade(scene_, {0, kTieDistance, kClusterWidth}, patience);
+    Cascade cascade(scene_, {}, patience);
     Swept swept;
     cascade.sweep(layer, swept.contours);
     swept.counts = cascade.counts();

@@ -56,7 +56,7 @@ std::optional<bool> is_solid(const csg::Scene& scene, const Vec3& place) {
   const LeafSectioner sectioner(scene, grid);
   ChainBlock block;
   sectioner.cut(0, 1, block);
-  KineticRay ray(scene, 0);
+  KineticRay ray(scene);
   Contours contours;
   ray.sweep(block, 0, contours);
   EXPECT_TRUE(support::are_sound(contours));

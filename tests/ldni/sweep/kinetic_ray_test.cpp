@@ -31,7 +31,7 @@ Contours section(const csg::Scene& scene, double height, double pitch = 0) {
   const LeafSectioner sectioner(scene, grid);
   ChainBlock block;
   sectioner.cut(0, 1, block);
-  KineticRay ray(scene, pitch);
+  KineticRay ray(scene, {.pitch = pitch});
   Contours contours;
   ray.sweep(block, 0, contours);
   EXPECT_EQ(ray.counts().unbalanced_clusters, 0U);
@@ -287,7 +287,7 @@ TEST(KineticRay, HundredsOfLeavesWithCommonFacesMeetAStateEach) {
     const LeafSectioner sectioner(scene, grid);
     ChainBlock block;
     sectioner.cut(0, 1, block);
-    KineticRay ray(scene, 0);
+    KineticRay ray(scene);
     Contours contours;
     ray.sweep(block, 0, contours);
     ASSERT_EQ(contours.loop_count(), 1U);

@@ -92,8 +92,8 @@ class SceneJudge {
         LayerGrid::uniform(scene.box.low.z, scene.box.high.z, thickness);
     const LeafSectioner sectioner(scene, grid);
     sectioner.cut(0, grid.layer_count(), block_);
-    KineticRay ray(scene, pitch);
-    const detail::SweepOptions options{pitch, kTieDistance, kClusterWidth};
+    KineticRay ray(scene, {.pitch = pitch});
+    const SweepOptions options{.pitch = pitch};
     detail::Cascade cascade(scene, options, 0);
     detail::Cascade clipped(scene, options);
     detail::ChainClipper clipper(scene);

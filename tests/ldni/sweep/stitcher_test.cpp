@@ -25,7 +25,7 @@ struct BoundaryChain {
 // event point by event point, lower chains first.
 Contours stitched(std::vector<BoundaryChain> chains,
                   const std::vector<double>& places) {
-  Stitcher stitcher(kTie, kMerge);
+  Stitcher stitcher({.tie_distance = kTie, .merge_distance = kMerge});
   stitcher.begin();
   for (const double x : places) {
     for (BoundaryChain& chain : chains) {
@@ -89,7 +89,7 @@ TEST(Stitcher, MakesTwoLoopsOfSquaresThatTouchInAPoint) {
 TEST(Stitcher, AddsLoneLoopsAsTheyAre) {
   const std::vector<Vec2> lower = {{0, 0}, {1, -1}, {2, 0}};
   const std::vector<Vec2> upper = {{0, 0}, {1, 1}, {2, 0}};
-  Stitcher stitcher(kTie, kMerge);
+  Stitcher stitcher({.tie_distance = kTie, .merge_distance = kMerge});
   stitcher.begin();
   stitcher.add_loop(lower, upper, 1);
   stitcher.add_loop(lower, upper, -1);
@@ -104,7 +104,7 @@ TEST(Stitcher, NotesBoundaryThatJumpsByLessThanATie) {
   const std::vector<Vec2> lower = {{0, 0}, {2, 0}};
   const std::vector<Vec2> upper = {{0, 1}, {2, 1}};
   for (const double jump : {0.0, 0.5 * kTie, 100 * kTie}) {
-    Stitcher stitcher(kTie, kMerge);
+    Stitcher stitcher({.tie_distance = kTie, .merge_distance = kMerge});
     stitcher.begin();
     const std::uint32_t first = stitcher.start_arc({0, 0}, 0, lower.data(), 1);
     stitcher.start_arc({0, 1}, 1, upper.data(), -1);

@@ -132,7 +132,7 @@ TEST(RoundLoops, RandomScenesStaySimpleAndDisjoint) {
     const ldni::LeafSectioner sectioner(scene, grid);
     ldni::ChainBlock block;
     sectioner.cut(0, grid.layer_count(), block);
-    ldni::KineticRay ray(scene, 0);
+    ldni::KineticRay ray(scene);
     for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
       ldni::Contours exact;
       ray.sweep(block, l, exact);
