@@ -60,6 +60,9 @@ void check(const DesignOptions& options) {
   require(is_positive(options.scale), "scale must be more than 0");
   require(is_not_negative(options.chordal_error),
           "chordal_error must not be negative");
+  require(options.language == "auto" || options.language == "2021" ||
+              options.language == "2026",
+          "language must be auto, 2021 or 2026");
   require(options.parameter_file.empty() == options.parameter_set.empty(),
           "parameter_file and parameter_set need each other");
 }
@@ -96,6 +99,7 @@ compiler::Request to_request(const DesignOptions& options, std::string name) {
   request.scale = options.scale;
   request.axis = options.axis;
   request.is_placed_on_bed = options.place_on_bed;
+  request.language = options.language;
   request.seed = options.seed;
   request.max_depth = options.max_depth;
   request.max_leaves = options.max_leaves;

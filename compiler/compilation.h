@@ -73,6 +73,7 @@ struct Compilation {
   // A pass failed and has reported why. The next ones may still run, for what
   // they report; no layers can be made.
   bool has_failed = false;
+  Language language = Language::k2021;  // as asked for, or as load() found
   // Products of the first passes; the scene points into the tree.
   ast::Program program;
   csg::Tree tree;

@@ -45,9 +45,27 @@ ast::Program read_design(const Request& request, Loader& loader) {
   return loader.load(request.design);
 }
 
+// What only a later version than 2021.01 can parse was not written for it.
+Language choose_language(Compilation& c) {
+  if (c.request.language == "2021") return Language::k2021;
+  if (c.request.language == "2026") return Language::k2026;
+  const std::optional<NewerSyntax>& newer = c.loader.newer_syntax();
+  if (!newer) return Language::k2021;
+  const SourceRange& range = newer->range;
+  Diagnostic told{
+      Severity::kPlain,
+      {},
+      fmt::format("read as OpenSCAD 2026 ({}:{}: {})", range.source->path(),
+                  range.source->line_column(range.begin).line, newer->what)};
+  told.audience = Audience::kTerminal;
+  c.diagnostics.report(std::move(told));
+  return Language::k2026;
+}
+
 csg::EvaluateOptions evaluate_options(Compilation& c) {
   const Request& request = c.request;
   csg::EvaluateOptions options;
+  options.language = c.language;
   options.stack_bytes = c.evaluation_stack;
   // As openscad sets it for each of its outputs.
   const bool has_preview = request.format == OutputFormat::kCsg ||
@@ -116,6 +134,7 @@ ast::Program load(Compilation& c) {
   try {
     return timed(c.report.load_seconds, [&] {
       ast::Program program = read_design(request, c.loader);
+      c.language = choose_language(c);
       if (!request.parameter_file.empty() &&
           !apply_parameter_set(request.parameter_file, request.parameter_set,
                                program, c.diagnostics, c.file_access())) {

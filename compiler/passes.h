@@ -14,8 +14,8 @@
 
 namespace lamina::compiler {
 
-// Reads and parses the design and the files that it names, and sets the
-// parameters of its set.
+// Reads and parses the design and the files that it names, decides in which
+// language they are written, and sets the parameters of the design's set.
 ast::Program load(Compilation& compilation);
 
 // The CSG tree of the design. It is empty where the evaluation failed: by an

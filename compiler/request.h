@@ -27,10 +27,11 @@ struct Request {
   std::string printer;     // name or profile of its panel; empty: the format's
   bool mirrors_x = false;  // the image
   bool mirrors_y = false;
-  std::string definitions;     // of all -D, as text: "a=1;\nb=2;\n"
-  std::string parameter_file;  // -p; empty: none
-  std::string parameter_set;   // -P
-  std::string axis = "z";      // of slicer::kAxes, or kAutomaticAxis
+  std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
+  std::string parameter_file;     // -p; empty: none
+  std::string parameter_set;      // -P
+  std::string language = "auto";  // or "2021", "2026"; see load()
+  std::string axis = "z";         // of slicer::kAxes, or kAutomaticAxis
   bool is_placed_on_bed = false;
   double scale = 1;
   double chordal_error = 0;  // [mm]; 0: $fa and $fs decide

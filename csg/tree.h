@@ -20,6 +20,7 @@
 #include "base/arena.h"
 #include "base/source.h"
 #include "base/vec.h"
+#include "parser/language.h"
 
 namespace lamina::csg {
 
@@ -219,6 +220,9 @@ struct Tree {
   // Has the call sites: a scene goes on pointing at them.
   std::shared_ptr<Arena> calls;
   const Node* root = nullptr;
+  // Decides how round shapes and extrusions are divided, and how `.csg` text
+  // shows them.
+  Language language = Language::k2021;
   // Paths that modules and functions named as files to read, whether they are
   // there or not; in the order of evaluation, each once.
   std::vector<std::string> files;

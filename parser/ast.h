@@ -13,12 +13,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <variant>
 
 #include "base/arena.h"
 #include "base/source.h"
+#include "parser/language.h"
 
 namespace lamina::ast {
 
@@ -222,6 +224,7 @@ struct Program {
   // used twice where its last `use` puts it. Fonts stand in `fonts` instead.
   std::span<const Use> uses;
   std::span<const Use> fonts;  // `use <….ttf>`, in the order of the text
+  std::optional<NewerSyntax> newer = {};  // the first place of that kind
 };
 
 }  // namespace lamina::ast

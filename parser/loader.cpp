@@ -145,7 +145,9 @@ ast::Program Loader::parse_file(const std::string& path, std::string text,
   text += kEndOfFile;
   text += definitions_;
   const Source& source = sources_.add(path, std::move(text));
-  return parse(source, user, *this, diagnostics_);
+  ast::Program program = parse(source, user, *this, diagnostics_);
+  if (!newer_) newer_ = program.newer;
+  return program;
 }
 
 ast::Program Loader::load_text(const std::string& path, std::string text) {

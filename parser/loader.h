@@ -2,11 +2,11 @@
 // Files of a design: the main file, what it includes, what it uses.
 //
 // A name in `include <…>` or `use <…>` is looked up in the folder of the file
-// that names it, then in the library folders. A missing file is a warning. Every
-// used file is parsed once, right after the main file, in OpenSCAD's order: all
-// messages of the parser precede those of the evaluator. A syntax error in a
-// used file leaves its names unknown; one in the main file or what that includes
-// ends the run.
+// that names it, then in the library folders. A missing file is a warning.
+// Every used file is parsed once, right after the main file, in OpenSCAD's
+// order: all messages of the parser precede those of the evaluator. A syntax
+// error in a used file leaves its names unknown; one in the main file or what
+// that includes ends the run.
 
 #include <map>
 #include <optional>
@@ -22,8 +22,9 @@
 
 namespace lamina {
 
-// Where OpenSCAD looks for libraries: in the folders of OPENSCADPATH, the user's
-// and the installed one. An empty name is the folder in which the program runs.
+// Where OpenSCAD looks for libraries: in the folders of OPENSCADPATH, the
+// user's and the installed one. An empty name is the folder in which the
+// program runs.
 std::vector<std::string> library_folders(const FileAccess& access = kAllFiles);
 
 class Loader {
@@ -61,6 +62,10 @@ class Loader {
   // order in which they were found, each once.
   const std::vector<std::string>& files() const { return files_; }
 
+  // The first place in the design, or in a file that it uses, that OpenSCAD
+  // 2021.01 cannot parse, if there is one.
+  const std::optional<NewerSyntax>& newer_syntax() const { return newer_; }
+
   const FileAccess& file_access() const { return access_; }
 
   // For the parser. Absolute path of the file that `name` means at `place`;
@@ -91,6 +96,7 @@ class Loader {
   const FileAccess& access_;
   std::vector<std::string> files_;
   std::vector<std::string> fonts_;
+  std::optional<NewerSyntax> newer_;
   std::map<std::string, const Source*, std::less<>> included_;
   // Empty where parsing failed.
   std::map<std::string, std::optional<ast::Program>, std::less<>> used_;

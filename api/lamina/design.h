@@ -75,6 +75,9 @@ struct DesignOptions {
   double scale = 1;
   std::string axis = "z";  // direction of building: z, x, y, -x, -y, -z, auto
   bool place_on_bed = false;  // the lowest point goes to height 0
+  // What OpenSCAD the design is written for: "2021", "2026", or "auto": 2026 if
+  // 2021.01 cannot parse it.
+  std::string language = "auto";
   unsigned seed = 0;          // of rands() where the design gives none
   // Limits: nested calls, and parts of the design. More is an error.
   unsigned max_depth = 300000;

@@ -61,6 +61,8 @@ Design:
   --check-parameter-ranges true|false
                       warn of numbers out of range [false]
   --hardwarnings      stop at the first warning
+  --language WORD     what OpenSCAD the design is written for: 2021 (2021.01),
+                      2026, or auto: 2026 if 2021.01 cannot parse it [auto]
   --seed N            seed of rands() where the design gives none [0]
   --render            $preview is false, whatever the output
   --preview           undoes --render

@@ -81,6 +81,8 @@ void add_design_options(CLI::App& app, compiler::Request& request,
   app.add_flag("--render", request.render);
   app.add_flag("--preview", request.preview);
   app.add_option("--seed", request.seed)->type_name("number");
+  add_choice(app, "--language", {"auto", "2021", "2026"},
+             [&](const std::string& word) { request.language = word; });
   app.add_flag("--hardwarnings", request.has_hard_warnings);
   app.add_flag("-q,--quiet", is_quiet);
 }

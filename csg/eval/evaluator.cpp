@@ -75,6 +75,7 @@ void check_view(const Unit& unit, Interpreter& in) {
 Tree evaluate(const ast::Program& program, const Loader& loader,
               const EvaluateOptions& options, Diagnostics& diagnostics) {
   Tree tree;
+  tree.language = options.language;
   tree.arena = std::make_shared<Arena>();
   tree.calls = std::make_shared<Arena>();
   DynamicNames names;

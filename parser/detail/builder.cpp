@@ -19,6 +19,12 @@ bool same_file(const Source& a, const Source& b) {
   return &a == &b || absolute_path(a.path()) == absolute_path(b.path());
 }
 
+constexpr std::string_view kBitwise = "bitwise operator";
+
+bool is_bitwise(ast::BinaryOp op) {
+  return op >= ast::BinaryOp::kBitOr && op <= ast::BinaryOp::kShiftRight;
+}
+
 }  // namespace
 
 std::size_t Builder::ScopedNameHash::operator()(const ScopedName& key) const {
@@ -179,11 +185,13 @@ SourceRange Builder::place_head(SourceRange keyword, SourceRange close) const {
 // --- Expressions -----------------------------------------------------------
 
 Tree Builder::make_unary(ast::UnaryOp op, Tree operand, SourceRange range) {
+  if (op == ast::UnaryOp::kBitNot) note_newer(range, kBitwise);
   return make(ast::Unary{op, operand.expr}, operand.depth + 1, range);
 }
 
 Tree Builder::make_binary(ast::BinaryOp op, Tree left, Tree right,
                           SourceRange range) {
+  if (is_bitwise(op)) note_newer(range, kBitwise);
   return make(ast::Binary{op, left.expr, right.expr},
               std::max(left.depth, right.depth) + 1, range);
 }

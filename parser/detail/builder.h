@@ -38,6 +38,10 @@ class Builder {
 
   void add_use(const ast::Use& use);
   void end_file() { file_ended_ = true; }
+  // Remembers the first place that 2021.01 cannot parse.
+  void note_newer(SourceRange range, std::string_view what) {
+    if (!program_.newer) program_.newer = NewerSyntax{range, what};
+  }
 
   // Between them stand the statements of one scope.
   Scope open_scope();

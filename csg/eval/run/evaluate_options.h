@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "csg/text_measurer.h"
+#include "parser/language.h"
 
 namespace lamina::csg {
 
@@ -12,6 +13,7 @@ namespace lamina::csg {
 inline constexpr std::uint32_t kMostNestedCalls = 300000;
 
 struct EvaluateOptions {
+  Language language = Language::k2021;
   bool preview = true;     // $preview
   double time = 0;         // $t
   std::uint32_t seed = 0;  // of rands() without a seed

@@ -1,0 +1,24 @@
+#pragma once
+// Which OpenSCAD a design is read as.
+//
+// What only one version accepts is always understood. The language decides what
+// both accept and take differently.
+
+#include <cstdint>
+#include <string_view>
+
+#include "base/source.h"
+
+namespace lamina {
+
+// k2021: the release 2021.01. k2026: the development of July 2026.
+enum class Language : std::uint8_t { k2021, k2026 };
+
+// A place in a text that 2021.01 cannot parse, so that the text was not written
+// for it.
+struct NewerSyntax {
+  SourceRange range;
+  std::string_view what;  // "trailing comma"
+};
+
+}  // namespace lamina
