@@ -9,7 +9,7 @@ std::vector<Value> run_named_arguments(
     const CallCode& code, Frame& frame) {
   const ArgumentPlan plan =
       plan_arguments(make_parameters(parameters), positional, code.arguments,
-                     frame.in.dynamic_names());
+                     frame.in.dynamic_names(), frame.in.language());
   for (const std::string& warning : plan.warnings) {
     frame.in.warn(code.range, warning, frame.document);
   }

@@ -13,14 +13,19 @@ namespace {
 
 // --- About the program and its values ---------------------------------------
 
-constexpr double kVersion[] = {2021, 1, 0};
+// Of the OpenSCAD that the design is written for.
+Value version_of(Language language) {
+  constexpr double k2021[] = {2021, 1, 0};
+  constexpr double k2026[] = {2026, 7, 20};
+  return Value::numbers(language == Language::k2021 ? k2021 : k2026);
+}
 
-Value builtin_version(const CallCode&, Frame&) {
-  return Value::numbers(kVersion);
+Value builtin_version(const CallCode&, Frame& frame) {
+  return version_of(frame.in.language());
 }
 
 Value builtin_version_num(const CallCode& code, Frame& frame) {
-  const Value version = code.arguments.empty() ? Value::numbers(kVersion)
+  const Value version = code.arguments.empty() ? version_of(frame.in.language())
                                                : argument(code, 0, frame);
   const std::span<const Value> parts = version.elements();
   if (parts.size() != 2 && parts.size() != 3) return Value();

@@ -276,8 +276,8 @@ const AssertCode* ExpressionResolver::assertion(ast::Arguments written,
   auto* code = make<AssertCode>(run_assert_expression, range);
   code->kind = Kind::kAssert;
   const std::span<const WrittenArgument> given = arguments(written);
-  code->plan = &resolver_.keep_plan(
-      plan_arguments(kParameters, 2, given, resolver_.names()));
+  code->plan = &resolver_.keep_plan(plan_arguments(
+      kParameters, 2, given, resolver_.names(), resolver_.language()));
   for (const BoundArgument& bound : code->plan->bound) {
     if (bound.target.kind != Target::Kind::kSlot) continue;
     if (bound.target.index == 0) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/run/arguments.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/run/runners.h"
 #include "csg/eval/value/text.h"
@@ -41,22 +42,38 @@ void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
 
 }  // namespace
 
-void pass_arguments(const ArgumentPlan& plan,
-                    std::span<const Parameter> parameters,
-                    std::span<const WrittenArgument> arguments,
-                    SourceRange range, Frame& caller, Frame& callee,
-                    Repeats repeats) {
+namespace {
+
+void set_fallbacks(const ArgumentPlan& plan,
+                   std::span<const Parameter> parameters, Frame& callee) {
   for (const std::uint32_t i : plan.defaults) {
     const Parameter& parameter = parameters[i];
     Value value =
         parameter.fallback ? run(parameter.fallback, callee) : Value();
     callee.in.assign(parameter.target, std::move(value), callee);
   }
-  warn_of_arguments(plan, range, caller, repeats);
-  for (const BoundArgument& bound : plan.bound) {
-    Value value = run(arguments[bound.written].value, caller);
-    callee.in.assign(bound.target, std::move(value), callee);
+}
+
+}  // namespace
+
+void pass_arguments(const ArgumentPlan& plan,
+                    std::span<const Parameter> parameters,
+                    std::span<const WrittenArgument> arguments,
+                    SourceRange range, Frame& caller, Frame& callee,
+                    Repeats repeats) {
+  const auto set = [&](const Target& target, Value&& value) {
+    callee.in.assign(target, std::move(value), callee);
+  };
+  if (!plan.evaluates_fallbacks_last) {
+    set_fallbacks(plan, parameters, callee);
+    warn_of_arguments(plan, range, caller, repeats);
+    run_arguments(plan, arguments, caller, set);
+    return;
   }
+  DynamicValues values = run_arguments(plan, arguments, caller, set);
+  warn_of_arguments(plan, range, caller, repeats);
+  set_fallbacks(plan, parameters, callee);
+  bind(std::move(values), callee.in);
 }
 
 namespace {
@@ -82,6 +99,10 @@ void jump(const CallCode& call, const ArgumentPlan& plan,
     }
   };
   for (const CallCode::TailDefault& fallback : call.tail_defaults) {
+    if (!fallback.is_evaluated_once) {
+      store(fallback.target, run(fallback.value, frame));
+      continue;
+    }
     if (frame.in.tail_value(fallback.number).is_unset()) {
       frame.in.set_tail_value(fallback.number, run(fallback.value, frame));
     }

@@ -130,6 +130,16 @@ Value run_member(const Expression& expression, Frame& frame) {
   return member(look(code.object, frame, spill), code.name);
 }
 
+namespace {
+// Of numbers that the text gives: a range of other values may well be empty.
+void warn_of_direction(const RangeCode& code, std::string_view begin,
+                       std::string_view step, Frame& frame) {
+  if (!code.is_literal) return;
+  warn(frame, code.range,
+       fmt::format("begin is {} than the end, but step is {}", begin, step));
+}
+}  // namespace
+
 Value run_range(const Expression& expression, Frame& frame) {
   const auto& code = as<RangeCode>(expression);
   const Value first = run(code.begin, frame);
@@ -142,6 +152,10 @@ Value run_range(const Expression& expression, Frame& frame) {
     if (end >= begin || std::isnan(begin) || std::isnan(end)) {
       return Value::range(begin, 1, end);
     }
+    if (frame.in.language() != Language::k2021) {
+      warn_of_direction(code, "greater", "positive", frame);
+      return Value::range(begin, 1, end);
+    }
     frame.in.deprecate(code.range,
                        "Using ranges of the form [begin:end] with begin value "
                        "greater than the end value is deprecated",
@@ -150,14 +164,10 @@ Value run_range(const Expression& expression, Frame& frame) {
   }
   const Value step = run(code.step, frame);
   if (!step.is_number()) return Value();
-  if (code.is_literal) {
-    if (step.as_number() > 0 && end < begin) {
-      warn(frame, code.range,
-           "begin is greater than the end, but step is positive");
-    } else if (step.as_number() < 0 && end > begin) {
-      warn(frame, code.range,
-           "begin is smaller than the end, but step is negative");
-    }
+  if (step.as_number() > 0 && end < begin) {
+    warn_of_direction(code, "greater", "positive", frame);
+  } else if (step.as_number() < 0 && end > begin) {
+    warn_of_direction(code, "smaller", "negative", frame);
   }
   return Value::range(begin, step.as_number(), end);
 }

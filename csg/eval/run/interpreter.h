@@ -201,6 +201,7 @@ class Interpreter {
   MersenneTwister random;
   std::uint64_t& effects() { return effects_; }
   const EvaluateOptions& options() const { return options_; }
+  Language language() const { return options_.language; }
   const std::string& design_folder() const { return design_folder_; }
   void set_design_folder(std::string folder) {
     design_folder_ = std::move(folder);
