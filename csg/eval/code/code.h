@@ -333,6 +333,9 @@ struct CallCode : Expression {
     bool is_evaluated_once = true;
   };
   bool is_jump = false;
+  // In tail position, so that a later OpenSCAD than 2021.01 needs no stack for
+  // it, whatever it calls.
+  bool may_be_deferred = false;
   std::span<const BoundArgument> tail_arguments;
   std::span<const TailDefault> tail_defaults;
 };

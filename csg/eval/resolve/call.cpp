@@ -72,10 +72,18 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
   return code;
 }
 
-// Makes a jump of a call by which a function calls itself last.
+// Makes a jump of a call by which a function calls itself last, and lets others
+// be deferred.
 void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
   Activation& here = *scope_->activation;
-  if (here.callable == nullptr || !code.is_name) return;
+  if (here.callable == nullptr) return;
+  if (resolver_.language() != Language::k2021 &&
+      (code.function != nullptr || code.callee != nullptr)) {
+    code.may_be_deferred = true;
+    code.kind = Expression::Kind::kTailCall;
+    here.callable->has_tail_calls = true;
+  }
+  if (!code.is_name) return;
   if (here.kind == Activation::Kind::kFunction) {
     auto& self = static_cast<Function&>(*here.callable);
     if (code.function == nullptr || code.callee != nullptr ||
