@@ -10,26 +10,26 @@
 #include "ldni/sweep/detail/cascade.h"
 #include "ldni/sweep/sweep_counts.h"
 
-namespace lamina::ldni::testing {
+namespace lamina::testing {
 
 // With so much patience a cascade sweeps all in one go.
 inline constexpr double kPatient = 1e9;
 
 struct Swept {
-  std::vector<Contours> layers;
-  SweepCounts counts;
+  std::vector<ldni::Contours> layers;
+  ldni::SweepCounts counts;
 };
 
 // Sweeps the layers of a scene, one after the other, by one cascade.
-inline Swept sweep(const csg::Scene& scene, std::span<const LayerChains> layers,
-                   double patience) {
-  detail::Cascade cascade(scene, {}, patience);
+inline Swept sweep(const csg::Scene& scene,
+                   std::span<const ldni::LayerChains> layers, double patience) {
+  ldni::detail::Cascade cascade(scene, {}, patience);
   Swept swept;
-  for (const LayerChains& layer : layers) {
+  for (const ldni::LayerChains& layer : layers) {
     cascade.sweep(layer, swept.layers.emplace_back());
   }
   swept.counts = cascade.counts();
   return swept;
 }
 
-}  // namespace lamina::ldni::testing
+}  // namespace lamina::testing
