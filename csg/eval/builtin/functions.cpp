@@ -42,10 +42,12 @@ Value builtin_parent_module(const CallCode& code, Frame& frame) {
   double number = 1;
   if (code.arguments.size() == 1) {
     const Value value = argument(code, 0, frame);
-    if (!value.is_number()) return Value();
+    if (!value.is_number()) {
+      return newly_wrong_type(code, frame, 0, Type::kNumber, value);
+    }
     number = value.as_number();
   } else if (code.arguments.size() > 1) {
-    return wrong_count(code, frame);
+    return wrong_count(code, frame, "1");
   }
   const int n = cut_to<int>(number);
   const auto& names = frame.in.module_names;
@@ -125,7 +127,7 @@ Value builtin_is_undef(const CallCode& code, Frame& frame) {
 Value call_math(const CallCode& code, Frame& frame) {
   return with_argument(code, frame, [&](const Value& value) {
     return value.is_number() ? Value(code.math(value.as_number()))
-                             : wrong_type(code, frame);
+                             : wrong_type(code, frame, 0, Type::kNumber, value);
   });
 }
 

@@ -123,9 +123,10 @@ class Planner {
     const Parameter* known = index_.find(name);
     if (!warns_ || name[0] == '$') return;
     if (known != nullptr && !known->is_extra) return;
-    const bool has_quotes = plan_.evaluates_fallbacks_last;
-    warn("variable {1}{0}{1} not specified as parameter", name,
-         has_quotes ? "\"" : "");
+    const Language language =
+        plan_.evaluates_fallbacks_last ? Language::k2026 : Language::k2021;
+    warn("variable {} not specified as parameter",
+         quoted_name(name, language, ""));
   }
   void warn_of_surplus() {
     if (warns_ && !has_too_many_) warn("Too many unnamed arguments supplied");

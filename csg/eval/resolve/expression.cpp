@@ -287,12 +287,17 @@ const AssertCode* ExpressionResolver::assertion(ast::Arguments written,
       code->message = given[bound.written].value;
     }
   }
-  // Where an argument is missing, OpenSCAD reads the variable of that name.
+  // Where an argument is missing, 2021.01 reads the variable of that name.
+  const auto fallback = [&](std::string_view name, Unknown unknown) {
+    return resolver_.language() == Language::k2021
+               ? variable(name, range, unknown)
+               : constant(Value(), range);
+  };
   if (code->condition == nullptr) {
-    code->condition = variable("condition", range, Unknown::kWarn);
+    code->condition = fallback("condition", Unknown::kWarn);
   }
   if (code->message == nullptr) {
-    code->message = variable("message", range, Unknown::kSilent);
+    code->message = fallback("message", Unknown::kSilent);
   }
   if (body != nullptr) code->body = resolve(*body, position);
   return code;

@@ -3,6 +3,8 @@
 #include <string>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "csg/eval/builtin/modules.h"
 #include "csg/eval/run/runners.h"
 #include "parser/tree_facts.h"
@@ -43,6 +45,17 @@ void StatementResolver::module(Module& module) {
   module.body.statements = instantiations(module.definition->body);
 }
 
+namespace {
+std::string overwrite_warning(const Module& module, std::string_view parameter,
+                              Language language) {
+  return fmt::format("{}Parameter {} is overwritten with a literal",
+                     language == Language::k2021
+                         ? fmt::format("Module {}: ", module.name)
+                         : std::string(),
+                     quoted_name(parameter, language, ""));
+}
+}  // namespace
+
 // The last value of a name counts; it is assigned where the first one stands.
 Bindings StatementResolver::assignments(ast::Statements statements,
                                         Module* module) {
@@ -66,8 +79,7 @@ Bindings StatementResolver::assignments(ast::Statements statements,
           ast::is_literal(*written.value)) {
         module->overwrites.emplace_back(
             static_cast<std::uint32_t>(bindings.size()),
-            "Module " + std::string(module->name) + ": Parameter " +
-                std::string(written.name) + " is overwritten with a literal");
+            overwrite_warning(*module, written.name, resolver_.language()));
       }
     }
     binding.target = resolver.target(written.name, variable);

@@ -52,11 +52,14 @@ class Interpreter {
   // code's file, and null where it shows them relative to the design.
   void warn(SourceRange range, std::string message,
             const Source* document = nullptr);
+  void warn_of_unknown(SourceRange range, std::string_view variable,
+                       const Source* document = nullptr);
   void deprecate(SourceRange range, std::string message,
                  const Source* document = nullptr);
   void echo(std::string text);
   // A line without prefix and place.
   void note(std::string text);
+  [[noreturn]] void fail(Diagnostic diagnostic);
   [[noreturn]] void fail(SourceRange range, std::string message,
                          const Source* document);
 
@@ -215,7 +218,6 @@ class Interpreter {
   };
 
   void assign_unusual(const Target& target, Value value, Frame& frame);
-  [[noreturn]] void end_with(Diagnostic diagnostic);
   [[noreturn]] void fail_steps();
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
