@@ -26,7 +26,7 @@ std::vector<Value> run_named_arguments(
 
 Value wrong_count(const CallCode& code, Frame& frame,
                   std::string_view expected) {
-  if (is_2021(frame)) {
+  if (frame.in.is_2021()) {
     return warn(code, frame, "{}() number of parameters does not match",
                 code.name);
   }
@@ -47,7 +47,7 @@ Value wrong_count_of_new(const CallCode& code, Frame& frame,
 
 Value wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
                  Type expected, const Value& found) {
-  if (is_2021(frame)) {
+  if (frame.in.is_2021()) {
     return warn(code, frame, "{}() parameter could not be converted",
                 code.name);
   }
@@ -56,7 +56,7 @@ Value wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
 
 Value newly_wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
                        Type expected, const Value& found) {
-  if (is_2021(frame)) return Value();
+  if (frame.in.is_2021()) return Value();
   return wrong_type_of_new(code, frame, argument, expected, found);
 }
 

@@ -14,10 +14,6 @@
 
 namespace lamina::csg {
 
-inline bool is_2021(const Frame& frame) {
-  return frame.in.language() == Language::k2021;
-}
-
 // These warn and return undef.
 //
 // A call has not as many arguments as expected ("1", "3 or 4").

@@ -64,7 +64,7 @@ void run_child(std::size_t n, Frame& frame) {
 
 // Whether there is a child of that number; warns if not.
 bool has_child(int n, SourceRange place, Frame& frame) {
-  const bool is_2021 = frame.in.language() == Language::k2021;
+  const bool is_2021 = frame.in.is_2021();
   if (n >= 0 && static_cast<std::size_t>(n) < count_children(frame)) {
     return true;
   }
@@ -126,7 +126,7 @@ bool for_each_index(const Value& which, SourceRange place, Frame& frame,
 void children(const BuiltinModuleCode& code, Frame& frame) {
   if (frame.children == nullptr) return;  // not inside a module
   const std::size_t mark = frame.in.node_mark();
-  const bool is_2021 = frame.in.language() == Language::k2021;
+  const bool is_2021 = frame.in.is_2021();
   if (code.arguments.empty()) {
     if (!is_2021) run_assignments(*frame.children, *frame.children_frame);
     run_statements(*frame.children, *frame.children_frame);

@@ -127,7 +127,7 @@ Value extreme(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
   if (n == 0) return wrong_count(code, frame, "at least 1");
   const Value first = argument(code, 0, frame);
-  if (n == 1 && first.is_vector() && !is_2021(frame)) {
+  if (n == 1 && first.is_vector() && !frame.in.is_2021()) {
     return extreme_element<is_max>(first.as_vector(), code, frame);
   }
   if (n == 1 && first.is_vector() && !first.as_vector().empty()) {

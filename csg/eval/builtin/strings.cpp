@@ -59,7 +59,7 @@ Value builtin_chr(const CallCode& code, Frame& frame) {
 
 Value builtin_ord(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
-  if (n != 1 && !is_2021(frame)) return wrong_count(code, frame, "1");
+  if (n != 1 && !frame.in.is_2021()) return wrong_count(code, frame, "1");
   if (n == 0) return Value();
   if (n > 1) {
     return warn(code, frame,
@@ -67,7 +67,7 @@ Value builtin_ord(const CallCode& code, Frame& frame) {
   }
   const Value value = argument(code, 0, frame);
   if (!value.is_string()) {
-    if (!is_2021(frame)) {
+    if (!frame.in.is_2021()) {
       return wrong_type(code, frame, 0, Type::kString, value);
     }
     return warn(code, frame, "ord() argument {} is not of type string",

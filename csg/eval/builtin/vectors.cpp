@@ -43,7 +43,7 @@ Value builtin_norm(const CallCode& code, Frame& frame) {
 
 Value builtin_cross(const CallCode& code, Frame& frame) {
   if (code.arguments.size() != 2) {
-    return is_2021(frame)
+    return frame.in.is_2021()
                ? warn(code, frame, "Invalid number of parameters for cross()")
                : wrong_count(code, frame, "2");
   }
@@ -51,7 +51,7 @@ Value builtin_cross(const CallCode& code, Frame& frame) {
   const Value second = argument(code, 1, frame);
   if (!first.is_vector() || !second.is_vector()) {
     const std::size_t wrong = first.is_vector() ? 1 : 0;
-    return is_2021(frame)
+    return frame.in.is_2021()
                ? warn(code, frame, "Invalid type of parameters for cross()")
                : wrong_type(code, frame, wrong, Type::kVector,
                             wrong == 0 ? first : second);
@@ -97,7 +97,7 @@ bool is_pair(const Value& value, double& key, double& result) {
 Value builtin_lookup(const CallCode& code, Frame& frame) {
   if (code.arguments.size() != 2) return wrong_count(code, frame, "2");
   const Value key = argument(code, 0, frame);
-  if (!key.is_number() && !is_2021(frame)) {
+  if (!key.is_number() && !frame.in.is_2021()) {
     return wrong_type(code, frame, 0, Type::kNumber, key);
   }
   if (!key.is_number() || !std::isfinite(key.as_number())) {

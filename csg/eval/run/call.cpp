@@ -390,8 +390,7 @@ Value run_call_value(const Expression& expression, Frame& frame) {
   const ActiveCall active(code, frame);
   const Value callee = run(code.callee, frame);
   if (callee.is_function()) {
-    if (code.is_name && code.name[0] == '$' &&
-        frame.in.language() == Language::k2021) {
+    if (code.is_name && code.name[0] == '$' && frame.in.is_2021()) {
       warn(frame, code.range,
            "Can't call function on dynamically scoped variable");
       return Value();

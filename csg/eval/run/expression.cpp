@@ -140,7 +140,7 @@ void warn_of_direction(const RangeCode& code, std::string_view begin,
 
 Value run_range(const Expression& expression, Frame& frame) {
   const auto& code = as<RangeCode>(expression);
-  const bool is_2021 = frame.in.language() == Language::k2021;
+  const bool is_2021 = frame.in.is_2021();
   const Value first = run(code.begin, frame);
   if (!first.is_number() && is_2021) return Value();
   const Value last = run(code.end, frame);
@@ -245,10 +245,9 @@ void run_assert(const AssertCode& code, Frame& frame) {
   if (code.condition_text != nullptr) {
     const std::string text = expression_text(*code.condition_text);
     diagnostic.message += " '" + text + "'";
-    if (frame.in.language() == Language::k2021 &&
-        text.find("version") != std::string::npos) {
+    if (frame.in.is_2021() && text.find("version") != std::string::npos) {
       diagnostic.hints.push_back(
-          {code.range,
+          {{},
            "read as OpenSCAD 2021.01; --language 2026 reads it as newer ones"});
     }
   }

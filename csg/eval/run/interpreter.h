@@ -206,6 +206,7 @@ class Interpreter {
   std::uint64_t& effects() { return effects_; }
   const EvaluateOptions& options() const { return options_; }
   Language language() const { return options_.language; }
+  bool is_2021() const { return options_.language == Language::k2021; }
   const std::string& design_folder() const { return design_folder_; }
   void set_design_folder(std::string folder) {
     design_folder_ = std::move(folder);

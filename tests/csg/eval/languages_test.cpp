@@ -24,8 +24,7 @@ void expect_echoes(const std::string& text, const std::string& of_2021,
   EXPECT_EQ(echo(text, Language::k2026), of_2026) << text;
 }
 
-// --- Understood in both
-// -------------------------------------------------------
+// --- Understood in both ------------------------------------------------------
 
 TEST(BothLanguages, TakeACommaBehindTheLastArgument) {
   const std::string text =
@@ -42,8 +41,7 @@ TEST(BothLanguages, TakeByteOrderMarksForBlanks) {
       "ECHO: 2\n", "ECHO: 2\n");
 }
 
-// --- Arguments
-// ----------------------------------------------------------------
+// --- Arguments ---------------------------------------------------------------
 
 TEST(Languages, PutArgumentsWithoutANameInOtherPlaces) {
   expect_echoes("function f(a = 0, b = 0) = [a, b];\necho(f(b = 1, 2));\n",
@@ -83,8 +81,7 @@ TEST(Languages, LetArgumentsSeeDollarVariablesOfTheSameCallIn2021Only) {
             "ECHO: 1, 2\n");
 }
 
-// --- Children
-// -----------------------------------------------------------------
+// --- Children ----------------------------------------------------------------
 
 TEST(Languages, ShowChildrenTheDollarVariablesOfTheModule) {
   const std::string text =
@@ -111,8 +108,7 @@ TEST(Languages, GroupAChildAlone) {
             "\t\tcube(size = [10, 10, 10], center = false);\n\t}\n}\n\n");
 }
 
-// --- Values
-// -------------------------------------------------------------------
+// --- Values ------------------------------------------------------------------
 
 TEST(Languages, TakeFallingRangesForReversedOrEmpty) {
   expect_echoes(
@@ -145,8 +141,67 @@ TEST(Languages, NeedNoStackForTailCallsOfOtherFunctions) {
   EXPECT_EQ(echo(text, Language::k2026), "ECHO: false, \"b\"\n");
 }
 
-// --- Limits
-// -------------------------------------------------------------------
+// --- Words -------------------------------------------------------------------
+
+TEST(Languages, QuoteNamesInTheirOwnWay) {
+  expect_echoes(
+      "echo(x);\nmodule m(b) { b = 3; }\nm(a = 1);\n",
+      "WARNING: Ignoring unknown variable 'x' in file test.scad, line 1\n"
+      "ECHO: undef\n"
+      "WARNING: variable a not specified as parameter in file test.scad, line "
+      "3\n"
+      "WARNING: Module m: Parameter b is overwritten with a literal in file "
+      "test.scad, line 2\n",
+      "WARNING: Ignoring unknown variable \"x\" in file test.scad, line 1\n"
+      "ECHO: undef\n"
+      "WARNING: variable \"a\" not specified as parameter in file test.scad, "
+      "line 3\n"
+      "WARNING: Parameter \"b\" is overwritten with a literal in file "
+      "test.scad, line 2\n");
+}
+
+TEST(Languages, SayWhatWasExpectedAndWhatCame) {
+  expect_echoes(
+      "a = [sin(), sin(\"x\"), norm(1)];\n",
+      "WARNING: sin() number of parameters does not match in file test.scad, "
+      "line 1\n"
+      "WARNING: sin() parameter could not be converted in file test.scad, line "
+      "1\n",
+      "WARNING: sin() number of parameters does not match: expected 1, found 0 "
+      "in file test.scad, line 1\n"
+      "WARNING: sin() parameter could not be converted: argument 0: expected "
+      "number, found string (\"x\") in file test.scad, line 1\n"
+      "WARNING: norm() parameter could not be converted: argument 0: expected "
+      "vector, found number (1) in file test.scad, line 1\n");
+}
+
+TEST(Languages, ComparedAnyElementsOrNumbersOnly) {
+  expect_echoes("echo(max([\"a\", \"b\"]));\n", "ECHO: \"b\"\n",
+                "WARNING: max() parameter could not be converted: vector "
+                "element 0: expected number, found string (\"a\") in file "
+                "test.scad, line 1\nECHO: undef\n");
+}
+
+TEST(Languages, WarnOfRangesWithoutNumbers) {
+  expect_echoes("a = [undef:3];\nb = [0:\"1\":2];\n", "",
+                "WARNING: Unable to convert [undef:...:3] to a range in file "
+                "test.scad, line 1\n"
+                "WARNING: Unable to convert [...:\"1\":...] to a step value in "
+                "file test.scad, line 2\n");
+}
+
+TEST(Languages, AreNamedWhereAVersionIsAskedForInVain) {
+  const std::string text = "assert(version()[0] > 2022, \"too old\");\n";
+  EXPECT_TRUE(evaluate_text(text).terminal.ends_with(
+      "note: read as OpenSCAD 2021.01; --language 2026 reads it as newer "
+      "ones\n"))
+      << evaluate_text(text).terminal;
+  EXPECT_EQ(echo(text, Language::k2026), "");
+  EXPECT_TRUE(evaluate_text("assert(1 > 2);\n").terminal.find("read as") ==
+              std::string::npos);
+}
+
+// --- Limits ------------------------------------------------------------------
 
 TEST(BothLanguages, EndRecursionsThatPrintWhatTheyNest) {
   const std::string text =
