@@ -17,9 +17,9 @@ using DynamicValues = std::vector<std::pair<std::uint32_t, Value>>;
 // `set(target, value)`. Returns those that the caller has to bind once it has
 // evaluated the fallbacks.
 template <typename Set>
-DynamicValues run_arguments(const ArgumentPlan& plan,
-                            std::span<const WrittenArgument> arguments,
-                            Frame& caller, const Set& set) {
+[[gnu::always_inline]] inline DynamicValues run_arguments(
+    const ArgumentPlan& plan, std::span<const WrittenArgument> arguments,
+    Frame& caller, const Set& set) {
   DynamicValues values;
   for (const BoundArgument& bound : plan.bound) {
     Value value = run(arguments[bound.written].value, caller);

@@ -45,8 +45,9 @@ void warn_of_arguments(const ArgumentPlan& plan, SourceRange range,
 
 namespace {
 
-void set_fallbacks(const ArgumentPlan& plan,
-                   std::span<const Parameter> parameters, Frame& callee) {
+[[gnu::always_inline]] inline void set_fallbacks(
+    const ArgumentPlan& plan, std::span<const Parameter> parameters,
+    Frame& callee) {
   for (const std::uint32_t i : plan.defaults) {
     const Parameter& parameter = parameters[i];
     Value value =
@@ -68,7 +69,9 @@ void pass_arguments(const ArgumentPlan& plan,
   if (!plan.evaluates_fallbacks_last) {
     set_fallbacks(plan, parameters, callee);
     warn_of_arguments(plan, range, caller, repeats);
-    run_arguments(plan, arguments, caller, set);
+    for (const BoundArgument& bound : plan.bound) {
+      set(bound.target, run(arguments[bound.written].value, caller));
+    }
     return;
   }
   DynamicValues values = run_arguments(plan, arguments, caller, set);

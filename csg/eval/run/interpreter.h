@@ -77,8 +77,8 @@ class Interpreter {
   }
 
   // --- Calls being run
-  // Whether calls are nested too deep, or the C++ stack is nearly used up.
   std::uint32_t depth() const { return depth_; }
+  // Whether calls are nested too deep, or the C++ stack is nearly used up.
   bool is_too_deep() const {
     return depth_ > options_.max_depth ||
            reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) <
