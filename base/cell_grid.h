@@ -28,11 +28,10 @@ class CellGrid {
         columns_(columns),
         rows_(rows) {}
   // As many square cells as the box needs.
-  CellGrid(Vec2 low, Vec2 high, double cells_per_mm)
-      : CellGrid(
-            low, Vec2(cells_per_mm),
-            1 + static_cast<std::uint32_t>((high.x - low.x) * cells_per_mm),
-            1 + static_cast<std::uint32_t>((high.y - low.y) * cells_per_mm)) {}
+  CellGrid(const Box2& box, double cells_per_mm)
+      : CellGrid(box.low, Vec2(cells_per_mm),
+                 1 + static_cast<std::uint32_t>(box.size().x * cells_per_mm),
+                 1 + static_cast<std::uint32_t>(box.size().y * cells_per_mm)) {}
 
   std::size_t size() const { return std::size_t{columns_} * rows_; }
   Vec2 cells_per_mm() const { return cells_per_mm_; }

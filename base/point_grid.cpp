@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/common.hpp>
-
 namespace lamina {
 namespace {
 
@@ -14,14 +12,13 @@ namespace {
 constexpr std::size_t kCrowd = 32;
 
 // About two cells a point.
-CellGrid grid_of(Vec2 low, Vec2 high, std::size_t points) {
-  const Vec2 size = high - low;
+CellGrid grid_of(const Box2& box, std::size_t points) {
+  const Vec2 size = box.size();
   const double wanted = 2.0 * static_cast<double>(points);
   // Points on a line, or in one place, have no area.
   const double longest = std::max({size.x, size.y, 1e-9});
-  return {low, high,
-          std::min(std::sqrt(wanted / std::max(size.x * size.y, 1e-300)),
-                   wanted / longest)};
+  return {box, std::min(std::sqrt(wanted / std::max(size.x * size.y, 1e-300)),
+                        wanted / longest)};
 }
 
 }  // namespace
@@ -48,12 +45,8 @@ std::uint32_t PointGrid::add_level(std::span<const Vec2> points,
   const auto place = static_cast<std::uint32_t>(levels_.size());
   levels_.emplace_back();
   Level level;
-  level.low = level.high = points[members.front()];
-  for (const std::uint32_t i : members) {
-    level.low = glm::min(level.low, points[i]);
-    level.high = glm::max(level.high, points[i]);
-  }
-  level.grid = grid_of(level.low, level.high, members.size());
+  for (const std::uint32_t i : members) level.box.add(points[i]);
+  level.grid = grid_of(level.box, members.size());
   level.list_members(points, members);
   // Points that all fall in one cell are in one place, and no grid parts them.
   for (std::size_t cell = 0; cell < level.grid.size(); ++cell) {

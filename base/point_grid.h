@@ -35,8 +35,7 @@ class PointGrid {
   // One grid. What stands in a crowded cell stands in the cell's own level and
   // not in the list of the cell.
   struct Level {
-    Vec2 low = Vec2(0);
-    Vec2 high = Vec2(0);
+    Box2 box;
     CellGrid grid;
     CellLists<std::uint32_t> members;
     std::vector<std::size_t> crowded_cells;   // ascending
@@ -64,8 +63,8 @@ bool PointGrid::has_near(const Level& level, Vec2 a, Vec2 b, double reach,
     return std::max(from, to) < low - reach ||
            std::min(from, to) > high + reach;
   };
-  if (misses(level.low.x, level.high.x, a.x, b.x) ||
-      misses(level.low.y, level.high.y, a.y, b.y)) {
+  const auto& [low, high] = level.box;
+  if (misses(low.x, high.x, a.x, b.x) || misses(low.y, high.y, a.y, b.y)) {
     return false;
   }
   return level.grid.visit_rows(

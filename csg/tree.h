@@ -225,7 +225,7 @@ struct Tree {
   Language language = Language::k2021;
   // Paths that modules and functions named as files to read, whether they are
   // there or not; in the order of evaluation, each once.
-  std::vector<std::string> files;
+  std::vector<std::string> files = {};
 
   // Gives the memory of all nodes back; call chains stay.
   void drop_nodes() {

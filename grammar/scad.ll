@@ -147,8 +147,10 @@ true                    { return TOKEN_TRUE; }
 false                   { return TOKEN_FALSE; }
 undef                   { return TOKEN_UNDEF; }
 
- /* No-break spaces, which editors like to leave behind, whole or halved. */
+ /* No-break spaces, which editors like to leave behind, whole or halved, and
+    byte order marks. */
 [\xc2\xa0]+             { }
+\xef\xbb\xbf            { }
 ({UTF8})+               { return TOKEN_INVALID; }
 
 {DIGIT}+{EXPONENT}?            |

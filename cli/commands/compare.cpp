@@ -17,6 +17,7 @@
 #include "cli/process/streams.h"
 #include "cli/report/compared.h"
 #include "cli/report/comparison.h"
+#include "cli/process/openscad.h"
 #include "cli/report/comparison_text.h"
 #include "cli/report/session.h"
 #include "compiler/passes.h"
@@ -45,7 +46,8 @@ with 1 if not.
   --png FILE          draw the layer that differs most
   --layer-number N    draw this layer of the table instead
   --report FILE       write all numbers as JSON
-  --against openscad  compare with what the installed openscad makes of it
+  --against openscad  compare with what the installed openscad makes of it;
+                      its version decides what '--language auto' is
   --time-limit S      seconds for openscad, after which it is ended [600]
   -q, --quiet         say nothing but errors
   -h, --help          print this help
@@ -120,13 +122,20 @@ class CompareCommand : public Command {
     Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {
       try {
+        std::string version;
+        if (is_against_openscad_) {
+          version = openscad_version(context.temporary_files);
+          if (request_.language == "auto") {
+            request_.language = language_of(version);
+          }
+        }
         const auto a = open_compared(a_, request_, is_quiet_, context);
         // Faults of the design come before those of openscad.
         if (is_against_openscad_) a->layers();
-        const auto b =
-            is_against_openscad_
-                ? open_openscad(a_, request_, time_limit_, is_quiet_, context)
-                : open_compared(b_, request_, is_quiet_, context);
+        const auto b = is_against_openscad_
+                           ? open_openscad(a_, request_, version, time_limit_,
+                                           is_quiet_, context)
+                           : open_compared(b_, request_, is_quiet_, context);
         return compare(*a, *b, context.temporary_files);
       } catch (const ShownFault&) {
         return kFault;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -130,12 +131,24 @@ ScratchFolder::ScratchFolder(TemporaryFiles& temporary_files)
 
 ScratchFolder::~ScratchFolder() { temporary_files_.discard_folder(folder_); }
 
-std::string openscad_version(const ScratchFolder& folder) {
+std::string openscad_version(TemporaryFiles& temporary_files) {
   constexpr double kLimit = 60;  // seconds
+  const ScratchFolder folder(temporary_files);
   const std::string words = folder.file("version");
   run_openscad({"--version"}, words, kLimit);
   const std::vector<std::string> lines = lines_of(words);
   return lines.empty() ? "openscad" : lines.back();
+}
+
+std::string language_of(std::string_view version) {
+  constexpr int kLastYearOfReleases = 2021;
+  const std::size_t digits = version.find_first_of("0123456789");
+  int year = 0;
+  if (digits != std::string_view::npos) {
+    std::from_chars(version.data() + digits, version.data() + version.size(),
+                    year);
+  }
+  return year > kLastYearOfReleases ? "2026" : "2021";
 }
 
 OpenScadMesh render_with_openscad(const compiler::Request& request,

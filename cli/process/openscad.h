@@ -2,6 +2,7 @@
 // Asks the openscad that is installed here for its mesh of a design.
 
 #include <string>
+#include <string_view>
 
 #include "base/file/temporary_files.h"
 #include "compiler/request.h"
@@ -27,7 +28,10 @@ class ScratchFolder {
 };
 
 // "OpenSCAD version 2021.01". Throws FileError where the program is missing.
-std::string openscad_version(const ScratchFolder& folder);
+std::string openscad_version(TemporaryFiles& temporary_files);
+
+// The language (of --language) that a version reads.
+std::string language_of(std::string_view version);
 
 struct OpenScadMesh {
   std::string path;    // of the binary STL, in the folder

@@ -200,10 +200,10 @@ std::unique_ptr<Compared> open_compared(const std::string& path,
 
 std::unique_ptr<Compared> open_openscad(const std::string& design,
                                         const compiler::Request& request,
+                                        const std::string& version,
                                         double time_limit, bool is_quiet,
                                         const Context& context) {
   const ScratchFolder folder(context.temporary_files);
-  const std::string version = openscad_version(folder);
   const OpenScadMesh rendered =
       render_with_openscad(design_request(design, request), time_limit, folder);
   auto mesh = std::make_unique<ComparedDesign>(

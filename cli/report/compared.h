@@ -69,9 +69,11 @@ std::unique_ptr<Compared> open_compared(const std::string& path,
 // The mesh that openscad makes of the design; its name is "openscad". Throws
 // FileError where openscad makes none.
 //
+// version     as openscad_version() has it
 // time_limit  for openscad [s]
 std::unique_ptr<Compared> open_openscad(const std::string& design,
                                         const compiler::Request& request,
+                                        const std::string& version,
                                         double time_limit, bool is_quiet,
                                         const Context& context);
 

@@ -10,7 +10,6 @@
 #include <span>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/box_tree.h"
@@ -209,13 +208,12 @@ class Finder {
     const auto corners = leaf().faces.contours_of(face);
     const Plane plane(corners[0][0], normal);
     Region outline;
-    Window window{Vec2(1e300), Vec2(-1e300)};
+    Box2 window;
     for (const auto& contour : corners) {
       Contour& flat = outline.contours.emplace_back();
       for (const Vec3 corner : contour) {
         flat.push_back(plane.flatten(corner));
-        window.low = glm::min(window.low, flat.back());
-        window.high = glm::max(window.high, flat.back());
+        window.add(flat.back());
       }
     }
 
@@ -392,12 +390,7 @@ void visit_boundary_faces(const Scene& scene, const IsWanted& is_wanted,
 
 Box3 box_of(const BoundaryFace& face) {
   Box3 box;
-  for (const auto& contour : face.contours) {
-    for (const Vec3& corner : contour) {
-      box.low = glm::min(box.low, corner);
-      box.high = glm::max(box.high, corner);
-    }
-  }
+  for (const auto& contour : face.contours) box.add(contour);
   return box;
 }
 

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <numeric>
 
-#include "csg/boundary/leaf_box.h"
-
 namespace lamina::csg {
 namespace {
 
@@ -13,7 +11,7 @@ namespace {
 constexpr std::uint32_t kItemsOfALeaf = 4;
 
 int longest_axis(const Box3& box) {
-  const Vec3 size = box.high - box.low;
+  const Vec3 size = box.size();
   const int axis = size.y > size.x ? 1 : 0;
   return size.z > size[axis] ? 2 : axis;
 }
@@ -31,7 +29,7 @@ void BoxTree::build(std::uint32_t first, std::uint32_t count) {
   nodes_.push_back({{}, first, count, 1});
   Box3 box;
   for (std::uint32_t i = first; i < first + count; ++i) {
-    box = unite_boxes(box, boxes_[items_[i]]);
+    box.add(boxes_[items_[i]]);
   }
   nodes_[self].box = box;
   if (count <= kItemsOfALeaf) return;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <glm/common.hpp>
-
 namespace lamina::csg {
 namespace {
 
@@ -47,8 +45,7 @@ void extend(Box3& box, const Mesh& mesh, const Affine& linear) {
     y.add(linear[0].y * v.x + linear[1].y * v.y + linear[2].y * v.z);
     z.add(linear[0].z * v.x + linear[1].z * v.y + linear[2].z * v.z);
   }
-  box.low = glm::min(box.low, Vec3(x.low, y.low, z.low));
-  box.high = glm::max(box.high, Vec3(x.high, y.high, z.high));
+  box.add(Box3{{x.low, y.low, z.low}, {x.high, y.high, z.high}});
 }
 
 }  // namespace
@@ -58,18 +55,6 @@ Box3 bound_leaf(const Leaf& leaf, const Affine& linear) {
   for (const Loft& loft : leaf.lofts) extend(box, loft, linear);
   for (const Mesh& mesh : leaf.meshes) extend(box, mesh, linear);
   return box;
-}
-
-Box3 shift_box(const Box3& box, Vec3 shift) {
-  return {box.low + shift, box.high + shift};
-}
-
-Box3 unite_boxes(const Box3& a, const Box3& b) {
-  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
-
-Box3 intersect_boxes(const Box3& a, const Box3& b) {
-  return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
 
 }  // namespace lamina::csg

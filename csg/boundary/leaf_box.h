@@ -9,8 +9,4 @@ namespace lamina::csg {
 // that of one ring plus one profile, not of all vertices.
 Box3 bound_leaf(const Leaf& leaf, const Affine& linear);
 
-Box3 shift_box(const Box3& box, Vec3 shift);
-Box3 unite_boxes(const Box3& a, const Box3& b);
-Box3 intersect_boxes(const Box3& a, const Box3& b);
-
 }  // namespace lamina::csg

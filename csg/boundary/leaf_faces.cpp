@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csg/plane/convex_faces.h"
@@ -192,10 +191,7 @@ std::vector<std::vector<Vec3>> LeafFaces::contours_of(std::size_t face) const {
 Box3 LeafFaces::box_of(std::size_t face) const {
   Box3 box;
   for (const Triangle& t : triangles_of(face)) {
-    for (const std::uint32_t corner : t) {
-      box.low = glm::min(box.low, vertices[corner]);
-      box.high = glm::max(box.high, vertices[corner]);
-    }
+    for (const std::uint32_t corner : t) box.add(vertices[corner]);
   }
   return box;
 }

@@ -146,17 +146,12 @@ class Chainer {
 // it: straight out to a frame around everything, and along the frame.
 class Frame {
  public:
-  Frame(const Window& window, const Chains& chains)
-      : window_(window), low_(window.low), high_(window.high) {
-    for (const Contour& chain : chains.open) {
-      for (const Vec2 point : chain) {
-        low_ = glm::min(low_, point);
-        high_ = glm::max(high_, point);
-      }
-    }
-    const Vec2 margin = high_ - low_ + kTieDistance;
-    low_ -= margin;
-    high_ += margin;
+  Frame(const Box2& window, const Chains& chains)
+      : window_(window), frame_(window) {
+    for (const Contour& chain : chains.open) frame_.add(chain);
+    const Vec2 margin = frame_.size() + kTieDistance;
+    frame_.low -= margin;
+    frame_.high += margin;
   }
 
   void close(Contour& chain) const {
@@ -183,7 +178,7 @@ class Frame {
         window_.low.x - p.x};
     const auto side =
         std::max_element(beyond.begin(), beyond.end()) - beyond.begin();
-    const Vec2 share = (p - low_) / (high_ - low_);
+    const Vec2 share = (p - frame_.low) / frame_.size();
     switch (side) {
       case 0:
         return share.x;
@@ -199,16 +194,16 @@ class Frame {
   Vec2 point_at(double place) const {
     const double side = std::floor(std::fmod(place, 4));
     const double share = std::fmod(place, 1);
-    const Vec2 size = high_ - low_;
-    if (side == 0) return {low_.x + share * size.x, low_.y};
-    if (side == 1) return {high_.x, low_.y + share * size.y};
-    if (side == 2) return {high_.x - share * size.x, high_.y};
-    return {low_.x, high_.y - share * size.y};
+    const auto& [low, high] = frame_;
+    const Vec2 size = frame_.size();
+    if (side == 0) return {low.x + share * size.x, low.y};
+    if (side == 1) return {high.x, low.y + share * size.y};
+    if (side == 2) return {high.x - share * size.x, high.y};
+    return {low.x, high.y - share * size.y};
   }
 
-  Window window_;
-  Vec2 low_;
-  Vec2 high_;
+  Box2 window_;
+  Box2 frame_;
 };
 
 std::vector<Box3> boxes_of(const LeafFaces& faces) {
@@ -223,10 +218,7 @@ std::vector<Box3> boxes_of_triangles(const LeafFaces& faces, std::size_t face) {
   std::vector<Box3> boxes;
   for (const LeafFaces::Triangle& t : faces.triangles_of(face)) {
     Box3& box = boxes.emplace_back();
-    for (const std::uint32_t corner : t) {
-      box.low = glm::min(box.low, faces.vertices[corner]);
-      box.high = glm::max(box.high, faces.vertices[corner]);
-    }
+    for (const std::uint32_t corner : t) box.add(faces.vertices[corner]);
   }
   return boxes;
 }
@@ -253,9 +245,9 @@ int section_winding(const PlacedLeaf& leaf, const Plane& plane, Side side,
 
 // Whether the line between the points passes the window by less than the
 // rounding of the points.
-bool is_near(const Window& window, Vec2 from, Vec2 to) {
+bool is_near(const Box2& window, Vec2 from, Vec2 to) {
   const Vec2 middle = 0.5 * (window.low + window.high);
-  const Vec2 reach = 0.5 * (window.high - window.low) + kTieDistance;
+  const Vec2 reach = 0.5 * window.size() + kTieDistance;
   const Vec2 low = glm::min(from, to) - middle;
   const Vec2 high = glm::max(from, to) - middle;
   if (low.x > reach.x || low.y > reach.y || high.x < -reach.x ||
@@ -326,20 +318,20 @@ bool contains(const PlacedLeaf& leaf, Vec3 point) {
   return sum != 0;
 }
 
-Box3 box_of(const Plane& plane, const Window& window) {
+Box3 box_of(const Plane& plane, const Box2& window) {
   Box3 box;
   for (const double u : {window.low.x, window.high.x}) {
     for (const double v : {window.low.y, window.high.y}) {
       const Vec3 corner = plane.lift({u, v});
-      box.low = glm::min(box.low, corner - 2 * kTieDistance);
-      box.high = glm::max(box.high, corner + 2 * kTieDistance);
+      box.add(corner - 2 * kTieDistance);
+      box.add(corner + 2 * kTieDistance);
     }
   }
   return box;
 }
 
 WindowSection::WindowSection(const PlacedLeaf& leaf, const Plane& plane,
-                             const Window& window)
+                             const Box2& window)
     : leaf_(leaf), plane_(plane), window_(window) {
   const Box3 box = box_of(plane, window);
   const auto is_met = [&](const Box3& other) {

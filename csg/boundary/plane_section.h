@@ -84,14 +84,9 @@ void PlacedLeaf::visit_triangles(std::uint32_t face, const Test& test,
 // Whether the point is inside. It must not lie in the box of any face.
 bool contains(const PlacedLeaf& leaf, Vec3 point);
 
-struct Window {
-  Vec2 low;
-  Vec2 high;
-};
-
 // The box around the part of the plane that the window shows, and
 // kTieDistance more.
-Box3 box_of(const Plane& plane, const Window& window);
+Box3 box_of(const Plane& plane, const Box2& window);
 
 // A triangle that the plane may cut.
 struct CutTriangle {
@@ -103,8 +98,7 @@ struct CutTriangle {
 // The leaf's section, as far as the window shows it.
 class WindowSection {
  public:
-  WindowSection(const PlacedLeaf& leaf, const Plane& plane,
-                const Window& window);
+  WindowSection(const PlacedLeaf& leaf, const Plane& plane, const Box2& window);
 
   // Faces whose boxes meet the plane where the window is.
   const std::vector<std::uint32_t>& faces() const { return faces_; }
@@ -126,7 +120,7 @@ class WindowSection {
  private:
   const PlacedLeaf& leaf_;
   const Plane& plane_;
-  Window window_;
+  Box2 window_;
   std::vector<std::uint32_t> faces_;
   std::vector<CutTriangle> triangles_;  // of these faces, near the window
   bool is_touched_ = false;

@@ -93,6 +93,11 @@ Tree evaluate(const ast::Program& program, const Loader& loader,
     } catch (const EvaluationFailure&) {
       in.drop_nodes(0);
       diagnostics.report(in.take_failure());
+    } catch (const TextTooDeep&) {
+      in.drop_nodes(0);
+      diagnostics.error({},
+                        "Stack exhausted while trying to convert a vector to "
+                        "EchoString");
     }
   };
   report_failure(run_program);

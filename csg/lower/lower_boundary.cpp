@@ -1,7 +1,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "csg/boundary/boundary_faces.h"
@@ -42,9 +41,7 @@ Box3 box_of_result(const Scene& scene) {
            glm::any(glm::greaterThan(part.high, box.high));
   };
   visit_boundary_faces(scene, reaches_out, [&](const BoundaryFace& face) {
-    const Box3 part = box_of(face);
-    box.low = glm::min(box.low, part.low);
-    box.high = glm::max(box.high, part.high);
+    box.add(box_of(face));
   });
   return box;
 }
@@ -80,21 +77,15 @@ glm::vec<kDimensions, double> factor_for(
 }
 
 Vec2 resize_factor(const Resize& op, const planar::Region& region) {
-  Vec2 low(1e300);
-  Vec2 high(-1e300);
-  for (const planar::Contour& contour : region.contours) {
-    for (const Vec2 point : contour) {
-      low = glm::min(low, point);
-      high = glm::max(high, point);
-    }
-  }
-  return factor_for<2>(op, high - low, false);
+  Box2 box;
+  for (const planar::Contour& contour : region.contours) box.add(contour);
+  return factor_for<2>(op, box.size(), false);
 }
 
 Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
   const Box3 box = box_of_result(scene);
   if (box.is_empty()) return Vec3(1);
-  return factor_for<3>(op, box.high - box.low, is_boolean);
+  return factor_for<3>(op, box.size(), is_boolean);
 }
 
 }  // namespace

@@ -280,7 +280,7 @@ Box3 Lowerer::bound(std::uint32_t leaf, const Affine& m) {
         is_shift(m) ? leaves_[leaf].box : bound_leaf(leaves_[leaf], m);
     kept = {leaf, m, box};
   }
-  return shift_box(kept.box, m[3]);
+  return kept.box.shifted(m[3]);
 }
 
 }  // namespace lamina::csg

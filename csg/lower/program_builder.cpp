@@ -3,8 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "csg/boundary/leaf_box.h"
-
 namespace lamina::csg {
 namespace {
 
@@ -12,9 +10,9 @@ constexpr std::uint32_t kNoParent = std::numeric_limits<std::uint32_t>::max();
 
 // Boxes that only touch have no volume in common.
 bool have_common_volume(const Box3& a, const Box3& b) {
-  const Box3 common = intersect_boxes(a, b);
-  return common.low.x < common.high.x && common.low.y < common.high.y &&
-         common.low.z < common.high.z;
+  Box3 common = a;
+  common.intersect(b);
+  return glm::all(glm::lessThan(common.low, common.high));
 }
 
 }  // namespace
@@ -32,7 +30,7 @@ const Box3& ProgramBuilder::box_of(Part part) const {
 
 Box3 ProgramBuilder::box_of(std::span<const Part> parts) const {
   Box3 box;
-  for (const Part part : parts) box = unite_boxes(box, box_of(part));
+  for (const Part part : parts) box.add(box_of(part));
   return box;
 }
 
@@ -111,7 +109,7 @@ void ProgramBuilder::apply_intersection(std::span<const std::size_t> begins) {
   };
   Box3 box = box_of(operand(0));
   for (std::size_t i = 1; i < begins.size(); ++i) {
-    box = intersect_boxes(box, box_of(operand(i)));
+    box.intersect(box_of(operand(i)));
   }
 
   // What does not reach the overlap of all boxes has no part in the result.

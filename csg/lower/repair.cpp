@@ -234,10 +234,7 @@ std::vector<std::uint32_t> take_loop(OpenEdges& open, std::uint32_t start) {
 ClosedHole cap(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
   add_face(mesh, loop);
   ClosedHole hole{loop.size(), {}};
-  for (const std::uint32_t i : loop) {
-    hole.box.low = glm::min(hole.box.low, mesh.vertices[i]);
-    hole.box.high = glm::max(hole.box.high, mesh.vertices[i]);
-  }
+  for (const std::uint32_t i : loop) hole.box.add(mesh.vertices[i]);
   return hole;
 }
 

@@ -5,10 +5,9 @@
 #include <numeric>
 #include <optional>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "csg/boundary/leaf_box.h"
+#include "csg/boundary/box_tree.h"
 
 namespace lamina::csg {
 namespace {
@@ -47,10 +46,7 @@ Vec3 nearest_on_edge(const JoinedFaces& surface, std::size_t edge,
 
 Box3 box_of(const Face& face) {
   Box3 box;
-  for (const Vec3& corner : face.corners) {
-    box.low = glm::min(box.low, corner);
-    box.high = glm::max(box.high, corner);
-  }
+  box.add(face.corners);
   box.low -= kTouchDistance;
   box.high += kTouchDistance;
   return box;
@@ -108,7 +104,7 @@ std::vector<Vec3> points_of_components(const JoinedFaces& surface,
     std::erase_if(
         open, [&](std::size_t k) { return boxes[k].high.x < boxes[i].low.x; });
     for (const std::size_t k : open) {
-      if (!intersect_boxes(boxes[i], boxes[k]).is_empty() &&
+      if (do_meet(boxes[i], boxes[k]) &&
           components.find(i) != components.find(k) &&
           touch(faces[i], faces[k])) {
         components.join(i, k);

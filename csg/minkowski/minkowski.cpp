@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/boundary_faces.h"
@@ -167,8 +166,7 @@ class Divider {
       }
       instance.parent = names[instance.parent];
       instance.leaf = leaf;
-      part.box.low = glm::min(part.box.low, instance.box.low);
-      part.box.high = glm::max(part.box.high, instance.box.high);
+      part.box.add(instance.box);
       part.instances.push_back(instance);
     }
     return part;
@@ -180,16 +178,11 @@ class Divider {
 
 // --- Sums --------------------------------------------------------------------
 
-Box3 box_of(const JoinedFaces& surface) {
+Vec3 middle_of(const JoinedFaces& surface) {
   Box3 box;
-  for (const Vec3& vertex : surface.vertices()) {
-    box.low = glm::min(box.low, vertex);
-    box.high = glm::max(box.high, vertex);
-  }
-  return box;
+  box.add(surface.vertices());
+  return box.center();
 }
-
-Vec3 middle_of(const Box3& box) { return (box.low + box.high) / 2.0; }
 
 Body move(Body body, const Vec3& shift) {
   body.shift += shift;
@@ -246,7 +239,7 @@ void add(const Body& a, const Convex& b, Operand& sum) {
   }
   sum.bodies.push_back(move(a, middle(b)));
   if (!b.is_flat) {
-    const Vec3 aim = middle_of(box_of(*a.surface));
+    const Vec3 aim = middle_of(*a.surface);
     for (const Vec3& point : points_of_components(*a.surface, aim)) {
       sum.convex.push_back(move(b, a.shift + point));
     }
@@ -258,9 +251,8 @@ void add(const Body& a, const Convex& b, Operand& sum) {
 // middle of the sum if it can be: the box of a body may be larger than itself,
 // and should not reach beyond the sum.
 void add_copies(const Body& body, const Body& other, Operand& sum) {
-  const Vec3 aim = middle_of(box_of(*body.surface)) +
-                   middle_of(box_of(*other.surface)) -
-                   middle_of(body.scene->box);
+  const Vec3 aim = middle_of(*body.surface) + middle_of(*other.surface) -
+                   body.scene->box.center();
   for (const Vec3& point : points_of_components(*other.surface, aim)) {
     sum.bodies.push_back(move(body, other.shift + point));
   }

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <limits>
 
-#include <glm/common.hpp>
-
 #include "csg/limits.h"
 #include "csg/scene.h"
 #include "ldni/section/chain_builder.h"
@@ -64,10 +62,7 @@ class Operands {
     operand.leaf = may_overlap_itself ? 1 : 0;
     operand.is_minuend = scene_.program[0].child_count == 0;
     for (const Contour& contour : contours) {
-      for (const Vec2 point : contour) {
-        operand.box.low = glm::min(operand.box.low, Vec3(point, 0));
-        operand.box.high = glm::max(operand.box.high, Vec3(point, 0));
-      }
+      for (const Vec2 point : contour) operand.box.add(Vec3(point, 0));
       builder_.loop() = contour;
       builder_.close_loop(0, scene_.program[0].child_count, 1);
     }

@@ -40,7 +40,6 @@ bool is_ascii(std::string_view text) {
 }
 
 std::string explain_invalid(std::string_view text) {
-  if (text == "\xef\xbb\xbf") return "byte order mark";
   if (text[0] == '.' || (text[0] >= '0' && text[0] <= '9')) {
     return fmt::format("'{}', which is beyond the greatest number", text);
   }

@@ -6,6 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "base/plane.h"
 #include "slicer/contour/layer_edges.h"
 
@@ -28,36 +31,26 @@ std::vector<Segment> segments_of(const ldni::Contours& contours) {
   return segments;
 }
 
-struct Box {
-  Vec2 low = Vec2(kInfinity);
-  Vec2 high = Vec2(-kInfinity);
-
-  void add(Vec2 point) {
-    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
-    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
-  }
-  double distance(Vec2 point) const {
-    const double x = std::max({low.x - point.x, point.x - high.x, 0.0});
-    const double y = std::max({low.y - point.y, point.y - high.y, 0.0});
-    return std::sqrt(x * x + y * y);
-  }
-};
+double distance_to(const Box2& box, Vec2 point) {
+  const Vec2 gap =
+      glm::max(glm::max(box.low - point, point - box.high), Vec2(0));
+  return glm::length(gap);
+}
 
 // Finds edges of one set by place.
 class EdgeTree {
  public:
   explicit EdgeTree(std::vector<Segment> segments)
       : segments_(std::move(segments)) {
-    std::vector<Box> boxes(segments_.size());
+    std::vector<Box2> boxes(segments_.size());
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       boxes[i].add(segments_[i].from);
       boxes[i].add(segments_[i].to);
     }
     while (boxes.size() > 1) {
-      std::vector<Box> wider((boxes.size() + kFanOut - 1) / kFanOut);
+      std::vector<Box2> wider((boxes.size() + kFanOut - 1) / kFanOut);
       for (std::size_t i = 0; i < boxes.size(); ++i) {
-        wider[i / kFanOut].add(boxes[i].low);
-        wider[i / kFanOut].add(boxes[i].high);
+        wider[i / kFanOut].add(boxes[i]);
       }
       levels_.push_back(std::move(boxes));
       boxes = std::move(wider);
@@ -88,7 +81,7 @@ class EdgeTree {
     while (!stack_.empty()) {
       const auto [level, index] = stack_.back();
       stack_.pop_back();
-      if (levels_[level][index].distance(point) >= best) continue;
+      if (distance_to(levels_[level][index], point) >= best) continue;
       if (level == 0) {
         const double here = distance(index, point);
         if (here < best) {
@@ -117,7 +110,7 @@ class EdgeTree {
   };
 
   std::vector<Segment> segments_;
-  std::vector<std::vector<Box>> levels_;  // 0: of the edges
+  std::vector<std::vector<Box2>> levels_;  // 0: of the edges
   mutable std::vector<Entry> stack_;
 };
 

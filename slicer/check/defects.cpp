@@ -120,17 +120,16 @@ class EdgeGrid {
   void choose_cells() {
     constexpr double kMostCells = 64;
     if (edges_.empty()) return;
-    Vec2 low = edges_.front().from;
-    Vec2 high = low;
+    Box2 box;
     Vec2 way(0);
     for (const Edge& edge : edges_) {
-      low = glm::min(low, glm::min(edge.from, edge.to));
-      high = glm::max(high, glm::max(edge.from, edge.to));
+      box.add(edge.from);
+      box.add(edge.to);
       way += glm::abs(edge.to - edge.from);
     }
     // A layer without width has one column.
     constexpr double kNoSize = 1e-150;
-    const Vec2 size = glm::max(high - low, Vec2(kNoSize));
+    const Vec2 size = glm::max(box.size(), Vec2(kNoSize));
     const auto wanted = static_cast<double>(edges_.size());
     const Vec2 most = kMostCells * wanted * size / glm::max(way, size);
     const double columns = std::clamp(std::sqrt(wanted * size.x / size.y), 1.0,
@@ -138,7 +137,7 @@ class EdgeGrid {
     const double rows = std::clamp(wanted / columns, 1.0, most.y);
     const auto column_count = static_cast<std::uint32_t>(columns);
     const auto row_count = static_cast<std::uint32_t>(rows);
-    grid_ = {low, Vec2(column_count, row_count) / size, column_count,
+    grid_ = {box.low, Vec2(column_count, row_count) / size, column_count,
              row_count};
   }
 

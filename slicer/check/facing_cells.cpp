@@ -68,12 +68,8 @@ void FacingCells::build(std::span<const LayerEdge> edges, double width) {
 }
 
 void FacingCells::choose_cells() {
-  Vec2 low = edges_.front().from;
-  Vec2 high = low;
-  for (const LayerEdge& edge : edges_) {
-    low = glm::min(low, edge.from);
-    high = glm::max(high, edge.from);
-  }
+  Box2 box;
+  for (const LayerEdge& edge : edges_) box.add(edge.from);
   // Where all edges are long they would stand in too many cells.
   constexpr double kMostCells = 64;
   double way = 0;
@@ -82,12 +78,12 @@ void FacingCells::choose_cells() {
     way += along.x + along.y;
   }
   const auto count = static_cast<double>(edges_.size());
-  const Vec2 size = high - low;
+  const Vec2 size = box.size();
   const double wanted = kCellsPerEdge * count;
   const double cell =
       std::max({2 * margin_, std::sqrt(size.x * size.y / wanted),
                 std::max(size.x, size.y) / wanted, way / (kMostCells * count)});
-  grid_ = {low, high, 1 / cell};
+  grid_ = {box, 1 / cell};
 }
 
 template <typename Visit>

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "base/loop_area.h"
 #include "slicer/check/defects.h"
@@ -47,8 +46,7 @@ void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
                            defect.place.y));
   }
   for (const Vec2& point : layer.contours.points) {
-    found_.box.low = glm::min(found_.box.low, Vec3(point, layer.bottom));
-    found_.box.high = glm::max(found_.box.high, Vec3(point, layer.top));
+    found_.box.add(Box3{Vec3(point, layer.bottom), Vec3(point, layer.top)});
   }
   found_.greatest_coordinate = std::max(
       found_.greatest_coordinate, greatest_coordinate(layer.contours.points));

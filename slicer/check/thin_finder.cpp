@@ -334,8 +334,7 @@ void ThinFinder::add_small_loops() {
     double doubled_area = 0;
     double length = 0;
     Vec2 moment(0);  // first moment of six times the area
-    Vec2 low = origin;
-    Vec2 high = origin;
+    Box2 box;
     std::size_t longest = begin;
     for (end = begin; end < edges_.size() && edges_[end].loop == loop; ++end) {
       const Vec2 a = edges_[end].from - origin;
@@ -343,15 +342,14 @@ void ThinFinder::add_small_loops() {
       doubled_area += cross(a, b);
       moment += cross(a, b) * (a + b);
       length += edges_[end].length;
-      low = glm::min(low, edges_[end].from);
-      high = glm::max(high, edges_[end].from);
+      box.add(edges_[end].from);
       if (edges_[end].length > edges_[longest].length) longest = end;
     }
     const double width = 2 * std::abs(doubled_area) / length;
     if (is_thin_[loop] || !(width < width_) || doubled_area == 0) continue;
     // The centroid of a loop that crosses itself may lie anywhere.
     const Vec2 centre =
-        glm::clamp(origin + moment / (3 * doubled_area), low, high);
+        glm::clamp(origin + moment / (3 * doubled_area), box.low, box.high);
     const Vec2 side = edges_[longest].from +
                       (edges_[longest].length / 2) * edges_[longest].along;
     stretches_->push_back({doubled_area > 0 ? ThinKind::kWall : ThinKind::kGap,

@@ -25,12 +25,8 @@ class Nesting {
  public:
   explicit Nesting(const Region& region) : region_(region) {
     for (const Contour& contour : region.contours) {
-      Box box{contour.front(), contour.front(), std::abs(sliver_area(contour))};
-      for (const Vec2& p : contour) {
-        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-      }
-      boxes_.push_back(box);
+      boxes_.emplace_back().add(contour);
+      areas_.push_back(std::abs(sliver_area(contour)));
     }
   }
 
@@ -39,9 +35,9 @@ class Nesting {
   std::size_t innermost(Vec2 point, std::size_t skipped = kNone) const {
     std::size_t result = kNone;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      const Box& box = boxes_[i];
+      const Box2& box = boxes_[i];
       if (i == skipped) continue;
-      if ((result == kNone || box.area < boxes_[result].area) &&
+      if ((result == kNone || areas_[i] < areas_[result]) &&
           point.x > box.low.x && point.x < box.high.x && point.y > box.low.y &&
           point.y < box.high.y &&
           winding_number(region_.contours[i], point) != 0) {
@@ -52,13 +48,9 @@ class Nesting {
   }
 
  private:
-  struct Box {
-    Vec2 low;
-    Vec2 high;
-    double area;
-  };
   const Region& region_;
-  std::vector<Box> boxes_;
+  std::vector<Box2> boxes_;    // of the loops
+  std::vector<double> areas_;  // and what they enclose, at least 0
 };
 
 // What happened to the components that shrink: regions, or holes and the

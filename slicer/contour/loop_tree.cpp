@@ -53,19 +53,16 @@ void LoopTree::fill(std::span<const Vec2> points,
 // near each other are mostly neighbours.
 void LoopTree::sort_loops() {
   order_.clear();
-  Vec2 low(1e300);
-  Vec2 high(-1e300);
+  Box2 box;
   for (std::uint32_t l = 0; l < ends_.size(); ++l) {
     order_.push_back({0, l});
-    const Vec2& first = points_[vertices_[loop_begin(l)]];
-    low = glm::min(low, first);
-    high = glm::max(high, first);
+    box.add(points_[vertices_[loop_begin(l)]]);
   }
   if (order_.size() < 3) return;
   const double strips = std::sqrt(static_cast<double>(order_.size()));
-  const Vec2 size = glm::max(high - low, Vec2(1e-9));
+  const Vec2 size = glm::max(box.size(), Vec2(1e-9));
   for (auto& [place, l] : order_) {
-    const Vec2 at = (points_[vertices_[loop_begin(l)]] - low) / size;
+    const Vec2 at = (points_[vertices_[loop_begin(l)]] - box.low) / size;
     const auto strip = static_cast<std::uint64_t>(at.x * strips);
     place = strip << 32 | static_cast<std::uint32_t>(at.y * 0x1p31);
   }

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <span>
-
-#include <glm/common.hpp>
 
 #include "base/loop_area.h"
 #include "base/plane.h"
@@ -15,8 +12,7 @@ namespace {
 
 struct Outer {
   std::span<const Vec2> loop;
-  Vec2 low = Vec2(std::numeric_limits<double>::infinity());
-  Vec2 high = -low;
+  Box2 box;
   double whole = 0;  // area [mm²], holes included
   double area = 0;   // the same without the holes
 };
@@ -25,16 +21,8 @@ Outer measure(std::span<const Vec2> loop, double area) {
   Outer outer;
   outer.loop = loop;
   outer.whole = outer.area = area;
-  for (const Vec2& point : loop) {
-    outer.low = glm::min(outer.low, point);
-    outer.high = glm::max(outer.high, point);
-  }
+  outer.box.add(loop);
   return outer;
-}
-
-bool may_hold(const Outer& outer, Vec2 place) {
-  return place.x >= outer.low.x && place.x <= outer.high.x &&
-         place.y >= outer.low.y && place.y <= outer.high.y;
 }
 
 // The innermost outer loop around a hole that begins at `place`; null if there
@@ -42,7 +30,7 @@ bool may_hold(const Outer& outer, Vec2 place) {
 Outer* find_around(std::vector<Outer>& outers, Vec2 place) {
   std::vector<Outer*> candidates;
   for (Outer& outer : outers) {
-    if (may_hold(outer, place)) candidates.push_back(&outer);
+    if (outer.box.holds({place, place})) candidates.push_back(&outer);
   }
   // Most holes lie in one box only.
   if (candidates.size() == 1) return candidates.front();

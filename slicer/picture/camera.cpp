@@ -15,11 +15,7 @@ namespace {
 // The near plane is no nearer than this share of the distance.
 constexpr double kNearest = 0.1;
 
-double radius_of(const Box3& box) {
-  return glm::length(box.high - box.low) / 2;
-}
-
-Vec3 center_of(const Box3& box) { return (box.low + box.high) / 2.0; }
+double radius_of(const Box3& box) { return glm::length(box.size()) / 2; }
 
 }  // namespace
 
@@ -44,10 +40,10 @@ Camera Camera::from_numbers(std::span<const double> numbers) {
   return camera;
 }
 
-void Camera::center_on(const Box3& box) { center = center_of(box); }
+void Camera::center_on(const Box3& box) { center = box.center(); }
 
 void Camera::show_all(const Box3& box) {
-  const double radius = glm::length(center_of(box) - center) + radius_of(box);
+  const double radius = glm::length(box.center() - center) + radius_of(box);
   distance = radius / std::sin(glm::radians(field_deg / 2));
 }
 
@@ -64,7 +60,7 @@ Mat4 Camera::view_from_world() const {
 
 Mat4 Camera::clip_from_view(double aspect, const Box3& box) const {
   const double radius = 1.001 * radius_of(box) + 1e-9;
-  const double depth = -(view_from_world() * Vec4(center_of(box), 1)).z;
+  const double depth = -(view_from_world() * Vec4(box.center(), 1)).z;
   if (projection == Projection::kPerspective) {
     const double near = std::max(depth - radius, kNearest * distance);
     return glm::perspective(glm::radians(field_deg), aspect, near,

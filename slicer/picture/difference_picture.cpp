@@ -52,8 +52,8 @@ class DifferencePicture {
     both_ = to_contours(planar::intersect(regions));
     only_a_ = to_contours(planar::subtract(regions));
     only_b_ = to_contours(planar::subtract(turned));
-    bounds_.add(a);
-    bounds_.add(b);
+    bounds_.add(a.points);
+    bounds_.add(b.points);
     if (a.points.empty() && b.points.empty()) bounds_ = around({0, 0}, 1);
   }
 
@@ -64,7 +64,7 @@ class DifferencePicture {
     draw_words();
     const PixelMap map = fit(bounds_, whole, kPadding);
     draw_field(whole, map);
-    const Bounds window = detail_bounds();
+    const Box2 window = detail_bounds();
     mark(whole, map, window);
     draw_field(detail, fit(window, detail, 0));
     draw_legend(names);
@@ -72,11 +72,11 @@ class DifferencePicture {
   }
 
  private:
-  static Bounds around(Vec2 middle, double size) {
+  static Box2 around(Vec2 middle, double size) {
     return {middle - Vec2(size / 2), middle + Vec2(size / 2)};
   }
 
-  Bounds detail_bounds() const {
+  Box2 detail_bounds() const {
     const Vec2 size = bounds_.size();
     const double largest = std::max({size.x, size.y, kLeastShown});
     const double distance = difference_.distance.distance;
@@ -167,7 +167,7 @@ class DifferencePicture {
   }
 
   // Draws a frame around what the other field shows.
-  void mark(const Rectangle& field, const PixelMap& map, const Bounds& window) {
+  void mark(const Rectangle& field, const PixelMap& map, const Box2& window) {
     constexpr double kLeastFrame = 16;  // pixels
     const Vec2 middle = map(window.center());
     const double half =
@@ -214,7 +214,7 @@ class DifferencePicture {
   ldni::Contours both_;
   ldni::Contours only_a_;
   ldni::Contours only_b_;
-  Bounds bounds_;
+  Box2 bounds_;
 };
 
 }  // namespace

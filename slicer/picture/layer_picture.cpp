@@ -74,10 +74,10 @@ class LayerPicture {
   }
 
  private:
-  Bounds choose_bounds() const {
+  Box2 choose_bounds() const {
     if (layer_.contours.is_empty()) return bounds_of(layers_);
-    Bounds bounds;
-    bounds.add(layer_.contours);
+    Box2 bounds;
+    bounds.add(layer_.contours.points);
     return bounds;
   }
 
@@ -108,8 +108,7 @@ class LayerPicture {
     draw_text(image_, head, {kMargin, 34},
               fitting_size(head, kTitleSize, room));
     const LayerMeasures measures = measure(layer_.contours);
-    const Vec2 size =
-        measures.loops == 0 ? Vec2(0) : bounds_.high - bounds_.low;
+    const Vec2 size = measures.loops == 0 ? Vec2(0) : bounds_.size();
     const std::string words = fmt::format(
         "area {:.4f} mm²    loops {}, holes {}    perimeter {:.3f} mm    "
         "{:.2f} × {:.2f} mm",
@@ -179,7 +178,7 @@ class LayerPicture {
     const Vec2 place = map_(feature.place);
     const std::string words = fmt::format("{:.3f}", feature.width);
     const Vec2 size(text_width(words, kTextSize) + 6, kTextSize + 8);
-    const Bounds box = find_room(place, size);
+    const Box2 box = find_room(place, size);
     taken_.push_back(box);
 
     Coverage lines(field_.width, field_.height);
@@ -211,19 +210,20 @@ class LayerPicture {
 
   // Returns the nearest free room for a label around a place, or the first one
   // tried where all is taken.
-  Bounds find_room(Vec2 place, Vec2 size) const {
+  Box2 find_room(Vec2 place, Vec2 size) const {
     const Vec2 most = Vec2(field_.width, field_.height) - size;
     const auto box_at = [&](int way, double distance) {
       const Vec2 at = place + distance * direction(way, 16) - size / 2.0;
       const Vec2 low(std::clamp(at.x, 0.0, most.x),
                      std::clamp(at.y, 0.0, most.y));
-      return Bounds{low, low + size};
+      return Box2{low, low + size};
     };
     for (int ring = 0; ring < 12; ++ring) {
       for (int way = 0; way < 16; ++way) {
-        const Bounds box = box_at(way, 44 + 18 * ring);
-        const auto is_met = [&](const Bounds& other) {
-          return box.meets(other);
+        const Box2 box = box_at(way, 44 + 18 * ring);
+        const auto is_met = [&](const Box2& other) {
+          return glm::all(glm::lessThan(box.low, other.high)) &&
+                 glm::all(glm::lessThan(other.low, box.high));
         };
         if (std::ranges::none_of(taken_, is_met)) return box;
       }
@@ -246,11 +246,11 @@ class LayerPicture {
   const std::size_t index_;
   const Layer& layer_;
   const LayerPictureOptions options_;
-  const Bounds bounds_;
+  const Box2 bounds_;
   const Rectangle field_;
   const PixelMap map_;
   Image image_;
-  std::vector<Bounds> taken_;  // by rings and labels; in the field [pixels]
+  std::vector<Box2> taken_;  // by rings and labels; in the field [pixels]
 };
 
 }  // namespace

@@ -109,7 +109,7 @@ class Labels {
 };
 
 void draw_title(Image& image, const std::string& title,
-                const std::vector<Layer>& layers, const Bounds& bounds) {
+                const std::vector<Layer>& layers, const Box2& bounds) {
   const std::string text =
       fmt::format("{}    {} layers    {:.2f} × {:.2f} × {:.2f} mm", title,
                   layers.size(), bounds.size().x, bounds.size().y,
@@ -122,7 +122,7 @@ void draw_title(Image& image, const std::string& title,
 
 Image draw_sheet(const std::vector<Layer>& layers, const std::string& title,
                  const SheetOptions& options) {
-  const Bounds bounds = bounds_of(layers);
+  const Box2 bounds = bounds_of(layers);
   const auto available = static_cast<unsigned>(layers.size());
   const Vec2 size = bounds.size();
   const double aspect = std::clamp(size.x / std::max(size.y, 1e-9), 0.3, 4.0);

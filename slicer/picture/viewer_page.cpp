@@ -232,7 +232,7 @@ class PageMaker {
 
   const std::vector<Layer>& layers_;
   const ViewerOptions& options_;
-  const Bounds bounds_;
+  const Box2 bounds_;
   const double step_;
   PointEncoder corners_;
   PointEncoder marks_;

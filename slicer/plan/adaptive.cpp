@@ -54,7 +54,7 @@ Ways ways_from(const Vec3& corner, const Vec3& previous, const Vec3& next,
 
 // Finds the corners where no face goes on upwards (peaks) or downwards (pits).
 //
-// Faces are not joined, so corners that are one may differ by a clipper's grid.
+// Faces are not joined, so corners that are one may differ by rounding.
 // Space is cut into cubes; a corner counts in its own cube and in those that it
 // nearly touches, so that corners that are one count in the same cubes.
 class Corners {
@@ -158,7 +158,7 @@ class PlyLimits {
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3& corner = contour[i];
       if (!is_free(plies_near(corner.z, corner.z))) continue;
-      // The clipper leaves edges that are too short to have a direction.
+      // Booleans leave edges that are too short to have a direction.
       const auto is_apart = [&](std::size_t other) {
         return glm::distance(contour[other % count], corner) > 4 * kReach;
       };

@@ -16,7 +16,7 @@ namespace lamina::slicer {
 namespace {
 
 // Lengths [mm], and sums as a share of the whole surface, that differ by less
-// are equal: so far rounding and the grid of the clipper may move them.
+// are equal: so far the rounding of Booleans may move them.
 constexpr double kSame = kTieDistance;
 
 // What looks down by more than 45° wants supports; 45° but for rounding does

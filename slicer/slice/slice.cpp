@@ -5,7 +5,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "base/thread_clock.h"
 #include "slicer/check/thin_finder.h"
@@ -89,10 +88,7 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
 Box3 box_of(const ldni::Contours& contours) {
   Box3 box;
   box.low.z = box.high.z = 0;
-  for (const Vec2& point : contours.points) {
-    box.low = glm::min(box.low, Vec3(point, 0));
-    box.high = glm::max(box.high, Vec3(point, 0));
-  }
+  for (const Vec2& point : contours.points) box.add(Vec3(point, 0));
   return box;
 }
 

@@ -83,10 +83,10 @@ TEST(CellGrid, IsOneCellByDefault) {
 }
 
 TEST(CellGrid, HasACellForEachPointOfTheBox) {
-  const CellGrid grid(Vec2(0), Vec2(4, 2), 2.0);
+  const CellGrid grid(Box2{Vec2(0), Vec2(4, 2)}, 2.0);
   EXPECT_EQ(grid.size(), 9U * 5U);
   EXPECT_NE(grid.cell_of({4, 2}), grid.cell_of({3.9, 1.9}));
-  EXPECT_EQ(CellGrid(Vec2(3), Vec2(3), 1.0).size(), 1U);
+  EXPECT_EQ(CellGrid(Box2{Vec2(3), Vec2(3)}, 1.0).size(), 1U);
 }
 
 // Within the box of the cells, which the segments leave on all sides.

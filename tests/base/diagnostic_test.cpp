@@ -108,12 +108,6 @@ TEST(SyntaxErrors, TellWhatNoTextMayHold) {
             "    1 | ?;\n"
             "      | ^\n"
             "note: unexpected byte 0xE9, which is no UTF-8\n");
-  EXPECT_EQ(Parsed("\xef\xbb\xbf"
-                   "cube();")
-                .messages()[0]
-                .hints[0]
-                .message,
-            "unexpected byte order mark");
   EXPECT_EQ(Parsed("x = 1e999;").messages()[0].hints[0].message,
             "unexpected '1e999', which is beyond the greatest number");
 }

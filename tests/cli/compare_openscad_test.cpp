@@ -65,6 +65,24 @@ TEST(CompareWithOpenscad, ALimitEndsIt) {
       << result.errors;
 }
 
+// A program of that name that says it is of 2025, and makes h 3.
+TEST(CompareWithOpenscad, ReadsTheDesignAsTheInstalledVersionDoes) {
+  const TemporaryFolder folder;
+  const std::string newer = folder.write(
+      "openscad",
+      "#!/bin/sh\n"
+      "[ \"$1\" != --version ] || exec echo OpenSCAD version 2025.07.18\n"
+      "exec /usr/bin/openscad -D h=3 \"$@\"\n");
+  fs::permissions(newer, fs::perms::owner_all);
+  folder.write("a.scad", "h = version()[0] > 2024 ? 3 : 2; cube([1, 1, h]);\n");
+  const ProcessResult result = support::run_process(
+      {"env", "PATH=" + folder.path() + ":/usr/bin:/bin", LAMINA_PROGRAM,
+       "compare", "a.scad", "--against", "openscad"},
+      folder.path());
+  EXPECT_EQ(result.status, 0) << result.output << result.errors;
+  EXPECT_TRUE(contains(result.output, "2025.07.18")) << result.output;
+}
+
 // Changes with what the examples share.
 std::string libraries_of(const fs::path& examples) {
   std::string all;

@@ -2,6 +2,7 @@
 // designs, shifted parts, broken files.
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -121,7 +122,7 @@ TEST_F(Compare, AnotherDesignDiffersByAsMuchAsItIsLarger) {
   const auto& first = json["layers"][0];
   EXPECT_NEAR(first["distance"], 0.25, 0.002);
   // (r + 0.25)² - r² of polygons of 60 corners, outside less inside.
-  const double share = 60 * std::sin(2 * 3.14159265358979 / 60) / 2;
+  const double share = 60 * std::sin(2 * std::numbers::pi / 60) / 2;
   EXPECT_NEAR(first["only_b"], share * (8.25 * 8.25 - 64), 0.01);
   EXPECT_NEAR(first["only_a"], share * (6.75 * 6.75 - 6.5 * 6.5), 0.01);
 }

@@ -3,7 +3,6 @@
 // of each kind, LAMINA_NEF_SEED where to begin.
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -12,18 +11,14 @@
 #include "tests/oracle/whole_solid.h"
 #include "tests/oracle/world_scene.h"
 #include "tests/support/design.h"
+#include "tests/support/environment.h"
 #include "tests/support/random_design.h"
 
 namespace lamina::oracle {
 namespace {
 
+using support::number_from;
 using support::RandomKind;
-
-std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
-  const char* text = std::getenv(variable);
-  if (text == nullptr) return otherwise;
-  return static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10));
-}
 
 class NefDesigns : public ::testing::TestWithParam<RandomKind> {};
 

@@ -1,33 +1,26 @@
-// Exact sections judge random designs. A failure prints the design.
+// Exact sections judge random designs, as many of each kind as
+// LAMINA_RANDOM_DESIGNS says. A failure prints the design.
 // bench/random_suite tries many more.
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/oracle/random_suite.h"
+#include "tests/support/environment.h"
 #include "tests/support/random_design.h"
 
 namespace lamina::oracle {
 namespace {
 
-// How many designs of each kind: LAMINA_RANDOM_DESIGNS, else a quick few.
-std::uint32_t design_count() {
-  constexpr std::uint32_t kQuick = 50;
-  const char* wanted = std::getenv("LAMINA_RANDOM_DESIGNS");
-  if (wanted == nullptr) return kQuick;
-  return static_cast<std::uint32_t>(std::strtoul(wanted, nullptr, 10));
-}
-
 class RandomDesigns : public ::testing::TestWithParam<RandomKind> {};
 
 TEST_P(RandomDesigns, EqualTheirExactSections) {
   constexpr std::size_t kLayers = 8;
+  const std::uint32_t count = support::number_from("LAMINA_RANDOM_DESIGNS", 50);
   SuiteTally tally;
-  for (std::uint32_t seed = 1; seed <= design_count() && tally.failures < 5;
-       ++seed) {
+  for (std::uint32_t seed = 1; seed <= count && tally.failures < 5; ++seed) {
     EXPECT_EQ(try_design(GetParam(), seed, kLayers, tally), "");
   }
   EXPECT_LT(tally.empty_designs, tally.designs) << "nothing was judged";

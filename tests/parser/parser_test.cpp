@@ -143,6 +143,12 @@ TEST(Blanks, MayBeNoBreakSpaces) {
                 .ast(),
             "//Parameter(\"\")\nx = 1;\n");
 }
+TEST(Blanks, MayBeByteOrderMarks) {
+  EXPECT_EQ(Parsed("\xef\xbb\xbf"
+                   "x = 1;")
+                .ast(),
+            "//Parameter(\"\")\nx = 1;\n");
+}
 
 TEST(Comments, EndWhereTheyShould) {
   EXPECT_EQ(Parsed::expression("1/**/+/***/2/* // */+3// */\n"),
@@ -155,7 +161,8 @@ TEST(Commas, MayBeRepeatedWhereOpenscadAllowsIt) {
   EXPECT_EQ(Parsed::expression("[1,,a,,]"), "[1, a]");
   EXPECT_EQ(Parsed::expression("[,,]"), "[]");
   EXPECT_EQ(Parsed::expression("f(,1,,2)"), "f(1, 2)");
-  EXPECT_EQ(Parsed::expression("f(1,)"), "syntax error");
+  EXPECT_EQ(Parsed::expression("f(1,)"), "f(1)");
+  EXPECT_EQ(Parsed::expression("f(1,,)"), "syntax error");
   EXPECT_EQ(Parsed::expression("[,1]"), "syntax error");
   EXPECT_EQ(Parsed::expression("function(a,,b=1,) a"), "function(a, b = 1) a");
 }

@@ -3,22 +3,18 @@
 // laws steered by coverage: tests/fuzz/scene_fuzzer.cpp.
 
 #include <cstdint>
-#include <cstdlib>
 #include <iostream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/environment.h"
 #include "tests/support/scene_laws.h"
 
 namespace lamina {
 namespace {
 
-std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
-  const char* text = std::getenv(variable);
-  if (text == nullptr) return otherwise;
-  return static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10));
-}
+using support::number_from;
 
 class RandomLaws : public ::testing::TestWithParam<std::size_t> {};
 

@@ -1,6 +1,7 @@
 #include "csg/eval/builtin/call.h"
 
 #include "csg/eval/code/argument_plan.h"
+#include "csg/eval/value/text.h"
 
 namespace lamina::csg {
 
@@ -9,7 +10,7 @@ std::vector<Value> run_named_arguments(
     const CallCode& code, Frame& frame) {
   const ArgumentPlan plan =
       plan_arguments(make_parameters(parameters), positional, code.arguments,
-                     frame.in.dynamic_names());
+                     frame.in.dynamic_names(), frame.in.language());
   for (const std::string& warning : plan.warnings) {
     frame.in.warn(code.range, warning, frame.document);
   }
@@ -23,12 +24,51 @@ std::vector<Value> run_named_arguments(
   return values;
 }
 
-Value wrong_count(const CallCode& code, Frame& frame) {
-  return warn(code, frame, "{}() number of parameters does not match",
-              code.name);
+Value wrong_count(const CallCode& code, Frame& frame,
+                  std::string_view expected) {
+  if (frame.in.is_2021()) {
+    return warn(code, frame, "{}() number of parameters does not match",
+                code.name);
+  }
+  return wrong_count_of_new(code, frame, expected);
 }
-Value wrong_type(const CallCode& code, Frame& frame) {
-  return warn(code, frame, "{}() parameter could not be converted", code.name);
+
+Value wrong_count_of_new(const CallCode& code, Frame& frame,
+                         std::string_view expected) {
+  // The arguments are evaluated before they are counted.
+  for (const WrittenArgument& argument : code.arguments) {
+    run(argument.value, frame);
+  }
+  return warn_in_file(
+      code, frame,
+      "{}() number of parameters does not match: expected {}, found {}",
+      code.name, expected, code.arguments.size());
+}
+
+Value wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
+                 Type expected, const Value& found) {
+  if (frame.in.is_2021()) {
+    return warn(code, frame, "{}() parameter could not be converted",
+                code.name);
+  }
+  return wrong_type_of_new(code, frame, argument, expected, found);
+}
+
+Value newly_wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
+                       Type expected, const Value& found) {
+  if (frame.in.is_2021()) return Value();
+  return wrong_type_of_new(code, frame, argument, expected, found);
+}
+
+Value wrong_type_of_new(const CallCode& code, Frame& frame,
+                        std::size_t argument, Type expected,
+                        const Value& found) {
+  return warn_in_file(
+      code, frame,
+      "{}() parameter could not be converted: argument {}: expected "
+      "{}, found {} ({})",
+      code.name, argument, type_name(expected), type_name(found.type()),
+      to_echo(found));
 }
 
 }  // namespace lamina::csg

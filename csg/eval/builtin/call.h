@@ -14,8 +14,23 @@
 
 namespace lamina::csg {
 
-// Warns and returns undef, as do those below.
-Value wrong_count(const CallCode& code, Frame& frame);
+// These warn and return undef.
+//
+// A call has not as many arguments as expected ("1", "3 or 4").
+Value wrong_count(const CallCode& code, Frame& frame,
+                  std::string_view expected);
+// An argument is `found`, which has not the type that was expected.
+Value wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
+                 Type expected, const Value& found);
+// The same where 2021.01 says nothing: then only 2026 warns.
+Value newly_wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
+                       Type expected, const Value& found);
+// The same of functions that 2021.01 has not.
+Value wrong_count_of_new(const CallCode& code, Frame& frame,
+                         std::string_view expected);
+Value wrong_type_of_new(const CallCode& code, Frame& frame,
+                        std::size_t argument, Type expected,
+                        const Value& found);
 
 inline Value argument(const CallCode& code, std::size_t i, Frame& frame) {
   return run(code.arguments[i].value, frame);
@@ -25,7 +40,7 @@ inline Value argument(const CallCode& code, std::size_t i, Frame& frame) {
 template <typename MakeResult>
 Value with_argument(const CallCode& code, Frame& frame,
                     const MakeResult& make_result) {
-  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  if (code.arguments.size() != 1) return wrong_count(code, frame, "1");
   Value spill;
   return make_result(look(code.arguments[0].value, frame, spill));
 }
@@ -53,6 +68,5 @@ Value warn_in_file(const CallCode& code, Frame& frame,
                 frame.document);
   return Value();
 }
-Value wrong_type(const CallCode& code, Frame& frame);
 
 }  // namespace lamina::csg

@@ -13,14 +13,19 @@ namespace {
 
 // --- About the program and its values ---------------------------------------
 
-constexpr double kVersion[] = {2021, 1, 0};
+// Of the OpenSCAD that the design is written for.
+Value version_of(Language language) {
+  constexpr double k2021[] = {2021, 1, 0};
+  constexpr double k2026[] = {2026, 7, 20};
+  return Value::numbers(language == Language::k2021 ? k2021 : k2026);
+}
 
-Value builtin_version(const CallCode&, Frame&) {
-  return Value::numbers(kVersion);
+Value builtin_version(const CallCode&, Frame& frame) {
+  return version_of(frame.in.language());
 }
 
 Value builtin_version_num(const CallCode& code, Frame& frame) {
-  const Value version = code.arguments.empty() ? Value::numbers(kVersion)
+  const Value version = code.arguments.empty() ? version_of(frame.in.language())
                                                : argument(code, 0, frame);
   const std::span<const Value> parts = version.elements();
   if (parts.size() != 2 && parts.size() != 3) return Value();
@@ -37,10 +42,12 @@ Value builtin_parent_module(const CallCode& code, Frame& frame) {
   double number = 1;
   if (code.arguments.size() == 1) {
     const Value value = argument(code, 0, frame);
-    if (!value.is_number()) return Value();
+    if (!value.is_number()) {
+      return newly_wrong_type(code, frame, 0, Type::kNumber, value);
+    }
     number = value.as_number();
   } else if (code.arguments.size() > 1) {
-    return wrong_count(code, frame);
+    return wrong_count(code, frame, "1");
   }
   const int n = cut_to<int>(number);
   const auto& names = frame.in.module_names;
@@ -120,7 +127,7 @@ Value builtin_is_undef(const CallCode& code, Frame& frame) {
 Value call_math(const CallCode& code, Frame& frame) {
   return with_argument(code, frame, [&](const Value& value) {
     return value.is_number() ? Value(code.math(value.as_number()))
-                             : wrong_type(code, frame);
+                             : wrong_type(code, frame, 0, Type::kNumber, value);
   });
 }
 

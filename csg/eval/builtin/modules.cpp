@@ -1,10 +1,12 @@
 #include "csg/eval/builtin/modules.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "csg/eval/code/argument_plan.h"
+#include "csg/eval/run/arguments.h"
 #include "csg/eval/run/each_value.h"
 #include "csg/eval/value/operators.h"
 #include "csg/eval/value/text.h"
@@ -16,14 +18,15 @@ ModuleCall::ModuleCall(const BuiltinModuleCode& called, Frame& caller)
   for (const std::string& warning : code.plan->warnings) {
     frame.in.warn(code.range, warning, frame.document);
   }
-  for (const BoundArgument& bound : code.plan->bound) {
-    Value value = run(code.arguments[bound.written].value, frame);
-    if (bound.target.kind == Target::Kind::kSlot) {
-      values_[bound.target.index] = std::move(value);
-    } else {
-      frame.in.assign(bound.target, std::move(value), frame);
-    }
-  }
+  bind(run_arguments(*code.plan, code.arguments, frame,
+                     [&](const Target& target, Value&& value) {
+                       if (target.kind == Target::Kind::kSlot) {
+                         values_[target.index] = std::move(value);
+                       } else {
+                         in.assign(target, std::move(value), frame);
+                       }
+                     }),
+       in);
 }
 
 const Value& ModuleCall::operator[](std::string_view parameter) const {
@@ -59,37 +62,35 @@ void run_child(std::size_t n, Frame& frame) {
   instantiate(*frame.children->statements[n], *frame.children_frame);
 }
 
-// One of the children by number.
-void child_at(int n, Frame& frame) {
-  if (n < 0) {
-    warn({}, frame, "Negative children index ({}) not allowed", n);
-  } else if (static_cast<std::size_t>(n) >= count_children(frame)) {
-    warn({}, frame, "Children index ({}) out of bounds ({} children)", n,
-         count_children(frame));
-  } else {
-    run_child(static_cast<std::size_t>(n), frame);
+// Whether there is a child of that number; warns if not.
+bool has_child(int n, SourceRange place, Frame& frame) {
+  const bool is_2021 = frame.in.is_2021();
+  if (n >= 0 && static_cast<std::size_t>(n) < count_children(frame)) {
+    return true;
   }
+  if (is_2021 && n < 0) {
+    warn({}, frame, "Negative children index ({}) not allowed", n);
+  } else {
+    warn(is_2021 ? SourceRange() : place, frame,
+         "Children index ({}) out of bounds ({} children)", n,
+         count_children(frame));
+  }
+  return false;
 }
 
-void children(const BuiltinModuleCode& code, Frame& frame) {
-  if (frame.children == nullptr) return;  // not inside a module
-  const std::size_t mark = frame.in.node_mark();
-  if (code.arguments.empty()) {
-    for (std::size_t n = 0; n < count_children(frame); ++n) {
-      run_child(n, frame);
-    }
-    frame.in.make_node(Group{}, code, mark);
-    return;
-  }
-  const Value which = run(code.arguments[0].value, frame);
+// Calls `take` with each number in `which`, the argument of children(). False
+// where that is no argument for it, which is warned of.
+template <typename Take>
+bool for_each_index(const Value& which, SourceRange place, Frame& frame,
+                    const Take& take) {
   switch (which.type()) {
     case Type::kNumber:
-      child_at(cut_to<int>(which.as_number()), frame);
-      return;
+      take(cut_to<int>(which.as_number()));
+      return true;
     case Type::kVector:
       for (const Value& one : which.as_vector()) {
         if (one.is_number()) {
-          child_at(cut_to<int>(one.as_number()), frame);
+          take(cut_to<int>(one.as_number()));
         } else {
           warn({}, frame,
                "Bad parameter type ({}) for children, only "
@@ -97,27 +98,54 @@ void children(const BuiltinModuleCode& code, Frame& frame) {
                to_text(one));
         }
       }
-      break;
+      return true;
     case Type::kRange: {
       const Range& range = which.as_range();
       const std::uint32_t count = range.count();
       if (count >= kMostStatementElements) {
-        warn(code.range, frame,
+        warn(place, frame,
              "Bad range parameter for children: too many elements ({})", count);
-        return;
+        return false;
       }
       for (std::uint32_t i = 0; range.step != 0 && i < count; ++i) {
-        child_at(cut_to<int>(range.at(i)), frame);
+        take(cut_to<int>(range.at(i)));
       }
-      break;
+      return true;
     }
     default:
-      warn(code.range, frame,
+      warn(place, frame,
            "Bad parameter type ({}) for children, only "
            "accept: empty, number, vector, range",
            to_echo(which));
-      return;
+      return false;
   }
+}
+
+// In 2021.01 one child alone is not grouped, and the children see what was
+// assigned before the call; since then each children() assigns it anew.
+void children(const BuiltinModuleCode& code, Frame& frame) {
+  if (frame.children == nullptr) return;  // not inside a module
+  const std::size_t mark = frame.in.node_mark();
+  const bool is_2021 = frame.in.is_2021();
+  if (code.arguments.empty()) {
+    if (!is_2021) run_assignments(*frame.children, *frame.children_frame);
+    run_statements(*frame.children, *frame.children_frame);
+    frame.in.make_node(Group{}, code, mark);
+    return;
+  }
+  const Value which = run(code.arguments[0].value, frame);
+  std::vector<std::size_t> chosen;
+  const bool is_fine = for_each_index(which, code.range, frame, [&](int n) {
+    if (!has_child(n, code.range, frame)) return;
+    if (is_2021) {
+      run_child(static_cast<std::size_t>(n), frame);
+    } else {
+      chosen.push_back(static_cast<std::size_t>(n));
+    }
+  });
+  if (!is_fine || (which.is_number() && (is_2021 || chosen.empty()))) return;
+  if (!is_2021) run_assignments(*frame.children, *frame.children_frame);
+  for (const std::size_t n : chosen) run_child(n, frame);
   frame.in.make_node(Group{}, code, mark);
 }
 
@@ -148,41 +176,72 @@ void child(const BuiltinModuleCode& code, Frame& frame) {
 
 using Table = std::unordered_map<std::string_view, BuiltinModuleEntry>;
 
-void add_rows(const std::vector<BuiltinModuleRow>& rows, Table& table) {
-  for (const BuiltinModuleRow& row : rows) {
-    BuiltinModuleEntry entry;
-    entry.handler = row.handler;
-    entry.replacement = row.replacement;
+// In 2026 every parameter can be given by its place. Those that are gone are
+// still known, but calls that give them are warned.
+BuiltinModuleEntry make_entry(const BuiltinModuleRow& row, Language language) {
+  BuiltinModuleEntry entry;
+  entry.handler = row.handler;
+  entry.replacement = row.replacement;
+  std::vector<std::string_view> names = row.positional;
+  names.insert(names.end(), row.optional.begin(), row.optional.end());
+  if (language == Language::k2021) {
     entry.positional_count = row.positional.size();
-    std::vector<std::string_view> names = row.positional;
-    names.insert(names.end(), row.optional.begin(), row.optional.end());
     entry.parameters = make_parameters(names);
-    table[row.name] = std::move(entry);
+    return entry;
+  }
+  std::vector<std::string_view> newer = row.newer.empty() ? names : row.newer;
+  entry.positional_count = newer.size();
+  for (const std::string_view name : names) {
+    if (std::find(newer.begin(), newer.end(), name) == newer.end()) {
+      newer.push_back(name);
+    }
+  }
+  entry.parameters = make_parameters(newer);
+  for (std::size_t i = entry.positional_count; i < newer.size(); ++i) {
+    entry.parameters[i].is_extra = true;
+  }
+  return entry;
+}
+
+void add_rows(const std::vector<BuiltinModuleRow>& rows, Language language,
+              Table& table) {
+  for (const BuiltinModuleRow& row : rows) {
+    table[row.name] = make_entry(row, language);
   }
 }
 
-const Table& builtin_table() {
-  static const Table table = [] {
-    Table made;
-    add_rows(
-        {{"echo", echo, {}}, {"children", children, {}}, {"child", child, {}}},
-        made);
-    add_rows(primitive_rows(), made);
-    add_rows(operation_rows(), made);
-    add_rows(transform_rows(), made);
-    add_rows(file_rows(), made);
+Table make_table(Language language) {
+  Table made;
+  add_rows(
+      {{"echo", echo, {}}, {"children", children, {}}, {"child", child, {}}},
+      language, made);
+  add_rows(primitive_rows(), language, made);
+  add_rows(operation_rows(), language, made);
+  add_rows(transform_rows(), language, made);
+  add_rows(file_rows(), language, made);
+  if (language == Language::k2021) {
     made["linear_extrude"].needs_late_argument = true;
     made["dxf_linear_extrude"].needs_late_argument = true;
-    return made;
-  }();
+  }
+  return made;
+}
+
+const Table& builtin_table(Language language) {
+  if (language == Language::k2021) {
+    static const Table table = make_table(Language::k2021);
+    return table;
+  }
+  static const Table table = make_table(Language::k2026);
   return table;
 }
 
 }  // namespace
 
-const BuiltinModuleEntry* find_builtin_module(std::string_view name) {
-  const auto entry = builtin_table().find(name);
-  return entry == builtin_table().end() ? nullptr : &entry->second;
+const BuiltinModuleEntry* find_builtin_module(std::string_view name,
+                                              Language language) {
+  const Table& table = builtin_table(language);
+  const auto entry = table.find(name);
+  return entry == table.end() ? nullptr : &entry->second;
 }
 
 }  // namespace lamina::csg

@@ -23,7 +23,8 @@ struct BuiltinModuleEntry {
 };
 
 // Null where there is no such module.
-const BuiltinModuleEntry* find_builtin_module(std::string_view name);
+const BuiltinModuleEntry* find_builtin_module(std::string_view name,
+                                              Language language);
 
 // --- For the files that define them ---
 
@@ -51,25 +52,37 @@ class ModuleCall {
   Value values_[kMost];
 };
 
+// Run the block of a module, the first before the module looks at `$`
+// variables.
+inline void begin_block(const Block& block, Frame& frame) {
+  if (block.assigns_before_call) run_assignments(block, frame);
+}
+inline void end_block(const Block& block, Frame& frame) {
+  if (!block.assigns_before_call) run_assignments(block, frame);
+  run_statements(block, frame);
+}
+
 // Runs a module that changes its children; `make` makes the operation of the
-// call, and sees what is assigned among the children.
+// call. In 2021 it sees what is assigned among the children.
 template <auto make>
 void run_operation(const BuiltinModuleCode& code, Frame& frame) {
   const std::size_t mark = frame.in.node_mark();
   const ModuleCall call(code, frame);
-  run_assignments(*code.block, frame);
+  begin_block(*code.block, frame);
   const auto op = make(call);
-  run_statements(*code.block, frame);
+  end_block(*code.block, frame);
   frame.in.make_node(op, code, mark);
 }
 
-// Entries of one file: name, handler, positional parameters, further ones.
+// Entries of one file: name, handler, positional parameters, further ones, all
+// of 2021.01; and all of 2026, in their order, where these are others.
 struct BuiltinModuleRow {
   std::string_view name;
   BuiltinModule handler;
   std::vector<std::string_view> positional;
   std::vector<std::string_view> optional = {};
   std::string_view replacement = {};
+  std::vector<std::string_view> newer = {};
 };
 std::vector<BuiltinModuleRow> primitive_rows();
 std::vector<BuiltinModuleRow> operation_rows();

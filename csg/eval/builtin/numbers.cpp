@@ -13,6 +13,7 @@
 #include "csg/eval/builtin/functions.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/operators.h"
+#include "csg/eval/value/text.h"
 
 namespace lamina::csg {
 
@@ -66,46 +67,83 @@ double atan_deg(double x) {
 
 template <double (*function)(double, double)>
 Value of_two_numbers(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 2) return wrong_count(code, frame);
+  if (code.arguments.size() != 2) return wrong_count(code, frame, "2");
   const Value a = argument(code, 0, frame);
   const Value b = argument(code, 1, frame);
-  if (!a.is_number() || !b.is_number()) return wrong_type(code, frame);
+  if (!a.is_number()) return wrong_type(code, frame, 0, Type::kNumber, a);
+  if (!b.is_number()) return wrong_type(code, frame, 1, Type::kNumber, b);
   return Value(function(a.as_number(), b.as_number()));
 }
 double math_pow(double x, double y) { return std::pow(x, y); }
 
 Value builtin_log(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
-  if (n != 1 && n != 2) return wrong_count(code, frame);
+  if (n != 1 && n != 2) return wrong_count(code, frame, "2");
   const Value first = argument(code, 0, frame);
-  if (!first.is_number()) return wrong_type(code, frame);
+  if (!first.is_number()) {
+    return wrong_type(code, frame, 0, Type::kNumber, first);
+  }
   double base = 10.0;
   double x = first.as_number();
   if (n == 2) {
     const Value second = argument(code, 1, frame);
-    if (!second.is_number()) return wrong_type(code, frame);
+    if (!second.is_number()) {
+      return wrong_type(code, frame, 1, Type::kNumber, second);
+    }
     base = x;
     x = second.as_number();
   }
   return Value(std::log(x) / std::log(base));
 }
 
-// min and max: of the elements of one vector by `<`, else of numbers.
+// min and max: of numbers, or of the elements of one vector; 2021.01 compares
+// these by `<`, whatever they are.
+template <bool is_max>
+Value extreme_element(std::span<const Value> values, const CallCode& code,
+                      Frame& frame) {
+  if (values.empty()) {
+    return warn(code, frame,
+                "{}() number of parameters does not match: expected at least 1 "
+                "vector element, found 0",
+                code.name);
+  }
+  double result = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!values[i].is_number()) {
+      return warn(code, frame,
+                  "{}() parameter could not be converted: vector element {}: "
+                  "expected number, found {} ({})",
+                  code.name, i, type_name(values[i].type()),
+                  to_echo(values[i]));
+    }
+    const double x = values[i].as_number();
+    if (i == 0 || (is_max ? x > result : x < result)) result = x;
+  }
+  return Value(result);
+}
+
 template <bool is_max>
 Value extreme(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
-  if (n == 0) return wrong_count(code, frame);
+  if (n == 0) return wrong_count(code, frame, "at least 1");
   const Value first = argument(code, 0, frame);
+  if (n == 1 && first.is_vector() && !frame.in.is_2021()) {
+    return extreme_element<is_max>(first.as_vector(), code, frame);
+  }
   if (n == 1 && first.is_vector() && !first.as_vector().empty()) {
     const std::span<const Value> values = first.as_vector();
     return is_max ? *std::max_element(values.begin(), values.end(), is_less)
                   : *std::min_element(values.begin(), values.end(), is_less);
   }
-  if (!first.is_number()) return wrong_type(code, frame);
+  if (!first.is_number()) {
+    return wrong_type(code, frame, 0, Type::kNumber, first);
+  }
   double result = first.as_number();
   for (std::size_t i = 1; i < n; ++i) {
     const Value value = argument(code, i, frame);
-    if (!value.is_number()) return wrong_type(code, frame);
+    if (!value.is_number()) {
+      return wrong_type(code, frame, i, Type::kNumber, value);
+    }
     const double x = value.as_number();
     if (is_max ? x > result : x < result) result = x;
   }
@@ -151,18 +189,24 @@ double finite_or(double x, double fallback, std::string_view which,
 
 Value builtin_rands(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
-  if (n != 3 && n != 4) return wrong_count(code, frame);
+  if (n != 3 && n != 4) return wrong_count(code, frame, "3 or 4");
   ++frame.in.effects();
   constexpr double kHalfOfAll = std::numeric_limits<double>::max() / 2;
   const Value first = argument(code, 0, frame);
-  if (!first.is_number()) return Value();
+  if (!first.is_number()) {
+    return newly_wrong_type(code, frame, 0, Type::kNumber, first);
+  }
   double least = finite_or(first.as_number(), -kHalfOfAll, "min", code, frame);
   const Value second = argument(code, 1, frame);
-  if (!second.is_number()) return Value();
+  if (!second.is_number()) {
+    return newly_wrong_type(code, frame, 1, Type::kNumber, second);
+  }
   double most = finite_or(second.as_number(), kHalfOfAll, "max", code, frame);
   if (most < least) std::swap(least, most);
   const Value third = argument(code, 2, frame);
-  if (!third.is_number()) return Value();
+  if (!third.is_number()) {
+    return newly_wrong_type(code, frame, 2, Type::kNumber, third);
+  }
   double count = std::fabs(third.as_number());
   if (!std::isfinite(count)) {
     warn(code, frame, "rands() cannot create an infinite number of results");
@@ -171,7 +215,9 @@ Value builtin_rands(const CallCode& code, Frame& frame) {
   }
   if (n == 4) {
     const Value seed = argument(code, 3, frame);
-    if (!seed.is_number()) return Value();
+    if (!seed.is_number()) {
+      return newly_wrong_type(code, frame, 3, Type::kNumber, seed);
+    }
     frame.in.random.seed(hash_number(seed.as_number()));
   }
   // No memory holds so many: making the list fails.

@@ -19,26 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_count(std::size_t expected, const CallCode& code, Frame& frame) {
-  if (code.arguments.size() == expected) return true;
-  warn_in_file(
-      code, frame,
-      "{}() number of parameters does not match: expected {}, found {}",
-      code.name, expected, code.arguments.size());
-  return false;
-}
-
-bool has_type(Type expected, std::size_t i, const Value& value,
-              const CallCode& code, Frame& frame) {
-  if (value.type() == expected) return true;
-  warn_in_file(code, frame,
-               "{}() parameter could not be converted: argument {}: expected "
-               "{}, found {} ({})",
-               code.name, i, type_name(expected), type_name(value.type()),
-               to_echo(value));
-  return false;
-}
-
 // --- object -----------------------------------------------------------------
 
 constexpr std::string_view kEntryHelp =
@@ -117,18 +97,20 @@ Value builtin_object(const CallCode& code, Frame& frame) {
 }
 
 Value builtin_has_key(const CallCode& code, Frame& frame) {
-  if (!has_count(2, code, frame)) return Value();
+  if (code.arguments.size() != 2) return wrong_count_of_new(code, frame, "2");
   const Value object = run(code.arguments[0].value, frame);
   const Value key = run(code.arguments[1].value, frame);
-  if (!has_type(Type::kObject, 0, object, code, frame) ||
-      !has_type(Type::kString, 1, key, code, frame)) {
-    return Value();
+  if (!object.is_object()) {
+    return wrong_type_of_new(code, frame, 0, Type::kObject, object);
+  }
+  if (!key.is_string()) {
+    return wrong_type_of_new(code, frame, 1, Type::kString, key);
   }
   return Value(has_member(object, key.as_string()));
 }
 
 Value builtin_is_object(const CallCode& code, Frame& frame) {
-  if (!has_count(1, code, frame)) return Value();
+  if (code.arguments.size() != 1) return wrong_count_of_new(code, frame, "1");
   return Value(run(code.arguments[0].value, frame).is_object());
 }
 

@@ -52,8 +52,10 @@ Value radius(const Value& d, const Value& r, std::string_view d_name,
              std::string_view r_name, const ModuleCall& call) {
   if (!d.is_number()) return r.is_number() ? r : Value();
   if (r.is_number()) {
-    call.warn("Ignoring radius variable '{}' as diameter '{}' is defined too.",
-              r_name, d_name);
+    const Language language = call.in.language();
+    call.warn("Ignoring radius variable {} as diameter {} is defined too.",
+              quoted_name(r_name, language, "'"),
+              quoted_name(d_name, language, "'"));
   }
   return Value(d.as_number() / 2.0);
 }

@@ -104,7 +104,7 @@ Value search_in_table(const Value& wanted, const Value& table,
            bad_row, limits.column + 1, to_echo(rows[bad_row]));
       return Value::vector({});
     }
-    if (matches.empty()) {
+    if (matches.empty() && frame.in.is_2021()) {
       warn(code, frame, "search term not found: \"{}\"",
            to_text(wanted.character(i)));
     }
@@ -121,7 +121,9 @@ std::uint32_t to_count(double number) {
 
 Value builtin_search(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
-  if (n < 2) return wrong_count(code, frame);
+  if (n < 2 || (n > 4 && !frame.in.is_2021())) {
+    return wrong_count(code, frame, "between 2 and 4");
+  }
   const Value wanted = argument(code, 0, frame);
   const Value table = argument(code, 1, frame);
   SearchLimits limits;

@@ -59,6 +59,7 @@ Value builtin_chr(const CallCode& code, Frame& frame) {
 
 Value builtin_ord(const CallCode& code, Frame& frame) {
   const std::size_t n = code.arguments.size();
+  if (n != 1 && !frame.in.is_2021()) return wrong_count(code, frame, "1");
   if (n == 0) return Value();
   if (n > 1) {
     return warn(code, frame,
@@ -66,6 +67,9 @@ Value builtin_ord(const CallCode& code, Frame& frame) {
   }
   const Value value = argument(code, 0, frame);
   if (!value.is_string()) {
+    if (!frame.in.is_2021()) {
+      return wrong_type(code, frame, 0, Type::kString, value);
+    }
     return warn(code, frame, "ord() argument {} is not of type string",
                 to_echo(value));
   }
@@ -91,7 +95,7 @@ Value builtin_len(const CallCode& code, Frame& frame) {
     if (value.is_object()) {
       return Value(static_cast<double>(value.as_object().places.size()));
     }
-    return wrong_type(code, frame);
+    return wrong_type(code, frame, 0, Type::kString, value);
   });
 }
 

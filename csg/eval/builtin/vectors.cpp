@@ -26,9 +26,11 @@ Value builtin_concat(const CallCode& code, Frame& frame) {
 }
 
 Value builtin_norm(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 1) return wrong_count(code, frame);
+  if (code.arguments.size() != 1) return wrong_count(code, frame, "1");
   const Value value = argument(code, 0, frame);
-  if (!value.is_vector()) return Value();
+  if (!value.is_vector()) {
+    return newly_wrong_type(code, frame, 0, Type::kVector, value);
+  }
   double sum = 0;
   for (const Value& element : value.as_vector()) {
     if (!element.is_number()) {
@@ -41,12 +43,18 @@ Value builtin_norm(const CallCode& code, Frame& frame) {
 
 Value builtin_cross(const CallCode& code, Frame& frame) {
   if (code.arguments.size() != 2) {
-    return warn(code, frame, "Invalid number of parameters for cross()");
+    return frame.in.is_2021()
+               ? warn(code, frame, "Invalid number of parameters for cross()")
+               : wrong_count(code, frame, "2");
   }
   const Value first = argument(code, 0, frame);
   const Value second = argument(code, 1, frame);
   if (!first.is_vector() || !second.is_vector()) {
-    return warn(code, frame, "Invalid type of parameters for cross()");
+    const std::size_t wrong = first.is_vector() ? 1 : 0;
+    return frame.in.is_2021()
+               ? warn(code, frame, "Invalid type of parameters for cross()")
+               : wrong_type(code, frame, wrong, Type::kVector,
+                            wrong == 0 ? first : second);
   }
   const std::span<const Value> a = first.as_vector();
   const std::span<const Value> b = second.as_vector();
@@ -87,14 +95,20 @@ bool is_pair(const Value& value, double& key, double& result) {
 
 // Linear interpolation in a table of pairs, which need not be sorted.
 Value builtin_lookup(const CallCode& code, Frame& frame) {
-  if (code.arguments.size() != 2) return wrong_count(code, frame);
+  if (code.arguments.size() != 2) return wrong_count(code, frame, "2");
   const Value key = argument(code, 0, frame);
+  if (!key.is_number() && !frame.in.is_2021()) {
+    return wrong_type(code, frame, 0, Type::kNumber, key);
+  }
   if (!key.is_number() || !std::isfinite(key.as_number())) {
     return warn(code, frame, "lookup({}, ...) first argument is not a number",
                 to_echo(argument(code, 0, frame)));
   }
   const double p = key.as_number();
   const Value table = argument(code, 1, frame);
+  if (!table.is_vector()) {
+    return newly_wrong_type(code, frame, 1, Type::kVector, table);
+  }
   const std::span<const Value> rows = table.elements();
   double low = 0;
   double low_value = 0;

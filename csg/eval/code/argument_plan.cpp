@@ -1,6 +1,10 @@
 #include "csg/eval/code/argument_plan.h"
 
 #include <string>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace lamina::csg {
 
@@ -36,57 +40,139 @@ std::vector<Parameter> make_parameters(
   return parameters;
 }
 
-ArgumentPlan plan_arguments(std::span<const Parameter> parameters,
-                            std::size_t positional,
-                            std::span<const WrittenArgument> arguments,
-                            DynamicNames& names, Surplus surplus) {
-  ArgumentPlan plan;
-  const bool warns = surplus == Surplus::kWarn;
-  const ParameterIndex index(parameters);
-  // OpenSCAD evaluates arguments in the order in which its hash table of names
-  // gives them back; the same table gives the same order.
-  std::unordered_map<std::string, std::uint32_t> resolved;
-  std::size_t position = 0;
-  bool has_too_many = false;
-  for (std::uint32_t i = 0; i < arguments.size(); ++i) {
-    const std::string_view name = arguments[i].name;
-    if (!name.empty()) {
-      const Parameter* known = index.find(name);
-      if (warns && name[0] != '$' && (known == nullptr || known->is_extra)) {
-        plan.warnings.push_back("variable " + std::string(name) +
-                                " not specified as parameter");
+namespace {
+
+class Planner {
+ public:
+  Planner(std::span<const Parameter> parameters, std::size_t positional,
+          std::span<const WrittenArgument> arguments, DynamicNames& names,
+          Surplus surplus)
+      : parameters_(parameters),
+        index_(parameters),
+        positional_(positional),
+        arguments_(arguments),
+        names_(names),
+        warns_(surplus == Surplus::kWarn) {}
+
+  // 2021.01 evaluates arguments in the order in which its hash table of names
+  // gives them back; the same table gives the same order. It evaluates the
+  // fallbacks of all parameters, before.
+  ArgumentPlan plan_2021() {
+    std::unordered_map<std::string, std::uint32_t> resolved;
+    std::size_t position = 0;
+    for (std::uint32_t i = 0; i < arguments_.size(); ++i) {
+      const std::string_view name = arguments_[i].name;
+      if (!name.empty()) {
+        warn_of_unknown(name);
+        if (resolved.contains(std::string(name))) {
+          warn("argument {} supplied more than once", name);
+        }
+        resolved[std::string(name)] = i;
+      } else if (position < positional_) {
+        resolved[std::string(parameters_[position++].name)] = i;
+      } else {
+        warn_of_surplus();
       }
-      if (resolved.contains(std::string(name))) {
-        plan.warnings.push_back("argument " + std::string(name) +
-                                " supplied more than once");
-      }
-      resolved[std::string(name)] = i;
-    } else if (position < positional) {
-      resolved[std::string(parameters[position++].name)] = i;
-    } else if (warns && !has_too_many) {
-      plan.warnings.emplace_back("Too many unnamed arguments supplied");
-      has_too_many = true;
     }
+    for (const auto& [name, written] : resolved) bind(name, written);
+    add_defaults([&](const Parameter& parameter) {
+      return !resolved.contains(std::string(parameter.name)) ||
+             !parameter.has_silent_fallback;
+    });
+    return std::move(plan_);
   }
-  for (const auto& [name, written] : resolved) {
+
+  // In the order of the text; then the fallbacks of parameters without a value.
+  ArgumentPlan plan_2026() {
+    plan_.evaluates_fallbacks_last = true;
+    std::unordered_set<std::string_view> named;
+    std::unordered_set<std::string_view> given;
+    std::size_t position = 0;
+    for (std::uint32_t i = 0; i < arguments_.size(); ++i) {
+      std::string_view name = arguments_[i].name;
+      if (!name.empty()) {
+        if (named.contains(name)) {
+          warn("argument \"{}\" supplied more than once", name);
+        } else if (given.contains(name)) {
+          warn("argument \"{}\" overrides positional argument", name);
+        } else {
+          warn_of_unknown(name);
+        }
+        named.insert(name);
+      }
+      while (name.empty() && position < positional_) {
+        const std::string_view next = parameters_[position++].name;
+        if (!named.contains(next)) name = next;
+      }
+      if (name.empty()) warn_of_surplus();
+      given.insert(name);
+      bind(name, i);
+    }
+    add_defaults([&](const Parameter& parameter) {
+      return !given.contains(parameter.name);
+    });
+    return std::move(plan_);
+  }
+
+ private:
+  template <typename... Parts>
+  void warn(fmt::format_string<Parts...> words, Parts&&... parts) {
+    plan_.warnings.push_back(fmt::format(words, std::forward<Parts>(parts)...));
+  }
+  void warn_of_unknown(std::string_view name) {
+    const Parameter* known = index_.find(name);
+    if (!warns_ || name[0] == '$') return;
+    if (known != nullptr && !known->is_extra) return;
+    const Language language =
+        plan_.evaluates_fallbacks_last ? Language::k2026 : Language::k2021;
+    warn("variable {} not specified as parameter",
+         quoted_name(name, language, ""));
+  }
+  void warn_of_surplus() {
+    if (warns_ && !has_too_many_) warn("Too many unnamed arguments supplied");
+    has_too_many_ = true;
+  }
+
+  void bind(std::string_view name, std::uint32_t written) {
     BoundArgument bound;
     bound.written = written;
-    const Parameter* parameter = index.find(name);
+    const Parameter* parameter = index_.find(name);
     if (parameter != nullptr) {
       bound.target = parameter->target;
     } else if (is_dynamic_name(name)) {
-      bound.target = {Target::Kind::kDynamic, names.number_of(name), nullptr};
+      bound.target = {Target::Kind::kDynamic, names_.number_of(name), nullptr};
     }
-    plan.bound.push_back(bound);
+    plan_.bound.push_back(bound);
   }
-  for (std::uint32_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].is_extra &&
-        (!resolved.contains(std::string(parameters[i].name)) ||
-         !parameters[i].has_silent_fallback)) {
-      plan.defaults.push_back(i);
+  template <typename IsNeeded>
+  void add_defaults(const IsNeeded& is_needed) {
+    for (std::uint32_t i = 0; i < parameters_.size(); ++i) {
+      if (!parameters_[i].is_extra && is_needed(parameters_[i])) {
+        plan_.defaults.push_back(i);
+      }
     }
   }
-  return plan;
+
+  std::span<const Parameter> parameters_;
+  ParameterIndex index_;
+  std::size_t positional_;
+  std::span<const WrittenArgument> arguments_;
+  DynamicNames& names_;
+  bool warns_;
+  bool has_too_many_ = false;
+  ArgumentPlan plan_;
+};
+
+}  // namespace
+
+ArgumentPlan plan_arguments(std::span<const Parameter> parameters,
+                            std::size_t positional,
+                            std::span<const WrittenArgument> arguments,
+                            DynamicNames& names, Language language,
+                            Surplus surplus) {
+  Planner planner(parameters, positional, arguments, names, surplus);
+  return language == Language::k2021 ? planner.plan_2021()
+                                     : planner.plan_2026();
 }
 
 }  // namespace lamina::csg

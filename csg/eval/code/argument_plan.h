@@ -9,6 +9,7 @@
 
 #include "csg/eval/code/code.h"
 #include "csg/eval/code/dynamic_names.h"
+#include "parser/language.h"
 
 namespace lamina::csg {
 
@@ -33,10 +34,13 @@ enum class Surplus : std::uint8_t { kWarn, kSilent };
 
 // positional  how many parameters arguments without a name reach; names reach
 //             all
+// language    2021: an argument without a name goes to the parameter at its
+//             place, named or not, and the last one counts. 2026: to the next
+//             parameter that has no value.
 ArgumentPlan plan_arguments(std::span<const Parameter> parameters,
                             std::size_t positional,
                             std::span<const WrittenArgument> arguments,
-                            DynamicNames& names,
+                            DynamicNames& names, Language language,
                             Surplus surplus = Surplus::kWarn);
 
 }  // namespace lamina::csg

@@ -249,9 +249,12 @@ struct BoundArgument {
 };
 // How the arguments of a call meet parameters, settled once per call site.
 struct ArgumentPlan {
-  // In the order in which OpenSCAD evaluates them: that of a hash table.
+  // In the order in which OpenSCAD evaluates them.
   std::vector<BoundArgument> bound;
   std::vector<std::uint32_t> defaults;  // parameters whose fallback is needed
+  // Fallbacks are evaluated after the arguments, and `$` variables among these
+  // are set after both. Else each is set at once, fallbacks first.
+  bool evaluates_fallbacks_last = false;
   std::vector<std::string> warnings;
 };
 
@@ -320,15 +323,19 @@ struct CallCode : Expression {
   // names of the arguments once, so their warnings come once.
   bool is_self_call = false;
   // Such a call is a jump (`is_jump`) where it names the parameters of this
-  // version only. It leaves out arguments that pass a parameter on to itself,
-  // and its fallbacks are evaluated once per call site, in the scope of the
-  // call, as in OpenSCAD.
+  // version only. It leaves out arguments that pass a parameter on to itself.
+  // As in OpenSCAD 2021.01, its fallbacks are evaluated once per call site, in
+  // the scope of the call; since then each time, in that of the definition.
   struct TailDefault {
     Target target;
     const Expression* value = nullptr;
     std::uint32_t number = 0;  // among the fallbacks of all jumps
+    bool is_evaluated_once = true;
   };
   bool is_jump = false;
+  // In tail position, so that a later OpenSCAD than 2021.01 needs no stack for
+  // it, whatever it calls.
+  bool may_be_deferred = false;
   std::span<const BoundArgument> tail_arguments;
   std::span<const TailDefault> tail_defaults;
 };
@@ -349,6 +356,9 @@ struct InstantiationCode {
 // `{ … }` behind a module: assignments, then instantiations.
 struct Block {
   Bindings assignments;
+  // The assignments belong to the call: they run once, before its arguments.
+  // Else they run whenever the children do.
+  bool assigns_before_call = true;
   std::span<const InstantiationCode* const> statements;
   // Variables of the block that code may read before they are set.
   std::span<const std::uint32_t> resets;

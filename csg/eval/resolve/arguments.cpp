@@ -160,7 +160,7 @@ const LiteralCall& Resolver::plan_for(const CallCode& call,
     planned.literal = &with_extras(literal, call.arguments);
     planned.plan = plan_arguments(planned.literal->parameters,
                                   literal.definition->parameters.size(),
-                                  call.arguments, names_);
+                                  call.arguments, names_, options_.language);
   }
   return planned;
 }

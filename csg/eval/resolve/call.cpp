@@ -58,7 +58,7 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
       }
       code->plan = &resolver_.keep_plan(plan_arguments(
           code->function->parameters, callee.code->parameters.size(),
-          code->arguments, resolver_.names()));
+          code->arguments, resolver_.names(), resolver_.language()));
       if (code->callee == nullptr) code->run = run_call_function;
     } else if (code->callee == nullptr) {
       code->run = code->builtin == nullptr ? run_call_unknown
@@ -72,10 +72,18 @@ const Expression* ExpressionResolver::call(const ast::Call& call,
   return code;
 }
 
-// Makes a jump of a call by which a function calls itself last.
+// Makes a jump of a call by which a function calls itself last, and lets others
+// be deferred.
 void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
   Activation& here = *scope_->activation;
-  if (here.callable == nullptr || !code.is_name) return;
+  if (here.callable == nullptr) return;
+  if (resolver_.language() != Language::k2021 &&
+      (code.function != nullptr || code.callee != nullptr)) {
+    code.may_be_deferred = true;
+    code.kind = Expression::Kind::kTailCall;
+    here.callable->has_tail_calls = true;
+  }
+  if (!code.is_name) return;
   if (here.kind == Activation::Kind::kFunction) {
     auto& self = static_cast<Function&>(*here.callable);
     if (code.function == nullptr || code.callee != nullptr ||
@@ -88,7 +96,7 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
     code.function = &self;
     *code.plan =
         plan_arguments(self.parameters, self.definition->parameters.size(),
-                       code.arguments, resolver_.names());
+                       code.arguments, resolver_.names(), resolver_.language());
     std::vector<BoundArgument> moved;
     for (const BoundArgument& bound : code.plan->bound) {
       const Expression& argument = *code.arguments[bound.written].value;
@@ -103,9 +111,12 @@ void ExpressionResolver::make_tail_call(CallCode& code, const ast::Call& call) {
       const Parameter& parameter = code.function->parameters[i];
       CallCode::TailDefault fallback;
       fallback.target = parameter.target;
-      fallback.value = parameter.fallback_text != nullptr
+      fallback.is_evaluated_once = resolver_.language() == Language::k2021;
+      fallback.value = parameter.fallback_text == nullptr
+                           ? constant(Value(), call.callee->range)
+                       : fallback.is_evaluated_once
                            ? resolve(*parameter.fallback_text)
-                           : constant(Value(), call.callee->range);
+                           : parameter.fallback;
       fallback.number = resolver_.next_tail_default_number();
       defaults.push_back(fallback);
     }

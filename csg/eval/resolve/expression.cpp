@@ -276,8 +276,8 @@ const AssertCode* ExpressionResolver::assertion(ast::Arguments written,
   auto* code = make<AssertCode>(run_assert_expression, range);
   code->kind = Kind::kAssert;
   const std::span<const WrittenArgument> given = arguments(written);
-  code->plan = &resolver_.keep_plan(
-      plan_arguments(kParameters, 2, given, resolver_.names()));
+  code->plan = &resolver_.keep_plan(plan_arguments(
+      kParameters, 2, given, resolver_.names(), resolver_.language()));
   for (const BoundArgument& bound : code->plan->bound) {
     if (bound.target.kind != Target::Kind::kSlot) continue;
     if (bound.target.index == 0) {
@@ -287,12 +287,17 @@ const AssertCode* ExpressionResolver::assertion(ast::Arguments written,
       code->message = given[bound.written].value;
     }
   }
-  // Where an argument is missing, OpenSCAD reads the variable of that name.
+  // Where an argument is missing, 2021.01 reads the variable of that name.
+  const auto fallback = [&](std::string_view name, Unknown unknown) {
+    return resolver_.language() == Language::k2021
+               ? variable(name, range, unknown)
+               : constant(Value(), range);
+  };
   if (code->condition == nullptr) {
-    code->condition = variable("condition", range, Unknown::kWarn);
+    code->condition = fallback("condition", Unknown::kWarn);
   }
   if (code->message == nullptr) {
-    code->message = variable("message", range, Unknown::kSilent);
+    code->message = fallback("message", Unknown::kSilent);
   }
   if (body != nullptr) code->body = resolve(*body, position);
   return code;

@@ -144,6 +144,7 @@ class Resolver : public LazyResolver {
 
   OpenVariables open_variables;
   DynamicNames& names() { return names_; }
+  Language language() const { return options_.language; }
   std::uint32_t next_call_number() { return counts_.calls++; }
   std::uint32_t next_tail_default_number() { return counts_.tail_defaults++; }
 

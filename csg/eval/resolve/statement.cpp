@@ -3,6 +3,8 @@
 #include <string>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "csg/eval/builtin/modules.h"
 #include "csg/eval/run/runners.h"
 #include "parser/tree_facts.h"
@@ -43,6 +45,17 @@ void StatementResolver::module(Module& module) {
   module.body.statements = instantiations(module.definition->body);
 }
 
+namespace {
+std::string overwrite_warning(const Module& module, std::string_view parameter,
+                              Language language) {
+  return fmt::format("{}Parameter {} is overwritten with a literal",
+                     language == Language::k2021
+                         ? fmt::format("Module {}: ", module.name)
+                         : std::string(),
+                     quoted_name(parameter, language, ""));
+}
+}  // namespace
+
 // The last value of a name counts; it is assigned where the first one stands.
 Bindings StatementResolver::assignments(ast::Statements statements,
                                         Module* module) {
@@ -66,8 +79,7 @@ Bindings StatementResolver::assignments(ast::Statements statements,
           ast::is_literal(*written.value)) {
         module->overwrites.emplace_back(
             static_cast<std::uint32_t>(bindings.size()),
-            "Module " + std::string(module->name) + ": Parameter " +
-                std::string(written.name) + " is overwritten with a literal");
+            overwrite_warning(*module, written.name, resolver_.language()));
       }
     }
     binding.target = resolver.target(written.name, variable);
@@ -96,6 +108,7 @@ Block* StatementResolver::block(ast::Statements statements,
                                 const std::function<void()>& resolve_between) {
   const NestedScope open(resolver_, scope_);
   auto* block = resolver_.make<Block>();
+  block->assigns_before_call = resolver_.language() == Language::k2021;
   block->assignments = assignments(statements, nullptr);
   if (resolve_between) resolve_between();
   block->statements = instantiations(statements);
@@ -130,7 +143,8 @@ const InstantiationCode* StatementResolver::call(
   return code;
 }
 
-// The arguments of a user module see the assignments among its children.
+// In 2021.01 the arguments of a user module see the assignments among its
+// children.
 InstantiationCode* StatementResolver::user_module(
     const ast::Instantiation& written, SourceRange range,
     const Resolver::Callee<Module>& callee) {
@@ -140,13 +154,20 @@ InstantiationCode* StatementResolver::user_module(
     code->hops =
         scope_->activation->count_hops(*callee.code->scope->activation);
   }
-  code->block = block(written.children, [&] {
+  const auto resolve_arguments = [&] {
     code->arguments = expressions().arguments(written.arguments);
     code->module = &resolver_.with_extras(*callee.code, code->arguments);
-    code->plan = &resolver_.keep_plan(plan_arguments(
-        code->module->parameters, callee.code->parameters.size(),
-        code->arguments, resolver_.names(), resolver_.module_surplus()));
-  });
+    code->plan = &resolver_.keep_plan(
+        plan_arguments(code->module->parameters, callee.code->parameters.size(),
+                       code->arguments, resolver_.names(), resolver_.language(),
+                       resolver_.module_surplus()));
+  };
+  if (resolver_.language() == Language::k2021) {
+    code->block = block(written.children, resolve_arguments);
+  } else {
+    resolve_arguments();
+    code->block = block(written.children);
+  }
   return code;
 }
 
@@ -224,7 +245,8 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
     code->block = block(written.children);
     return code;
   }
-  const BuiltinModuleEntry* entry = find_builtin_module(name);
+  const Language language = resolver_.language();
+  const BuiltinModuleEntry* entry = find_builtin_module(name, language);
   if (entry == nullptr) {
     return make<InstantiationCode>(run_unknown_module, range);
   }
@@ -236,7 +258,7 @@ InstantiationCode* StatementResolver::builtin(const ast::Instantiation& written,
   code->arguments = expressions().arguments(written.arguments);
   code->plan = &resolver_.keep_plan(
       plan_arguments(entry->parameters, entry->positional_count,
-                     code->arguments, resolver_.names()));
+                     code->arguments, resolver_.names(), language));
   code->block = block(written.children, [&] {
     if (entry->needs_late_argument && !written.arguments.empty() &&
         written.arguments[0].name.empty()) {

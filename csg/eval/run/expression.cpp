@@ -58,8 +58,7 @@ Value run_dynamic(const Expression& expression, Frame& frame) {
   const Value& value = frame.in.dynamic(code.index);
   if (!value.is_unset()) return value;
   if (!code.is_silent) {
-    warn(frame, code.range,
-         fmt::format("Ignoring unknown variable '{}'", code.name));
+    frame.in.warn_of_unknown(code.range, code.name, frame.document);
   }
   return Value();
 }
@@ -69,9 +68,8 @@ Value run_inexact_literal(const Expression& expression, Frame& frame) {
   return Value(code.value);
 }
 Value run_unknown_variable(const Expression& expression, Frame& frame) {
-  frame.in.warn(expression.range,
-                fmt::format("Ignoring unknown variable '{}'",
-                            as<UnknownVariable>(expression).name));
+  frame.in.warn_of_unknown(expression.range,
+                           as<UnknownVariable>(expression).name);
   return Value();
 }
 
@@ -130,16 +128,38 @@ Value run_member(const Expression& expression, Frame& frame) {
   return member(look(code.object, frame, spill), code.name);
 }
 
+namespace {
+// Of numbers that the text gives: a range of other values may well be empty.
+void warn_of_direction(const RangeCode& code, std::string_view begin,
+                       std::string_view step, Frame& frame) {
+  if (!code.is_literal) return;
+  warn(frame, code.range,
+       fmt::format("begin is {} than the end, but step is {}", begin, step));
+}
+}  // namespace
+
 Value run_range(const Expression& expression, Frame& frame) {
   const auto& code = as<RangeCode>(expression);
+  const bool is_2021 = frame.in.is_2021();
   const Value first = run(code.begin, frame);
-  if (!first.is_number()) return Value();
+  if (!first.is_number() && is_2021) return Value();
   const Value last = run(code.end, frame);
-  if (!last.is_number()) return Value();
+  if (!first.is_number() || !last.is_number()) {
+    if (!is_2021) {
+      frame.in.warn(code.range,
+                    fmt::format("Unable to convert [{}:...:{}] to a range",
+                                to_echo(first), to_echo(last)));
+    }
+    return Value();
+  }
   const double begin = first.as_number();
   const double end = last.as_number();
   if (code.step == nullptr) {
     if (end >= begin || std::isnan(begin) || std::isnan(end)) {
+      return Value::range(begin, 1, end);
+    }
+    if (!is_2021) {
+      warn_of_direction(code, "greater", "positive", frame);
       return Value::range(begin, 1, end);
     }
     frame.in.deprecate(code.range,
@@ -149,15 +169,19 @@ Value run_range(const Expression& expression, Frame& frame) {
     return Value::range(end, 1, begin);
   }
   const Value step = run(code.step, frame);
-  if (!step.is_number()) return Value();
-  if (code.is_literal) {
-    if (step.as_number() > 0 && end < begin) {
-      warn(frame, code.range,
-           "begin is greater than the end, but step is positive");
-    } else if (step.as_number() < 0 && end > begin) {
-      warn(frame, code.range,
-           "begin is smaller than the end, but step is negative");
+  if (!step.is_number()) {
+    if (!is_2021) {
+      frame.in.warn(
+          code.range,
+          fmt::format("Unable to convert [...:{}:...] to a step value",
+                      to_echo(step)));
     }
+    return Value();
+  }
+  if (step.as_number() > 0 && end < begin) {
+    warn_of_direction(code, "greater", "positive", frame);
+  } else if (step.as_number() < 0 && end > begin) {
+    warn_of_direction(code, "smaller", "negative", frame);
   }
   return Value::range(begin, step.as_number(), end);
 }
@@ -176,7 +200,8 @@ void run_bindings(Bindings bindings, Frame& frame) {
     } else {
       warn(frame, binding.range,
            fmt::format("Ignoring duplicate variable assignment {} = {}",
-                       binding.name, to_echo(value)));
+                       quoted_name(binding.name, frame.in.language(), ""),
+                       to_echo(value)));
     }
   }
 }
@@ -215,13 +240,20 @@ void run_assert(const AssertCode& code, Frame& frame) {
   const Value condition = run(code.condition, frame);
   const Value message = run(code.message, frame);
   if (condition.is_true()) return;
-  std::string text = "Assertion";
+  Diagnostic diagnostic{
+      .range = code.range, .message = "Assertion", .document = frame.document};
   if (code.condition_text != nullptr) {
-    text += " '" + expression_text(*code.condition_text) + "'";
+    const std::string text = expression_text(*code.condition_text);
+    diagnostic.message += " '" + text + "'";
+    if (frame.in.is_2021() && text.find("version") != std::string::npos) {
+      diagnostic.hints.push_back(
+          {{},
+           "read as OpenSCAD 2021.01; --language 2026 reads it as newer ones"});
+    }
   }
-  text += " failed";
-  if (!message.is_undef()) text += ": " + to_echo(message);
-  frame.in.fail(code.range, std::move(text), frame.document);
+  diagnostic.message += " failed";
+  if (!message.is_undef()) diagnostic.message += ": " + to_echo(message);
+  frame.in.fail(std::move(diagnostic));
 }
 
 Value run_assert_expression(const Expression& expression, Frame& frame) {

@@ -59,8 +59,15 @@ void Interpreter::warn(SourceRange range, std::string message,
                         .message = std::move(message),
                         .document = document};
   // The calls that lead to a hard warning are noted like those of an error.
-  if (diagnostics_.has_hard_warnings()) end_with(std::move(diagnostic));
+  if (diagnostics_.has_hard_warnings()) fail(std::move(diagnostic));
   diagnostics_.report(std::move(diagnostic));
+}
+
+void Interpreter::warn_of_unknown(SourceRange range, std::string_view variable,
+                                  const Source* document) {
+  warn(range,
+       "Ignoring unknown variable " + quoted_name(variable, language(), "'"),
+       document);
 }
 
 // Reports each text once for each place.
@@ -91,11 +98,10 @@ void Interpreter::note(std::string text) {
 
 void Interpreter::fail(SourceRange range, std::string message,
                        const Source* document) {
-  end_with(
-      {.range = range, .message = std::move(message), .document = document});
+  fail({.range = range, .message = std::move(message), .document = document});
 }
 
-void Interpreter::end_with(Diagnostic diagnostic) {
+void Interpreter::fail(Diagnostic diagnostic) {
   // Tell AddressSanitizer that the exception leaves these frames: on a stack as
   // large as this one it does not see that. In other builds this does nothing.
   void* const here = __builtin_frame_address(0);
@@ -125,7 +131,7 @@ void Interpreter::fail_recursion(SourceRange range, std::string_view kind,
         {range, fmt::format("{} calls are nested, the limit of --max-depth",
                             options_.max_depth)});
   }
-  end_with(std::move(diagnostic));
+  fail(std::move(diagnostic));
 }
 
 void Interpreter::fail_steps() {

@@ -52,11 +52,14 @@ class Interpreter {
   // code's file, and null where it shows them relative to the design.
   void warn(SourceRange range, std::string message,
             const Source* document = nullptr);
+  void warn_of_unknown(SourceRange range, std::string_view variable,
+                       const Source* document = nullptr);
   void deprecate(SourceRange range, std::string message,
                  const Source* document = nullptr);
   void echo(std::string text);
   // A line without prefix and place.
   void note(std::string text);
+  [[noreturn]] void fail(Diagnostic diagnostic);
   [[noreturn]] void fail(SourceRange range, std::string message,
                          const Source* document);
 
@@ -74,6 +77,7 @@ class Interpreter {
   }
 
   // --- Calls being run
+  std::uint32_t depth() const { return depth_; }
   // Whether calls are nested too deep, or the C++ stack is nearly used up.
   bool is_too_deep() const {
     return depth_ > options_.max_depth ||
@@ -201,6 +205,8 @@ class Interpreter {
   MersenneTwister random;
   std::uint64_t& effects() { return effects_; }
   const EvaluateOptions& options() const { return options_; }
+  Language language() const { return options_.language; }
+  bool is_2021() const { return options_.language == Language::k2021; }
   const std::string& design_folder() const { return design_folder_; }
   void set_design_folder(std::string folder) {
     design_folder_ = std::move(folder);
@@ -213,7 +219,6 @@ class Interpreter {
   };
 
   void assign_unusual(const Target& target, Value value, Frame& frame);
-  [[noreturn]] void end_with(Diagnostic diagnostic);
   [[noreturn]] void fail_steps();
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);

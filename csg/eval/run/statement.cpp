@@ -100,8 +100,8 @@ void run_user_module(const InstantiationCode& instantiation, Frame& frame) {
   in.check_depth(module.range, "module", code.name, module.unit->document);
   in.ensure_resolved(module);
   const std::size_t mark = in.node_mark();
-  // Run the children's assignments first: arguments may use them.
-  run_assignments(*code.block, frame);
+  // Arguments may use these.
+  if (code.block->assigns_before_call) run_assignments(*code.block, frame);
   Frame callee{in};
   callee.link = code.is_foreign ? &in.enter_unit(*module.unit)
                                 : follow_links(frame, code.hops);

@@ -5,7 +5,23 @@
 
 namespace lamina::csg {
 
-void append_text(const Value& value, std::string& text) {
+namespace {
+
+// What is appended may stand `depth` deep in other values.
+void append(const Value& value, std::uint32_t depth, std::string& text);
+
+void append_quoted(const Value& value, std::uint32_t depth, std::string& text) {
+  if (value.is_string()) {
+    text += '"';
+    text += value.as_string();
+    text += '"';
+  } else {
+    append(value, depth, text);
+  }
+}
+
+void append(const Value& value, std::uint32_t depth, std::string& text) {
+  if (depth > kDeepestText) throw TextTooDeep();
   switch (value.type()) {
     case Type::kBool:
       text += value.as_bool() ? "true" : "false";
@@ -22,7 +38,7 @@ void append_text(const Value& value, std::string& text) {
       for (const Value& element : value.as_vector()) {
         if (!is_first) text += ", ";
         is_first = false;
-        append_echo(element, text);
+        append_quoted(element, depth + 1, text);
       }
       text += ']';
       return;
@@ -48,7 +64,7 @@ void append_text(const Value& value, std::string& text) {
       for (std::size_t i = 0; i < keys.size(); ++i) {
         text += keys[i].as_string();
         text += " = ";
-        append_echo(members.values.as_vector()[i], text);
+        append_quoted(members.values.as_vector()[i], depth + 1, text);
         text += "; ";
       }
       text += '}';
@@ -59,14 +75,14 @@ void append_text(const Value& value, std::string& text) {
   }
 }
 
+}  // namespace
+
+void append_text(const Value& value, std::string& text) {
+  append(value, 0, text);
+}
+
 void append_echo(const Value& value, std::string& text) {
-  if (value.is_string()) {
-    text += '"';
-    text += value.as_string();
-    text += '"';
-  } else {
-    append_text(value, text);
-  }
+  append_quoted(value, 0, text);
 }
 
 std::string to_text(const Value& value) {

@@ -1,6 +1,7 @@
 #pragma once
 // Values as text: what `echo`, `str` and the `.csg` file show.
 
+#include <cstdint>
 #include <string>
 
 #include "base/text.h"
@@ -8,6 +9,14 @@
 #include "parser/ast.h"
 
 namespace lamina::csg {
+
+// How deep vectors may be nested to be shown: half of what OpenSCAD's stack
+// lets them be. A recursion that prints what it nests ends here, before its
+// texts fill the memory.
+inline constexpr std::uint32_t kDeepestText = 10000;
+
+// Thrown by all of these where a value is nested deeper.
+struct TextTooDeep {};
 
 // Appends a value as `str` shows it: a string bare, but quoted inside a vector.
 void append_text(const Value& value, std::string& text);

@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <cstdint>
 
-#include <glm/common.hpp>
-
 namespace lamina::ldni::detail {
 namespace {
 
-void meet(Rectangle& box, const Rectangle& other) {
-  box.low = glm::max(box.low, other.low);
-  box.high = glm::min(box.high, other.high);
-}
-
 // Tells an operator of one of its operands.
-void add_operand(csg::BooleanOp op, bool is_minuend, const Rectangle& operand,
-                 Rectangle& box) {
+void add_operand(csg::BooleanOp op, bool is_minuend, const Box2& operand,
+                 Box2& box) {
   if (op == csg::BooleanOp::kIntersection) {
-    meet(box, operand);
+    box.intersect(operand);
   } else if (op == csg::BooleanOp::kUnion || is_minuend) {
-    box.low = glm::min(box.low, operand.low);
-    box.high = glm::max(box.high, operand.high);
+    box.add(operand);
   }
 }
 
@@ -32,9 +24,9 @@ bool has_active_zones(const csg::Scene& scene) {
   });
 }
 
-std::vector<Rectangle> active_zones(const csg::Scene& scene,
-                                    std::span<const Rectangle> boxes) {
-  std::vector<Rectangle> zones(scene.program.size());
+std::vector<Box2> active_zones(const csg::Scene& scene,
+                               std::span<const Box2> boxes) {
+  std::vector<Box2> zones(scene.program.size());
   for (std::uint32_t i = 0; i < zones.size(); ++i) {
     const csg::BooleanNode& node = scene.program[i];
     // Of nothing at all an intersection is empty.
@@ -43,7 +35,7 @@ std::vector<Rectangle> active_zones(const csg::Scene& scene,
     }
   }
   const auto add = [&](std::uint32_t parent, bool is_minuend,
-                       const Rectangle& operand) {
+                       const Box2& operand) {
     add_operand(scene.program[parent].op, is_minuend, operand, zones[parent]);
   };
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -56,7 +48,7 @@ std::vector<Rectangle> active_zones(const csg::Scene& scene,
     add(node.parent, node.is_minuend, zones[i]);
   }
   for (std::size_t i = 1; i < zones.size(); ++i) {
-    meet(zones[i], zones[scene.program[i].parent]);
+    zones[i].intersect(zones[scene.program[i].parent]);
   }
   return zones;
 }

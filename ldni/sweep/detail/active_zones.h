@@ -27,25 +27,13 @@
 
 namespace lamina::ldni::detail {
 
-// Parallel to the axes; empty where low > high in a coordinate.
-struct Rectangle {
-  Vec2 low = Vec2(1e300);
-  Vec2 high = Vec2(-1e300);
-
-  bool is_empty() const { return low.x > high.x || low.y > high.y; }
-  bool holds(const Rectangle& other) const {
-    return low.x <= other.low.x && low.y <= other.low.y &&
-           high.x >= other.high.x && high.y >= other.high.y;
-  }
-};
-
 // Whether zones can be smaller than what lies in them.
 bool has_active_zones(const csg::Scene& scene);
 
 // The zone of each operator of the program.
 //
 // boxes  of each instance; empty where the layer has nothing of it
-std::vector<Rectangle> active_zones(const csg::Scene& scene,
-                                    std::span<const Rectangle> boxes);
+std::vector<Box2> active_zones(const csg::Scene& scene,
+                               std::span<const Box2> boxes);
 
 }  // namespace lamina::ldni::detail

@@ -6,8 +6,6 @@
 #include <span>
 #include <utility>
 
-#include <glm/common.hpp>
-
 namespace lamina::ldni::detail {
 namespace {
 
@@ -93,16 +91,13 @@ class Cascade::Group {
     bool is_instance = false;
     std::uint32_t index = 0;   // of the instance, or of the node
     std::uint32_t weight = 0;  // instances below
-    Vec3 low{1e300};           // of their boxes
-    Vec3 high{-1e300};
-    bool is_second = false;  // of the halves
+    Box3 box;                  // around theirs
+    bool is_second = false;    // of the halves
 
     void add(const csg::Instance& instance) {
       ++weight;
-      low = glm::min(low, instance.box.low);
-      high = glm::max(high, instance.box.high);
+      box.add(instance.box);
     }
-    Vec3 center() const { return (low + high) / 2.0; }
   };
 
   std::vector<Operand> operands() const;
@@ -173,17 +168,15 @@ void Cascade::Group::choose_halves(std::vector<Operand>& operands) const {
     }
     return;
   }
-  Vec3 low = operands.front().center();
-  Vec3 high = low;
+  Box3 centers;
   std::uint32_t weight = 0;
   for (const Operand& operand : operands) {
-    low = glm::min(low, operand.center());
-    high = glm::max(high, operand.center());
+    centers.add(operand.box.center());
     weight += operand.weight;
   }
-  const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
+  const int axis = centers.size().x >= centers.size().y ? 0 : 1;
   std::ranges::stable_sort(operands, {}, [axis](const Operand& operand) {
-    return operand.center()[axis];
+    return operand.box.center()[axis];
   });
   std::uint32_t before = 0;
   for (Operand& operand : operands) {

@@ -23,8 +23,8 @@ constexpr double kSkew = 0.3819660112501051;
 // that edges stay wider than a cluster. A chain's end moves by that at most.
 constexpr double kLeastWidth = 2 * kClusterWidth;
 
-Rectangle rectangle_around(const Rectangle& zone) {
-  Rectangle rectangle;
+Box2 rectangle_around(const Box2& zone) {
+  Box2 rectangle;
   for (int axis = 0; axis < 2; ++axis) {
     const double low = zone.low[axis] - kMargin;
     const double high = zone.high[axis] + kMargin;
@@ -35,8 +35,8 @@ Rectangle rectangle_around(const Rectangle& zone) {
   return rectangle;
 }
 
-Rectangle box_of(std::span<const Chain> chains, std::span<const Vec2> points) {
-  Rectangle box;
+Box2 box_of(std::span<const Chain> chains, std::span<const Vec2> points) {
+  Box2 box;
   Lanes low = lanes_of(box.low);
   Lanes high = lanes_of(box.high);
   for (const Chain& chain : chains) {
@@ -58,7 +58,7 @@ double width_of(std::span<const Chain> chains, std::span<const Vec2> points) {
 }
 
 // The share of a box that lies in a rectangle.
-double share_of(const Rectangle& box, const Rectangle& rectangle) {
+double share_of(const Box2& box, const Box2& rectangle) {
   double share = 1;
   for (int axis = 0; axis < 2; ++axis) {
     const double size = box.high[axis] - box.low[axis];
@@ -81,15 +81,15 @@ Vec2 point_at(double x, const Vec2& from, const Vec2& to) {
 void ChainClipper::begin(const LayerChains& layer) {
   old_points_ = layer.points;
   find_sections(layer);
-  std::vector<Rectangle> boxes(scene_.instances.size());
+  std::vector<Box2> boxes(scene_.instances.size());
   for (const Section& section : sections_) {
     boxes[section.instance] = section.box;
   }
-  const std::vector<Rectangle> zones = active_zones(scene_, boxes);
+  const std::vector<Box2> zones = active_zones(scene_, boxes);
   double all = 0;
   double within = 0;
   for (Section& section : sections_) {
-    const Rectangle& zone = zones[scene_.instances[section.instance].parent];
+    const Box2& zone = zones[scene_.instances[section.instance].parent];
     section.rectangle = zone.is_empty() ? zone : rectangle_around(zone);
     const double width = width_of(section.chains, old_points_);
     all += width;
@@ -133,7 +133,7 @@ void ChainClipper::find_sections(const LayerChains& layer) {
 }
 
 void ChainClipper::clip_section(const Section& section) {
-  const Rectangle& rectangle = section.rectangle;
+  const Box2& rectangle = section.rectangle;
   // First the loops that stay as they are.
   const auto visit_loops = [&](bool is_inside, const auto& visit) {
     std::size_t first = 0;
@@ -175,7 +175,7 @@ void ChainClipper::clip_section(const Section& section) {
 // Makes run_ from the part of a chain in the rectangle; false where there is
 // none.
 bool ChainClipper::cut_chain(std::span<const Vec2> chain,
-                             const Rectangle& rectangle) {
+                             const Box2& rectangle) {
   const double low = rectangle.low.x + kLeastWidth;
   const double high = rectangle.high.x - kLeastWidth;
   if (chain.front().x >= high || chain.back().x <= low) return false;

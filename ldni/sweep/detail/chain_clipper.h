@@ -64,8 +64,8 @@ class ChainClipper {
     std::uint32_t instance = 0;
     std::span<const Chain> chains;
     std::span<const ChainLoop> loops;
-    Rectangle box;
-    Rectangle rectangle;  // to be clipped to
+    Box2 box;
+    Box2 rectangle;  // to be clipped to
   };
   // Chains along the lower or upper side, `winding` of them.
   struct SideChain {
@@ -80,7 +80,7 @@ class ChainClipper {
 
   void find_sections(const LayerChains& layer);
   void clip_section(const Section& section);
-  bool cut_chain(std::span<const Vec2> chain, const Rectangle& rectangle);
+  bool cut_chain(std::span<const Vec2> chain, const Box2& rectangle);
   void straighten_beyond(double limit, double direction);
   void add_chain(std::span<const Vec2> points, const Chain& like);
   void add_chains(std::span<const Chain> chains);

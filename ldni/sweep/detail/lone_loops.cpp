@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/common.hpp>
-
 #include "base/lanes.h"
 #include "base/plane.h"
 
@@ -105,8 +103,7 @@ void LoneLoops::find_box(Candidate& candidate) const {
       high = greatest(high, place);
     }
   }
-  candidate.low = point_of(low) - kMargin;
-  candidate.high = point_of(high) + kMargin;
+  candidate.box = {point_of(low) - kMargin, point_of(high) + kMargin};
 }
 
 bool LoneLoops::is_alone(std::uint32_t candidate) const {
@@ -125,7 +122,7 @@ LoneLoops::Side LoneLoops::side_of(const Candidate& candidate) const {
   const auto a = chains_[candidate.chain].points_in(points_);
   const auto b = chains_[candidate.chain + 1].points_in(points_);
   const double area = area_below(b) - area_below(a);
-  const Vec2 size = candidate.high - candidate.low;
+  const Vec2 size = candidate.box.size();
   if (std::abs(area) < kMargin * (size.x + size.y)) return kNoSide;
   const int side = area > 0 ? 1 : -1;
   if (!bends_to(side, a) || !bends_to(-side, b)) return kNoSide;
@@ -134,16 +131,14 @@ LoneLoops::Side LoneLoops::side_of(const Candidate& candidate) const {
 
 // Cells half as large as a candidate is on the average, but not too many.
 void LoneLoops::lay_grid() {
-  low_ = Vec2(1e300);
-  high_ = Vec2(-1e300);
+  box_ = {};
   Vec2 sum(0);
   for (const Candidate& candidate : candidates_) {
-    low_ = glm::min(low_, candidate.low);
-    high_ = glm::max(high_, candidate.high);
-    sum += candidate.high - candidate.low;
+    box_.add(candidate.box);
+    sum += candidate.box.size();
   }
   const auto count = static_cast<double>(candidates_.size());
-  const Vec2 size = high_ - low_;
+  const Vec2 size = box_.size();
   const double wanted = (sum.x + sum.y) / (4 * count);
   const double least =
       std::max(std::sqrt(size.x * size.y / (kCellsPerCandidate * count)),
@@ -158,8 +153,8 @@ void LoneLoops::lay_grid() {
 void LoneLoops::claim_boxes() {
   std::erase_if(candidates_, [this](Candidate& candidate) {
     Cells& cells = candidate.cells;
-    cells = {column_of(candidate.low.x), column_of(candidate.high.x),
-             row_of(candidate.low.y), row_of(candidate.high.y)};
+    cells = {column_of(candidate.box.low.x), column_of(candidate.box.high.x),
+             row_of(candidate.box.low.y), row_of(candidate.box.high.y)};
     return cells.last_column - cells.first_column >= kMostCells ||
            cells.last_row - cells.first_row >= kMostCells;
   });
@@ -209,8 +204,9 @@ void LoneLoops::block_edges(std::span<const ChainLoop> loops) {
 void LoneLoops::block(const Vec2& from, const Vec2& to) {
   const Vec2& left = from.x <= to.x ? from : to;
   const Vec2& right = from.x <= to.x ? to : from;
-  if (right.x < low_.x || left.x > high_.x || std::max(from.y, to.y) < low_.y ||
-      std::min(from.y, to.y) > high_.y) {
+  if (right.x < box_.low.x || left.x > box_.high.x ||
+      std::max(from.y, to.y) < box_.low.y ||
+      std::min(from.y, to.y) > box_.high.y) {
     return;
   }
   const double slope =
@@ -218,7 +214,7 @@ void LoneLoops::block(const Vec2& from, const Vec2& to) {
   const std::int32_t last_column = column_of(right.x);
   double begin_y = left.y;
   for (std::int32_t c = column_of(left.x); c <= last_column; ++c) {
-    const double border = low_.x + (c + 1) / cells_per_mm_;
+    const double border = box_.low.x + (c + 1) / cells_per_mm_;
     const double end_y =
         c == last_column ? right.y : left.y + slope * (border - left.x);
     const auto [lowest, highest] = std::minmax(begin_y, end_y);
@@ -231,13 +227,13 @@ void LoneLoops::block(const Vec2& from, const Vec2& to) {
 }
 
 std::int32_t LoneLoops::column_of(double x) const {
-  const double column = (x - low_.x) * cells_per_mm_;
+  const double column = (x - box_.low.x) * cells_per_mm_;
   return static_cast<std::int32_t>(
       std::clamp(column, 0.0, static_cast<double>(column_count_ - 1)));
 }
 
 std::int32_t LoneLoops::row_of(double y) const {
-  const double row = (y - low_.y) * cells_per_mm_;
+  const double row = (y - box_.low.y) * cells_per_mm_;
   return static_cast<std::int32_t>(
       std::clamp(row, 0.0, static_cast<double>(row_count_ - 1)));
 }

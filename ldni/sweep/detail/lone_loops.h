@@ -39,8 +39,7 @@ class LoneLoops {
     std::int32_t last_row = 0;
   };
   struct Candidate {
-    Vec2 low{0.0};
-    Vec2 high{0.0};
+    Box2 box;
     Cells cells;
     std::uint32_t loop = 0;   // of the layer
     std::uint32_t chain = 0;  // the first of its two
@@ -69,8 +68,7 @@ class LoneLoops {
   std::span<const Vec2> points_;
   std::span<const Chain> chains_;
   std::vector<Candidate> candidates_;
-  Vec2 low_{0.0};  // of the grid, which holds all candidates
-  Vec2 high_{0.0};
+  Box2 box_;  // of the grid, which holds all candidates
   double cells_per_mm_ = 0;
   std::size_t column_count_ = 0;
   std::size_t row_count_ = 0;

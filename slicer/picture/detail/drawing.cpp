@@ -5,7 +5,6 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "slicer/contour/layer_edges.h"
 #include "slicer/picture/detail/lettering.h"
@@ -18,17 +17,10 @@ constexpr Rgb kOutline = {0.36F, 0.25F, 0.06F};
 
 }  // namespace
 
-void Bounds::add(const ldni::Contours& contours) {
-  for (const Vec2& point : contours.points) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-}
-
-Bounds bounds_of(const std::vector<Layer>& layers) {
-  Bounds bounds;
-  for (const Layer& layer : layers) bounds.add(layer.contours);
-  return bounds;
+Box2 bounds_of(const std::vector<Layer>& layers) {
+  Box2 box;
+  for (const Layer& layer : layers) box.add(layer.contours.points);
+  return box;
 }
 
 void fill(Image& image, const Rectangle& area, Rgb color) {
@@ -74,7 +66,7 @@ double fitting_size(std::string_view text, double size, double room) {
   return std::min(size, size * std::max(room, 0.0) / text_width(text, size));
 }
 
-PixelMap fit(const Bounds& bounds, const Rectangle& area, double padding) {
+PixelMap fit(const Box2& bounds, const Rectangle& area, double padding) {
   const Vec2 room(area.width - 2 * padding, area.height - 2 * padding);
   const Vec2 size = bounds.size();
   const double scale = std::min(room.x / std::max(size.x, 1e-9),

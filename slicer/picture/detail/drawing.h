@@ -16,22 +16,8 @@ inline constexpr Rgb kTile = {1.0F, 1.0F, 0.995F};
 inline constexpr Rgb kFrame = {0.86F, 0.85F, 0.82F};
 inline constexpr Rgb kInk = {0.25F, 0.24F, 0.22F};
 
-// A box of layers [mm], or in an image [pixels]; empty where low > high.
-struct Bounds {
-  Vec2 low = Vec2(1e300);
-  Vec2 high = Vec2(-1e300);
-
-  void add(const ldni::Contours& contours);
-  bool meets(const Bounds& other) const {
-    return low.x < other.high.x && other.low.x < high.x &&
-           low.y < other.high.y && other.low.y < high.y;
-  }
-  Vec2 size() const { return high - low; }
-  Vec2 center() const { return (low + high) / 2.0; }
-};
-
-// The bounds of all layers.
-Bounds bounds_of(const std::vector<Layer>& layers);
+// The box around all layers [mm].
+Box2 bounds_of(const std::vector<Layer>& layers);
 
 // A field of pixels, y down.
 struct Rectangle {
@@ -63,7 +49,7 @@ double fitting_size(std::string_view text, double size, double room);
 
 // Maps millimetres to pixels, counted from the area's corner, so that the
 // bounds fill the area but for `padding` pixels on every side.
-PixelMap fit(const Bounds& bounds, const Rectangle& area, double padding);
+PixelMap fit(const Box2& bounds, const Rectangle& area, double padding);
 
 // Returns the largest of 1, 2, 5, 10, … (and 0.5, 0.2, …) that is no longer.
 double round_length(double longest);

@@ -120,8 +120,7 @@ Box3 bounds_of(const std::vector<Layer>& layers,
   Box3 box;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     for (const Vec2& point : layers[i].contours.points) {
-      box.low = glm::min(box.low, Vec3(point, plates[i].bottom));
-      box.high = glm::max(box.high, Vec3(point, plates[i].top));
+      box.add(Box3{Vec3(point, plates[i].bottom), Vec3(point, plates[i].top)});
     }
   }
   return box;

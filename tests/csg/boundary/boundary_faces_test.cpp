@@ -16,7 +16,7 @@
 namespace lamina::csg {
 namespace {
 
-// Of a few coordinates on the clipper's grid of 1e-8 mm.
+// Of a few coordinates; Booleans of regions take edges within 3e-8 mm for one.
 constexpr double kRounding = 1e-5;
 
 Vec3 area_vector(const BoundaryFace& face) {

@@ -30,8 +30,8 @@ void run_on_stack(std::size_t bytes, std::function<void()> work) {
   pthread_attr_destroy(&attributes);
 }
 
-Evaluated evaluate_with(std::size_t stack_bytes, const std::string& path,
-                        const std::string* text) {
+Evaluated evaluate_with(std::size_t stack_bytes, Language language,
+                        const std::string& path, const std::string* text) {
   Evaluated result;
   run_on_stack(stack_bytes, [&] {
     SourceStore sources;
@@ -41,6 +41,7 @@ Evaluated evaluate_with(std::size_t stack_bytes, const std::string& path,
       const ast::Program program =
           text != nullptr ? loader.load_text(path, *text) : loader.load(path);
       EvaluateOptions options;
+      options.language = language;
       options.stack_bytes = stack_bytes - (std::size_t{1} << 20);
       const Tree tree = evaluate(program, loader, options, diagnostics);
       result.csg = print_csg(tree, *select_root(tree, diagnostics));
@@ -61,12 +62,13 @@ Evaluated evaluate_with(std::size_t stack_bytes, const std::string& path,
 
 }  // namespace
 
-Evaluated evaluate_text(const std::string& text, std::size_t stack_bytes) {
-  return evaluate_with(stack_bytes, "test.scad", &text);
+Evaluated evaluate_text(const std::string& text, std::size_t stack_bytes,
+                        Language language) {
+  return evaluate_with(stack_bytes, language, "test.scad", &text);
 }
 
 Evaluated evaluate_file(const std::string& path) {
-  return evaluate_with(std::size_t{256} << 20, path, nullptr);
+  return evaluate_with(std::size_t{256} << 20, Language::k2021, path, nullptr);
 }
 
 std::string read_text(const std::string& path) {

@@ -72,7 +72,7 @@ class TreeBuilder {
 
   // The tree with these at the top level.
   Tree tree(const Children& children) {
-    return {arena_, nullptr, node(Group{}, children), {}};
+    return {arena_, nullptr, node(Group{}, children)};
   }
 
   template <typename T>

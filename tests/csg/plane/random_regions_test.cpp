@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <iostream>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,6 +17,7 @@
 #include "base/plane.h"
 #include "csg/plane/boolean.h"
 #include "tests/csg/plane/lattice_walks.h"
+#include "tests/support/environment.h"
 
 namespace lamina::planar {
 namespace {
@@ -81,7 +82,7 @@ class RandomContours {
     const int count = 20;
     Contour contour;
     for (int i = 0; i < count; ++i) {
-      const double angle = 2 * 3.14159265358979 * i / count;
+      const double angle = 2 * std::numbers::pi * i / count;
       const double r = i % 2 == 0 ? 5 : 0.1;
       contour.push_back(center + r * Vec2(std::cos(angle), std::sin(angle)));
     }
@@ -161,8 +162,8 @@ class Judge {
 };
 
 TEST(RandomRegions, HoldWhatTheirOperandsHold) {
-  const char* rounds = std::getenv("LAMINA_RANDOM_REGIONS");
-  const std::uint64_t count = rounds == nullptr ? 300 : std::stoull(rounds);
+  const std::uint64_t count =
+      support::number_from("LAMINA_RANDOM_REGIONS", 300);
   Tally tally;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     for (const double scale : {1e-2, 1.0, 1e5}) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,17 +17,13 @@
 #include "ldni/sweep/kinetic_ray.h"
 #include "tests/ldni/image/ray_reference.h"
 #include "tests/support/contour_checks.h"
+#include "tests/support/environment.h"
 #include "tests/support/random_scenes.h"
 
 namespace lamina::ldni {
 namespace {
 
 using support::SceneStyle;
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
 
 // A scene, sections through it, and rays where to look.
 struct Case {
@@ -159,8 +154,8 @@ class CrossCheck : public ::testing::TestWithParam<int> {
  protected:
   template <typename Check>
   void run(const Check& check) {
-    const std::uint64_t first = from_environment("LAMINA_FIRST_SEED", 1);
-    const std::uint64_t count = from_environment("LAMINA_SEEDS", 25);
+    const std::uint64_t first = support::number_from("LAMINA_FIRST_SEED", 1);
+    const std::uint64_t count = support::number_from("LAMINA_SEEDS", 25);
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
       check(seed, static_cast<SceneStyle>(GetParam()));
       if (HasFatalFailure()) return;

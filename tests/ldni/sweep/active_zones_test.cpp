@@ -15,11 +15,11 @@ using testing::SceneBuilder;
 
 const csg::Leaf kLeaf = testing::cube_leaf({1, 1, 1});
 
-Rectangle rectangle(double low_x, double low_y, double high_x, double high_y) {
+Box2 rectangle(double low_x, double low_y, double high_x, double high_y) {
   return {{low_x, low_y}, {high_x, high_y}};
 }
 
-void expect_equal(const Rectangle& actual, const Rectangle& expected) {
+void expect_equal(const Box2& actual, const Box2& expected) {
   EXPECT_EQ(actual.low, expected.low);
   EXPECT_EQ(actual.high, expected.high);
 }
@@ -27,7 +27,7 @@ void expect_equal(const Rectangle& actual, const Rectangle& expected) {
 TEST(ActiveZones, OfADifferenceAreItsMinuend) {
   SceneBuilder builder(BooleanOp::kDifference);
   for (int i = 0; i < 3; ++i) builder.add(kLeaf);
-  const std::vector<Rectangle> boxes = {
+  const std::vector<Box2> boxes = {
       rectangle(0, 0, 4, 4), rectangle(1, -9, 2, 9), rectangle(-9, 1, 9, 2)};
   const auto zones = active_zones(builder.finish(), boxes);
   ASSERT_EQ(zones.size(), 1U);
@@ -38,10 +38,10 @@ TEST(ActiveZones, OfAnIntersectionAreWhatAllHaveInCommon) {
   SceneBuilder builder(BooleanOp::kIntersection);
   for (int i = 0; i < 3; ++i) builder.add(kLeaf);
   const csg::Scene scene = builder.finish();
-  const std::vector<Rectangle> boxes = {
+  const std::vector<Box2> boxes = {
       rectangle(0, 0, 4, 4), rectangle(1, -9, 2, 9), rectangle(-9, 1, 9, 2)};
   expect_equal(active_zones(scene, boxes)[0], rectangle(1, 1, 2, 2));
-  const std::vector<Rectangle> one_missing = {boxes[0], boxes[1], {}};
+  const std::vector<Box2> one_missing = {boxes[0], boxes[1], {}};
   EXPECT_TRUE(active_zones(scene, one_missing)[0].is_empty());
 }
 
@@ -58,9 +58,9 @@ TEST(ActiveZones, AreBoundedByTheOperatorsAbove) {
   builder.add(kLeaf);
   const csg::Scene scene = builder.finish();
   ASSERT_EQ(scene.program[2].op, BooleanOp::kUnion);
-  const std::vector<Rectangle> boxes = {
-      rectangle(0, 0, 8, 8), rectangle(1, 1, 2, 2), rectangle(-5, 1, 3, 3),
-      rectangle(-1, -1, 6, 2)};
+  const std::vector<Box2> boxes = {rectangle(0, 0, 8, 8), rectangle(1, 1, 2, 2),
+                                   rectangle(-5, 1, 3, 3),
+                                   rectangle(-1, -1, 6, 2)};
   const auto zones = active_zones(scene, boxes);
   expect_equal(zones[0], rectangle(0, 0, 6, 2));
   expect_equal(zones[1], rectangle(0, 0, 6, 2));

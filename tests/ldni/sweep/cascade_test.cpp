@@ -14,6 +14,7 @@
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
 #include "tests/ldni/support/scene_builder.h"
+#include "tests/ldni/sweep/swept.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/leaf_scenes.h"
 
@@ -22,30 +23,23 @@ namespace {
 
 using csg::BooleanOp;
 using support::LoopCounts;
+using testing::kPatient;
 using testing::SceneBuilder;
+using testing::Swept;
 using testing::operator*;
 
-constexpr double kPatient = 1e9;
-
-// The contours of a scene at some heights, and what they cost.
-struct Swept {
-  std::vector<Contours> layers;
-  SweepCounts counts;
-};
+// Sweeps a scene at some heights.
 Swept sweep(const csg::Scene& scene, double patience,
             const std::vector<double>& heights = {0.5}) {
   const LayerGrid grid = LayerGrid::at_heights(heights);
   const LeafSectioner sectioner(scene, grid);
   ChainBlock block;
   sectioner.cut(0, grid.layer_count(), block);
-  Cascade cascade(scene, {}, patience);
-  Swept swept;
-  swept.layers.resize(heights.size());
+  std::vector<LayerChains> layers;
   for (std::uint32_t l = 0; l < heights.size(); ++l) {
-    cascade.sweep(block.chains_of(l), swept.layers[l]);
+    layers.push_back(block.chains_of(l));
   }
-  swept.counts = cascade.counts();
-  return swept;
+  return testing::sweep(scene, layers, patience);
 }
 
 void expect_no_defect(const Contours& contours) {

@@ -18,8 +18,8 @@
 #include "ldni/section/chain_builder.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
-#include "ldni/sweep/detail/cascade.h"
 #include "tests/ldni/support/scene_builder.h"
+#include "tests/ldni/sweep/swept.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::ldni::detail {
@@ -27,10 +27,10 @@ namespace {
 
 using csg::BooleanOp;
 using support::LoopCounts;
+using testing::kPatient;
 using testing::SceneBuilder;
+using testing::Swept;
 using testing::operator*;
-
-constexpr double kPatient = 1e9;
 
 // The layer of a scene at height 0.5, and what is made of it.
 class Layer {
@@ -46,16 +46,8 @@ class Layer {
   const LayerChains& clipped() const { return clipped_; }
   double share_within() const { return clipper_.share_within(); }
 
-  struct Swept {
-    Contours contours;
-    SweepCounts counts;
-  };
   Swept sweep(const LayerChains& layer, double patience = kPatient) const {
-    Cascade cascade(scene_, {}, patience);
-    Swept swept;
-    cascade.sweep(layer, swept.contours);
-    swept.counts = cascade.counts();
-    return swept;
+    return testing::sweep(scene_, {&layer, 1}, patience);
   }
 
  private:
@@ -109,16 +101,16 @@ void expect_same_points(const Contours& a, const Contours& b) {
 
 void expect_same_region(const Layer& layer) {
   expect_closed(layer.clipped());
-  const Layer::Swept whole = layer.sweep(layer.whole());
-  const Layer::Swept clipped = layer.sweep(layer.clipped());
-  for (const auto& defect : support::find_defects(clipped.contours)) {
+  const Swept whole = layer.sweep(layer.whole());
+  const Swept clipped = layer.sweep(layer.clipped());
+  for (const auto& defect : support::find_defects(clipped.layers[0])) {
     ADD_FAILURE() << defect.message;
   }
-  EXPECT_EQ(support::count_loops(clipped.contours),
-            support::count_loops(whole.contours));
-  EXPECT_NEAR(support::total_area(clipped.contours),
-              support::total_area(whole.contours), 1e-9);
-  expect_same_points(clipped.contours, whole.contours);
+  EXPECT_EQ(support::count_loops(clipped.layers[0]),
+            support::count_loops(whole.layers[0]));
+  EXPECT_NEAR(support::total_area(clipped.layers[0]),
+              support::total_area(whole.layers[0]), 1e-9);
+  expect_same_points(clipped.layers[0], whole.layers[0]);
   EXPECT_EQ(clipped.counts.unbalanced_clusters, 0U);
   EXPECT_EQ(clipped.counts.repaired_clusters, 0U);
   EXPECT_EQ(clipped.counts.capped_clusters, 0U);

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <iostream>
 #include <random>
 #include <string>
@@ -31,18 +30,15 @@
 #include "tests/ldni/support/scene_builder.h"
 #include "tests/ldni/sweep/section_reference.h"
 #include "tests/support/contour_checks.h"
+#include "tests/support/environment.h"
 #include "tests/support/leaf_scenes.h"
 
 namespace lamina::ldni {
 namespace {
 
+using support::number_from;
 using support::SceneStyle;
 using testing::SectionReference;
-
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
 
 struct Tally {
   std::uint64_t scenes = 0;

@@ -33,10 +33,11 @@ std::vector<int> arguments_of(const ArgumentPlan& plan, std::size_t count) {
 ArgumentPlan plan(const std::vector<std::string_view>& names,
                   std::size_t positional,
                   const std::vector<WrittenArgument>& written,
-                  Surplus surplus = Surplus::kWarn) {
+                  Surplus surplus = Surplus::kWarn,
+                  Language language = Language::k2021) {
   DynamicNames dynamic;
   return plan_arguments(parameters(names), positional, written, dynamic,
-                        surplus);
+                        language, surplus);
 }
 
 TEST(PlanArguments, GoByPositionAndByName) {
@@ -72,8 +73,21 @@ TEST(PlanArguments, EvaluatesFallbacksThatAreNeededOrNoticed) {
   three[1].has_silent_fallback = false;
   DynamicNames dynamic;
   const std::vector<WrittenArgument> written = {{"a"}, {"b"}};
-  const ArgumentPlan made = plan_arguments(three, 3, written, dynamic);
+  const ArgumentPlan made =
+      plan_arguments(three, 3, written, dynamic, Language::k2021);
   EXPECT_EQ(made.defaults, (std::vector<std::uint32_t>{1, 2}));
+}
+
+TEST(PlanArguments, GoToTheNextFreeParameterSince2026) {
+  const ArgumentPlan made = plan({"a", "b", "c"}, 3, {{"a"}, {""}, {"b"}},
+                                 Surplus::kWarn, Language::k2026);
+  // In the order of the text: the last one of a parameter counts.
+  EXPECT_EQ(arguments_of(made, 3), (std::vector<int>{0, 2, -1}));
+  EXPECT_EQ(made.warnings,
+            (std::vector<std::string>{"argument \"b\" overrides positional "
+                                      "argument"}));
+  EXPECT_EQ(made.defaults, (std::vector<std::uint32_t>{2}));
+  EXPECT_TRUE(made.evaluates_fallbacks_last);
 }
 
 TEST(PlanArguments, FindsParametersInLongLists) {
