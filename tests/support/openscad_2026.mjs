@@ -91,7 +91,7 @@ function showMachine({ FS, ENV }) {
   FS.mkdir('/.memory');
   FS.chdir(process.cwd());
   Object.assign(ENV, process.env,
-                { FONTCONFIG_FILE: '/etc/fonts/fonts.conf',
+                { FONTCONFIG_PATH: '/etc/fonts',
                   XDG_CACHE_HOME: '/.memory' });
 }
 
