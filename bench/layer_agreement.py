@@ -2,10 +2,10 @@
 made of it.
 
 `lamina compare` compares all layers: they agree if no contour is farther than
-its tolerance, 0.001 mm, from the other program's. Where they do not, exact
-sections of the mesh judge the layers that differ most, as in the Geometry tests
-(tests/conformance/geometry_judge.h): they agree but for rounding, the mesh is
-no judge, or they differ.
+its tolerance, 0.001 mm (more in large drawings), from the other program's.
+Where they do not, exact sections of the mesh judge the layers that differ most,
+as in the Geometry tests (tests/conformance/geometry_judge.h): they agree but
+for rounding, the mesh is no judge, or they differ.
 """
 import json
 import math
@@ -15,6 +15,8 @@ from pathlib import Path
 from measure import LAMINA, Failure, run_process
 
 LAMINA_LIMIT = 300  # seconds of processor time for a comparison
+TOLERANCE = 0.001  # mm
+DRAWING_CODES = ("10", "11", "20", "21")  # coordinates in a .dxf
 MOST_HEIGHTS = 7  # that a design is judged at
 JUDGE = LAMINA.parent / "tests/conformance/geometry_judge"
 
@@ -47,15 +49,28 @@ def distance(row):
     return math.inf if row["distance"] is None else row["distance"]
 
 
+def drawing_tolerance(drawing):
+    """openscad writes six digits of a coordinate: twice the unit of the last
+    one, where that is more than lamina's own tolerance [mm]."""
+    lines = [line.strip() for line in drawing.read_text().splitlines()]
+    greatest = max((abs(float(value)) for code, value in
+                    zip(lines[::2], lines[1::2]) if code in DRAWING_CODES),
+                   default=1)
+    digits_before = math.floor(math.log10(max(greatest, 1))) + 1
+    return max(TOLERANCE, 2 * 10.0 ** (digits_before - 6))
+
+
 def compare(design, mesh, words, layer, language="auto", environment=None):
     """What became of the design: the fields of its row in a list. `words` is a
     file with what openscad said when it made the mesh."""
     options = ["--language", language]
+    tolerance = (["--tolerance", str(drawing_tolerance(mesh))]
+                 if mesh.suffix == ".dxf" else [])
     with tempfile.TemporaryDirectory() as scratch:
         report = Path(scratch, "report.json")
         try:
             run_process([LAMINA, "compare", design, mesh, "-q", *options,
-                         "--layer", str(layer), "--report", report],
+                         *tolerance, "--layer", str(layer), "--report", report],
                         LAMINA_LIMIT, environment=environment)
         except Failure as failure:
             if not report.exists():

@@ -25,9 +25,9 @@ class Oracle:
         folder.mkdir(parents=True, exist_ok=True)
 
     def render(self, name, design, environment):
-        """A dictionary: what became of the design of that name, the seconds that
-        it took, and the paths of OpenSCAD's words and of its mesh or drawing, if
-        any."""
+        """A dictionary: what became of the design of that name, the seconds
+        that it took, and the paths of OpenSCAD's words and of its mesh or
+        drawing, if any."""
         key = hashlib.md5(os.fsencode(name) + design.read_bytes()).hexdigest()
         answer = self.folder / f"{key}.json"
         if not answer.exists():
