@@ -2,7 +2,7 @@
 made of it.
 
 `lamina compare` compares all layers: they agree if no contour is farther than
-its tolerance, 0.001 mm (more in large drawings), from the other program's.
+its tolerance, 0.001 mm (0.002 in drawings), from the other program's.
 Where they do not, exact sections of the mesh judge the layers that differ most,
 as in the Geometry tests (tests/conformance/geometry_judge.h): they agree but
 for rounding, the mesh is no judge, or they differ.
@@ -15,7 +15,7 @@ from pathlib import Path
 from measure import LAMINA, Failure, run_process
 
 LAMINA_LIMIT = 300  # seconds of processor time for a comparison
-TOLERANCE = 0.001  # mm
+DRAWING_GRID = 0.001  # mm
 DRAWING_CODES = ("10", "11", "20", "21")  # coordinates in a .dxf
 MOST_HEIGHTS = 7  # that a design is judged at
 JUDGE = LAMINA.parent / "tests/conformance/geometry_judge"
@@ -50,14 +50,15 @@ def distance(row):
 
 
 def drawing_tolerance(drawing):
-    """openscad writes six digits of a coordinate: twice the unit of the last
-    one, where that is more than lamina's own tolerance [mm]."""
+    """openscad writes six digits of a coordinate, and lamina reads drawings on a
+    grid of 0.001 mm, as openscad does: twice the larger of the two units
+    [mm]."""
     lines = [line.strip() for line in drawing.read_text().splitlines()]
     greatest = max((abs(float(value)) for code, value in
                     zip(lines[::2], lines[1::2]) if code in DRAWING_CODES),
                    default=1)
     digits_before = math.floor(math.log10(max(greatest, 1))) + 1
-    return max(TOLERANCE, 2 * 10.0 ** (digits_before - 6))
+    return 2 * max(DRAWING_GRID, 10.0 ** (digits_before - 6))
 
 
 def compare(design, mesh, words, layer, language="auto", environment=None):

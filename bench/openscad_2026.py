@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 
 from measure import ROOT, Failure, Stopped, run_process
 
@@ -11,6 +12,9 @@ OPENSCAD_2026 = [ROOT / "tests/support/openscad_2026.mjs"]
 # What newer snapshots have without being asked, and lamina has always.
 FEATURES = [f"--enable={feature}" for feature in
             ("roof", "textmetrics", "import-function", "object-function")]
+
+# Newer snapshots export what there was before such an error.
+EVALUATION_ERROR = re.compile(r"^ERROR: (Assertion|Recursion) ", re.M)
 
 # What became of a design of which it makes no solid and no outline.
 SLOW, FAILS, NOTHING = "slow", "fail", "nothing"
@@ -58,5 +62,7 @@ class Oracle:
             empty = "object is empty" in said and "ERROR" not in said
             return {**result, "became": NOTHING if empty else FAILS,
                     "said": said}
+        if EVALUATION_ERROR.search(cost.output):
+            return {**result, "said": cost.output}
         return {"became": "", "seconds": cost.seconds, "said": cost.output,
                 "mesh": str(output)}
