@@ -65,8 +65,14 @@ function readOnlyFolder(FS) {
     readdir: node => ['.', '..', ...fs.readdirSync(pathOf(node))],
   };
   const stream_ops = {
-    open(stream) { stream.descriptor = fs.openSync(pathOf(stream.node)); },
-    close(stream) { fs.closeSync(stream.descriptor); },
+    open(stream) {
+      stream.shared.users = 1;
+      stream.descriptor = fs.openSync(pathOf(stream.node));
+    },
+    dup(stream) { stream.shared.users++; },
+    close(stream) {
+      if (--stream.shared.users === 0) fs.closeSync(stream.descriptor);
+    },
     read: (stream, buffer, offset, length, position) =>
         fs.readSync(stream.descriptor, buffer, offset, length, position),
     llseek(stream, offset, whence) {
