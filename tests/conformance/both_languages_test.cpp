@@ -6,11 +6,12 @@
 // languages/newer mean something in newer OpenSCAD only: lamina must make that
 // of them in both languages.
 //
-// Sections of the solid at seven generic heights must agree
+// Sections of the solid at seven generic heights, below and above it must agree
 // (geometry_judge.h), and so must all lines of echo(). A design may begin with
 // its volumes, such as "// 2026: 3 mm³": they must be those of OpenSCAD's
 // meshes.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <ostream>
@@ -42,6 +43,7 @@ const fs::path kDesigns =
     fs::path(LAMINA_SOURCES) / "tests/conformance/languages";
 
 constexpr std::size_t kHeights = 7;
+constexpr double kOutside = 0.1;        // mm
 constexpr double kVolumeDigits = 2e-3;  // relative: the designs state three
 
 struct Question {
@@ -112,6 +114,17 @@ double stated_volume(const Design& design) {
                                                 : std::nan("");
 }
 
+// Heights through the mesh, and one below and one above it.
+std::vector<double> heights_through(const csg::Mesh& mesh) {
+  const auto [low, high] = std::minmax_element(
+      mesh.vertices.begin(), mesh.vertices.end(),
+      [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+  std::vector<double> heights = generic_heights(mesh, kHeights);
+  heights.insert(heights.begin(), low->z - kOutside);
+  heights.push_back(high->z + kOutside);
+  return heights;
+}
+
 void expect_equal_solids(const Design& design, const Reference& reference) {
   const double volume = csg::signed_volume(reference.mesh);
   const double stated = stated_volume(design);
@@ -119,7 +132,7 @@ void expect_equal_solids(const Design& design, const Reference& reference) {
     EXPECT_NEAR(volume, stated, kVolumeDigits * stated) << "of openscad's mesh";
   }
   const Judgement judgement =
-      judge_solid(reference, design, generic_heights(reference.mesh, kHeights));
+      judge_solid(reference, design, heights_through(reference.mesh));
   EXPECT_EQ(judgement.verdict, "equal") << judgement.complaint;
 }
 
