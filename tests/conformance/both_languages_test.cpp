@@ -136,9 +136,9 @@ void expect_equal_solids(const Design& design, const Reference& reference) {
   EXPECT_EQ(judgement.verdict, "equal") << judgement.complaint;
 }
 
-class Languages : public testing::TestWithParam<Question> {};
+class LanguageDesigns : public testing::TestWithParam<Question> {};
 
-TEST_P(Languages, AreReadAsOpenScadReadsThem) {
+TEST_P(LanguageDesigns, AreReadAsOpenScadReadsThem) {
   const auto& [name, language, judge] = GetParam();
   const Design design = {kDesigns / (name + ".scad"), language};
   const support::OpenScadResult theirs = ask(design.path, judge);
@@ -161,7 +161,7 @@ std::string case_name(const testing::TestParamInfo<Question>& info) {
   return words;
 }
 
-INSTANTIATE_TEST_SUITE_P(Designs, Languages, testing::ValuesIn(questions()),
+INSTANTIATE_TEST_SUITE_P(Small, LanguageDesigns, testing::ValuesIn(questions()),
                          case_name);
 
 }  // namespace
