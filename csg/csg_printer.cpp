@@ -41,24 +41,26 @@ class Writer {
   std::string& text_;
 };
 
-// Values keep their own number format.
+// 2021.01 writes vectors as echo() does.
 template <typename Vector>
-void append_vector(const Vector& vector, int size, std::string& text) {
+void append_vector(const Vector& vector, int size, Language language,
+                   std::string& text) {
   text += '[';
   for (int i = 0; i < size; ++i) {
     if (i > 0) text += ", ";
-    append_number(vector[i], text);
+    language == Language::k2021 ? append_number(vector[i], text)
+                                : append_stream_number(vector[i], text);
   }
   text += ']';
 }
 
 template <typename Vector>
-void append_points(std::span<const Vector> points, int size,
+void append_points(std::span<const Vector> points, int size, Language language,
                    std::string& text) {
   text += '[';
   for (const Vector& point : points) {
     if (&point != points.data()) text += ", ";
-    append_vector(point, size, text);
+    append_vector(point, size, language, text);
   }
   text += ']';
 }
@@ -102,7 +104,7 @@ struct OpPrinter {
       const Vec4 values((*op.matrix)[0][row], (*op.matrix)[1][row],
                         (*op.matrix)[2][row], (*op.matrix)[3][row]);
       if (row > 0) out << ", ";
-      append_vector(values, 4, out.text());
+      append_vector(values, 4, language, out.text());
     }
     out << "])";
   }
@@ -156,7 +158,7 @@ struct OpPrinter {
       out << op.csg_text;
     } else {
       out << "points = ";
-      append_points(op.points, 3, out.text());
+      append_points(op.points, 3, language, out.text());
       out << ", faces = ";
       append_indices(op.faces, out.text());
     }
@@ -176,7 +178,7 @@ struct OpPrinter {
       out << op.csg_text;
     } else {
       out << "points = ";
-      append_points(op.points, 2, out.text());
+      append_points(op.points, 2, language, out.text());
       out << ", paths = ";
       if (op.paths) {
         append_indices(*op.paths, out.text());
