@@ -2,6 +2,8 @@
 
 #include <variant>
 
+#include <glm/geometric.hpp>
+
 #include "base/text.h"
 
 namespace lamina::csg {
@@ -29,8 +31,9 @@ class Writer {
   }
   Writer& operator<<(bool flag) { return *this << (flag ? "true" : "false"); }
   Writer& operator<<(const Facets& facets) {
-    return *this << "$fn = " << facets.fn << ", $fa = " << facets.fa
-                 << ", $fs = " << facets.fs;
+    *this << "$fn = " << facets.fn;
+    if (facets.fe > 0) *this << ", $fe = " << facets.fe;
+    return *this << ", $fa = " << facets.fa << ", $fs = " << facets.fs;
   }
   std::string& text() { return text_; }
 
@@ -38,24 +41,26 @@ class Writer {
   std::string& text_;
 };
 
-// Values keep their own number format.
+// 2021.01 writes vectors as echo() does.
 template <typename Vector>
-void append_vector(const Vector& vector, int size, std::string& text) {
+void append_vector(const Vector& vector, int size, Language language,
+                   std::string& text) {
   text += '[';
   for (int i = 0; i < size; ++i) {
     if (i > 0) text += ", ";
-    append_number(vector[i], text);
+    language == Language::k2021 ? append_number(vector[i], text)
+                                : append_stream_number(vector[i], text);
   }
   text += ']';
 }
 
 template <typename Vector>
-void append_points(std::span<const Vector> points, int size,
+void append_points(std::span<const Vector> points, int size, Language language,
                    std::string& text) {
   text += '[';
   for (const Vector& point : points) {
     if (&point != points.data()) text += ", ";
-    append_vector(point, size, text);
+    append_vector(point, size, language, text);
   }
   text += ']';
 }
@@ -78,6 +83,7 @@ void append_indices(std::span<const std::span<const std::uint32_t>> lists,
 
 struct OpPrinter {
   Writer out;
+  Language language;
 
   void operator()(const Group&) { out << "group()"; }
   void operator()(const Union&) { out << "union()"; }
@@ -98,7 +104,7 @@ struct OpPrinter {
       const Vec4 values((*op.matrix)[0][row], (*op.matrix)[1][row],
                         (*op.matrix)[2][row], (*op.matrix)[3][row]);
       if (row > 0) out << ", ";
-      append_vector(values, 4, out.text());
+      append_vector(values, 4, language, out.text());
     }
     out << "])";
   }
@@ -126,12 +132,12 @@ struct OpPrinter {
   }
   void operator()(const LinearExtrude& op) {
     out << "linear_extrude(";
-    append_linear_extrude(*op.params, out.text());
+    append_linear_extrude(*op.params, language, out.text());
     out << ")";
   }
   void operator()(const RotateExtrude& op) {
     out << "rotate_extrude(";
-    append_rotate_extrude(op, out.text());
+    append_rotate_extrude(op, language, out.text());
     out << ")";
   }
   void operator()(const Cube& op) {
@@ -152,7 +158,7 @@ struct OpPrinter {
       out << op.csg_text;
     } else {
       out << "points = ";
-      append_points(op.points, 3, out.text());
+      append_points(op.points, 3, language, out.text());
       out << ", faces = ";
       append_indices(op.faces, out.text());
     }
@@ -172,7 +178,7 @@ struct OpPrinter {
       out << op.csg_text;
     } else {
       out << "points = ";
-      append_points(op.points, 2, out.text());
+      append_points(op.points, 2, language, out.text());
       out << ", paths = ";
       if (op.paths) {
         append_indices(*op.paths, out.text());
@@ -196,13 +202,14 @@ std::string_view whole_text(const Node& node) {
   return around != nullptr ? around->csg_text : std::string_view();
 }
 
-void append_node(const Node& node, std::size_t depth, std::string& text) {
+void append_node(const Node& node, std::size_t depth, Language language,
+                 std::string& text) {
   if (node.is_background) text += '%';
   if (node.is_highlight) text += '#';
   text.append(depth, '\t');
   const std::string_view whole = whole_text(node);
   if (whole.empty()) {
-    std::visit(OpPrinter{Writer(text)}, node.op);
+    std::visit(OpPrinter{Writer(text), language}, node.op);
   } else {
     text += whole;
   }
@@ -211,36 +218,80 @@ void append_node(const Node& node, std::size_t depth, std::string& text) {
     return;
   }
   text += " {\n";
-  for (const Node* child : node.children) append_node(*child, depth + 1, text);
+  for (const Node* child : node.children)
+    append_node(*child, depth + 1, language, text);
   text.append(depth, '\t');
   text += "}\n";
 }
 
 }  // namespace
 
-void append_linear_extrude(const LinearExtrudeParams& params,
-                           std::string& text) {
-  Writer out(text);
-  out << "height = " << params.height << ", center = " << params.center
-      << ", convexity = " << params.convexity;
+namespace {
+
+// The vector of a top that is not above its bottom, as 2026 writes it.
+void append_way(const LinearExtrudeParams& params, Writer& out) {
+  const Vec3 way(params.shift, params.height);
+  const double length = glm::length(way);
+  out << "height = " << length;
+  if (!(way.z < length)) return;
+  out << ", v = [ " << way.x / length << ", " << way.y / length << ", "
+      << way.z / length << "]";
+}
+
+// All that 2021.01 prints, and what only newer designs have.
+void append_linear_2021(const LinearExtrudeParams& params, Writer& out) {
+  append_way(params, out);
+  out << ", center = " << params.center << ", convexity = " << params.convexity;
   if (params.has_twist) out << ", twist = " << params.twist_deg;
   if (params.slices > 0) out << ", slices = " << params.slices;
+  if (params.segments) out << ", segments = " << *params.segments;
   out << ", scale = [" << params.scale.x << ", " << params.scale.y << "]";
   if (params.slices == 0) out << ", " << params.facets;
 }
 
-void append_rotate_extrude(const RotateExtrude& extrude, std::string& text) {
-  Writer(text) << "angle = " << extrude.angle_deg
-               << ", convexity = " << extrude.convexity << ", "
-               << extrude.facets;
+// What differs from a plain extrusion.
+void append_linear_2026(const LinearExtrudeParams& params, Writer& out) {
+  append_way(params, out);
+  if (params.center) out << ", center = true";
+  if (params.has_twist) out << ", twist = " << params.twist_deg;
+  if (params.slices > 0) out << ", slices = " << params.slices;
+  if (params.segments) out << ", segments = " << *params.segments;
+  if (params.scale.x != params.scale.y) {
+    out << ", scale = [" << params.scale.x << ", " << params.scale.y << "]";
+  } else if (params.scale.x != 1) {
+    out << ", scale = " << params.scale.x;
+  }
+  if (params.slices == 0 || !params.segments) out << ", " << params.facets;
+  if (params.convexity > 1) out << ", convexity = " << params.convexity;
+}
+
+}  // namespace
+
+void append_linear_extrude(const LinearExtrudeParams& params, Language language,
+                           std::string& text) {
+  Writer out(text);
+  language == Language::k2021 ? append_linear_2021(params, out)
+                              : append_linear_2026(params, out);
+}
+
+void append_rotate_extrude(const RotateExtrude& extrude, Language language,
+                           std::string& text) {
+  const double usual_start = extrude.angle_deg == 360 ? 180 : 0;
+  Writer out(text);
+  out << "angle = " << extrude.angle_deg;
+  if (language != Language::k2021 || extrude.start_deg != usual_start) {
+    out << ", start = " << extrude.start_deg;
+  }
+  out << ", convexity = " << extrude.convexity << ", " << extrude.facets;
 }
 
 std::string print_csg(const Tree& tree, const Node& root) {
   std::string text;
   if (&root == tree.root) {
-    for (const Node* child : root.children) append_node(*child, 0, text);
+    for (const Node* child : root.children)
+      append_node(*child, 0, tree.language, text);
   } else {
-    append_node(root, 0, text);
+    append_node(root, 0, tree.language, text);
   }
   return text + "\n";
 }

@@ -1,9 +1,9 @@
 #pragma once
 // The CSG tree as `.csg` text.
 //
-// Exactly what `openscad -o x.csg` writes: a module per line with all its
-// parameters, children in braces, tabs for depth, modifiers in front of the
-// tabs. The text is a program that evaluates to the same tree.
+// Exactly what `openscad -o x.csg` of the tree's language writes: a module per
+// line with all its parameters, children in braces, tabs for depth, modifiers
+// in front of the tabs. The text is a program that evaluates to the same tree.
 
 #include <string>
 
@@ -16,8 +16,9 @@ namespace lamina::csg {
 std::string print_csg(const Tree& tree, const Node& root);
 
 // Parameters as they stand in `linear_extrude(…)` and `rotate_extrude(…)`.
-void append_linear_extrude(const LinearExtrudeParams& params,
+void append_linear_extrude(const LinearExtrudeParams& params, Language language,
                            std::string& text);
-void append_rotate_extrude(const RotateExtrude& extrude, std::string& text);
+void append_rotate_extrude(const RotateExtrude& extrude, Language language,
+                           std::string& text);
 
 }  // namespace lamina::csg

@@ -31,11 +31,12 @@ struct CallSite {
   SourceRange range;                 // of the call
 };
 
-// $fn, $fa, $fs as in force where the module was called.
+// $fn, $fa, $fs, $fe as in force where the module was called.
 struct Facets {
   double fn = 0;
   double fa = 12;
   double fs = 2;
+  double fe = 0;  // 0 in 2021, to which the name means nothing
 };
 
 // --- Operations -----------------------------------------------------------
@@ -74,12 +75,15 @@ struct Projection {
   int convexity = 0;
 };
 struct LinearExtrudeParams {
-  double height = 100;
+  double height = 100;   // along z
+  Vec2 shift = Vec2(0);  // of the top, in x and y
   bool center = false;
   int convexity = 1;
   double twist_deg = 0;
   bool has_twist = false;
   int slices = 0;  // 0: not given; csg/plane/facets.h has the rules
+  // Of each contour; 0: edges stay whole. Not given: the language decides.
+  std::optional<int> segments = {};
   Vec2 scale = Vec2(1);
   Facets facets = {};
   // With the deprecated file=: what `.csg` prints, whole. The import that is
@@ -93,6 +97,7 @@ struct RotateExtrude {
   double angle_deg = 360;
   int convexity = 2;
   Facets facets = {};
+  double start_deg = 0;
   std::string_view csg_text = {};  // as for LinearExtrude
 };
 

@@ -77,14 +77,14 @@ ExtrusionSteps steps_within(const LinearExtrudeParams& params,
 
 int circle_fragments(double r, const Fineness& fineness) {
   if (!fineness.is_by_error()) {
-    return planar::fragment_count(r, fineness.facets);
+    return planar::fragment_count(r, fineness.facets, fineness.language);
   }
   return circle_fragments_within(r, fineness.chordal_error);
 }
 
 int sphere_fragments(double r, const Fineness& fineness) {
   if (!fineness.is_by_error()) {
-    return planar::fragment_count(r, fineness.facets);
+    return planar::fragment_count(r, fineness.facets, fineness.language);
   }
   // About π²/n² of the radius; a little fewer to begin with.
   const double error = fineness.chordal_error;
@@ -103,19 +103,19 @@ int turn_fragments(const ProfileRange& range, double angle_deg,
                  360),
         1);
   }
-  const int n = planar::fragment_count(range.high - range.low, fineness.facets);
-  return std::max(static_cast<int>(n * angle / 360), 1);
+  return planar::fragment_count(range.high - range.low, fineness.facets,
+                                fineness.language, angle);
 }
 
 ExtrusionSteps extrusion_steps(const LinearExtrudeParams& params,
                                double max_radius, double max_shift,
-                               double chordal_error) {
+                               const Fineness& fineness) {
   if (params.slices > 0) return {params.slices};
-  const Fineness fineness = {params.facets, chordal_error};
   if (fineness.is_by_error()) {
-    return steps_within(params, max_radius, chordal_error);
+    return steps_within(params, max_radius, fineness.chordal_error);
   }
-  return {planar::slice_count(params, max_radius, max_shift)};
+  return {
+      planar::slice_count(params, max_radius, max_shift, fineness.language)};
 }
 
 double greatest_stretch(const Affine& map) {

@@ -16,6 +16,7 @@
 #include "csg/limits.h"
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/fineness.h"
+#include "csg/lower/detail/split_contours.h"
 #include "csg/plane/triangulate.h"
 
 namespace lamina::csg {
@@ -216,7 +217,7 @@ class TwistedExtruder {
 }  // namespace
 
 Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region,
-                      double chordal_error) {
+                      const Fineness& fineness) {
   const double height = params.height;
   if (!(height > 0) || !std::isfinite(height) || region.is_empty()) return {};
   const double low = params.center ? -height / 2 : 0;
@@ -227,10 +228,13 @@ Leaf extrude_linearly(const LinearExtrudeParams& params, const Region& region,
   const double radius = greatest_length(region, [](Vec2 p) { return p; });
   const double shift =
       greatest_length(region, [&](Vec2 p) { return p - p * params.scale; });
-  const ExtrusionSteps steps =
-      extrusion_steps(params, radius, shift, chordal_error);
+  const ExtrusionSteps steps = extrusion_steps(params, radius, shift, fineness);
   require_triangles(triangle_count(region, steps));
-  const Region outline = split_edges(region, steps.longest_edge);
+  const Region outline =
+      fineness.is_by_error() && !params.segments
+          ? split_edges(region, steps.longest_edge)
+          : split_contours(region, params, steps.slices, fineness.language);
+  require_triangles(triangle_count(outline, {steps.slices}));
   Leaf leaf;
   leaf.meshes.push_back(
       TwistedExtruder(params, outline, low, steps.slices).extrude());

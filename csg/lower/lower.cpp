@@ -103,7 +103,9 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   survey(*tree.root, found);
   const Node* root = found.root_modifier ? found.root_modifier : tree.root;
   HullTable hulls;
-  Lowerer lowerer(found.childless, options, hulls, diagnostics);
+  LowerOptions of_tree = options;
+  of_tree.language = tree.language;
+  Lowerer lowerer(found.childless, of_tree, hulls, diagnostics);
   Shape shape = lowerer.lower(
       *root, options.world_from_design * Mat4(glm::dmat3(options.scale)));
   if (!shape.region.is_empty()) {

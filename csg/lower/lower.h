@@ -34,6 +34,7 @@ struct LowerOptions {
   // Scales the whole design about its origin, outlines too (`--scale`);
   // positive. Facets are those of the design before.
   double scale = 1;
+  Language language = Language::k2021;  // lower() sets it to the tree's
 };
 
 // A design is nothing, an outline in the plane, or a solid.

@@ -199,9 +199,16 @@ Shape Lowerer::lower_op(const LinearExtrude& op, const Node& node,
   const double share = is_curved ? 0.25 : 1;
   const Shape shape = flatten_finely(node, world, share);
   if (shape.dimension == Dimension::kNone) return {};
-  const double error =
-      (1 - share) * fineness(params.facets, world).chordal_error;
-  place_leaf(extrude_linearly(params, shape.region, error), node, world);
+  Fineness sides = fineness(params.facets, world);
+  sides.chordal_error *= 1 - share;
+  Leaf leaf = extrude_linearly(params, shape.region, sides);
+  if (params.shift == Vec2(0) || !(params.height > 0)) {
+    place_leaf(std::move(leaf), node, world);
+  } else {
+    Mat4 shear(1.0);
+    shear[2] = Vec4(params.shift / params.height, 1, 0);
+    place_leaf(std::move(leaf), node, world * shear);
+  }
   return {Dimension::kSolid};
 }
 
@@ -216,21 +223,30 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
   if (range.crosses_axis()) {
     diagnostics_.error(
         node.range,
-        fmt::format("all points for rotate_extrude() must have the same X "
-                    "coordinate sign (range is {:.2f} -> {:.2f})",
-                    range.low, range.high));
+        options_.language == Language::k2021
+            ? fmt::format("all points for rotate_extrude() must have the same "
+                          "X coordinate sign (range is {:.2f} -> {:.2f})",
+                          range.low, range.high)
+            : fmt::format("Children of rotate_extrude() may not lie across the "
+                          "Y axis (Range of X coords for all children [{:.2f} "
+                          ": {:.2f}])",
+                          range.low, range.high));
     return {};
   }
   Fineness turn = fineness(op.facets, world);
   turn.chordal_error *= 1 - kShare;
   const int n = turn_fragments(range, op.angle_deg, turn);
-  place_leaf(extrude_around(profile, op.angle_deg, n), node, world);
+  place_leaf(extrude_around(profile, op.start_deg, op.angle_deg, n), node,
+             world);
   return {Dimension::kSolid};
 }
 
 Fineness Lowerer::fineness(const Facets& facets, const Affine& world) const {
-  if (options_.chordal_error == 0) return {facets};
-  return {facets, options_.chordal_error / greatest_stretch(world)};
+  Fineness fineness{facets, options_.language};
+  if (options_.chordal_error > 0) {
+    fineness.chordal_error = options_.chordal_error / greatest_stretch(world);
+  }
+  return fineness;
 }
 
 Shape Lowerer::flatten_finely(const Node& node, const Affine& world,

@@ -106,7 +106,8 @@ Shape Lowerer::lower_op(const Text& text, const Node& node,
   const TextParams& params = *text.params;
   const Fineness fine = fineness(params.facets, world);
   const text::Chords chords = {
-      planar::curve_segment_count(params.size, params.facets),
+      planar::curve_segment_count(params.size, params.facets,
+                                  options_.language),
       fine.is_by_error() ? fine.chordal_error : 0};
   const auto contours =
       options_.typesetter->outline(params, chords, node.range, diagnostics_);

@@ -23,24 +23,22 @@ namespace {
 using planar::Contour;
 using planar::Region;
 
-// OpenSCAD turns a full circle from -x on, a part of one from +x on; its
-// angles count from +y clockwise.
-constexpr double kFullTurnStartDeg = -90;
-constexpr double kPartTurnStartDeg = 90;
-
-// The direction of the point (1, 0) of the profile at this angle.
-Vec2 direction(double angle_deg) {
-  return {sin_deg(angle_deg), cos_deg(angle_deg)};
+// The direction of the point (1, 0) of the profile, turned from +x by an angle
+// and then back by another. OpenSCAD 2021.01 counts from +y clockwise; its bits
+// come from that.
+Vec2 direction(double angle_deg, double back_deg) {
+  const double clockwise = 90 - angle_deg + back_deg;
+  return {sin_deg(clockwise), cos_deg(clockwise)};
 }
 
 // side  +1 for profiles at x ≥ 0, -1 for those at x ≤ 0
-std::shared_ptr<const std::vector<Vec2>> full_turn(int fragments, double side) {
+std::shared_ptr<const std::vector<Vec2>> full_turn(double start_deg,
+                                                   int fragments, double side) {
   std::vector<Vec2> circle;
   for (int i = 0; i < fragments; ++i) {
     // Counter-clockwise: OpenSCAD's order reversed.
     const int j = (fragments - i) % fragments;
-    circle.push_back(side *
-                     direction(kFullTurnStartDeg + j * 360.0 / fragments));
+    circle.push_back(side * direction(start_deg, j * 360.0 / fragments));
   }
   return std::make_shared<const std::vector<Vec2>>(std::move(circle));
 }
@@ -58,7 +56,8 @@ std::vector<Vec2> to_profile(const Contour& contour, double side) {
 
 class FullTurn {
  public:
-  FullTurn(int fragments, double side) : circle_(full_turn(fragments, side)) {}
+  FullTurn(double start_deg, int fragments, double side)
+      : circle_(full_turn(start_deg, fragments, side)) {}
 
   void add(const std::vector<Vec2>& profile) {
     const auto on_axis = [](Vec2 point) { return point.x == 0; };
@@ -96,8 +95,12 @@ class FullTurn {
 
 class PartTurn {
  public:
-  PartTurn(const Region& region, double angle_deg, int fragments)
-      : region_(region), angle_deg_(angle_deg), fragments_(fragments) {}
+  PartTurn(const Region& region, double start_deg, double angle_deg,
+           int fragments)
+      : region_(region),
+        start_deg_(start_deg),
+        angle_deg_(angle_deg),
+        fragments_(fragments) {}
 
   // is_mirrored  the profile is turned so that surfaces come out inside out
   Mesh extrude(bool is_mirrored) {
@@ -128,8 +131,7 @@ class PartTurn {
     std::vector<std::uint32_t> column;
     for (int j = 0; j <= fragments_; ++j) {
       if (j == 0 || point.x != 0) {
-        const Vec2 d =
-            direction(kPartTurnStartDeg - j * angle_deg_ / fragments_);
+        const Vec2 d = direction(start_deg_, -(j * angle_deg_ / fragments_));
         mesh_.vertices.push_back({point.x * d.x, point.x * d.y, point.y});
       }
       column.push_back(static_cast<std::uint32_t>(mesh_.vertices.size() - 1));
@@ -151,6 +153,7 @@ class PartTurn {
   }
 
   const Region& region_;
+  const double start_deg_;
   const double angle_deg_;
   const int fragments_;
   Mesh mesh_;
@@ -186,11 +189,12 @@ ProfileRange profile_range(const Region& region) {
   return range;
 }
 
-Leaf extrude_around(const Region& region, double angle_deg, int fragments) {
+Leaf extrude_around(const Region& region, double start_deg, double angle_deg,
+                    int fragments) {
   const ProfileRange range = profile_range(region);
   const double side = range.high >= -range.low ? 1 : -1;
   if (angle_deg == 360) {
-    FullTurn turn(fragments, side);
+    FullTurn turn(start_deg, fragments, side);
     for (const Contour& contour : region.contours) {
       turn.add(to_profile(contour, side));
     }
@@ -202,7 +206,7 @@ Leaf extrude_around(const Region& region, double angle_deg, int fragments) {
   }
   require_triangles(2 * points * fragments);
   Leaf leaf;
-  leaf.meshes.push_back(PartTurn(region, angle_deg, fragments)
+  leaf.meshes.push_back(PartTurn(region, start_deg, angle_deg, fragments)
                             .extrude((angle_deg < 0) != (side < 0)));
   // One facet for half a turn or more reaches beyond the axis.
   leaf.may_overlap_itself = std::abs(angle_deg) / fragments >= 180;

@@ -17,9 +17,57 @@ constexpr double kSmallestRadius = 0.00000095367431640625;
 // A slice that turns by more than a third of a circle is no longer a solid.
 constexpr double kGreatestTwistPerSlice = 120;
 
+// $fa and $fs at their least bound the sides that $fe asks for.
+constexpr double kLeastAngle = 0.01;
+constexpr double kLeastLength = 0.01;
+// OpenSCAD's least number of sides where $fn does not say.
+constexpr double kFewest = 5;
+
 int to_count(double x) {
   csg::require_fragments(x);
   return static_cast<int>(x);
+}
+
+double count_by_size(double r, double fa, double fs) {
+  const double by_angle = 360 / fa;
+  const double by_length = r * 2 * std::numbers::pi / fs;
+  return std::fmax(std::fmin(by_angle, by_length), kFewest);
+}
+
+// As few sides as stay within `error` of the circle; not a whole number.
+double count_by_error(double r, double error) {
+  // From here on five sides do.
+  if (error / r >= 1 - std::cos(std::numbers::pi / kFewest)) return kFewest;
+  return std::min(std::numbers::pi / std::acos(1 - error / r),
+                  count_by_size(r, kLeastAngle, kLeastLength));
+}
+
+int fragment_count_2021(double r, const csg::Facets& facets, double angle_deg) {
+  int n = 3;
+  if (r >= kSmallestRadius && std::isfinite(facets.fn)) {
+    n = facets.fn > 0
+            ? to_count(std::max(facets.fn, 3.0))
+            : to_count(std::ceil(count_by_size(r, facets.fa, facets.fs)));
+  }
+  return static_cast<int>(n * angle_deg / 360);
+}
+
+int fragment_count_2026(double r, const csg::Facets& facets, double angle_deg) {
+  const double share = angle_deg / 360;
+  if (r < kSmallestRadius || !std::isfinite(facets.fn) ||
+      !std::isfinite(facets.fe)) {
+    return static_cast<int>(3 * share);
+  }
+  double n = 0;
+  if (facets.fn > 0) {
+    // Multiplied before it is divided, for OpenSCAD's bits.
+    n = std::ceil(std::max(facets.fn, 3.0)) * angle_deg / 360;
+  } else if (facets.fe >= kSmallestRadius) {
+    n = count_by_error(r, facets.fe) * share;
+  } else {
+    n = std::ceil(count_by_size(r, facets.fa, facets.fs)) * share;
+  }
+  return to_count(std::ceil(n));
 }
 
 // More slices than an int can count, as $fs = 0 asks for, count as none.
@@ -49,6 +97,13 @@ double conical_helix_length(double radius, double height, double twist,
   return std::sqrt(plan * plan + height * height);
 }
 
+// As few slices as keep chords of the helix within `error` of it. A chord that
+// turns by t lies r (1 - cos(t / 2)) closer to the axis than the helix.
+int slice_count_by_error(double radius, double twist, double error) {
+  if (error >= radius) return 1;
+  return ceil_to_slices(twist / (2 * std::acos(1 - error / radius)));
+}
+
 int twisted_slice_count(const csg::LinearExtrudeParams& params,
                         double max_radius) {
   const double twist_deg = std::abs(params.twist_deg);
@@ -59,6 +114,10 @@ int twisted_slice_count(const csg::LinearExtrudeParams& params,
   if (fn > 0) return std::max(ceil_to_slices(twist_deg / 360 * fn), least);
   const double twist = twist_deg * std::numbers::pi / 180;
   const bool is_cone = params.scale.x == params.scale.y && params.scale.x != 1;
+  if (params.facets.fe > 0 && !is_cone) {
+    return std::max(slice_count_by_error(max_radius, twist, params.facets.fe),
+                    least);
+  }
   const double length = is_cone
                             ? conical_helix_length(max_radius, params.height,
                                                    twist, params.scale.x)
@@ -70,16 +129,17 @@ int twisted_slice_count(const csg::LinearExtrudeParams& params,
 
 }  // namespace
 
-int fragment_count(double r, const csg::Facets& facets) {
-  if (r < kSmallestRadius || !std::isfinite(facets.fn)) return 3;
-  if (facets.fn > 0) return to_count(std::max(facets.fn, 3.0));
-  const double by_angle = 360 / facets.fa;
-  const double by_length = r * 2 * std::numbers::pi / facets.fs;
-  return to_count(std::ceil(std::fmax(std::fmin(by_angle, by_length), 5)));
+int fragment_count(double r, const csg::Facets& facets, Language language,
+                   double angle_deg) {
+  return std::max(language == Language::k2021
+                      ? fragment_count_2021(r, facets, angle_deg)
+                      : fragment_count_2026(r, facets, angle_deg),
+                  1);
 }
 
-int curve_segment_count(double size, const csg::Facets& facets) {
-  return std::max(fragment_count(size, facets) / 8 + 1, 2);
+int curve_segment_count(double size, const csg::Facets& facets,
+                        Language language) {
+  return std::max(fragment_count(size, facets, language) / 8 + 1, 2);
 }
 
 std::vector<Vec2> unit_circle(int n) {
@@ -92,16 +152,29 @@ std::vector<Vec2> unit_circle(int n) {
   return points;
 }
 
-int slice_count(const csg::LinearExtrudeParams& params, double max_radius,
-                double max_shift) {
-  if (params.has_twist) return twisted_slice_count(params, max_radius);
-  if (params.scale.x == params.scale.y) return 1;
+namespace {
+
+// Of an extrusion whose top is scaled, unevenly and without a twist.
+int scaled_slice_count(const csg::LinearExtrudeParams& params,
+                       double max_shift) {
   const double fn = params.facets.fn;
   if (max_shift < kSmallestRadius || !std::isfinite(fn)) return 1;
   if (fn > 0) return std::max(to_slices(fn), 1);
   const double length =
       std::sqrt(max_shift * max_shift + params.height * params.height);
   return std::max(ceil_to_slices(length / params.facets.fs), 1);
+}
+
+}  // namespace
+
+int slice_count(const csg::LinearExtrudeParams& params, double max_radius,
+                double max_shift, Language language) {
+  const bool is_uneven = params.scale.x != params.scale.y;
+  const int by_scale = is_uneven ? scaled_slice_count(params, max_shift) : 1;
+  if (!params.has_twist) return by_scale;
+  const int by_twist = twisted_slice_count(params, max_radius);
+  // 2021.01 does not look at the scale then.
+  return language == Language::k2021 ? by_twist : std::max(by_twist, by_scale);
 }
 
 }  // namespace lamina::planar

@@ -1,8 +1,8 @@
 #pragma once
-// How round things become polygons: $fn, $fa, $fs.
+// How round things become polygons: $fn, $fa, $fs, $fe.
 //
-// The rules are OpenSCAD 2021.01's, so that a design has the same vertices
-// here and there.
+// The rules are OpenSCAD's, of 2021.01 or of 2026, so that a design has the
+// same vertices here and there.
 
 #include <memory>
 #include <vector>
@@ -12,12 +12,15 @@
 
 namespace lamina::planar {
 
-// Number of sides of a circle of radius r [mm], 3 to csg::kMostFragments.
-int fragment_count(double r, const csg::Facets& facets);
+// Number of sides of a circle of radius r [mm], 3 to csg::kMostFragments, or of
+// the part of one that spans an angle in (0, 360], 1 at least.
+int fragment_count(double r, const csg::Facets& facets, Language language,
+                   double angle_deg = 360);
 
 // Number of chords of a curve in a text of this size: fewer than of a circle,
 // as the curves of letters are short.
-int curve_segment_count(double size, const csg::Facets& facets);
+int curve_segment_count(double size, const csg::Facets& facets,
+                        Language language);
 
 // (cos, sin) of 360° · i / n, counter-clockwise from +x.
 std::vector<Vec2> unit_circle(int n);
@@ -27,6 +30,6 @@ std::vector<Vec2> unit_circle(int n);
 // max_radius  greatest distance of a vertex of the outline from the axis [mm]
 // max_shift   greatest distance that a vertex moves in x, y without twist [mm]
 int slice_count(const csg::LinearExtrudeParams& params, double max_radius,
-                double max_shift);
+                double max_shift, Language language);
 
 }  // namespace lamina::planar

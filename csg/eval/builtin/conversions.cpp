@@ -57,7 +57,7 @@ int to_int(const Value& value) { return cut_to<int>(value.number_or_zero()); }
 
 Facets current_facets(Interpreter& in) {
   return {in.dynamic_number(kFn), in.dynamic_number(kFa),
-          in.dynamic_number(kFs)};
+          in.dynamic_number(kFs), in.is_2021() ? 0 : in.dynamic_number(kFe)};
 }
 
 }  // namespace lamina::csg

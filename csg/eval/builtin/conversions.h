@@ -40,7 +40,7 @@ inline std::string_view string_or(const Value& value,
 // The number cut to an int as OpenSCAD cuts it; 0 for any other value.
 int to_int(const Value& value);
 
-// `$fn $fa $fs` as in force now.
+// `$fn $fa $fs`, and in 2026 `$fe`, as in force now.
 Facets current_facets(Interpreter& in);
 
 }  // namespace lamina::csg

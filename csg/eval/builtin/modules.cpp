@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "csg/eval/builtin/conversions.h"
 #include "csg/eval/code/argument_plan.h"
 #include "csg/eval/run/arguments.h"
 #include "csg/eval/run/each_value.h"
@@ -33,6 +34,30 @@ const Value& ModuleCall::operator[](std::string_view parameter) const {
   std::size_t i = 0;
   while (code.parameters[i].name != parameter) ++i;
   return values_[i];
+}
+
+Facets clamped_facets(const ModuleCall& call) {
+  constexpr double kLeast = 0.01;
+  Facets facets = current_facets(call.in);
+  const auto clamp_sign = [&](double& value, const char* name) {
+    if (!(value < 0) || call.in.is_2021()) return;
+    call.warn("{} negative - setting to 0", name);
+    value = 0;
+  };
+  const auto clamp = [&](double& value, const char* name) {
+    if (!(value < kLeast)) return;
+    call.warn("{} too small - clamping to {:f}", name, kLeast);
+    value = kLeast;
+  };
+  clamp_sign(facets.fn, "$fn");
+  clamp_sign(facets.fe, "$fe");
+  clamp(facets.fs, "$fs");
+  clamp(facets.fa, "$fa");
+  return facets;
+}
+
+Facets facets_of(const ModuleCall& call) {
+  return call.in.is_2021() ? current_facets(call.in) : clamped_facets(call);
 }
 
 namespace {

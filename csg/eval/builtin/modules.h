@@ -11,6 +11,7 @@
 
 #include "csg/eval/code/code.h"
 #include "csg/eval/run/interpreter.h"
+#include "csg/tree.h"
 
 namespace lamina::csg {
 
@@ -51,6 +52,11 @@ class ModuleCall {
   static constexpr std::size_t kMost = 12;
   Value values_[kMost];
 };
+
+// `$fn $fa $fs $fe` within their limits; a change is warned of.
+Facets clamped_facets(const ModuleCall& call);
+// The same in 2026; 2021.01 clamps those of primitives only.
+Facets facets_of(const ModuleCall& call);
 
 // Run the block of a module, the first before the module looks at `$`
 // variables.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "base/letter_case.h"
 #include "csg/csg_printer.h"
@@ -102,7 +103,7 @@ Projection projection(const ModuleCall& call) {
 
 Offset offset(const ModuleCall& call) {
   Offset offset;
-  offset.facets = current_facets(call.in);
+  offset.facets = facets_of(call);
   offset.amount = 1;
   if (call["r"].is_number()) {
     offset.amount = call["r"].as_number();
@@ -114,7 +115,60 @@ Offset offset(const ModuleCall& call) {
   return offset;
 }
 
-// The deprecated scale= of extrusions.
+// The value of a parameter that has two names.
+const Value& either(std::string_view name, std::string_view other,
+                    const ModuleCall& call) {
+  if (call[name].is_undef()) return call[other];
+  if (!call[other].is_undef()) {
+    call.warn("Specified both {} and {}",
+              quoted_name(name, call.in.language(), "\""),
+              quoted_name(other, call.in.language(), "\""));
+  }
+  return call[name];
+}
+
+// The way from the bottom of an extrusion to its top: a height, or a vector.
+Vec3 read_extrusion_way(const ModuleCall& call) {
+  constexpr double kUsualHeight = 100;
+  Vec3 way(0, 0, 1);
+  if (!call["v"].is_undef()) {
+    const std::optional<Vec3> given = to_vec3(call["v"]);
+    if (given && std::isfinite(glm::dot(*given, *given))) {
+      way = *given;
+    } else {
+      call.warn("v when specified should be a 3d vector");
+    }
+  }
+  Value height = either("height", "h", call);
+  if (height.is_undef() && call.code.late_argument != nullptr) {
+    height = run(call.code.late_argument, call.frame);
+  }
+  if (height.is_undef()) return call["v"].is_undef() ? way * kUsualHeight : way;
+  const std::optional<double> number = to_finite(height);
+  if (!number && !call.in.is_2021()) {
+    call.warn("height when specified should be a number");
+  }
+  const double length = glm::length(way);
+  return way * (number.value_or(kUsualHeight) / (length > 0 ? length : 1));
+}
+
+// A whole number, `least` or more; none where it is no number.
+std::optional<int> read_count(std::string_view name, int least,
+                              const ModuleCall& call) {
+  const Value& value = call[name];
+  if (to_finite(value)) return std::max(to_int(value), least);
+  if (value.is_undef() || call.in.is_2021()) return std::nullopt;
+  if (value.is_number()) {
+    call.warn("{}(..., {}={}) argument cannot be infinite or nan",
+              call.code.name, name, to_echo(value));
+  } else {
+    call.warn("{}(..., {}={}) Invalid type: expected number, found {}",
+              call.code.name, name, to_echo(value), type_name(value.type()));
+  }
+  return std::nullopt;
+}
+
+// The scale of the top. 2021.01 warns of it where the origin is given.
 Vec2 read_extrusion_scale(const Value& scale, const Value& origin,
                           const ModuleCall& call) {
   Vec2 factors(1.0);
@@ -127,8 +181,8 @@ Vec2 read_extrusion_scale(const Value& scale, const Value& origin,
   } else {
     is_fine = false;
   }
-  // OpenSCAD asks for the origin here, not for the scale.
-  if (!origin.is_undef() && !is_fine) {
+  const Value& asked = call.in.is_2021() ? origin : scale;
+  if (!asked.is_undef() && !is_fine) {
     call.warn("linear_extrude(..., scale={}) could not be converted",
               to_echo(scale));
   }
@@ -169,26 +223,21 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
   Interpreter& in = frame.in;
   const std::size_t mark = in.node_mark();
   const ModuleCall call(code, frame);
-  run_assignments(*code.block, frame);
+  begin_block(*code.block, frame);
   LinearExtrudeParams params;
-  params.facets = current_facets(in);
+  params.facets = facets_of(call);
   const Value& file = call["file"];
   if (file.is_string()) deprecate_file("linear_extrude", call);
-  if (!call["height"].is_undef()) {
-    params.height = to_finite(call["height"]).value_or(params.height);
-  } else if (code.late_argument != nullptr) {
-    const Value height = run(code.late_argument, frame);
-    params.height = to_finite(height).value_or(params.height);
-  }
-  if (params.height <= 0) params.height = 0;  // -0 is printed otherwise
+  const Vec3 way = read_extrusion_way(call);
+  params.shift = Vec2(way);
+  params.height = way.z > 0 ? way.z : 0;  // -0 is printed otherwise
   params.convexity =
       std::max(to_finite(call["convexity"]) ? to_int(call["convexity"]) : 1, 1);
   const Vec2 origin = read_origin(call["origin"], "linear_extrude", call);
   params.scale = read_extrusion_scale(call["scale"], call["origin"], call);
   params.center = is_set(call["center"]);
-  if (to_finite(call["slices"])) {
-    params.slices = std::max(to_int(call["slices"]), 0);
-  }
+  params.slices = read_count("slices", in.is_2021() ? 0 : 1, call).value_or(0);
+  params.segments = read_count("segments", 0, call);
   params.twist_deg = to_finite(call["twist"]).value_or(0.0);
   params.has_twist = params.twist_deg != 0.0;
   if (file.is_string() && !file.as_string().empty()) {
@@ -197,30 +246,41 @@ void linear_extrude(const BuiltinModuleCode& code, Frame& frame) {
     std::string text =
         fmt::format("linear_extrude({}{}, ", drawing_text(drawing, frame),
                     timestamp_text(std::string(drawing.path), frame));
-    append_linear_extrude(params, text);
+    append_linear_extrude(params, in.language(), text);
     params.csg_text = make_drawing(drawing, text + ")", call);
   } else {
-    run_statements(*code.block, frame);
+    end_block(*code.block, frame);
   }
   in.make_node(LinearExtrude{in.keep(params)}, code, mark);
+}
+
+// OpenSCAD 2021.01 begins full turns at -x, 2026 those of which no angle is
+// given; all others at +x.
+void read_turn(const ModuleCall& call, RotateExtrude& extrude) {
+  const std::optional<double> angle = to_finite(either("angle", "a", call));
+  extrude.angle_deg = angle.value_or(360.0);
+  if (extrude.angle_deg <= -360 || extrude.angle_deg > 360) {
+    extrude.angle_deg = 360;
+  }
+  const bool begins_behind =
+      call.in.is_2021() ? extrude.angle_deg == 360 : !angle;
+  extrude.start_deg =
+      to_finite(call["start"]).value_or(begins_behind ? 180 : 0);
 }
 
 void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
   Interpreter& in = frame.in;
   const std::size_t mark = in.node_mark();
   const ModuleCall call(code, frame);
-  run_assignments(*code.block, frame);
+  begin_block(*code.block, frame);
   RotateExtrude extrude;
-  extrude.facets = current_facets(in);
+  extrude.facets = facets_of(call);
   const Value& file = call["file"];
   if (!file.is_undef()) deprecate_file("rotate_extrude", call);
   extrude.convexity = to_int(call["convexity"]);
-  if (extrude.convexity <= 0) extrude.convexity = 2;
+  if (extrude.convexity <= (in.is_2021() ? 0 : 1)) extrude.convexity = 2;
   const Vec2 origin = read_origin(call["origin"], "rotate_extrude", call);
-  extrude.angle_deg = to_finite(call["angle"]).value_or(360.0);
-  if (extrude.angle_deg <= -360 || extrude.angle_deg > 360) {
-    extrude.angle_deg = 360;
-  }
+  read_turn(call, extrude);
   if (!file.is_undef() && !to_text(file).empty()) {
     const double given = call["scale"].number_or_zero();
     const double scale = given <= 0 ? 1 : given;
@@ -229,10 +289,10 @@ void rotate_extrude(const BuiltinModuleCode& code, Frame& frame) {
     std::string text = fmt::format(
         "rotate_extrude({}scale = {:g}, {}, ", drawing_text(drawing, frame),
         scale, timestamp_text(std::string(drawing.path), frame));
-    append_rotate_extrude(extrude, text);
+    append_rotate_extrude(extrude, in.language(), text);
     extrude.csg_text = make_drawing(drawing, text + ")", call);
   } else {
-    run_statements(*code.block, frame);
+    end_block(*code.block, frame);
   }
   in.make_node(extrude, code, mark);
 }
@@ -243,8 +303,13 @@ std::vector<BuiltinModuleRow> operation_rows() {
   const std::vector<std::string_view> linear = {"file",   "layer", "height",
                                                 "origin", "scale", "center",
                                                 "twist",  "slices"};
+  const std::vector<std::string_view> newer_linear = {
+      "height", "v",        "scale",     "center", "twist",
+      "slices", "segments", "convexity", "h"};
   const std::vector<std::string_view> around = {"file", "layer", "origin",
                                                 "scale"};
+  const std::vector<std::string_view> newer_around = {"angle", "start",
+                                                      "convexity", "a"};
   return {
       {"group", plain_operation<Group>, {}},
       {"union", plain_operation<Union>, {}},
@@ -258,18 +323,30 @@ std::vector<BuiltinModuleRow> operation_rows() {
       {"resize", run_operation<resize>, {"newsize", "auto", "convexity"}},
       {"projection", run_operation<projection>, {"cut"}, {"convexity"}},
       {"offset", run_operation<offset>, {"r"}, {"delta", "chamfer"}},
-      {"linear_extrude", linear_extrude, linear, {"convexity"}},
+      {"linear_extrude",
+       linear_extrude,
+       linear,
+       {"convexity", "h", "v", "segments"},
+       {},
+       newer_linear},
       {"dxf_linear_extrude",
        linear_extrude,
        linear,
-       {"convexity"},
-       "linear_extrude()"},
-      {"rotate_extrude", rotate_extrude, around, {"convexity", "angle"}},
+       {"convexity", "h", "v", "segments"},
+       "linear_extrude()",
+       newer_linear},
+      {"rotate_extrude",
+       rotate_extrude,
+       around,
+       {"convexity", "angle", "start", "a"},
+       {},
+       newer_around},
       {"dxf_rotate_extrude",
        rotate_extrude,
        around,
-       {"convexity", "angle"},
-       "rotate_extrude()"},
+       {"convexity", "angle", "start", "a"},
+       "rotate_extrude()",
+       newer_around},
   };
 }
 

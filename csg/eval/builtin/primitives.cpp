@@ -19,20 +19,6 @@ namespace lamina::csg {
 
 namespace {
 
-// `$fn $fa $fs`, the last two clamped.
-Facets clamped_facets(const ModuleCall& call) {
-  constexpr double kLeast = 0.01;
-  Facets facets = current_facets(call.in);
-  const auto clamp = [&](double& value, const char* name) {
-    if (!(value < kLeast)) return;
-    call.warn("{} too small - clamping to {:f}", name, kLeast);
-    value = kLeast;
-  };
-  clamp(facets.fs, "$fs");
-  clamp(facets.fa, "$fa");
-  return facets;
-}
-
 // Runs a module without children; `make` makes the leaf of the call.
 template <auto make>
 void run_primitive(const BuiltinModuleCode& code, Frame& frame) {

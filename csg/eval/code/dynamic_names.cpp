@@ -7,7 +7,7 @@ bool is_dynamic_name(std::string_view name) {
 }
 
 DynamicNames::DynamicNames() {
-  for (const char* name : {"$fn", "$fa", "$fs", "$t", "$preview", "$vpt",
+  for (const char* name : {"$fn", "$fa", "$fs", "$fe", "$t", "$preview", "$vpt",
                            "$vpr", "$vpd", "$vpf"}) {
     number_of(name);
   }

@@ -15,6 +15,7 @@ enum WellKnown : std::uint32_t {
   kFn,
   kFa,
   kFs,
+  kFe,
   kTime,
   kPreview,
   kViewTranslation,

@@ -7,15 +7,19 @@
 
 namespace lamina::csg {
 
+struct Fineness;
+
 // Straight and evenly scaled extrusions are lofts, one for each contour;
 // twisted and unevenly scaled ones are meshes with OpenSCAD's vertices and
 // diagonals, because their sides are not planar. The leaf is empty where the
 // height is 0 or the region is empty.
 //
-// chordal_error  of sides that are not planar, where neither $fn nor slices
-//                decide [mm]; 0: $fa and $fs decide
+// The extrusion stands upright, whatever `shift` of its top.
+//
+// fineness  of sides that are not planar, where slices= does not decide; its
+//           chordal error is 0 where $fa and $fs decide
 Leaf extrude_linearly(const LinearExtrudeParams& params,
-                      const planar::Region& region, double chordal_error);
+                      const planar::Region& region, const Fineness& fineness);
 
 // The region with x = 0 where a point is as good as on the axis, within 1e-8
 // mm: rounding makes such. (OpenSCAD's grid of 2^-16 mm takes even more there.)
@@ -33,9 +37,10 @@ ProfileRange profile_range(const planar::Region& region);
 // Turns the region about the y axis, which becomes z. A full turn gives lofts,
 // a part of one a mesh. The region must not cross the axis.
 //
-// angle_deg  in (-360, 360]
+// start_deg  of the region, counter-clockwise from +x
+// angle_deg  from there on, in (-360, 360]
 // fragments  over the whole angle
-Leaf extrude_around(const planar::Region& region, double angle_deg,
-                    int fragments);
+Leaf extrude_around(const planar::Region& region, double start_deg,
+                    double angle_deg, int fragments);
 
 }  // namespace lamina::csg

@@ -14,6 +14,7 @@ namespace lamina::csg {
 
 struct Fineness {
   Facets facets = {};
+  Language language = Language::k2021;
   double chordal_error = 0;  // in the node's own coordinates [mm]; 0: none
 
   bool is_by_error() const { return chordal_error > 0 && !(facets.fn > 0); }
@@ -40,7 +41,7 @@ struct ExtrusionSteps {
 // max_shift   greatest distance that one moves in x, y without twist [mm]
 ExtrusionSteps extrusion_steps(const LinearExtrudeParams& params,
                                double max_radius, double max_shift,
-                               double chordal_error);
+                               const Fineness& fineness);
 
 // The greatest factor by which the map lengthens a vector, or a little more
 // where its columns are not perpendicular.

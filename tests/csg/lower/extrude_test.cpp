@@ -47,6 +47,47 @@ TEST_F(LinearExtrudeTest, CenterMovesItHalfWayDown) {
   EXPECT_EQ(scene.box.high.z, 1.5);
 }
 
+TEST_F(LinearExtrudeTest, AShiftedTopKeepsEachSection) {
+  const LinearExtrudeParams upright{
+      .height = 3, .twist_deg = 50, .has_twist = true, .slices = 4};
+  LinearExtrudeParams leaning = upright;
+  leaning.shift = {1, -2};
+  leaning.center = true;
+  EXPECT_NEAR(run_volume({b.linear_extrude(leaning, {frame()})}),
+              run_volume({b.linear_extrude(upright, {frame()})}), 1e-9);
+  const Scene scene = run_solid({b.linear_extrude(
+      {.height = 3, .shift = {1, -2}, .center = true}, {frame()})});
+  EXPECT_EQ(scene.box.low, Vec3(-2.5, -3, -1.5));
+  EXPECT_EQ(scene.box.high, Vec3(2.5, 3, 1.5));
+}
+
+// A square of 4 points, on each of two rings.
+TEST_F(LinearExtrudeTest, SegmentsDivideTheLongestEdges) {
+  const auto points = [&](std::optional<int> segments, Vec2 size) {
+    const LinearExtrudeParams params{.height = 3,
+                                     .twist_deg = 30,
+                                     .has_twist = true,
+                                     .slices = 1,
+                                     .segments = segments};
+    const Scene scene =
+        run_solid({b.linear_extrude(params, {b.node(Square{size, true})})});
+    return scene.leaves[0].meshes[0].vertices.size() / 2;
+  };
+  EXPECT_EQ(points({}, {4, 4}), 4u);
+  EXPECT_EQ(points(0, {4, 4}), 4u);
+  EXPECT_EQ(points(7, {4, 4}), 4u) << "one more for each edge, or none";
+  EXPECT_EQ(points(8, {4, 4}), 8u);
+  EXPECT_EQ(points(64, {4, 4}), 64u);
+  EXPECT_EQ(points(6, {9, 1}), 6u) << "both long edges";
+  EXPECT_EQ(points(9, {9, 1}), 8u);
+  language = Language::k2026;
+  // No part longer than $fs = 2, and of $fa = 12 no more than 30 points.
+  EXPECT_EQ(points({}, {4, 4}), 8u);
+  EXPECT_EQ(points({}, {9, 1}), 12u);
+  EXPECT_EQ(points({}, {40, 40}), 28u);
+  EXPECT_EQ(points(0, {4, 4}), 4u);
+}
+
 TEST_F(LinearExtrudeTest, ScaledToNothingItIsAPyramid) {
   EXPECT_NEAR(run_volume({b.linear_extrude({.height = 3, .scale = Vec2(0)},
                                            {frame()})}),
@@ -103,6 +144,39 @@ TEST_F(RotateExtrudeTest, FollowsPappus) {
                   RotateExtrude{360, 2, {16}},
                   {b.translate({5, 0, 0}, {b.node(Square{{2, 3}, true})})})}),
               swept(16, 6, 5), 1e-9);
+}
+
+// Pappus again: a part of a turn is as many equal wedges as it has facets.
+TEST_F(RotateExtrudeTest, APartOfATurnBeginsWhereItIsTold) {
+  const auto ring = [&](double start, double angle) {
+    return b.node(
+        RotateExtrude{.angle_deg = angle, .facets = {18}, .start_deg = start},
+        {b.translate({5, 0, 0}, {b.node(Square{{2, 3}, true})})});
+  };
+  for (const double start : {0.0, 20.0, -130.0}) {
+    EXPECT_NEAR(run_volume({ring(start, 100)}), swept(18, 6, 5) * 5 / 18, 1e-9);
+    EXPECT_NEAR(run_volume({ring(start, -100)}), swept(18, 6, 5) * 5 / 18,
+                1e-9);
+    EXPECT_NEAR(run_volume({ring(start, 360)}), swept(18, 6, 5), 1e-9);
+  }
+  const Box3 quarter = run_solid({ring(90, 80)}).box;
+  EXPECT_NEAR(quarter.high.x, 0, 1e-12);
+  EXPECT_NEAR(quarter.high.y, 6, 1e-12);
+  EXPECT_NEAR(quarter.low.x, -6 * std::cos(std::numbers::pi / 18), 1e-12);
+}
+
+// 7 sides over 100 degrees: 1.94 of them, or 2 of 50 degrees each.
+TEST_F(RotateExtrudeTest, FacetsOfAPartAreRoundedUpInNewerDesigns) {
+  const auto volume = [&] {
+    return run_volume(
+        {b.node(RotateExtrude{100, 2, {7}}, {b.node(Square{{1, 1}})})});
+  };
+  const auto wedge = [](double degrees) {
+    return std::sin(degrees * std::numbers::pi / 180) / 2;
+  };
+  EXPECT_NEAR(volume(), wedge(100), 1e-9);
+  language = Language::k2026;
+  EXPECT_NEAR(volume(), 2 * wedge(50), 1e-9);
 }
 
 TEST_F(RotateExtrudeTest, ProfilesOnTheNegativeSideDoToo) {

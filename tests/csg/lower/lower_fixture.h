@@ -18,7 +18,9 @@ namespace lamina::csg {
 class LowerFixture : public ::testing::Test {
  protected:
   Lowered run(const TreeBuilder::Children& children) {
-    return lower(b.tree(children), {}, diagnostics);
+    Tree tree = b.tree(children);
+    tree.language = language;
+    return lower(tree, {}, diagnostics);
   }
 
   Scene run_solid(const TreeBuilder::Children& children) {
@@ -55,6 +57,7 @@ class LowerFixture : public ::testing::Test {
     return result;
   }
 
+  Language language = Language::k2021;
   TreeBuilder b;
   Diagnostics diagnostics;
 };
