@@ -73,10 +73,15 @@ LaminaResult run_lamina(const Design& design,
 
 // openscad's words where it left a part of the design out.
 std::string missing_part(const Reference& reference) {
-  constexpr std::string_view kWords =
-      "Unable to convert to CGAL_Nef_Polyhedron";
-  if (reference.words.find(kWords) == std::string::npos) return "";
-  return fmt::format("openscad left a part out: {}", kWords);
+  for (const std::string_view words :
+       {"Unable to convert to CGAL_Nef_Polyhedron",  // 2021.01
+        "Unable to convert to CGALNefGeometry",      // 2025.07
+        "-> Manifold conversion failed"}) {
+    if (reference.words.find(words) != std::string::npos) {
+      return fmt::format("openscad left a part out: {}", words);
+    }
+  }
+  return "";
 }
 
 // Why openscad's mesh is no judge of a section that differs; empty: it is one.
