@@ -12,10 +12,9 @@
 namespace lamina::csg {
 namespace {
 
-std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
-                           ImportFormat format) {
+std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
   std::vector<RawMesh> bodies;
-  switch (format) {
+  switch (params.format) {
     case ImportFormat::kStl:
       bodies.push_back(parse_stl(bytes));
       break;
@@ -26,9 +25,9 @@ std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
       bodies.push_back(parse_obj(bytes));
       break;
     case ImportFormat::kAmf:
-      return parse_amf(bytes, std::filesystem::path(path).filename());
+      return parse_amf(bytes, std::filesystem::path(params.path).filename());
     case ImportFormat::k3mf:
-      return parse_3mf(bytes);
+      return parse_3mf(bytes, params.rules);
     case ImportFormat::kUnknown:
     case ImportFormat::kDxf:
     case ImportFormat::kSvg:
@@ -86,10 +85,11 @@ std::size_t drop_infinite(RawMesh& raw) {
 
 }  // namespace
 
-std::vector<RawMesh> read_mesh_file(const std::string& path,
-                                    ImportFormat format,
+std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     const FileAccess& access, SourceRange range,
                                     Diagnostics& diagnostics) {
+  const std::string path(params.path);
+  const ImportFormat format = params.format;
   const auto bytes = FileBytes::open(path, access);
   if (!bytes) {
     diagnostics.warning(range, warning_text(format == ImportFormat::k3mf
@@ -100,7 +100,7 @@ std::vector<RawMesh> read_mesh_file(const std::string& path,
   }
   std::vector<RawMesh> bodies;
   try {
-    bodies = parse(bytes->view(), path, format);
+    bodies = parse(bytes->view(), params);
   } catch (const FormatError& fault) {
     report_broken(path, format, fault, range, diagnostics);
     return {};
