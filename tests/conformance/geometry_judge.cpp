@@ -33,13 +33,14 @@ struct LaminaResult {
   std::vector<ldni::Contours> layers;
 };
 
-LaminaResult run_lamina(const fs::path& design,
+LaminaResult run_lamina(const Design& design,
                         const std::vector<double>& heights) {
   const support::TemporaryFolder folder;
   const std::string output = folder.file("out.layers.json");
   std::vector<std::string> arguments = {
       "timeout",      std::to_string(kLaminaSeconds),
-      LAMINA_PROGRAM, design,
+      LAMINA_PROGRAM, design.path,
+      "--language",   design.language,
       "-o",           output,
       "--tolerance",  "0"};
   if (!heights.empty()) {
@@ -94,7 +95,7 @@ std::string fault_of(const Reference& reference, double z, double distance) {
 
 // heights        of the mesh's sections
 // layer_heights  of lamina's layers; none: those that it has
-Judgement judge_mesh(const Reference& reference, const fs::path& design,
+Judgement judge_mesh(const Reference& reference, const Design& design,
                      const std::vector<double>& heights,
                      const std::vector<double>& layer_heights) {
   const csg::Mesh& mesh = reference.mesh;
@@ -141,16 +142,16 @@ std::vector<double> generic_heights(const csg::Mesh& mesh, std::size_t count) {
   return oracle::generic_heights({{mesh}, {}, {}, {}}, low->z, high->z, count);
 }
 
-Judgement judge_solid(const Reference& reference, const fs::path& design,
+Judgement judge_solid(const Reference& reference, const Design& design,
                       const std::vector<double>& heights) {
   return judge_mesh(reference, design, heights, heights);
 }
 
-Judgement judge_outline(const Reference& reference, const fs::path& design) {
+Judgement judge_outline(const Reference& reference, const Design& design) {
   return judge_mesh(reference, design, {0.5}, {});
 }
 
-Judgement judge_empty(const Reference& reference, const fs::path& design) {
+Judgement judge_empty(const Reference& reference, const Design& design) {
   const LaminaResult lamina = run_lamina(design, {});
   if (lamina.is_empty) return {"empty", ""};
   if (const auto part = missing_part(reference); !part.empty()) {

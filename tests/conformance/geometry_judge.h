@@ -22,20 +22,22 @@ struct Judgement {
   std::string complaint;  // where it is neither equal nor empty
 };
 
+struct Design {
+  std::filesystem::path path;
+  std::string language;  // 2021, 2026 or auto
+};
+
 // `count` heights spread over the mesh, each far from all of its vertices.
 std::vector<double> generic_heights(const csg::Mesh& mesh, std::size_t count);
 
 // Runs lamina on `design` for its sections at `heights`, which rise.
-Judgement judge_solid(const Reference& reference,
-                      const std::filesystem::path& design,
+Judgement judge_solid(const Reference& reference, const Design& design,
                       const std::vector<double>& heights);
 
 // Of a 2D design, whose mesh is its outline, extruded from 0 to 1.
-Judgement judge_outline(const Reference& reference,
-                        const std::filesystem::path& design);
+Judgement judge_outline(const Reference& reference, const Design& design);
 
 // Where openscad makes nothing of the design.
-Judgement judge_empty(const Reference& reference,
-                      const std::filesystem::path& design);
+Judgement judge_empty(const Reference& reference, const Design& design);
 
 }  // namespace lamina::conformance

@@ -1,7 +1,8 @@
-// geometry_judge <design> <mesh> <words> <height>...: judges lamina's layers by
-// a mesh (binary STL) that openscad made, its messages in the file <words>, at
-// these heights or up to 0.01 mm from them, where no vertex is near. Prints the
-// verdict (equal, no-judge, differs) and, below it, why.
+// geometry_judge --language <word> <design> <mesh> <words> <height>...: judges
+// lamina's layers of a design in that language by a mesh (binary STL) that
+// openscad made, its messages in the file <words>, at these heights or up to
+// 0.01 mm from them, where no vertex is near. Prints the verdict (equal,
+// no-judge, differs) and, below it, why.
 
 #include <cstdio>
 #include <cstdlib>
@@ -25,17 +26,18 @@ constexpr double kGreatestMove = 0.01;
 
 int run(std::span<char*> arguments) {
   const Reference reference = {ReferenceKind::kSolid,
-                               oracle::read_binary_stl(arguments[1]),
-                               support::read_file(arguments[2])};
+                               oracle::read_binary_stl(arguments[3]),
+                               support::read_file(arguments[4])};
   std::vector<double> heights;
-  for (const char* const text : arguments.subspan(3)) {
+  for (const char* const text : arguments.subspan(5)) {
     const double z = std::strtod(text, nullptr);
     const auto clear =
         oracle::generic_heights({{reference.mesh}, {}, {}, {}},
                                 z - kGreatestMove, z + kGreatestMove, 1);
     heights.insert(heights.end(), clear.begin(), clear.end());
   }
-  const Judgement judgement = judge_solid(reference, arguments[0], heights);
+  const Judgement judgement =
+      judge_solid(reference, {arguments[2], arguments[1]}, heights);
   fmt::print("{}\n{}\n", judgement.verdict, judgement.complaint);
   return 0;
 }
@@ -45,9 +47,10 @@ int run(std::span<char*> arguments) {
 
 int main(int argc, char** argv) {
   const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
-  if (arguments.size() < 5) {
+  if (arguments.size() < 7) {
     fmt::print(stderr,
-               "usage: geometry_judge <design> <mesh> <words> <height>...\n");
+               "usage: geometry_judge --language <word> <design> <mesh> "
+               "<words> <height>...\n");
     return 2;
   }
   try {

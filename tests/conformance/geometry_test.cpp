@@ -28,8 +28,8 @@ const fs::path kData = LAMINA_OPENSCAD_DATA;
 constexpr std::size_t kHeights = 7;
 
 Judgement judge_design(const std::string& name) {
-  const fs::path design = kData / name;
-  const Reference reference = render_reference(kData, design);
+  const Design design = {kData / name, "2021"};
+  const Reference reference = render_reference(kData, design.path);
   switch (reference.kind) {
     case ReferenceKind::kSolid:
       return judge_solid(reference, design,

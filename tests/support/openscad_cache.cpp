@@ -20,13 +20,23 @@ namespace fs = std::filesystem;
 constexpr const char* kTimeLimit = "--cpu=240";
 constexpr int kDesignIsAtFault = 1;  // or makes nothing
 
-const std::string& openscad_version() {
+const std::string& installed_version() {
   static const std::string version = [] {
     const ProcessResult result = run_process({"openscad", "--version"});
     if (result.status != 0) throw std::runtime_error("openscad does not run");
     return result.output + result.errors;
   }();
   return version;
+}
+
+std::string command_of(OpenScad program) {
+  return program == OpenScad::k2021 ? "openscad" : LAMINA_OPENSCAD_2026;
+}
+
+// What changes with the program. Its wrapper names the version of the other.
+std::string identity_of(OpenScad program) {
+  return program == OpenScad::k2021 ? installed_version()
+                                    : read_file(LAMINA_OPENSCAD_2026);
 }
 
 // Names of the fonts on this machine: which of them a text takes depends on
@@ -61,8 +71,8 @@ std::uint64_t hash(const std::string& text) {
 
 // The folder in which the cache keeps the answer.
 fs::path place_of(const fs::path& design, const std::string& format,
-                  const std::vector<std::string>& options) {
-  std::string key = openscad_version() + installed_fonts() + design.string() +
+                  const std::vector<std::string>& options, OpenScad program) {
+  std::string key = identity_of(program) + installed_fonts() + design.string() +
                     read_file(design.string());
   for (const std::string& option : options) key += '\0' + option;
   return cache_folder() / fmt::format("{}-{:016x}.{}", design.stem().string(),
@@ -80,10 +90,11 @@ void publish(const TemporaryFolder& folder, const fs::path& place) {
 }
 
 void run_openscad(const fs::path& design, const std::string& format,
-                  const std::vector<std::string>& options,
+                  const std::vector<std::string>& options, OpenScad program,
                   const fs::path& place) {
   const TemporaryFolder folder(cache_folder());
-  std::vector<std::string> command = {"prlimit", kTimeLimit, "openscad"};
+  std::vector<std::string> command = {"prlimit", kTimeLimit,
+                                      command_of(program)};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(),
                  {"-o", folder.file("output." + format), design.string()});
@@ -100,9 +111,12 @@ void run_openscad(const fs::path& design, const std::string& format,
 }  // namespace
 
 OpenScadResult ask_openscad(const fs::path& design, const std::string& format,
-                            const std::vector<std::string>& options) {
-  const fs::path place = place_of(design, format, options);
-  if (!fs::exists(place)) run_openscad(design, format, options, place);
+                            const std::vector<std::string>& options,
+                            OpenScad program) {
+  const fs::path place = place_of(design, format, options, program);
+  if (!fs::exists(place)) {
+    run_openscad(design, format, options, program, place);
+  }
   OpenScadResult result{read_file((place / "words").string()), {}};
   const fs::path output = place / ("output." + format);
   if (fs::exists(output)) result.output = output;

@@ -1,5 +1,5 @@
 #pragma once
-// The installed openscad, asked once for each thing.
+// openscad, asked once for each thing.
 //
 // A design may take it a minute, so what it wrote is kept outside the source
 // and the build tree, and serves as long as the program's version, the fonts on
@@ -12,6 +12,11 @@
 #include <vector>
 
 namespace lamina::support {
+
+enum class OpenScad {
+  k2021,  // the installed program, which is 2021.01
+  k2026,  // 2025.07.18, the oracle of language 2026 (openscad_2026.mjs)
+};
 
 struct OpenScadResult {
   std::string words;  // its messages
@@ -29,7 +34,8 @@ struct OpenScadResult {
 //          takes minutes; nothing of that is kept
 OpenScadResult ask_openscad(const std::filesystem::path& design,
                             const std::string& format,
-                            const std::vector<std::string>& options = {});
+                            const std::vector<std::string>& options = {},
+                            OpenScad program = OpenScad::k2021);
 
 // $LAMINA_TEST_CACHE, else lamina-tests in the user's cache folder; made where
 // it is missing.
