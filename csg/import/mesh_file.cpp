@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
 
 namespace lamina::csg {
@@ -90,7 +89,7 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     Diagnostics& diagnostics) {
   const std::string path(params.path);
   const ImportFormat format = params.format;
-  const auto bytes = FileBytes::open(path, access);
+  const auto bytes = access.read_regular(path);
   if (!bytes) {
     diagnostics.warning(range, warning_text(format == ImportFormat::k3mf
                                                 ? "Could not read file"
@@ -100,7 +99,7 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
   }
   std::vector<RawMesh> bodies;
   try {
-    bodies = parse(bytes->view(), params);
+    bodies = parse(*bytes, params);
   } catch (const FormatError& fault) {
     report_broken(path, format, fault, range, diagnostics);
     return {};

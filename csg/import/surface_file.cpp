@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/limits.h"
@@ -192,14 +191,14 @@ Mesh make_surface(const HeightField& field, bool center) {
 Mesh read_surface_file(const SurfaceParams& params, const FileAccess& access,
                        SourceRange range, Diagnostics& diagnostics) {
   const std::string path(params.path);
-  const auto bytes = FileBytes::open(path, access);
+  const auto bytes = access.read_regular(path);
   if (!bytes) {
     diagnostics.warning(range,
                         fmt::format("The file '{}' couldn't be opened.", path));
     return {};
   }
-  if (!bytes->view().starts_with(kPngMark)) {
-    const HeightField field = parse_dat(bytes->view(), params.rules);
+  if (!bytes->starts_with(kPngMark)) {
+    const HeightField field = parse_dat(*bytes, params.rules);
     if (!field.fault.empty()) {
       diagnostics.warning(
           range, fmt::format("Illegal value in '{}': {}", path, field.fault));
@@ -207,7 +206,7 @@ Mesh read_surface_file(const SurfaceParams& params, const FileAccess& access,
     return make_surface(field, params.center);
   }
   try {
-    return make_surface(parse_png(bytes->view(), params.invert, params.rules),
+    return make_surface(parse_png(*bytes, params.invert, params.rules),
                         params.center);
   } catch (const FormatError& fault) {
     diagnostics.report({Severity::kWarning,

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "base/file/file_bytes.h"
+#include "base/file/file_access.h"
 #include "base/file/format_error.h"
 #include "csg/import/dxf.h"
 #include "csg/import/mesh_file.h"
@@ -114,7 +114,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
   options.fragments = [&fineness](double r) {
     return circle_fragments(r, fineness);
   };
-  const auto bytes = FileBytes::open(options.path, access);
+  const auto bytes = access.read_regular(options.path);
   if (!bytes) {
     diagnostics.warning(range,
                         fmt::format("Can't open DXF file '{}'.", options.path));
@@ -122,7 +122,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
   }
   DxfDrawing drawing;
   try {
-    drawing = parse_dxf(bytes->view(), options);
+    drawing = parse_dxf(*bytes, options);
   } catch (const FormatError& fault) {
     diagnostics.error(range, fmt::format("{} importing file '{}'", fault.what(),
                                          options.path));
@@ -224,7 +224,7 @@ void report_undrawn(const SvgDrawing& drawing, const ImportParams& params,
 planar::Region read_svg(const ImportParams& params, const Fineness& fineness,
                         const FileAccess& access, SourceRange range,
                         Diagnostics& diagnostics) {
-  const auto bytes = FileBytes::open(std::string(params.path), access);
+  const auto bytes = access.read_regular(std::string(params.path));
   if (!bytes) {
     diagnostics.error(range,
                       fmt::format("Can't open file '{}', import() at line {}",
@@ -233,7 +233,7 @@ planar::Region read_svg(const ImportParams& params, const Fineness& fineness,
   }
   SvgDrawing drawing;
   try {
-    drawing = parse_svg(bytes->view(), svg_options(params, fineness));
+    drawing = parse_svg(*bytes, svg_options(params, fineness));
   } catch (const FormatError& fault) {
     diagnostics.report(
         {Severity::kError,
