@@ -3,7 +3,7 @@
 #include <bit>
 #include <utility>
 
-#include "csg/boundary/scene_hull.h"
+#include "csg/boundary/convex_hull.h"
 
 namespace lamina::csg {
 

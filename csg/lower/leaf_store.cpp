@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "csg/boundary/leaf_box.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "csg/degrees.h"
 #include "csg/limits.h"
 #include "csg/plane/facets.h"

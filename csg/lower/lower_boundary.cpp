@@ -7,7 +7,7 @@
 #include "csg/boundary/projection.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/plane/boolean.h"
-#include "csg/plane/convex_hull.h"
+#include "csg/plane/region.h"
 
 namespace lamina::csg {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "csg/boundary/leaf_box.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"

@@ -18,7 +18,7 @@
 #include "base/diagnostic.h"
 #include "base/file/output_folder.h"
 #include "base/file/zip_output.h"
-#include "slicer/contour/regions.h"
+#include "slicer/contour/layer_measures.h"
 #include "slicer/formats/detail/grey_png.h"
 #include "slicer/formats/detail/image_stack.h"
 #include "slicer/formats/detail/writers.h"

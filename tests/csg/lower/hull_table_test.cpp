@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/boundary/scene_hull.h"
+#include "csg/boundary/convex_hull.h"
 #include "tests/csg/lower/lower_fixture.h"
 
 namespace lamina::csg {
