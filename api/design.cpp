@@ -11,7 +11,6 @@
 
 #include "base/loop_area.h"
 #include "compiler/compile.h"
-#include "compiler/layer_output.h"
 #include "compiler/passes.h"
 #include "parser/customizer.h"
 #include "slicer/check/thin_finder.h"

@@ -7,12 +7,11 @@
 #include <fmt/format.h>
 
 #include "base/thread_clock.h"
-#include "compiler/imported_design.h"
+#include "compiler/request.h"
 #include "csg/boundary/move_scene.h"
 #include "csg/csg_printer.h"
 #include "parser/parameter_set.h"
 #include "slicer/plan/orientation.h"
-#include "slicer/plan/surface_heights.h"
 
 namespace lamina::compiler {
 namespace {

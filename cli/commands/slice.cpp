@@ -14,7 +14,7 @@
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
-#include "compiler/imported_design.h"
+#include "compiler/request.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {

@@ -20,7 +20,6 @@
 
 #include "base/diagnostic.h"
 #include "csg/lower/detail/fineness.h"
-#include "csg/lower/detail/hull_table.h"
 #include "csg/lower/detail/leaf_store.h"
 #include "csg/lower/detail/program_builder.h"
 #include "csg/lower/lower.h"
