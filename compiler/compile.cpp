@@ -13,7 +13,6 @@
 #include "slicer/formats/panel.h"
 
 namespace lamina::compiler {
-
 namespace {
 
 using slicer::OutputFormat;

@@ -14,7 +14,6 @@
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
-
 namespace {
 
 std::vector<double> parse_heights(const std::string& option,

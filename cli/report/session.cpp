@@ -13,7 +13,6 @@
 #include "cli/process/process_watch.h"
 
 namespace lamina::cli {
-
 namespace {
 
 // Recursion of a design's functions ends here, long before memory does.

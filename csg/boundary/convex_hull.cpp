@@ -26,7 +26,6 @@
 #include "csg/tie_distance.h"
 
 namespace lamina::csg {
-
 namespace {
 
 // Points no further from a plane (or a line) than this share of their extent

@@ -8,7 +8,6 @@
 #include "csg/plane/triangulate.h"
 
 namespace lamina::csg {
-
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;

@@ -13,7 +13,6 @@
 #include "csg/plane/facets.h"
 
 namespace lamina::csg {
-
 namespace {
 
 // About how many triangles the loft would have as a mesh.

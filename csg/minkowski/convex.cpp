@@ -11,7 +11,6 @@
 #include "csg/vertex_table.h"
 
 namespace lamina::csg {
-
 namespace {
 
 using Edge = Convex::Edge;

@@ -17,7 +17,6 @@
 #include "csg/vertex_table.h"
 
 namespace lamina::csg {
-
 namespace {
 
 // Vertices this near to each other [mm] are one: above the distance at which

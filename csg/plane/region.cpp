@@ -11,7 +11,6 @@
 #include "csg/plane/facets.h"
 
 namespace lamina::planar {
-
 namespace {
 
 // Appends the corners that a walk through the points keeps to its left, the

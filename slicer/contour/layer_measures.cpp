@@ -8,7 +8,6 @@
 #include "base/plane.h"
 
 namespace lamina::slicer {
-
 namespace {
 
 struct Outer {

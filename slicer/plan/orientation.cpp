@@ -14,7 +14,6 @@
 #include "csg/tie_distance.h"
 
 namespace lamina::slicer {
-
 namespace {
 
 // Lengths [mm], and sums as a share of the whole surface, that differ by less
