@@ -50,8 +50,6 @@ enum class SamplerKind { kScanline, kGl, kGlPeeling };
 class Sampler {
  public:
   virtual ~Sampler() = default;
-  Sampler(const Sampler&) = delete;
-  Sampler& operator=(const Sampler&) = delete;
 
   // Appends the image of `instance` in the rays and layers of `box` (not
   // empty). Every pixel gets as many entries as exits, in no particular order;
@@ -61,9 +59,6 @@ class Sampler {
 
   // Pixels so far that had to be sampled another way to keep this contract.
   virtual std::uint64_t repaired_pixels() const { return 0; }
-
- protected:
-  Sampler() = default;
 };
 
 }  // namespace lamina::ldni
