@@ -6,9 +6,7 @@
 //   ray_grid.h      the rays of a layer, and boxes of whole rays and layers
 //                   around leaves (section 3 of the paper)
 //   sampler.h       a leaf's layered depth-normal image: its samples on the
-//   rays
-//                   of its box, exact (scanline_sampler.h) or drawn by OpenGL
-//                   (gl_sampler.h)
+//                   rays of its box, exact or drawn by OpenGL
 //   boolean.h       the CSG program along one ray: of the samples of all leaves
 //                   those that bound the result stay, as intervals
 //                   (section 4.2)
