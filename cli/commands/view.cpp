@@ -22,7 +22,6 @@
 #include "compiler/passes.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/picture/color_scheme.h"
 #include "slicer/picture/image.h"
 #include "slicer/picture/layer_picture.h"
 #include "slicer/picture/sheet_picture.h"
