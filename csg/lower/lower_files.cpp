@@ -250,25 +250,24 @@ planar::Region read_svg(const ImportParams& params, const Fineness& fineness,
 
 }  // namespace
 
-Shape Lowerer::lower_op(const Import& op, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Import& op, const Place& at) {
   const ImportParams& params = *op.params;
-  const Fineness fine = fineness(params.facets, world);
+  const Fineness fine = fineness(params.facets, at.world);
   const std::string key =
       fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     const std::size_t messages = diagnostics_.all().size();
-    entry->second = read_import(params, fine, node.range);
+    entry->second = read_import(params, fine, at.node.range);
     const bool is_empty =
         !entry->second.leaf && entry->second.region.is_empty();
     if (is_empty && diagnostics_.all().size() == messages) {
-      diagnostics_.warning(node.range,
+      diagnostics_.warning(at.node.range,
                            fmt::format("File {} holds nothing to import",
                                        quoted_from_here(params.path)));
     }
   }
-  return place_file(entry->second, node, world);
+  return place_file(entry->second, at);
 }
 
 Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
@@ -301,23 +300,21 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
           add_leaf(make_import_leaf(params, access, range, diagnostics_))};
 }
 
-Shape Lowerer::lower_op(const Surface& op, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Surface& op, const Place& at) {
   const SurfaceParams& params = *op.params;
   const std::string key = fmt::format("{} {}", params.path, params.csg_text);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     Leaf leaf;
     leaf.meshes.push_back(read_surface_file(params, *options_.file_access,
-                                            node.range, diagnostics_));
+                                            at.node.range, diagnostics_));
     entry->second = {Dimension::kSolid, {}, add_leaf(std::move(leaf))};
   }
-  return place_file(entry->second, node, world);
+  return place_file(entry->second, at);
 }
 
-Shape Lowerer::place_file(const FileShape& shape, const Node& node,
-                          const Affine& world) {
-  if (shape.leaf) place(*shape.leaf, Vec3(1), node, world);
+Shape Lowerer::place_file(const FileShape& shape, const Place& at) {
+  if (shape.leaf) place(*shape.leaf, Vec3(1), at);
   return {shape.dimension, shape.region};
 }
 
