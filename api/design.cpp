@@ -296,7 +296,8 @@ void Design::write(const std::string& path, const SliceOptions& options,
   Messages messages(state_->show);
   messages.run([&](Diagnostics& diagnostics) {
     TemporaryFiles temporary_files(state_->access);
-    compiler::LayerOutput output(request, temporary_files);
+    compiler::LayerOutput output =
+        compiler::LayerOutput::open(request, temporary_files);
     state_->slice(compiler::settings_of(request), output.sink(), diagnostics);
     compiler::Report report;
     output.finish(diagnostics, report);

@@ -136,7 +136,7 @@ bool compile(Compilation& c) {
   if (c.has_failed) return false;
 
   // The output is opened first: nothing is computed for a file that cannot be.
-  LayerOutput output(c.request, c.temporary_files);
+  LayerOutput output = LayerOutput::open(c.request, c.temporary_files);
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
   // leaves. The scene is turned and placed here, while it is still one thing.
@@ -191,15 +191,16 @@ void make_layers(Compilation& c, const csg::Lowered& lowered,
   counting.finish();
 }
 
-LayerOutput::LayerOutput(const Request& request,
-                         TemporaryFiles& temporary_files)
-    : deviation_(promised_deviation(request)) {
+LayerOutput LayerOutput::open(const Request& request,
+                              TemporaryFiles& temporary_files) {
+  const auto deviation = promised_deviation(request);
   slicer::WriterOptions options;
   options.format = request.format;
   if (request.cli_encoding) options.cli = *request.cli_encoding;
   options.panel = chosen_panel(request, temporary_files.file_access());
-  if (deviation_) options.deviation = deviation_->from_section();
-  writer_ = slicer::make_layer_writer(options, request.output, temporary_files);
+  if (deviation) options.deviation = deviation->from_section();
+  return {deviation,
+          slicer::make_layer_writer(options, request.output, temporary_files)};
 }
 
 void LayerOutput::finish(Diagnostics& diagnostics, Report& report) {

@@ -49,7 +49,8 @@ class LayerOutput {
  public:
   // Opens the output. Throws FileError where it or the printer's profile cannot
   // be opened.
-  LayerOutput(const Request& request, TemporaryFiles& temporary_files);
+  static LayerOutput open(const Request& request,
+                          TemporaryFiles& temporary_files);
 
   // Takes the layers.
   slicer::LayerSink& sink() { return *writer_; }
@@ -58,6 +59,10 @@ class LayerOutput {
   void finish(Diagnostics& diagnostics, Report& report);
 
  private:
+  LayerOutput(std::optional<slicer::Deviation> deviation,
+              std::unique_ptr<slicer::LayerWriter> writer)
+      : deviation_(std::move(deviation)), writer_(std::move(writer)) {}
+
   std::optional<slicer::Deviation> deviation_;
   std::unique_ptr<slicer::LayerWriter> writer_;
 };

@@ -135,7 +135,7 @@ class FolderWriter : public ImageStackWriter {
   FolderWriter(const WriterOptions& options, const std::string& path,
                TemporaryFiles& files)
       : ImageStackWriter(options, path),
-        folder_(path, kFolderContents, files) {}
+        folder_(OutputFolder::open(path, kFolderContents, files)) {}
 
   void commit() override { folder_.commit(); }
   std::uint64_t size() const override { return folder_.size(); }
