@@ -121,7 +121,7 @@ class ScanlineSampler final : public Sampler {
   std::vector<LevelRange> ring_levels_;
   std::vector<std::uint32_t> low_levels_;  // of the rings of a strip, by corner
   std::vector<std::uint32_t> high_levels_;
-  std::size_t filled_ring_ = 0;  // the ring of high_levels
+  std::size_t filled_ring_ = 0;  // the ring of high_levels_
 
   // The mesh at hand.
   std::vector<Corner> vertices_;
