@@ -43,12 +43,6 @@ double parse_scale(const std::string& text) {
   return require_within("--scale", text, kLeastScale, kGreatestScale, "");
 }
 
-ldni::SamplerKind sampler_kind(std::string_view word) {
-  if (word == "gl") return ldni::SamplerKind::kGl;
-  if (word == "gl-peeling") return ldni::SamplerKind::kGlPeeling;
-  return ldni::SamplerKind::kScanline;
-}
-
 // A whole number from 1 to `most`. CLI11's own checks make a text of their
 // bounds at every start.
 void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
@@ -137,9 +131,11 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
     settings.paper.boxes =
         mode == "global" ? ldni::BoxMode::kGlobal : ldni::BoxMode::kLocal;
   });
-  add_choice(app, "--sampler", {"scanline", "gl", "gl-peeling"},
+  const auto& samplers = ldni::kSamplerNames;
+  add_choice(app, "--sampler", {samplers.begin(), samplers.end()},
              [&](const std::string& kind) {
-               settings.paper.sampler = sampler_kind(kind);
+               settings.paper.sampler = static_cast<ldni::SamplerKind>(
+                   std::ranges::find(samplers, kind) - samplers.begin());
              });
   add_count(app, "--threads", 1024, settings.threads);
 }

@@ -2,10 +2,12 @@
 // The contract of all samplers: each makes the layered depth-normal image
 // (LDNI) of a leaf.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "csg/scene.h"
@@ -48,6 +50,10 @@ struct LeafImages {
 // How the samples are made: exactly, or drawn by OpenGL, by a list of fragments
 // or by the paper's depth peeling.
 enum class SamplerKind { kScanline, kGl, kGlPeeling };
+
+// Their names, in this order, in options and reports.
+inline constexpr std::array<std::string_view, 3> kSamplerNames = {
+    "scanline", "gl", "gl-peeling"};
 
 // One object per thread: it owns scratch, or a graphics context.
 class Sampler {
