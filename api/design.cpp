@@ -11,7 +11,6 @@
 
 #include "base/loop_area.h"
 #include "compiler/compile.h"
-#include "compiler/layer_output.h"
 #include "compiler/passes.h"
 #include "parser/customizer.h"
 #include "slicer/check/thin_finder.h"
@@ -297,7 +296,8 @@ void Design::write(const std::string& path, const SliceOptions& options,
   Messages messages(state_->show);
   messages.run([&](Diagnostics& diagnostics) {
     TemporaryFiles temporary_files(state_->access);
-    compiler::LayerOutput output(request, temporary_files);
+    compiler::LayerOutput output =
+        compiler::LayerOutput::open(request, temporary_files);
     state_->slice(compiler::settings_of(request), output.sink(), diagnostics);
     compiler::Report report;
     output.finish(diagnostics, report);

@@ -7,21 +7,44 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "base/diagnostic.h"
 #include "base/file/output_file.h"
 #include "base/source.h"
-#include "compiler/feature_origins.h"
 #include "compiler/request.h"
+#include "csg/scene.h"
 #include "csg/text/typesetter.h"
 #include "csg/tree.h"
 #include "parser/ast.h"
 #include "parser/loader.h"
+#include "slicer/check/thin_features.h"
 #include "slicer/contour/deviation.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
+
+// What made a side of a thin feature: the lines of the design.
+struct FeatureOrigin {
+  struct Call {
+    std::string module;
+    std::string place;
+  };
+  std::string place;        // "ring.scad:12:3", of the leaf
+  std::vector<Call> calls;  // modules around it, innermost first
+};
+
+// The leaves of a feature: those of both sides, if they differ; none where it
+// is not known.
+using FeatureOrigins = std::vector<FeatureOrigin>;
+
+std::vector<FeatureOrigins> origins_of(
+    const csg::Scene& scene, std::span<const slicer::ThinFeature> features);
+
+// One text for each: "lib.scad:8:5 from ring.scad:40:3, ring.scad:12:3".
+std::vector<std::string> origin_texts(std::span<const FeatureOrigins> all);
 
 struct Report {
   // Processor seconds of the passes; those of slicing are in `slice`.

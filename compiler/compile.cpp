@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/thread_clock.h"
-#include "compiler/layer_output.h"
 #include "compiler/make_rule.h"
 #include "compiler/passes.h"
 #include "parser/ast_printer.h"
+#include "slicer/formats/panel.h"
 
 namespace lamina::compiler {
 namespace {
@@ -82,6 +82,31 @@ class CountingSink : public slicer::LayerSink {
   std::uint64_t all_ = 0;
 };
 
+using slicer::OutputFormat;
+
+// What the request promises of the contours.
+std::optional<slicer::Deviation> promised_deviation(const Request& request) {
+  auto deviation = slicer::promised_deviation(request.settings);
+  if (deviation && request.chordal_error > 0) {
+    deviation->facets = request.chordal_error;
+  }
+  return deviation;
+}
+
+// The panel of the printer; of formats without images an empty one.
+slicer::Panel chosen_panel(const Request& request, const FileAccess& access) {
+  if (!slicer::is_of_images(request.format)) return {};
+  const std::string usual = request.format == OutputFormat::kSl1 ? "prusa-sl1"
+                            : request.format == OutputFormat::kNanoDlp
+                                ? "wanhao-d7"
+                                : "plain";
+  slicer::Panel panel = slicer::find_panel(
+      request.printer.empty() ? usual : request.printer, access);
+  if (request.mirrors_x) panel.right = -panel.right;
+  if (request.mirrors_y) panel.up = -panel.up;
+  return panel;
+}
+
 }  // namespace
 
 bool compile(Compilation& c) {
@@ -111,7 +136,7 @@ bool compile(Compilation& c) {
   if (c.has_failed) return false;
 
   // The output is opened first: nothing is computed for a file that cannot be.
-  LayerOutput output(c.request, c.temporary_files);
+  LayerOutput output = LayerOutput::open(c.request, c.temporary_files);
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
   // leaves. The scene is turned and placed here, while it is still one thing.
@@ -164,6 +189,27 @@ void make_layers(Compilation& c, const csg::Lowered& lowered,
     c.report.origins = origins_of(*scene, c.report.slice.features);
   }
   counting.finish();
+}
+
+LayerOutput LayerOutput::open(const Request& request,
+                              TemporaryFiles& temporary_files) {
+  const auto deviation = promised_deviation(request);
+  slicer::WriterOptions options;
+  options.format = request.format;
+  if (request.cli_encoding) options.cli = *request.cli_encoding;
+  options.panel = chosen_panel(request, temporary_files.file_access());
+  if (deviation) options.deviation = deviation->from_section();
+  return {deviation,
+          slicer::make_layer_writer(options, request.output, temporary_files)};
+}
+
+void LayerOutput::finish(Diagnostics& diagnostics, Report& report) {
+  writer_->finish(diagnostics);
+  if (deviation_) deviation_->rounding = writer_->greatest_rounding();
+  report.deviation = deviation_;
+  report.snapped_layers = writer_->snapped_layers();
+  writer_->commit();
+  report.output_bytes = writer_->size();
 }
 
 }  // namespace lamina::compiler

@@ -6,11 +6,15 @@
 // Each pass appends to Diagnostics and throws where the compilation must end.
 // The program, the library, tests and benchmarks call the same passes.
 
+#include <memory>
 #include <optional>
 
+#include "base/diagnostic.h"
+#include "base/file/output_file.h"
 #include "compiler/compilation.h"
 #include "csg/lower/lower.h"
 #include "slicer/contour/layer.h"
+#include "slicer/formats/layer_writer.h"
 
 namespace lamina::compiler {
 
@@ -38,6 +42,29 @@ void make_layers(Compilation& compilation, const csg::Lowered& lowered,
 struct LayerList : slicer::LayerSink {
   void take(const slicer::Layer& layer) override { layers.push_back(layer); }
   std::vector<slicer::Layer> layers;
+};
+
+// The output of layers that a request asks for.
+class LayerOutput {
+ public:
+  // Opens the output. Throws FileError where it or the printer's profile cannot
+  // be opened.
+  static LayerOutput open(const Request& request,
+                          TemporaryFiles& temporary_files);
+
+  // Takes the layers.
+  slicer::LayerSink& sink() { return *writer_; }
+
+  // Ends the file, gives it its name, and completes the report.
+  void finish(Diagnostics& diagnostics, Report& report);
+
+ private:
+  LayerOutput(std::optional<slicer::Deviation> deviation,
+              std::unique_ptr<slicer::LayerWriter> writer)
+      : deviation_(std::move(deviation)), writer_(std::move(writer)) {}
+
+  std::optional<slicer::Deviation> deviation_;
+  std::unique_ptr<slicer::LayerWriter> writer_;
 };
 
 }  // namespace lamina::compiler

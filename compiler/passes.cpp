@@ -1,18 +1,15 @@
 #include "compiler/passes.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/thread_clock.h"
-#include "compiler/imported_design.h"
 #include "csg/boundary/move_scene.h"
 #include "csg/csg_printer.h"
 #include "parser/parameter_set.h"
 #include "slicer/plan/orientation.h"
-#include "slicer/plan/surface_heights.h"
 
 namespace lamina::compiler {
 namespace {
@@ -27,14 +24,6 @@ auto timed(double& seconds, const Pass& pass) {
   auto product = pass();
   seconds += thread_seconds() - begin;
   return product;
-}
-
-std::vector<std::string> module_folders_of(const Request& request) {
-  std::vector<std::string> folders = text::module_folders();
-  if (!request.module_folder.empty()) {
-    folders.insert(folders.begin(), request.module_folder);
-  }
-  return folders;
 }
 
 ast::Program read_design(const Request& request, Loader& loader) {
@@ -109,25 +98,6 @@ void place(Compilation& c, csg::Scene& scene) {
 }
 
 }  // namespace
-
-Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
-                         Diagnostics::Observer observer)
-    : request(its_request),
-      temporary_files(files),
-      diagnostics(std::move(observer)),
-      loader(sources, diagnostics, library_folders(files.file_access()),
-             its_request.definitions, files.file_access()),
-      typesetter(module_folders_of(its_request), diagnostics,
-                 files.file_access()) {
-  diagnostics.set_hard_warnings(its_request.has_hard_warnings);
-}
-
-std::size_t Compilation::count(Severity severity) const {
-  const std::vector<Diagnostic>& all = diagnostics.all();
-  return static_cast<std::size_t>(std::count_if(
-      all.begin(), all.end(),
-      [&](const Diagnostic& d) { return d.severity == severity; }));
-}
 
 ast::Program load(Compilation& c) {
   const Request& request = c.request;

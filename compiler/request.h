@@ -51,4 +51,13 @@ struct Request {
   std::string module_folder;
 };
 
+// Meshes and drawings can stand in the place of a design: `lamina ring.stl`
+// slices what `import("ring.stl");` makes. By its name: what import() reads and
+// is no design and no file of layers, in any letter case. (A .3mf may hold
+// either; import() takes its mesh.)
+bool is_imported(const std::string& path);
+
+// The text of a design that imports the file beside it.
+std::string import_of(const std::string& path);
+
 }  // namespace lamina::compiler

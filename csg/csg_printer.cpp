@@ -104,7 +104,8 @@ struct OpPrinter {
       const Vec4 values((*op.matrix)[0][row], (*op.matrix)[1][row],
                         (*op.matrix)[2][row], (*op.matrix)[3][row]);
       if (row > 0) out << ", ";
-      append_vector(values, 4, language, out.text());
+      // Signs of zeros depend on how a matrix is computed: none are shown.
+      append_vector(values + 0.0, 4, language, out.text());
     }
     out << "])";
   }

@@ -164,6 +164,7 @@ struct TextParams {
   std::string_view halign;  // as given, valid or not
   std::string_view valign;
   Facets facets = {};
+  Language rules = Language::k2021;  // by which glyphs are placed
   std::string_view csg_text;
 };
 struct Text {
@@ -182,7 +183,9 @@ enum class ImportFormat : std::uint8_t {
 struct ImportParams {
   std::string_view path;  // to open
   ImportFormat format = ImportFormat::kUnknown;
-  std::string_view layer;
+  Language rules = Language::k2021;  // by which the file is read
+  std::optional<std::string_view> id = std::nullopt;
+  std::optional<std::string_view> layer = std::nullopt;
   Vec2 origin = Vec2(0);
   bool center = false;
   double dpi = 72;
@@ -195,7 +198,8 @@ struct Import {
   const ImportParams* params;
 };
 struct SurfaceParams {
-  std::string_view path;  // to open
+  std::string_view path;             // to open
+  Language rules = Language::k2021;  // by which the file is read
   bool center = false;
   bool invert = false;
   int convexity = 1;

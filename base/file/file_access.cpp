@@ -60,6 +60,14 @@ std::string path_in(const OpenFile& folder, const std::string& name) {
   return fmt::format("/proc/self/fd/{}/{}", folder.descriptor(), name);
 }
 
+// All bytes of a file that may have failed to open (errno tells why).
+std::optional<std::string> read_open(const OpenFile& file,
+                                     const std::string& path) {
+  auto bytes = file ? file.read_all() : std::nullopt;
+  if (!bytes) check_machine(path, errno);
+  return bytes;
+}
+
 // Files that the kernel makes up as it is asked: they tell of processes and of
 // the machine.
 bool is_of_kernel(const OpenFile& file) {
@@ -277,12 +285,13 @@ OpenFile FileAccess::open(const std::string& path) const {
 }
 
 std::optional<std::string> FileAccess::read(const std::string& path) const {
-  const OpenFile file =
-      is_confined() ? open(path)
-                    : OpenFile(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  auto bytes = file ? file.read_all() : std::nullopt;
-  if (!bytes) check_machine(path, errno);
-  return bytes;
+  if (is_confined()) return read_regular(path);
+  return read_open(OpenFile(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), path);
+}
+
+std::optional<std::string> FileAccess::read_regular(
+    const std::string& path) const {
+  return read_open(open(path), path);
 }
 
 // --- Writing ----------------------------------------------------------------

@@ -118,6 +118,10 @@ class FileAccess {
   // pipe. errno as above.
   std::optional<std::string> read(const std::string& path) const;
 
+  // All bytes of a regular file; errno as of open(). They are a copy: whoever
+  // shortens a mapped file ends the process that reads it.
+  std::optional<std::string> read_regular(const std::string& path) const;
+
   // --- Writing ---------------------------------------------------------------
 
   // Throws AccessError for what may not be written.

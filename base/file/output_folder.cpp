@@ -37,65 +37,64 @@ Words words_of(const fs::path& contents, const FileAccess& access) {
   return words;
 }
 
+[[noreturn]] void fail(const std::string& path, std::string_view fault) {
+  throw FileError(fmt::format("Can't write '{}': {}", path, fault));
+}
+
+// Throws where something stands at the target that lamina did not make.
+void check_target(const std::string& path, const std::string& contents,
+                  const FileAccess& access) {
+  const OutputPlace place = access.find_output(path);
+  if (!place.there) {
+    std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(place.path, error))) {
+      fail(path, "it links to what is not there");
+    }
+    return;
+  }
+  if (!S_ISDIR(place.there->st_mode)) fail(path, "it is no folder");
+  const Words own = words_of(fs::path(path) / contents, access);
+  const auto names = access.list(path);
+  if (!names) fail(path, std::strerror(errno));
+  for (const std::string& name : *names) {
+    if (!own.contains(name)) {
+      fail(path, fmt::format(
+                     "a folder stands there, and '{}' in it, which lamina did "
+                     "not make, would be lost",
+                     name));
+    }
+  }
+}
+
 }  // namespace
 
-OutputFolder::OutputFolder(std::string path, std::string contents,
-                           TemporaryFiles& temporary_files)
-    : path_(std::move(path)),
-      contents_(std::move(contents)),
-      temporary_files_(temporary_files) {
-  while (path_.size() > 1 && path_.ends_with('/')) path_.pop_back();
-  if (path_ == "-") fail("standard output takes no folder");
-  check_target();
-  temporary_ = temporary_files_.make_folder(path_);
-  if (temporary_.lock < 0) fail(std::strerror(errno));
+OutputFolder OutputFolder::open(std::string path, std::string contents,
+                                TemporaryFiles& temporary_files) {
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  if (path == "-") fail(path, "standard output takes no folder");
+  check_target(path, contents, temporary_files.file_access());
+  TemporaryFiles::Folder temporary = temporary_files.make_folder(path);
+  if (temporary.lock < 0) fail(path, std::strerror(errno));
+  return {std::move(path), std::move(contents), temporary_files,
+          std::move(temporary)};
 }
 
 OutputFolder::~OutputFolder() { temporary_files_.discard_folder(temporary_); }
 
-// Throws where something stands at the target that lamina did not make.
-void OutputFolder::check_target() const {
-  const FileAccess& access = temporary_files_.file_access();
-  const OutputPlace place = access.find_output(path_);
-  if (!place.there) {
-    std::error_code error;
-    if (fs::is_symlink(fs::symlink_status(place.path, error))) {
-      fail("it links to what is not there");
-    }
-    return;
-  }
-  if (!S_ISDIR(place.there->st_mode)) fail("it is no folder");
-  const Words own = words_of(fs::path(path_) / contents_, access);
-  const auto names = access.list(path_);
-  if (!names) fail(std::strerror(errno));
-  for (const std::string& name : *names) {
-    if (!own.contains(name)) {
-      fail(
-          fmt::format("a folder stands there, and '{}' in it, which lamina did "
-                      "not make, would be lost",
-                      name));
-    }
-  }
-}
-
 void OutputFolder::add(const std::string& name, std::string_view bytes) {
   const int file = temporary_files_.open_file_in(temporary_, name);
-  if (file < 0) fail(std::strerror(errno));
+  if (file < 0) fail(path_, std::strerror(errno));
   int error = write_all(file, bytes);
   if (::close(file) != 0 && error == 0) error = errno;
-  if (error != 0) fail(std::strerror(error));
+  if (error != 0) fail(path_, std::strerror(error));
   size_ += bytes.size();
 }
 
 void OutputFolder::commit() {
-  check_target();
+  check_target(path_, contents_, temporary_files_.file_access());
   if (!temporary_files_.commit_folder(temporary_, path_)) {
-    fail(std::strerror(errno));
+    fail(path_, std::strerror(errno));
   }
-}
-
-void OutputFolder::fail(std::string_view fault) const {
-  throw FileError(fmt::format("Can't write '{}': {}", path_, fault));
 }
 
 }  // namespace lamina

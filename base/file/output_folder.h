@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/file/temporary_files.h"
 
@@ -20,8 +21,8 @@ class OutputFolder {
   //
   // Throws FileError if the folder cannot be made, or if what stands there may
   // not be replaced.
-  OutputFolder(std::string path, std::string contents,
-               TemporaryFiles& temporary_files);
+  static OutputFolder open(std::string path, std::string contents,
+                           TemporaryFiles& temporary_files);
   ~OutputFolder();  // discards what was not committed
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -34,8 +35,13 @@ class OutputFolder {
   std::uint64_t size() const { return size_; }
 
  private:
-  void check_target() const;
-  [[noreturn]] void fail(std::string_view fault) const;
+  OutputFolder(std::string path, std::string contents,
+               TemporaryFiles& temporary_files,
+               TemporaryFiles::Folder temporary)
+      : path_(std::move(path)),
+        contents_(std::move(contents)),
+        temporary_files_(temporary_files),
+        temporary_(std::move(temporary)) {}
 
   std::string path_;
   std::string contents_;

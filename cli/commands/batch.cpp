@@ -12,7 +12,6 @@
 #include "cli/commands/pieces.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
-#include "cli/options/output_options.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
 

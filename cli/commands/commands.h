@@ -14,9 +14,6 @@ namespace lamina::cli {
 
 class Command {
  public:
-  Command() = default;
-  Command(const Command&) = delete;
-  Command& operator=(const Command&) = delete;
   virtual ~Command() = default;
 
   virtual std::string_view help() const = 0;

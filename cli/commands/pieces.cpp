@@ -16,7 +16,7 @@
 #include "base/csv.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
-#include "cli/process/large_stack.h"
+#include "cli/process/run_on_stack.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"

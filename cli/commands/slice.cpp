@@ -11,11 +11,10 @@
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
 #include "cli/options/design_options.h"
-#include "cli/options/output_options.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
-#include "compiler/imported_design.h"
+#include "compiler/request.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::cli {

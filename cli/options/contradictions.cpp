@@ -1,7 +1,7 @@
 #include "cli/options/contradictions.h"
 
 #include "cli/process/exit_status.h"
-#include "compiler/imported_design.h"
+#include "compiler/request.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"
 

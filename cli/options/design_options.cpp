@@ -8,7 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/options/contradictions.h"
 #include "cli/options/option_values.h"
+#include "cli/process/exit_status.h"
+#include "slicer/formats/output_format.h"
 
 namespace lamina::cli {
 namespace {
@@ -38,12 +41,6 @@ double parse_scale(const std::string& text) {
           "a factor was expected, such as 1.02 for a print 2% larger, not '{}'",
           text);
   return require_within("--scale", text, kLeastScale, kGreatestScale, "");
-}
-
-ldni::SamplerKind sampler_kind(std::string_view word) {
-  if (word == "gl") return ldni::SamplerKind::kGl;
-  if (word == "gl-peeling") return ldni::SamplerKind::kGlPeeling;
-  return ldni::SamplerKind::kScanline;
 }
 
 // A whole number from 1 to `most`. CLI11's own checks make a text of their
@@ -134,11 +131,44 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
     settings.paper.boxes =
         mode == "global" ? ldni::BoxMode::kGlobal : ldni::BoxMode::kLocal;
   });
-  add_choice(app, "--sampler", {"scanline", "gl", "gl-peeling"},
+  const auto& samplers = ldni::kSamplerNames;
+  add_choice(app, "--sampler", {samplers.begin(), samplers.end()},
              [&](const std::string& kind) {
-               settings.paper.sampler = sampler_kind(kind);
+               settings.paper.sampler = static_cast<ldni::SamplerKind>(
+                   std::ranges::find(samplers, kind) - samplers.begin());
              });
   add_count(app, "--threads", 1024, settings.threads);
+}
+
+void add_output_options(CLI::App& app, compiler::Request& request,
+                        OutputOptions& options) {
+  app.add_option("--export-format", options.export_format)->type_name("format");
+  add_choice(
+      app, "--cli", {"binary", "ascii"}, [&request](const std::string& word) {
+        request.cli_encoding = word == "ascii" ? slicer::CliEncoding::kAscii
+                                               : slicer::CliEncoding::kBinary;
+      });
+  app.add_option("--printer", request.printer)->type_name("printer");
+  add_choice(app, "--mirror", {"x", "y", "xy"},
+             [&request](const std::string& axes) {
+               request.mirrors_x = axes != "y";
+               request.mirrors_y = axes != "x";
+             });
+  app.add_option("--report", options.report)->type_name("file");
+  add_thin_width(app, request.settings.min_feature);
+  add_layer_range(app, request.settings.written);
+}
+
+void choose_format(compiler::Request& request, const OutputOptions& options,
+                   const std::string& output) {
+  const slicer::FormatChoice choice = slicer::choose_output_format(
+      options.export_format.empty() ? output : options.export_format);
+  if (!choice.format) {
+    throw UsageError(choice.complaint, choice.is_known ? kFault : kUsageFault);
+  }
+  request.format = *choice.format;
+  refuse_contradictions(request.settings);
+  refuse_misfits(request, !options.report.empty());
 }
 
 }  // namespace lamina::cli

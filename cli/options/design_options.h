@@ -1,6 +1,8 @@
 #pragma once
 // The options that make up the request for a compilation.
 
+#include <string>
+
 #include <CLI/App.hpp>
 
 #include "compiler/request.h"
@@ -14,5 +16,22 @@ void add_design_options(CLI::App& app, compiler::Request& request,
 
 // Adds the options that --help calls Slicing.
 void add_slicing_options(CLI::App& app, compiler::Request& request);
+
+struct OutputOptions {
+  std::string export_format;  // empty: the output's name says it
+  std::string report;         // path; empty: none
+};
+
+// Adds the options that say what is written and how: those that --help calls
+// Output, save -o, and --report, --layers and --min-feature. `request` and
+// `options` outlive `app`.
+void add_output_options(CLI::App& app, compiler::Request& request,
+                        OutputOptions& options);
+
+// Chooses the format by --export-format or, where that is empty, by the name
+// of the output, and checks what else is asked for against it. Throws
+// UsageError.
+void choose_format(compiler::Request& request, const OutputOptions& options,
+                   const std::string& output);
 
 }  // namespace lamina::cli

@@ -12,7 +12,7 @@
 #include "cli/process/openscad.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
-#include "compiler/imported_design.h"
+#include "compiler/request.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/deviation.h"
 #include "slicer/formats/layer_reader.h"

@@ -21,8 +21,6 @@ class Compared {
  public:
   explicit Compared(std::string name, std::string description = "")
       : description_(std::move(description)), name_(std::move(name)) {}
-  Compared(const Compared&) = delete;
-  Compared& operator=(const Compared&) = delete;
   virtual ~Compared() = default;
 
   // For messages and tables.

@@ -98,18 +98,6 @@ Json features_json(const compiler::Report& report, double width) {
   return json;
 }
 
-std::string sampler_name(ldni::SamplerKind kind) {
-  switch (kind) {
-    case ldni::SamplerKind::kScanline:
-      return "scanline";
-    case ldni::SamplerKind::kGl:
-      return "gl";
-    case ldni::SamplerKind::kGlPeeling:
-      return "gl-peeling";
-  }
-  return {};
-}
-
 Json passes_json(const compiler::Report& report) {
   const slicer::SliceReport& slice = report.slice;
   return {{"load_seconds", number(report.load_seconds)},
@@ -155,7 +143,7 @@ Json layers_json(const compiler::Report& report) {
 // What only the paper's contours have.
 Json paper_json(const slicer::SliceReport& slice, ldni::SamplerKind sampler) {
   const ldni::PaperCounts& paper = slice.paper;
-  return {{"sampler", sampler_name(sampler)},
+  return {{"sampler", ldni::kSamplerNames[static_cast<std::size_t>(sampler)]},
           {"renderer", slice.renderer},
           {"boolean_seconds", number(paper.boolean_seconds)},
           {"link_seconds", number(paper.link_seconds)},

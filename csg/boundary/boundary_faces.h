@@ -29,9 +29,10 @@ Box3 box_of(const BoundaryFace& face);
 
 // The faces together cover the boundary once, up to kTieDistance; they
 // are not joined: neighbours may have vertices on each other's edges, and an
-// edge's two sides may differ by kClipGrid. A face that the Boolean does not
-// touch keeps the leaf's vertices, bit by bit. Coplanar neighbours are not
-// merged. Cost: about n log n of the faces, plus the plane problems.
+// edge's two sides may differ by what regions take for one edge (3e-8 mm). A
+// face that the Boolean does not touch keeps the leaf's vertices, bit by bit.
+// Coplanar neighbours are not merged. Cost: about n log n of the faces, plus
+// the plane problems.
 std::vector<BoundaryFace> boundary_faces(const Scene& scene);
 
 // The same one by one, where not all of them are needed. Leaves come from the

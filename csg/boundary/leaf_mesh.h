@@ -1,5 +1,6 @@
 #pragma once
-// Leaves as explicit triangles, for code that cannot use the formula.
+// Leaves as explicit triangles, for code that cannot use the formula; and their
+// boxes.
 
 #include "csg/scene.h"
 
@@ -13,5 +14,9 @@ Mesh explicit_mesh(const Leaf& leaf);
 
 // Enclosed volume [mm³]; parts that overlap count as often as they do.
 double signed_volume(const Mesh& mesh);
+
+// The box of the vertices of `leaf` under `linear` (the shift left out). The
+// cost is that of one ring plus one profile, not of all vertices.
+Box3 bound_leaf(const Leaf& leaf, const Affine& linear);
 
 }  // namespace lamina::csg

@@ -39,6 +39,7 @@ struct Entity {
   double group_41 = 0;  // begin of an ellipse [rad], or factor in x
   double group_42 = 0;
   int flags = 0;
+  int bulges = 0;  // groups 42 that are not 0
 };
 
 class Reader {
@@ -103,6 +104,7 @@ class Reader {
     if (!is_coordinate && other == nullptr) return true;
     const auto number = to_number<double>(data);
     if (!number || !std::isfinite(*number)) return false;
+    if (code == 42 && *number != 0) ++entity_.bulges;
     if (is_coordinate) {
       keep_coordinate(code, *number);
     } else {
@@ -198,6 +200,9 @@ class Reader {
   }
 
   bool add_polyline() {
+    if (is_in_blocks_ || is_asked_for()) {
+      drawing_.straightened_arcs += entity_.bulges;
+    }
     const std::size_t count = std::max(entity_.x.size(), entity_.y.size());
     for (std::size_t i = 1; i < count; ++i) {
       if (!add_line(point(i - 1), point(i))) return false;

@@ -46,6 +46,7 @@ struct DxfDrawing {
   // How many entities of each kind that OpenSCAD does not know are in the
   // layer, in the order of its hash table.
   std::unordered_map<std::string, int> unknown_entities;
+  int straightened_arcs = 0;  // bulges of polylines in the layer
 };
 
 // throws  FormatError where blocks inserted into blocks make too many lines

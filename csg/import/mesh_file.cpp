@@ -6,16 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
 
 namespace lamina::csg {
 namespace {
 
-std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
-                           ImportFormat format) {
+std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
   std::vector<RawMesh> bodies;
-  switch (format) {
+  switch (params.format) {
     case ImportFormat::kStl:
       bodies.push_back(parse_stl(bytes));
       break;
@@ -26,9 +24,9 @@ std::vector<RawMesh> parse(std::string_view bytes, const std::string& path,
       bodies.push_back(parse_obj(bytes));
       break;
     case ImportFormat::kAmf:
-      return parse_amf(bytes, std::filesystem::path(path).filename());
+      return parse_amf(bytes, std::filesystem::path(params.path).filename());
     case ImportFormat::k3mf:
-      return parse_3mf(bytes);
+      return parse_3mf(bytes, params.rules);
     case ImportFormat::kUnknown:
     case ImportFormat::kDxf:
     case ImportFormat::kSvg:
@@ -86,11 +84,12 @@ std::size_t drop_infinite(RawMesh& raw) {
 
 }  // namespace
 
-std::vector<RawMesh> read_mesh_file(const std::string& path,
-                                    ImportFormat format,
+std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     const FileAccess& access, SourceRange range,
                                     Diagnostics& diagnostics) {
-  const auto bytes = FileBytes::open(path, access);
+  const std::string path(params.path);
+  const ImportFormat format = params.format;
+  const auto bytes = access.read_regular(path);
   if (!bytes) {
     diagnostics.warning(range, warning_text(format == ImportFormat::k3mf
                                                 ? "Could not read file"
@@ -100,7 +99,7 @@ std::vector<RawMesh> read_mesh_file(const std::string& path,
   }
   std::vector<RawMesh> bodies;
   try {
-    bodies = parse(bytes->view(), path, format);
+    bodies = parse(*bytes, params);
   } catch (const FormatError& fault) {
     report_broken(path, format, fault, range, diagnostics);
     return {};

@@ -46,8 +46,9 @@ struct RawMesh {
 RawMesh parse_stl(std::string_view bytes);
 
 // OFF, the format of Geomview, as text. Normals, colours and texture
-// coordinates ([ST][C][N]OFF, 4OFF) are passed over. Each vertex and each face
-// has a line of its own; the header says how many there are.
+// coordinates ([ST][C][N]OFF, 4OFF) are passed over; nOFF must be of 3
+// dimensions. Each vertex and each face has a line of its own; the header says
+// how many there are, and need not have the word OFF.
 RawMesh parse_off(std::string_view bytes);
 
 // OBJ, the format of Wavefront: vertices and faces; all else (normals,
@@ -64,17 +65,18 @@ RawMesh parse_obj(std::string_view bytes);
 //       model, or else its only entry
 std::vector<RawMesh> parse_amf(std::string_view bytes, const std::string& name);
 
-// 3MF: one body for each mesh object. As in OpenSCAD 2021.01, every object
-// counts where it lies; units, build items, components and colours do not.
-std::vector<RawMesh> parse_3mf(std::string_view bytes);
+// 3MF: one body for each mesh object. In 2021.01 every object counts where it
+// lies; since then those that the build items name, through components, and
+// where these put them. Units and colours do not count.
+std::vector<RawMesh> parse_3mf(std::string_view bytes,
+                               Language rules = Language::k2021);
 
 // Reads the bodies of a file; none where it cannot be read, which it reports in
 // OpenSCAD's words at `range`. It drops facets with coordinates that are no
 // numbers, with a warning, so all vertices are finite.
 //
-// format  one of meshes
-std::vector<RawMesh> read_mesh_file(const std::string& path,
-                                    ImportFormat format,
+// params  path, format and rules count; the format is one of meshes
+std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     const FileAccess& access, SourceRange range,
                                     Diagnostics& diagnostics);
 

@@ -46,15 +46,22 @@ class Reader {
 
   void read_header() {
     next_line("OFF");
-    std::string_view kind = take_word(rest_);
+    std::string_view rest = rest_;
+    std::string_view kind = take_word(rest);
+    if (to_number<std::uint32_t>(kind)) return;  // the numbers come at once
+    rest_ = rest;
     for (const std::string_view prefix : {"ST", "C", "N"}) {
       if (kind.starts_with(prefix)) kind.remove_prefix(prefix.size());
     }
     is_homogeneous_ = kind.starts_with('4');
     if (is_homogeneous_) kind.remove_prefix(1);
-    if (kind != "OFF") fail("OFF, [ST][C][N][4]OFF");
-    std::string_view rest = rest_;
+    const bool has_dimension = kind.starts_with('n');
+    if (has_dimension) kind.remove_prefix(1);
+    if (kind != "OFF") fail("OFF, [ST][C][N][4][n]OFF");
     if (take_word(rest) == "BINARY") fail("text, not BINARY");
+    if (has_dimension && read_count("the dimension") != 3) {
+      fail("3 dimensions");
+    }
   }
 
   // The counts may stand behind the header's word, or on lines below.

@@ -120,12 +120,14 @@ Image read_image(std::string_view bytes) {
 
 }  // namespace
 
-HeightField parse_png(std::string_view bytes, bool invert) {
+HeightField parse_png(std::string_view bytes, bool invert, Language rules) {
   const Image image = read_image(bytes);
   HeightField field;
   field.columns = image.columns;
   field.rows = image.rows;
   field.heights.resize(image.columns * image.rows);
+  constexpr double kAboveAll = 200;  // mm
+  if (rules != Language::k2021) field.bottom = kAboveAll;
   for (std::size_t row = 0; row < image.rows; ++row) {
     const std::uint8_t* pixel = &image.pixels[4 * row * image.columns];
     double* height = &field.heights[(image.rows - 1 - row) * image.columns];

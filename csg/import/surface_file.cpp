@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "base/file/file_bytes.h"
 #include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/limits.h"
@@ -154,7 +153,7 @@ void take_row(std::string_view line, HeightField& field,
 
 }  // namespace
 
-HeightField parse_dat(std::string_view bytes) {
+HeightField parse_dat(std::string_view bytes, Language rules) {
   HeightField field;
   std::vector<double> numbers;    // of all rows
   std::vector<std::size_t> ends;  // of each row, in numbers
@@ -168,6 +167,9 @@ HeightField parse_dat(std::string_view bytes) {
     field.columns = std::max(field.columns, columns);
     require_heights(field.columns, ends.size());
     if (!field.fault.empty()) break;
+  }
+  if (!field.fault.empty() && rules != Language::k2021) {
+    return {0, 0, {}, 0, field.fault};
   }
   field.rows = ends.size();
   field.heights.reserve(field.columns * field.rows);
@@ -189,14 +191,14 @@ Mesh make_surface(const HeightField& field, bool center) {
 Mesh read_surface_file(const SurfaceParams& params, const FileAccess& access,
                        SourceRange range, Diagnostics& diagnostics) {
   const std::string path(params.path);
-  const auto bytes = FileBytes::open(path, access);
+  const auto bytes = access.read_regular(path);
   if (!bytes) {
     diagnostics.warning(range,
                         fmt::format("The file '{}' couldn't be opened.", path));
     return {};
   }
-  if (!bytes->view().starts_with(kPngMark)) {
-    const HeightField field = parse_dat(bytes->view());
+  if (!bytes->starts_with(kPngMark)) {
+    const HeightField field = parse_dat(*bytes, params.rules);
     if (!field.fault.empty()) {
       diagnostics.warning(
           range, fmt::format("Illegal value in '{}': {}", path, field.fault));
@@ -204,7 +206,8 @@ Mesh read_surface_file(const SurfaceParams& params, const FileAccess& access,
     return make_surface(field, params.center);
   }
   try {
-    return make_surface(parse_png(bytes->view(), params.invert), params.center);
+    return make_surface(parse_png(*bytes, params.invert, params.rules),
+                        params.center);
   } catch (const FormatError& fault) {
     diagnostics.report({Severity::kWarning,
                         range,

@@ -18,22 +18,24 @@ struct HeightField {
   std::size_t columns = 0;
   std::size_t rows = 0;
   std::vector<double> heights;  // rows × columns [mm]
-  double bottom = 0;            // 1 mm below the least height, at most 0 [mm]
+  // 1 mm below the least height [mm]; at most 0, but for images in 2026.
+  double bottom = 0;
   std::string fault;  // why it ends before the file does; "" if it does not
 };
 
 // Reads numbers by rows; "#" begins a comment line. Short rows are filled up
-// with 0. A word that is no number ends the field.
+// with 0. A word that is no number ends the field, and in 2026 empties it.
 //
 // throws  LimitExceeded, before short rows are filled up
-HeightField parse_dat(std::string_view bytes);
+HeightField parse_dat(std::string_view bytes, Language rules = Language::k2021);
 
 // Heights are the luminances of the pixels, black 0 and white 100 mm; the
 // image's lowest row comes first. `invert` subtracts them from 100/255 mm, as
-// OpenSCAD 2021.01 does.
+// OpenSCAD does.
 //
 // throws  FormatError for a malformed image; LimitExceeded
-HeightField parse_png(std::string_view bytes, bool invert);
+HeightField parse_png(std::string_view bytes, bool invert,
+                      Language rules = Language::k2021);
 
 // Makes a closed mesh: four triangles for each cell of the grid, around the
 // mean of its corners, and walls down to the bottom. It is empty for less than

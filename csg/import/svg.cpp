@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,131 +20,135 @@ namespace {
 // Elements are visited by a function that calls itself.
 constexpr int kMostNesting = 500;
 
-// The matrix [a b c d e f]: (x, y) becomes (a x + c y + e, b x + d y + f).
 using Matrix = glm::dmat3;
-Matrix matrix(double a, double b, double c, double d, double e, double f) {
-  return {a, b, 0, c, d, 0, e, f, 1};
-}
-
-Matrix rotation(double angle_deg, Vec2 center) {
-  const double cos = cos_deg(angle_deg);
-  const double sin = sin_deg(angle_deg);
-  return matrix(1, 0, 0, 1, center.x, center.y) *
-         (matrix(cos, sin, -sin, cos, 0, 0) *
-          matrix(1, 0, 0, 1, -center.x, -center.y));
-}
-
-double tan_deg(double angle_deg) {
-  return sin_deg(angle_deg) / cos_deg(angle_deg);
-}
-
-// One function of a transform; the identity for a wrong number of arguments.
-Matrix read_transform(std::string_view name, const std::vector<double>& v) {
-  const std::size_t n = v.size();
-  if (name == "matrix" && n == 6) {
-    return matrix(v[0], v[1], v[2], v[3], v[4], v[5]);
-  }
-  if (name == "translate" && (n == 1 || n == 2)) {
-    return matrix(1, 0, 0, 1, v[0], n == 2 ? v[1] : 0);
-  }
-  if (name == "scale" && (n == 1 || n == 2)) {
-    return matrix(v[0], 0, 0, v[n - 1], 0, 0);
-  }
-  if (name == "rotate" && n == 1) return rotation(v[0], Vec2(0));
-  if (name == "rotate" && n == 3) return rotation(v[0], {v[1], v[2]});
-  if (name == "skewX" && n == 1) return matrix(1, 0, tan_deg(v[0]), 1, 0, 0);
-  if (name == "skewY" && n == 1) return matrix(1, tan_deg(v[0]), 0, 1, 0, 0);
-  return Matrix(1.0);
-}
-
-Matrix read_transforms(std::string_view text) {
-  Matrix whole(1.0);
-  for (std::size_t open = text.find('('); open != std::string_view::npos;
-       open = text.find('(')) {
-    std::string_view name = text.substr(0, open);
-    while (!name.empty() && (is_blank(name.front()) || name.front() == ',')) {
-      name.remove_prefix(1);
-    }
-    const std::size_t close = std::min(text.find(')', open), text.size());
-    SvgNumbers numbers(text.substr(open + 1, close - open - 1));
-    std::vector<double> values;
-    while (const auto number = numbers.next()) values.push_back(*number);
-    whole = whole * read_transform(trim(name), values);
-    text.remove_prefix(std::min(close + 1, text.size()));
-  }
-  return whole;
-}
 
 // The whole attribute as a number; 0 where it is not one, as "3mm".
 double number_of(const pugi::xml_node& element, const char* attribute) {
   return to_number<double>(element.attribute(attribute).value()).value_or(0);
 }
 
-// The value of an attribute, or else that of the element's own style.
-std::string_view presentation(const pugi::xml_node& element, const char* name) {
-  const std::string_view own = element.attribute(name).value();
-  if (!own.empty()) return own;
-  std::string_view style = element.attribute("style").value();
-  while (!style.empty()) {
-    const std::size_t end = std::min(style.find(';'), style.size());
-    const std::string_view entry = style.substr(0, end);
-    const std::size_t colon = std::min(entry.find(':'), entry.size());
-    // OpenSCAD compares to the letter, blanks included.
-    if (entry.substr(0, colon) == name && colon < entry.size()) {
-      return entry.substr(colon + 1);
-    }
-    style.remove_prefix(std::min(end + 1, style.size()));
-  }
-  return {};
+// Elements that OpenSCAD knows; all others only hold their children.
+bool is_known(std::string_view name) {
+  constexpr std::string_view kNames[] = {
+      "circle",   "ellipse", "g",     "line", "path", "polygon",
+      "polyline", "rect",    "tspan", "text", "use"};
+  return std::find(std::begin(kNames), std::end(kNames), name) !=
+         std::end(kNames);
 }
 
-SvgStroke read_stroke(const pugi::xml_node& element) {
-  constexpr double kThinnest = 0.01;
-  SvgStroke stroke;
-  const double width =
-      to_number<double>(presentation(element, "stroke-width")).value_or(0);
-  if (width >= kThinnest) stroke.width = width;
-  const std::string_view cap = presentation(element, "stroke-linecap");
-  if (cap == "butt") stroke.cap = SvgStroke::Cap::kButt;
-  if (cap == "round") stroke.cap = SvgStroke::Cap::kRound;
-  const std::string_view join = presentation(element, "stroke-linejoin");
-  if (join == "bevel") stroke.join = SvgStroke::Join::kBevel;
-  if (join == "round") stroke.join = SvgStroke::Join::kRound;
-  return stroke;
+bool is_group(std::string_view name) {
+  return name == "g" || name == "text" || name == "tspan";
 }
+
+// Where in the drawing an element stands.
+struct Place {
+  Matrix page_from_parent = Matrix(1.0);
+  bool is_shown = true;     // by the filter, and by display
+  bool is_in_layer = true;  // that the filter names, or it names none
+  bool is_in_defs = false;  // only kept, for <use>
+  bool is_copy = false;     // below a <use>
+  int depth = 0;
+};
 
 class Reader {
  public:
   explicit Reader(const SvgOptions& options) : options_(options) {}
 
-  std::vector<SvgContours> read(const pugi::xml_node& document) {
-    read_children(document, Matrix(1.0), 0);
+  SvgDrawing read(const pugi::xml_node& document) {
+    Place top;
+    top.is_shown = !has_filter();
+    top.is_in_layer = !options_.layer;
+    drawing_.has_match = top.is_shown;
+    read_children(document, top);
     place_on_page();
-    return std::move(shapes_);
+    return std::move(drawing_);
   }
 
  private:
-  void read_children(const pugi::xml_node& parent, const Matrix& outer,
-                     int depth) {
-    if (depth > kMostNesting) {
+  bool has_filter() const { return options_.id || options_.layer; }
+
+  void read_children(const pugi::xml_node& parent, const Place& place) {
+    if (place.depth > kMostNesting) {
       throw FormatError(fmt::format("SVG elements are nested more than {} deep",
                                     kMostNesting));
     }
     for (const pugi::xml_node child : parent.children()) {
-      const std::string_view name = child.name();
-      if (name == "defs") continue;
-      if (name == "svg") {
-        page_ = read_svg_page(child, options_.dpi);
+      read_element(child, place);
+    }
+  }
+
+  // What the filter and display say of an element decides of all below it, up
+  // to where they say something else.
+  void read_element(const pugi::xml_node& element, Place place) {
+    const std::string_view name = element.name();
+    ++place.depth;
+    if (name == "svg") page_ = read_svg_page(element, options_.dpi);
+    if (name == "defs") place.is_in_defs = true;
+    if (is_known(name)) {
+      if (is_selected(element, place)) {
+        place.is_shown = drawing_.has_match = true;
+      } else if (has_display_none(element)) {
+        place.is_shown = false;
       }
-      const bool is_group = name == "g" || name == "text" || name == "tspan";
-      const Matrix own = is_group ? outer * transform_of(child) : outer;
-      read_shape(name, child, outer);
-      read_children(child, own, depth + 1);
+      const std::string_view id = element.attribute("id").value();
+      if (place.is_in_defs && !id.empty()) defined_.try_emplace(id, element);
+    }
+    if (name == "use") {
+      read_use(element, place);
+    } else if (place.is_shown && !place.is_in_defs) {
+      read_shape(name, element, place.page_from_parent);
+    }
+    if (is_group(name)) {
+      place.page_from_parent = place.page_from_parent * transform_of(element);
+    }
+    read_children(element, place);
+  }
+
+  // Also notes whether the layer that the filter names begins here.
+  bool is_selected(const pugi::xml_node& element, Place& place) const {
+    if (!has_filter()) return false;
+    const pugi::xml_attribute label = element.attribute("inkscape:label");
+    const bool is_layer = options_.layer && !label.empty() &&
+                          label.value() == *options_.layer &&
+                          element.attribute("inkscape:groupmode").value() ==
+                              std::string_view("layer");
+    if (is_layer) place.is_in_layer = true;
+    if (!options_.id) return is_layer;
+    const pugi::xml_attribute id = element.attribute("id");
+    return place.is_in_layer && !id.empty() && id.value() == *options_.id;
+  }
+
+  // Draws what the element names; as in OpenSCAD only what <defs> above it
+  // hold, and nothing that these use themselves.
+  void read_use(const pugi::xml_node& element, Place place) {
+    if (place.is_copy) return;
+    std::string_view target = element.attribute("href").value();
+    if (target.empty()) target = element.attribute("xlink:href").value();
+    const auto found = target.starts_with('#') ? defined_.find(target.substr(1))
+                                               : defined_.end();
+    if (found == defined_.end()) {
+      note_undrawn(fmt::format("<use> of '{}'", target));
+      return;
+    }
+    const Vec2 shift(number_of(element, "x"), number_of(element, "y"));
+    Matrix moved(1.0);
+    moved[2] = Vec3(shift, 1);
+    place.page_from_parent =
+        place.page_from_parent * transform_of(element) * moved;
+    place.is_in_defs = false;
+    place.is_copy = true;
+    read_element(found->second, place);
+  }
+
+  void note_undrawn(std::string words) {
+    auto& undrawn = drawing_.undrawn;
+    if (std::find(undrawn.begin(), undrawn.end(), words) == undrawn.end()) {
+      undrawn.push_back(std::move(words));
     }
   }
 
   static Matrix transform_of(const pugi::xml_node& element) {
-    return read_transforms(element.attribute("transform").value());
+    return read_svg_transforms(element.attribute("transform").value());
   }
 
   void read_shape(std::string_view name, const pugi::xml_node& element,
@@ -166,6 +172,8 @@ class Reader {
       draw(read_points(element), element);
     } else if (name == "polygon") {
       contours_.push_back(read_points(element));
+    } else if (name == "text" || name == "image") {
+      note_undrawn(fmt::format("<{}>", name));
     }
     if (contours_.empty()) return;
     const Matrix whole = outer * transform_of(element);
@@ -177,17 +185,18 @@ class Reader {
         high_ = {std::max(high_.x, scaled.x), std::max(high_.y, scaled.y)};
       }
     }
-    shapes_.push_back(std::exchange(contours_, {}));
+    drawing_.shapes.push_back(std::exchange(contours_, {}));
   }
 
   void draw(std::vector<Vec2> path, const pugi::xml_node& element) {
-    for (auto& contour : options_.outline(path, read_stroke(element))) {
+    for (auto& contour :
+         options_.outline(path, read_svg_stroke(element, options_.language))) {
       contours_.push_back(std::move(contour));
     }
   }
 
   void add_path(std::string_view data, const pugi::xml_node& element) {
-    for (SvgSubpath& path : parse_svg_path(data)) {
+    for (SvgSubpath& path : parse_svg_path(data, options_.curves)) {
       if (path.is_drawn) {
         draw(std::move(path.points), element);
       } else {
@@ -208,10 +217,11 @@ class Reader {
   }
 
   void add_ellipse(Vec2 center, Vec2 radii) {
-    constexpr int kSides = 40;
+    const int sides =
+        lines_of_ellipse(options_.curves, std::max(radii.x, radii.y));
     std::vector<Vec2>& points = contours_.emplace_back();
-    for (int i = 1; i <= kSides; ++i) {
-      const double angle = i * 360.0 / kSides;
+    for (int i = 1; i <= sides; ++i) {
+      const double angle = i * 360.0 / sides;
       points.push_back(center + radii * Vec2(sin_deg(angle), cos_deg(angle)));
     }
   }
@@ -249,7 +259,7 @@ class Reader {
     const Vec2 shift = options_.center
                            ? Vec2(-middle.x, middle.y)
                            : Vec2(page_.shift.x, page_.height - page_.shift.y);
-    for (SvgContours& shape : shapes_) {
+    for (SvgContours& shape : drawing_.shapes) {
       for (std::vector<Vec2>& contour : shape) {
         for (Vec2& point : contour) {
           point = page_.scale * Vec2(point.x - page_.view_low.x,
@@ -263,15 +273,15 @@ class Reader {
   const SvgOptions& options_;
   SvgPage page_;
   SvgContours contours_;  // of the shape being read
-  std::vector<SvgContours> shapes_;
+  SvgDrawing drawing_;
+  std::map<std::string_view, pugi::xml_node> defined_;  // by id
   Vec2 low_ = Vec2(1e300);
   Vec2 high_ = Vec2(-1e300);
 };
 
 }  // namespace
 
-std::vector<SvgContours> parse_svg(std::string_view bytes,
-                                   const SvgOptions& options) {
+SvgDrawing parse_svg(std::string_view bytes, const SvgOptions& options) {
   pugi::xml_document document;
   parse_xml(bytes, "SVG", document);
   return Reader(options).read(document);

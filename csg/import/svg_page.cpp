@@ -30,23 +30,29 @@ std::optional<ViewBox> read_view_box(std::string_view text) {
   return ViewBox{{values[0], values[1]}, {values[2], values[3]}};
 }
 
-// A side of the page [mm].
-//
+// A side of the page.
+struct Length {
+  double mm = 0;
+  double share = 1;  // of the viewBox that a page in percent shows
+};
+
 // view  the side of the viewBox; 0 if there is none
-double read_length(std::string_view text, double view, double dpi) {
+Length read_length(std::string_view text, double view, double dpi) {
   static const std::map<std::string_view, double> kUnits = {
       {"px", kInch / 96}, {"pt", kInch / 72}, {"pc", kInch / 6},
       {"in", kInch},      {"cm", 10},         {"mm", 1}};
   SvgNumbers numbers(text);
   const auto number = numbers.next();
   const std::string_view unit = trim(numbers.rest());
-  if (number && unit.empty()) return *number * kInch / dpi;
-  if (number && (unit == "%" || unit == "em" || unit == "ex")) {
-    return view;
+  if (number && unit.empty()) return {*number * kInch / dpi};
+  if (number && unit == "%") {
+    const double share = *number / 100;
+    return {share * view * kInch / dpi, share};
   }
+  if (number && (unit == "em" || unit == "ex")) return {view};
   const auto found = kUnits.find(unit);
-  if (number && found != kUnits.end()) return *number * found->second;
-  return view * kInch / dpi;
+  if (number && found != kUnits.end()) return {*number * found->second};
+  return {view * kInch / dpi};
 }
 
 struct Alignment {
@@ -81,11 +87,13 @@ SvgPage read_svg_page(const pugi::xml_node& svg, double dpi) {
     const double view = box ? box->size[axis] : 0;
     return read_length(svg.attribute(name).value(), view, dpi);
   };
-  const Vec2 size(side("width", 0), side("height", 1));
+  const Length width = side("width", 0);
+  const Length height = side("height", 1);
+  const Vec2 size(width.mm, height.mm);
   SvgPage page;
   page.height = size.y;
   if (!box) return page;
-  page.view_low = box->low;
+  page.view_low = box->low * Vec2(width.share, height.share);
   page.scale = size / box->size;
   const Alignment alignment =
       read_alignment(svg.attribute("preserveAspectRatio").value());

@@ -12,8 +12,6 @@
 namespace lamina::csg {
 namespace {
 
-constexpr int kCurveLines = 20;
-
 // Ends further apart than this make a path open.
 constexpr double kOpenDistance = 0.1;
 
@@ -35,7 +33,8 @@ double angle_between_deg(Vec2 u, Vec2 v) {
 
 class Reader {
  public:
-  explicit Reader(std::string_view data) : numbers_(data) {}
+  Reader(std::string_view data, const SvgCurves& curves)
+      : numbers_(data), curves_(curves) {}
 
   std::vector<SvgSubpath> read() {
     while (const char c = numbers_.peek()) {
@@ -150,8 +149,9 @@ class Reader {
   Vec2 mirrored() const { return at_ + (at_ - control_); }
 
   void add_cubic(Vec2 c1, Vec2 c2, Vec2 to) {
-    for (int i = 1; i <= kCurveLines; ++i) {
-      const double a = i * (1.0 / kCurveLines);
+    const int lines = lines_of_bezier(curves_);
+    for (int i = 1; i <= lines; ++i) {
+      const double a = i * (1.0 / lines);
       const double b = 1 - a;
       points().push_back(at_ * (b * b * b) + c1 * (3 * b * b * a) +
                          c2 * (3 * b * a * a) + to * (a * a * a));
@@ -162,8 +162,9 @@ class Reader {
   }
 
   void add_quadratic(Vec2 c, Vec2 to) {
-    for (int i = 1; i <= kCurveLines; ++i) {
-      const double a = i * (1.0 / kCurveLines);
+    const int lines = lines_of_bezier(curves_);
+    for (int i = 1; i <= lines; ++i) {
+      const double a = i * (1.0 / lines);
       const double b = 1 - a;
       points().push_back(at_ * (b * b) + c * (2 * b * a) + to * (a * a));
     }
@@ -203,7 +204,7 @@ class Reader {
       points().push_back(to);
       return;
     }
-    const int steps = static_cast<int>(std::abs(sweep) * 10.0 / 180 + 4);
+    const int steps = lines_of_arc(curves_, std::max(rx, ry), sweep);
     for (int i = 0; i <= steps; ++i) {
       const double phi = begin + sweep * i / steps;
       const Vec2 e = Vec2(cos_deg(phi), sin_deg(phi)) * radii;
@@ -233,6 +234,7 @@ class Reader {
   }
 
   SvgNumbers numbers_;
+  const SvgCurves& curves_;
   char command_ = ' ';
   std::vector<SvgSubpath> paths_{1};
   Vec2 at_ = Vec2(0);
@@ -244,8 +246,26 @@ class Reader {
 
 }  // namespace
 
-std::vector<SvgSubpath> parse_svg_path(std::string_view data) {
-  return Reader(data).read();
+int lines_of_ellipse(const SvgCurves& curves, double radius) {
+  constexpr int kFewest = 40;
+  if (!curves.lines_of_arc) return kFewest;
+  return std::max(curves.lines_of_arc(radius, 360), kFewest);
+}
+
+int lines_of_arc(const SvgCurves& curves, double radius, double sweep_deg) {
+  const int fewest = static_cast<int>(std::abs(sweep_deg) * 10.0 / 180 + 4);
+  if (!curves.lines_of_arc) return fewest;
+  return std::max(curves.lines_of_arc(radius, std::abs(sweep_deg)), fewest);
+}
+
+int lines_of_bezier(const SvgCurves& curves) {
+  constexpr int kFewest = 20;
+  return std::max(curves.lines_of_bezier, kFewest);
+}
+
+std::vector<SvgSubpath> parse_svg_path(std::string_view data,
+                                       const SvgCurves& curves) {
+  return Reader(data, curves).read();
 }
 
 }  // namespace lamina::csg

@@ -78,10 +78,10 @@ Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
   builder_.reserve(instances);
 }
 
-Shape Lowerer::lower(const Node& node, const Affine& world) {
-  return add_place(node.range, node.caller, [&] {
-    return std::visit([&](const auto& op) { return lower_op(op, node, world); },
-                      node.op);
+Shape Lowerer::lower(const Place& at) {
+  return add_place(at.node.range, at.node.caller, [&] {
+    return std::visit([&](const auto& op) { return lower_op(op, at); },
+                      at.node.op);
   });
 }
 
@@ -107,7 +107,7 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   of_tree.language = tree.language;
   Lowerer lowerer(found.childless, of_tree, hulls, diagnostics);
   Shape shape = lowerer.lower(
-      *root, options.world_from_design * Mat4(glm::dmat3(options.scale)));
+      {*root, options.world_from_design * Mat4(glm::dmat3(options.scale))});
   if (!shape.region.is_empty()) {
     for (planar::Contour& contour : shape.region.contours) {
       for (Vec2& point : contour) point *= options.scale;

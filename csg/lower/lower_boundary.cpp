@@ -7,7 +7,7 @@
 #include "csg/boundary/projection.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/plane/boolean.h"
-#include "csg/plane/convex_hull.h"
+#include "csg/plane/region.h"
 
 namespace lamina::csg {
 namespace {
@@ -90,57 +90,54 @@ Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
 
 }  // namespace
 
-Lowerer Lowerer::make_inner(const Node& node, const Affine& world) {
+Lowerer Lowerer::make_inner(const Place& at) {
   LowerOptions options = options_;
-  options.chordal_error = fineness({}, world).chordal_error;
-  return {node.children.size(), options, hulls_, diagnostics_};
+  options.chordal_error = fineness({}, at.world).chordal_error;
+  return {at.node.children.size(), options, hulls_, diagnostics_};
 }
 
-Lowerer::Apart Lowerer::lower_apart(const Node& node, const Affine& world,
-                                    bool takes_corners) {
-  Lowerer inner = make_inner(node, world);
+Lowerer::Apart Lowerer::lower_apart(const Place& at, bool takes_corners) {
+  Lowerer inner = make_inner(at);
   inner.takes_corners_ = takes_corners;
   Operands operands =
-      inner.lower_operands(node, Affine(1.0), true, Dimension::kNone);
+      inner.lower_operands({at.node, Affine(1.0)}, true, Dimension::kNone);
   report_strays(operands);
   return {operands.dimension, std::move(operands.regions), inner.take_scene(),
           is_boolean(BooleanOp::kUnion, operands)};
 }
 
-Shape Lowerer::lower_op(const Hull&, const Node& node, const Affine& world) {
-  Apart apart = lower_apart(node, world, true);
+Shape Lowerer::lower_op(const Hull&, const Place& at) {
+  Apart apart = lower_apart(at, true);
   if (apart.dimension == Dimension::kFlat) {
     return {Dimension::kFlat, hull_of(apart.regions)};
   }
   if (apart.scene.instances.empty()) return {};
   Leaf leaf;
   leaf.meshes.push_back(hulls_.find_or_make(std::move(apart.scene)));
-  place_leaf(std::move(leaf), node, world);
+  place_leaf(std::move(leaf), at);
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Resize& op, const Node& node,
-                        const Affine& world) {
-  Apart apart = lower_apart(node, world);
+Shape Lowerer::lower_op(const Resize& op, const Place& at) {
+  Apart apart = lower_apart(at);
   if (apart.dimension == Dimension::kFlat) {
     if (apart.regions.empty()) return {Dimension::kFlat};
     planar::Region region = planar::unite(apart.regions);
     const Vec3 factor(resize_factor(op, region), 1);
     return {Dimension::kFlat,
-            transform_region(std::move(region), scaling(factor), node.range,
+            transform_region(std::move(region), scaling(factor), at.node.range,
                              diagnostics_)};
   }
   if (apart.scene.instances.empty()) return {apart.dimension};
   const Vec3 factor = resize_factor(op, apart.scene, apart.is_boolean);
-  place_scene(apart.scene, world * scaling(factor));
+  place_scene(apart.scene, at.world * scaling(factor));
   return {Dimension::kSolid, {}, apart.is_boolean};
 }
 
-Shape Lowerer::lower_op(const Projection& op, const Node& node,
-                        const Affine& world) {
-  Lowerer inner = make_inner(node, world);
+Shape Lowerer::lower_op(const Projection& op, const Place& at) {
+  Lowerer inner = make_inner(at);
   Operands operands =
-      inner.lower_operands(node, Affine(1.0), true, Dimension::kSolid);
+      inner.lower_operands({at.node, Affine(1.0)}, true, Dimension::kSolid);
   operands.first_mixed = nullptr;
   if (op.cut) report_strays(operands);
   const Scene scene = inner.take_scene();

@@ -1,16 +1,20 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
-#include "base/file/file_bytes.h"
+#include "base/file/file_access.h"
 #include "base/file/format_error.h"
 #include "csg/import/dxf.h"
 #include "csg/import/mesh_file.h"
 #include "csg/import/surface_file.h"
 #include "csg/import/svg.h"
+#include "csg/limits.h"
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/repair.h"
@@ -41,14 +45,32 @@ Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
   return mesh;
 }
 
+// Puts the middle of the box of all faces at the origin.
+void center_meshes(std::vector<Mesh>& meshes) {
+  Vec3 low(kGreatestCoordinate);
+  Vec3 high(-kGreatestCoordinate);
+  for (const Mesh& mesh : meshes) {
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) {
+        low = glm::min(low, mesh.vertices[corner]);
+        high = glm::max(high, mesh.vertices[corner]);
+      }
+    }
+  }
+  const Vec3 middle = (low + high) / 2.0;
+  for (Mesh& mesh : meshes) {
+    for (Vec3& vertex : mesh.vertices) vertex -= middle;
+  }
+}
+
 Leaf make_import_leaf(const ImportParams& params, const FileAccess& access,
                       SourceRange range, Diagnostics& diagnostics) {
   Leaf leaf;
   leaf.may_overlap_itself = true;
-  for (RawMesh& raw : read_mesh_file(std::string(params.path), params.format,
-                                     access, range, diagnostics)) {
+  for (RawMesh& raw : read_mesh_file(params, access, range, diagnostics)) {
     leaf.meshes.push_back(make_sound(std::move(raw), range, diagnostics));
   }
+  if (params.center) center_meshes(leaf.meshes);
   return leaf;
 }
 
@@ -65,10 +87,26 @@ planar::Region fill_shapes(
   return regions.empty() ? planar::Region() : planar::unite(regions);
 }
 
+// Puts the middle of the box of all contours at the origin.
+void center_contours(std::vector<planar::Contour>& contours) {
+  Vec2 low(kGreatestCoordinate);
+  Vec2 high(-kGreatestCoordinate);
+  for (const planar::Contour& contour : contours) {
+    for (const Vec2 point : contour) {
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
+  }
+  const Vec2 middle = (low + high) / 2.0;
+  for (planar::Contour& contour : contours) {
+    for (Vec2& point : contour) point -= middle;
+  }
+}
+
 planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
                         const FileAccess& access, SourceRange range,
                         Diagnostics& diagnostics) {
-  DxfOptions options{std::string(params.layer),
+  DxfOptions options{std::string(params.layer.value_or("")),
                      params.origin,
                      params.scale,
                      {},
@@ -76,7 +114,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
   options.fragments = [&fineness](double r) {
     return circle_fragments(r, fineness);
   };
-  const auto bytes = FileBytes::open(options.path, access);
+  const auto bytes = access.read_regular(options.path);
   if (!bytes) {
     diagnostics.warning(range,
                         fmt::format("Can't open DXF file '{}'.", options.path));
@@ -84,7 +122,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
   }
   DxfDrawing drawing;
   try {
-    drawing = parse_dxf(bytes->view(), options);
+    drawing = parse_dxf(*bytes, options);
   } catch (const FormatError& fault) {
     diagnostics.error(range, fmt::format("{} importing file '{}'", fault.what(),
                                          options.path));
@@ -97,20 +135,36 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
            drawing, options.layer, quoted_from_here(options.path))) {
     diagnostics.warning(range, std::move(warning));
   }
+  if (drawing.straightened_arcs > 0) {
+    diagnostics.warning(
+        range,
+        fmt::format("{} arcs (bulges) of polylines in {} become straight "
+                    "lines",
+                    drawing.straightened_arcs, quoted_from_here(options.path)));
+  }
   std::vector<planar::Contour> contours;
   for (DxfPath& path : drawing.paths) {
     contours.push_back(std::move(path.points));  // open ones are closed, too
   }
+  if (params.center) center_contours(contours);
   return fill_shapes({&contours, 1});
 }
 
-SvgContours outline_stroke(std::span<const Vec2> path,
-                           const SvgStroke& stroke) {
-  // OpenSCAD's, in the units of the drawing; of strokes that are wider than a
-  // metre such a share of their width that a circle has 10,000 sides.
+// How far OpenSCAD's pen leaves round caps and joins, in the drawing's units.
+double arc_tolerance(double width, Language rules) {
+  // 2021.01's; of strokes that are wider than a metre such a share of their
+  // width that a circle has 10,000 sides.
   constexpr double kArcTolerance = 2.5e-5;
   constexpr double kArcShare = 2.5e-8;
-  const double tolerance = std::max(kArcTolerance, kArcShare * stroke.width);
+  // Clipper2's of the radius: a circle has 50 sides.
+  constexpr double kRadiusShare = 0.002;
+  return rules == Language::k2021 ? std::max(kArcTolerance, kArcShare * width)
+                                  : kRadiusShare * width / 2;
+}
+
+SvgContours outline_stroke(std::span<const Vec2> path, const SvgStroke& stroke,
+                           Language rules) {
+  const double tolerance = arc_tolerance(stroke.width, rules);
   const planar::Join join =
       stroke.join == SvgStroke::Join::kRound   ? planar::Join::kRound
       : stroke.join == SvgStroke::Join::kBevel ? planar::Join::kBevel
@@ -122,19 +176,64 @@ SvgContours outline_stroke(std::span<const Vec2> path,
   return planar::stroke(path, stroke.width, join, cap, tolerance).contours;
 }
 
-planar::Region read_svg(const ImportParams& params, const FileAccess& access,
-                        SourceRange range, Diagnostics& diagnostics) {
-  const auto bytes = FileBytes::open(std::string(params.path), access);
+// In 2021.01 the fineness of curves is the same whatever $fn, $fa and $fs are.
+SvgCurves svg_curves(const Fineness& fineness, Language rules) {
+  if (rules == Language::k2021) return {};
+  SvgCurves curves;
+  curves.lines_of_arc = [&fineness](double radius, double sweep_deg) {
+    return static_cast<int>(
+        std::ceil(circle_fragments(radius, fineness) * sweep_deg / 360));
+  };
+  curves.lines_of_bezier = static_cast<int>(
+      std::clamp<double>(fineness.facets.fn, 0, kMostFragments));
+  return curves;
+}
+
+SvgOptions svg_options(const ImportParams& params, const Fineness& fineness) {
+  SvgOptions options;
+  options.dpi = params.dpi;
+  options.center = params.center;
+  options.outline = [rules = params.rules](std::span<const Vec2> path,
+                                           const SvgStroke& stroke) {
+    return outline_stroke(path, stroke, rules);
+  };
+  if (params.id) options.id = std::string(*params.id);
+  if (params.layer) options.layer = std::string(*params.layer);
+  options.language = params.rules;
+  options.curves = svg_curves(fineness, params.rules);
+  return options;
+}
+
+void report_undrawn(const SvgDrawing& drawing, const ImportParams& params,
+                    SourceRange range, Diagnostics& diagnostics) {
+  if (!drawing.has_match) {
+    std::string filter;
+    if (params.id) filter = fmt::format("id = \"{}\"", *params.id);
+    if (params.id && params.layer) filter += ", ";
+    if (params.layer) filter += fmt::format("layer = \"{}\"", *params.layer);
+    diagnostics.warning(
+        range,
+        fmt::format("import() filter {} did not match anything", filter));
+  }
+  for (const std::string& element : drawing.undrawn) {
+    diagnostics.warning(range, fmt::format("{} in {} draws nothing", element,
+                                           quoted_from_here(params.path)));
+  }
+}
+
+planar::Region read_svg(const ImportParams& params, const Fineness& fineness,
+                        const FileAccess& access, SourceRange range,
+                        Diagnostics& diagnostics) {
+  const auto bytes = access.read_regular(std::string(params.path));
   if (!bytes) {
     diagnostics.error(range,
                       fmt::format("Can't open file '{}', import() at line {}",
                                   params.path, range.openscad_line()));
     return {};
   }
-  SvgOptions options{params.dpi, params.center, outline_stroke};
-  std::vector<SvgContours> shapes;
+  SvgDrawing drawing;
   try {
-    shapes = parse_svg(bytes->view(), options);
+    drawing = parse_svg(*bytes, svg_options(params, fineness));
   } catch (const FormatError& fault) {
     diagnostics.report(
         {Severity::kError,
@@ -145,30 +244,30 @@ planar::Region read_svg(const ImportParams& params, const FileAccess& access,
          {{range, fault.what()}}});
     return {};
   }
-  return fill_shapes(shapes);
+  report_undrawn(drawing, params, range, diagnostics);
+  return fill_shapes(drawing.shapes);
 }
 
 }  // namespace
 
-Shape Lowerer::lower_op(const Import& op, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Import& op, const Place& at) {
   const ImportParams& params = *op.params;
-  const Fineness fine = fineness(params.facets, world);
+  const Fineness fine = fineness(params.facets, at.world);
   const std::string key =
       fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     const std::size_t messages = diagnostics_.all().size();
-    entry->second = read_import(params, fine, node.range);
+    entry->second = read_import(params, fine, at.node.range);
     const bool is_empty =
         !entry->second.leaf && entry->second.region.is_empty();
     if (is_empty && diagnostics_.all().size() == messages) {
-      diagnostics_.warning(node.range,
+      diagnostics_.warning(at.node.range,
                            fmt::format("File {} holds nothing to import",
                                        quoted_from_here(params.path)));
     }
   }
-  return place_file(entry->second, node, world);
+  return place_file(entry->second, at);
 }
 
 Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
@@ -187,7 +286,8 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
       return {Dimension::kFlat,
               read_dxf(params, fine, access, range, diagnostics_)};
     case ImportFormat::kSvg:
-      return {Dimension::kFlat, read_svg(params, access, range, diagnostics_)};
+      return {Dimension::kFlat,
+              read_svg(params, fine, access, range, diagnostics_)};
     case ImportFormat::kStl:
     case ImportFormat::kOff:
     case ImportFormat::kObj:
@@ -200,23 +300,21 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
           add_leaf(make_import_leaf(params, access, range, diagnostics_))};
 }
 
-Shape Lowerer::lower_op(const Surface& op, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Surface& op, const Place& at) {
   const SurfaceParams& params = *op.params;
   const std::string key = fmt::format("{} {}", params.path, params.csg_text);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     Leaf leaf;
     leaf.meshes.push_back(read_surface_file(params, *options_.file_access,
-                                            node.range, diagnostics_));
+                                            at.node.range, diagnostics_));
     entry->second = {Dimension::kSolid, {}, add_leaf(std::move(leaf))};
   }
-  return place_file(entry->second, node, world);
+  return place_file(entry->second, at);
 }
 
-Shape Lowerer::place_file(const FileShape& shape, const Node& node,
-                          const Affine& world) {
-  if (shape.leaf) place(*shape.leaf, Vec3(1), node, world);
+Shape Lowerer::place_file(const FileShape& shape, const Place& at) {
+  if (shape.leaf) place(*shape.leaf, Vec3(1), at);
   return {shape.dimension, shape.region};
 }
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "csg/boundary/leaf_box.h"
+#include "csg/boundary/leaf_mesh.h"
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
@@ -145,84 +145,78 @@ void warn_of_index(std::uint64_t index, std::string_view list, std::size_t i,
                          index, list, i, k));
 }
 
-Shape Lowerer::lower_op(const Cube& cube, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Cube& cube, const Place& at) {
   if (is_size(cube.size.x) && is_size(cube.size.y) && is_size(cube.size.z)) {
-    place(leaves_.unit_cube(cube.center), cube.size, node, world);
+    place(leaves_.unit_cube(cube.center), cube.size, at);
   }
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Sphere& sphere, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Sphere& sphere, const Place& at) {
   if (is_size(sphere.r)) {
-    const int n = sphere_fragments(sphere.r, fineness(sphere.facets, world));
-    place(leaves_.unit_sphere(n), Vec3(sphere.r), node, world);
+    const int n = sphere_fragments(sphere.r, fineness(sphere.facets, at.world));
+    place(leaves_.unit_sphere(n), Vec3(sphere.r), at);
   }
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Cylinder& c, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Cylinder& c, const Place& at) {
   const double r = std::fmax(c.r1, c.r2);
   if (!is_size(c.h) || !is_size(r) || !(c.r1 >= 0 && c.r2 >= 0)) {
     return {Dimension::kSolid};
   }
-  const int n = circle_fragments(r, fineness(c.facets, world));
+  const int n = circle_fragments(r, fineness(c.facets, at.world));
   // A cone keeps its radii: their ratio would not give back the same bits.
   const double unit = c.r1 == c.r2 ? r : 1;
   place(leaves_.unit_height_cone(c.r1 / unit, c.r2 / unit, c.center, n),
-        Vec3(unit, unit, c.h), node, world);
+        Vec3(unit, unit, c.h), at);
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Polyhedron& polyhedron, const Place& at) {
   const PolyhedronParams& params = *polyhedron.params;
-  if (!check_points(params.wrong_point, "vec3", node.range, diagnostics_)) {
+  if (!check_points(params.wrong_point, "vec3", at.node.range, diagnostics_)) {
     return {Dimension::kSolid};
   }
   Leaf leaf;
   leaf.meshes.push_back(
-      takes_corners_ ? make_corners(params, node.range, diagnostics_)
-                     : make_polyhedron(params, node.range, diagnostics_));
+      takes_corners_ ? make_corners(params, at.node.range, diagnostics_)
+                     : make_polyhedron(params, at.node.range, diagnostics_));
   leaf.may_overlap_itself = !is_star_shaped(leaf.meshes.front());
-  place_leaf(std::move(leaf), node, world);
+  place_leaf(std::move(leaf), at);
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const LinearExtrude& op, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const LinearExtrude& op, const Place& at) {
   const LinearExtrudeParams& params = *op.params;
   // Where the sides are curved they and the outline share the chordal error.
   const bool is_curved = params.has_twist || params.scale.x != params.scale.y;
   const double share = is_curved ? 0.25 : 1;
-  const Shape shape = flatten_finely(node, world, share);
+  const Shape shape = flatten_finely(at, share);
   if (shape.dimension == Dimension::kNone) return {};
-  Fineness sides = fineness(params.facets, world);
+  Fineness sides = fineness(params.facets, at.world);
   sides.chordal_error *= 1 - share;
   Leaf leaf = extrude_linearly(params, shape.region, sides);
   if (params.shift == Vec2(0) || !(params.height > 0)) {
-    place_leaf(std::move(leaf), node, world);
+    place_leaf(std::move(leaf), at);
   } else {
     Mat4 shear(1.0);
     shear[2] = Vec4(params.shift / params.height, 1, 0);
-    place_leaf(std::move(leaf), node, world * shear);
+    place_leaf(std::move(leaf), {at.node, at.world * shear});
   }
   return {Dimension::kSolid};
 }
 
-Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const RotateExtrude& op, const Place& at) {
   // The turn and its profile share the chordal error.
   constexpr double kShare = 0.5;
-  const Shape shape = flatten_finely(node, world, kShare);
+  const Shape shape = flatten_finely(at, kShare);
   if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
   const planar::Region profile = put_on_axis(shape.region);
   const ProfileRange range = profile_range(profile);
   if (range.crosses_axis()) {
     diagnostics_.error(
-        node.range,
+        at.node.range,
         options_.language == Language::k2021
             ? fmt::format("all points for rotate_extrude() must have the same "
                           "X coordinate sign (range is {:.2f} -> {:.2f})",
@@ -233,11 +227,10 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Node& node,
                           range.low, range.high));
     return {};
   }
-  Fineness turn = fineness(op.facets, world);
+  Fineness turn = fineness(op.facets, at.world);
   turn.chordal_error *= 1 - kShare;
   const int n = turn_fragments(range, op.angle_deg, turn);
-  place_leaf(extrude_around(profile, op.start_deg, op.angle_deg, n), node,
-             world);
+  place_leaf(extrude_around(profile, op.start_deg, op.angle_deg, n), at);
   return {Dimension::kSolid};
 }
 
@@ -249,18 +242,17 @@ Fineness Lowerer::fineness(const Facets& facets, const Affine& world) const {
   return fineness;
 }
 
-Shape Lowerer::flatten_finely(const Node& node, const Affine& world,
-                              double share) {
+Shape Lowerer::flatten_finely(const Place& at, double share) {
   const double whole = options_.chordal_error;
   options_.chordal_error *= share;
-  Shape shape = flatten_children(node, world);
+  Shape shape = flatten_children(at);
   options_.chordal_error = whole;
   return shape;
 }
 
-void Lowerer::place_leaf(Leaf leaf, const Node& node, const Affine& world) {
+void Lowerer::place_leaf(Leaf leaf, const Place& at) {
   if (const auto index = add_leaf(std::move(leaf))) {
-    place(*index, Vec3(1), node, world);
+    place(*index, Vec3(1), at);
   }
 }
 
@@ -271,15 +263,14 @@ std::optional<std::uint32_t> Lowerer::add_leaf(Leaf leaf) {
   return leaves_.add(std::move(leaf));
 }
 
-void Lowerer::place(std::uint32_t leaf, Vec3 size, const Node& node,
-                    const Affine& world) {
+void Lowerer::place(std::uint32_t leaf, Vec3 size, const Place& at) {
   Instance instance;
   instance.leaf = leaf;
-  instance.world_from_leaf = {world[0] * size.x, world[1] * size.y,
-                              world[2] * size.z, world[3]};
+  instance.world_from_leaf = {at.world[0] * size.x, at.world[1] * size.y,
+                              at.world[2] * size.z, at.world[3]};
   instance.box = bound(leaf, instance.world_from_leaf);
-  instance.range = node.range;
-  instance.caller = node.caller;
+  instance.range = at.node.range;
+  instance.caller = at.node.caller;
   builder_.push(instance);
 }
 

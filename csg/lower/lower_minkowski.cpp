@@ -52,11 +52,10 @@ planar::Region add_regions(std::span<const planar::Region> regions) {
 
 }  // namespace
 
-Shape Lowerer::lower_op(const Minkowski&, const Node& node,
-                        const Affine& world) {
-  Lowerer apart = make_inner(node, world);
+Shape Lowerer::lower_op(const Minkowski&, const Place& at) {
+  Lowerer apart = make_inner(at);
   const Operands operands =
-      apart.lower_operands(node, Affine(1.0), false, Dimension::kNone);
+      apart.lower_operands({at.node, Affine(1.0)}, false, Dimension::kNone);
   report_strays(operands);
   switch (operands.dimension) {
     case Dimension::kNone:
@@ -71,7 +70,7 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
                 [](const Scene& scene) { return scene.instances.empty(); });
   if (solids.empty()) return {};
   if (solids.size() == 1) {
-    place_scene(solids[0], world);
+    place_scene(solids[0], at.world);
     return {Dimension::kSolid, {}, operands.has_boolean};
   }
   std::vector<Operand> terms;
@@ -79,8 +78,8 @@ Shape Lowerer::lower_op(const Minkowski&, const Node& node,
   for (const Scene& scene : solids) terms.push_back(make_operand(scene));
   std::erase_if(terms, [](const Operand& term) { return term.is_empty(); });
   if (terms.empty() || is_lost(terms)) return {};
-  const Operand sum = add_terms(std::move(terms), node);
-  place_sum(sum, node, world);
+  const Operand sum = add_terms(std::move(terms), at.node);
+  place_sum(sum, at);
   return {Dimension::kSolid, {}, !sum.bodies.empty() || sum.convex.size() > 1};
 }
 
@@ -92,8 +91,8 @@ Operand Lowerer::add_terms(std::vector<Operand> terms, const Node& node) {
     for (SurfacePair& pair : std::exchange(sum.pairs, {})) {
       Operand surfaces;
       surfaces.pairs.push_back(std::move(pair));
-      Lowerer apart = make_inner(node, Affine(1.0));
-      apart.place_leaf(make_leaf(surfaces), node, Affine(1.0));
+      Lowerer apart = make_inner({node, Affine(1.0)});
+      apart.place_leaf(make_leaf(surfaces), {node, Affine(1.0)});
       const Scene scene = apart.take_scenes({0})[0];
       if (scene.instances.empty()) continue;
       Operand operand = make_operand(scene);
@@ -107,14 +106,13 @@ Operand Lowerer::add_terms(std::vector<Operand> terms, const Node& node) {
   return sum;
 }
 
-void Lowerer::place_sum(const Operand& sum, const Node& node,
-                        const Affine& world) {
+void Lowerer::place_sum(const Operand& sum, const Place& at) {
   for (const Body& body : sum.bodies) {
-    Affine moved = world;
-    moved[3] = world * Vec4(body.shift, 1);
+    Affine moved = at.world;
+    moved[3] = at.world * Vec4(body.shift, 1);
     place_scene(*body.scene, moved);
   }
-  place_leaf(make_leaf(sum), node, world);
+  place_leaf(make_leaf(sum), at);
 }
 
 // Takes the operands off the stack, each as a scene with all leaves.

@@ -68,25 +68,24 @@ std::vector<std::vector<Child>> list_children(const Scene& scene) {
 
 }  // namespace
 
-Shape Lowerer::lower_op(const Transform& op, const Node& node,
-                        const Affine& world) {
+Shape Lowerer::lower_op(const Transform& op, const Place& at) {
   const std::size_t mark = builder_.mark();
   if (!is_finite(*op.matrix)) {
-    diagnostics_.warning(node.range,
+    diagnostics_.warning(at.node.range,
                          "Transformation matrix contains Not-a-Number and/or "
                          "Infinity - removing object.");
     return {};
   }
-  Shape shape =
-      lower_children(node, compose(world, *op.matrix), BooleanOp::kUnion);
+  Shape shape = lower_children({at.node, compose(at.world, *op.matrix)},
+                               BooleanOp::kUnion);
   if (shape.dimension == Dimension::kFlat) {
     return {Dimension::kFlat,
-            transform_region(std::move(shape.region), *op.matrix, node.range,
+            transform_region(std::move(shape.region), *op.matrix, at.node.range,
                              diagnostics_)};
   }
   const Affine m(*op.matrix);
   const bool is_singular = glm::dot(m[0], glm::cross(m[1], m[2])) == 0;
-  if (is_singular) flatten(mark, shape, node.range);
+  if (is_singular) flatten(mark, shape, at.node.range);
   return shape;
 }
 
@@ -99,27 +98,28 @@ void Lowerer::flatten(std::size_t mark, const Shape& shape, SourceRange range) {
 
 // --- Children ----------------------------------------------------------------
 
-Lowerer::Operands Lowerer::lower_operands(const Node& node, const Affine& world,
-                                          bool is_union, Dimension dimension) {
+Lowerer::Operands Lowerer::lower_operands(const Place& at, bool is_union,
+                                          Dimension dimension) {
   Operands operands;
   operands.dimension = dimension;
-  for (const Node* child : node.children) {
-    if (!child->is_background) add_operand(*child, world, is_union, operands);
+  for (const Node* child : at.node.children) {
+    if (!child->is_background)
+      add_operand({*child, at.world}, is_union, operands);
   }
   return operands;
 }
 
-void Lowerer::add_operand(const Node& child, const Affine& world, bool is_union,
+void Lowerer::add_operand(const Place& child, bool is_union,
                           Operands& operands) {
   const std::size_t begin = builder_.mark();
-  Shape shape = lower(child, world);
+  Shape shape = lower(child);
   if (operands.dimension == Dimension::kNone) {
     operands.dimension = shape.dimension;
   } else if (shape.dimension != Dimension::kNone &&
              shape.dimension != operands.dimension) {
     const bool is_empty = shape.region.is_empty() && builder_.mark() == begin;
-    if (!is_empty && !operands.first_mixed) operands.first_mixed = &child;
-    operands.strays.push_back(&child);
+    if (!is_empty && !operands.first_mixed) operands.first_mixed = &child.node;
+    operands.strays.push_back(&child.node);
     builder_.drop(begin);
     shape.region = {};
   }
@@ -155,13 +155,12 @@ void Lowerer::report_strays(const Operands& operands) {
   }
 }
 
-Shape Lowerer::lower_children(const Node& node, const Affine& world,
-                              BooleanOp op) {
+Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
   const std::size_t mark = builder_.mark();
   const bool took_corners = takes_corners_;
-  takes_corners_ = takes_corners_ && node.children.size() == 1;
+  takes_corners_ = takes_corners_ && at.node.children.size() == 1;
   const Operands operands =
-      lower_operands(node, world, op == BooleanOp::kUnion, Dimension::kNone);
+      lower_operands(at, op == BooleanOp::kUnion, Dimension::kNone);
   takes_corners_ = took_corners;
   report_strays(operands);
   switch (operands.dimension) {

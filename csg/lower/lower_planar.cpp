@@ -57,66 +57,62 @@ planar::Join join_of(const Offset& offset) {
 
 }  // namespace
 
-Shape Lowerer::lower_op(const Square& square, const Node&, const Affine&) {
+Shape Lowerer::lower_op(const Square& square, const Place&) {
   return {Dimension::kFlat, planar::square(square.size, square.center)};
 }
 
-Shape Lowerer::lower_op(const Circle& circle, const Node&,
-                        const Affine& world) {
-  const int n = circle_fragments(circle.r, fineness(circle.facets, world));
+Shape Lowerer::lower_op(const Circle& circle, const Place& at) {
+  const int n = circle_fragments(circle.r, fineness(circle.facets, at.world));
   return {Dimension::kFlat, planar::circle(circle.r, n)};
 }
 
-Shape Lowerer::lower_op(const Polygon& polygon, const Node& node,
-                        const Affine&) {
+Shape Lowerer::lower_op(const Polygon& polygon, const Place& at) {
   const PolygonParams& params = *polygon.params;
-  if (!check_points(params.wrong_point, "vec2", node.range, diagnostics_)) {
+  if (!check_points(params.wrong_point, "vec2", at.node.range, diagnostics_)) {
     return {Dimension::kFlat};
   }
-  auto contours = read_paths(params, node.range, diagnostics_);
-  check_contours(contours, node.range, diagnostics_);
+  auto contours = read_paths(params, at.node.range, diagnostics_);
+  check_contours(contours, at.node.range, diagnostics_);
   return {Dimension::kFlat, planar::from_contours(contours)};
 }
 
-Shape Lowerer::lower_op(const Offset& op, const Node& node,
-                        const Affine& world) {
-  const Shape shape = flatten_children(node, world);
+Shape Lowerer::lower_op(const Offset& op, const Place& at) {
+  const Shape shape = flatten_children(at);
   if (shape.dimension == Dimension::kNone) return {};
   const double distance = std::abs(op.amount);
-  const int n = circle_fragments(distance, fineness(op.facets, world));
+  const int n = circle_fragments(distance, fineness(op.facets, at.world));
   const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
   return {Dimension::kFlat,
           planar::offset(shape.region, op.amount, join_of(op), arc_tolerance)};
 }
 
-Shape Lowerer::lower_op(const Fill&, const Node& node, const Affine& world) {
-  Shape shape = lower_children(node, world, BooleanOp::kUnion);
+Shape Lowerer::lower_op(const Fill&, const Place& at) {
+  Shape shape = lower_children(at, BooleanOp::kUnion);
   shape.region = planar::fill(shape.region);
   if (shape.dimension != Dimension::kSolid) return shape;
-  for (const Node* child : node.children) {
+  for (const Node* child : at.node.children) {
     if (child->is_background) continue;
     diagnostics_.warning(child->range, "fill() not yet implemented for 3D");
   }
   return shape;
 }
 
-Shape Lowerer::lower_op(const Text& text, const Node& node,
-                        const Affine& world) {
-  if (!options_.typesetter) fail_unsupported(node, "text");
+Shape Lowerer::lower_op(const Text& text, const Place& at) {
+  if (!options_.typesetter) fail_unsupported(at.node, "text");
   const TextParams& params = *text.params;
-  const Fineness fine = fineness(params.facets, world);
+  const Fineness fine = fineness(params.facets, at.world);
   const text::Chords chords = {
       planar::curve_segment_count(params.size, params.facets,
                                   options_.language),
       fine.is_by_error() ? fine.chordal_error : 0};
   const auto contours =
-      options_.typesetter->outline(params, chords, node.range, diagnostics_);
+      options_.typesetter->outline(params, chords, at.node.range, diagnostics_);
   return {Dimension::kFlat,
           planar::from_contours(contours, planar::FillRule::kNonZero)};
 }
 
-Shape Lowerer::flatten_children(const Node& node, const Affine& world) {
-  Operands operands = lower_operands(node, world, true, Dimension::kFlat);
+Shape Lowerer::flatten_children(const Place& at) {
+  Operands operands = lower_operands(at, true, Dimension::kFlat);
   operands.first_mixed = nullptr;
   report_strays(operands);
   if (operands.regions.empty()) {

@@ -15,7 +15,7 @@
 // rounding.
 //
 // A prism is its base ⊕ its axis, two flat sums. The sum of any other two
-// solids is the hull of the vertices that it can have (convex_pairs.h).
+// solids is the hull of the vertices that it can have (extreme_sums()).
 
 #include <cstddef>
 #include <cstdint>
@@ -95,5 +95,12 @@ std::optional<Prism> as_prism(const Convex& solid);
 
 // Appends the surface as triangles.
 void append_triangles(const Convex& body, Mesh& mesh);
+
+// The vertices that the sum of two convex solids can have: p + q for all
+// vertices p of a and q of b that lie farthest along a common direction, up to
+// rounding: all vertices of the sum and few others. Two vertices have such a
+// direction unless the normals around one all rise along an edge of the other.
+// Cost: about the number of vertices found, not of all pairs.
+std::vector<Vec3> extreme_sums(const Convex& a, const Convex& b);
 
 }  // namespace lamina::csg

@@ -1,15 +1,22 @@
 #include "csg/minkowski/joined_faces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "csg/boundary/box_tree.h"
 #include "csg/edge_table.h"
+#include "csg/plane/triangulate.h"
 #include "csg/vertex_table.h"
 
 namespace lamina::csg {
-
 namespace {
 
 // Vertices this near to each other [mm] are one: above the distance at which
@@ -39,6 +46,75 @@ std::vector<std::uint32_t> join_near(std::span<const Vec3> points) {
   }
   return names;
 }
+
+// A corner this near [mm] to a face lies on it: the tie distance of the sweep.
+constexpr double kTouchDistance = 1e-6;
+
+class Components {
+ public:
+  explicit Components(std::size_t count) : parents_(count) {
+    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+  }
+  std::size_t find(std::size_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  void join(std::size_t i, std::size_t k) { parents_[find(k)] = find(i); }
+
+ private:
+  std::vector<std::size_t> parents_;
+};
+
+struct Face {
+  std::vector<Vec3> corners;
+  Vec3 normal;
+};
+
+Vec3 nearest_on_edge(const JoinedFaces& surface, std::size_t edge,
+                     const Vec3& aim) {
+  const JoinedFaces::Edge ends = surface.edges()[edge];
+  const Vec3 from = surface.vertices()[ends.from];
+  const Vec3 along = surface.vertices()[ends.to] - from;
+  const double share = glm::dot(aim - from, along) / glm::dot(along, along);
+  return from + std::clamp(share, 0.0, 1.0) * along;
+}
+
+Box3 box_of(const Face& face) {
+  Box3 box;
+  box.add(face.corners);
+  box.low -= kTouchDistance;
+  box.high += kTouchDistance;
+  return box;
+}
+
+bool lies_on(const Vec3& point, const Face& face) {
+  const std::vector<Vec3>& corners = face.corners;
+  if (std::abs(glm::dot(point - corners[0], face.normal)) > kTouchDistance) {
+    return false;
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3& from = corners[i];
+    const Vec3 side = corners[i + 1 == corners.size() ? 0 : i + 1] - from;
+    const double inwards =
+        glm::dot(glm::cross(face.normal, side), point - from) /
+        glm::length(side);
+    if (inwards < -kTouchDistance) return false;
+  }
+  return true;
+}
+
+bool touch(const Face& a, const Face& b) {
+  const auto has_corner_on = [](const Face& face, const Face& other) {
+    return std::any_of(face.corners.begin(), face.corners.end(),
+                       [&](const Vec3& v) { return lies_on(v, other); });
+  };
+  return has_corner_on(a, b) || has_corner_on(b, a);
+}
+
+// A corner this far [mm] above the plane of a face lies in it: above the
+// distance at which edges of a region are one, a tenth of the tie distance of
+// the sweep.
+constexpr double kFlatDistance = 1e-7;
 
 }  // namespace
 
@@ -133,6 +209,116 @@ std::vector<Vec3> JoinedFaces::polygon(std::size_t face) const {
     points.push_back(vertices_[corner]);
   }
   return points;
+}
+
+std::vector<Vec3> points_of_components(const JoinedFaces& surface,
+                                       const Vec3& aim) {
+  std::vector<Face> faces;
+  std::vector<Box3> boxes;
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    faces.push_back({surface.polygon(f), surface.normals()[f]});
+    boxes.push_back(box_of(faces.back()));
+  }
+  Components components(faces.size());
+  for (std::size_t e = 0; e < surface.edges().size(); ++e) {
+    for (const JoinedFaces::EdgeFace& other : surface.faces_at(e)) {
+      components.join(surface.faces_at(e)[0].face, other.face);
+    }
+  }
+
+  // Sweep a plane along x over the faces' boxes.
+  std::vector<std::size_t> order(faces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+    return boxes[i].low.x < boxes[k].low.x;
+  });
+  std::vector<std::size_t> open;
+  for (const std::size_t i : order) {
+    std::erase_if(
+        open, [&](std::size_t k) { return boxes[k].high.x < boxes[i].low.x; });
+    for (const std::size_t k : open) {
+      if (do_meet(boxes[i], boxes[k]) &&
+          components.find(i) != components.find(k) &&
+          touch(faces[i], faces[k])) {
+        components.join(i, k);
+      }
+    }
+    open.push_back(i);
+  }
+
+  std::vector<std::optional<Vec3>> nearest(faces.size());
+  for (std::size_t e = 0; e < surface.edges().size(); ++e) {
+    const auto at = surface.faces_at(e);
+    if (at.empty()) continue;
+    std::optional<Vec3>& best = nearest[components.find(at[0].face)];
+    const Vec3 point = nearest_on_edge(surface, e, aim);
+    if (!best || glm::distance(point, aim) < glm::distance(*best, aim)) {
+      best = point;
+    }
+  }
+  std::vector<Vec3> points;
+  for (const std::optional<Vec3>& point : nearest) {
+    if (point) points.push_back(*point);
+  }
+  return points;
+}
+
+std::vector<Vec3> corners_of(std::span<const BoundaryFace> faces) {
+  std::vector<Vec3> corners;
+  for (const BoundaryFace& face : faces) {
+    for (const std::vector<Vec3>& contour : face.contours) {
+      corners.insert(corners.end(), contour.begin(), contour.end());
+    }
+  }
+  return corners;
+}
+
+bool is_convex(std::span<const BoundaryFace> faces) {
+  std::vector<Box3> corners;
+  for (const Vec3& corner : corners_of(faces)) {
+    corners.push_back({corner, corner});
+  }
+  const BoxTree tree(corners);
+  return std::all_of(faces.begin(), faces.end(), [&](const BoundaryFace& face) {
+    const double height = glm::dot(face.normal, face.contours[0][0]);
+    bool is_passed = false;
+    tree.visit(
+        [&](const Box3& box) {
+          const double reach =
+              glm::dot(face.normal, box.low + box.high) +
+              glm::dot(glm::abs(face.normal), box.high - box.low);
+          return !is_passed && reach / 2 > height + kFlatDistance;
+        },
+        [&](std::uint32_t) { is_passed = true; });
+    return !is_passed;
+  });
+}
+
+Mesh triangulate(std::span<const BoundaryFace> faces) {
+  Mesh mesh;
+  VertexTable names;
+  for (const BoundaryFace& face : faces) {
+    // A plane that turns the face's normal to the viewer.
+    const Vec3 n = face.normal;
+    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    const Vec3 x_axis = glm::normalize(glm::cross(other, n));
+    const Vec3 y_axis = glm::cross(n, x_axis);
+    planar::Region region;
+    std::vector<std::uint32_t> corners;
+    for (const std::vector<Vec3>& contour : face.contours) {
+      region.contours.emplace_back();
+      for (const Vec3& p : contour) {
+        region.contours.back().emplace_back(glm::dot(p, x_axis),
+                                            glm::dot(p, y_axis));
+        corners.push_back(names.name(p));
+      }
+    }
+    for (const auto& t : planar::triangulate(region)) {
+      mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+    }
+  }
+  mesh.vertices = names.take_points();
+  return mesh;
 }
 
 }  // namespace lamina::csg

@@ -1,5 +1,5 @@
 #pragma once
-// Flat faces, joined where they share an edge.
+// The faces of a Boolean, and flat faces joined where they share an edge.
 //
 // The boundary of a Boolean comes face by face (csg/boundary/boundary_faces.h),
 // and seams where two leaves meet need not fit. So nothing is asked of a
@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "csg/boundary/boundary_faces.h"
 #include "csg/minkowski/convex.h"
+#include "csg/scene.h"
 
 namespace lamina::csg {
 
@@ -88,5 +90,23 @@ class JoinedFaces {
   std::vector<std::uint32_t> vertex_edges_;
   std::vector<std::uint32_t> vertex_ends_;  // in vertex_edges_
 };
+
+// Returns at least one point on each connected component of a surface: of its
+// edges, the point nearest to `aim`. Faces are connected where they share an
+// edge, or a corner of one lies on the other; where rounding hides that, there
+// is a point too many, which does no harm in a sum.
+std::vector<Vec3> points_of_components(const JoinedFaces& surface,
+                                       const Vec3& aim);
+
+// The corners of all contours, face by face.
+std::vector<Vec3> corners_of(std::span<const BoundaryFace> faces);
+
+// Whether the faces of a solid are the boundary of their hull, up to rounding:
+// no corner lies above the plane of any face. Cost: about √n for each face of a
+// convex solid; others are seldom asked to the end.
+bool is_convex(std::span<const BoundaryFace> faces);
+
+// The faces as triangles; equal vertices are one.
+Mesh triangulate(std::span<const BoundaryFace> faces);
 
 }  // namespace lamina::csg

@@ -13,10 +13,9 @@
 #include "csg/boundary/convex_hull.h"
 #include "csg/boundary/leaf_faces.h"
 #include "csg/limits.h"
-#include "csg/minkowski/boolean_faces.h"
-#include "csg/minkowski/connected_faces.h"
+#include "csg/minkowski/convex.h"
 #include "csg/minkowski/convex_leaf.h"
-#include "csg/minkowski/convex_pairs.h"
+#include "csg/minkowski/joined_faces.h"
 #include "csg/minkowski/surface_sum.h"
 #include "csg/plane/convex_faces.h"
 

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "csg/plane/region.h"
-#include "ldni/sweep/fill_rule.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::planar {
 

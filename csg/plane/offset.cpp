@@ -1,5 +1,6 @@
 #include "csg/plane/offset.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -65,28 +66,14 @@ Region to_region(ClipperLib::Paths paths) {
   return from_contours(contours);
 }
 
-ClipperLib::JoinType to_join_type(Join join) {
-  switch (join) {
-    case Join::kRound:
-      return ClipperLib::jtRound;
-    case Join::kMiter:
-      return ClipperLib::jtMiter;
-    case Join::kBevel:
-      return ClipperLib::jtSquare;
-  }
-  return ClipperLib::jtRound;
-}
+// What Clipper calls each Join and each Cap.
+constexpr std::array kJoinTypes = {ClipperLib::jtRound, ClipperLib::jtMiter,
+                                   ClipperLib::jtSquare};
+constexpr std::array kEndTypes = {
+    ClipperLib::etOpenButt, ClipperLib::etOpenRound, ClipperLib::etOpenSquare};
 
-ClipperLib::EndType to_end_type(Cap cap) {
-  switch (cap) {
-    case Cap::kButt:
-      return ClipperLib::etOpenButt;
-    case Cap::kRound:
-      return ClipperLib::etOpenRound;
-    case Cap::kSquare:
-      return ClipperLib::etOpenSquare;
-  }
-  return ClipperLib::etOpenSquare;
+ClipperLib::JoinType to_join_type(Join join) {
+  return kJoinTypes[static_cast<std::size_t>(join)];
 }
 
 }  // namespace
@@ -113,7 +100,8 @@ Region stroke(std::span<const Vec2> path, double width, Join join, Cap cap,
   ClipperLib::ClipperOffset offsetter(kStrokeMiterLimit,
                                       arc_tolerance * kGridPerMm);
   offsetter.AddPath(to_path(Contour(path.begin(), path.end())),
-                    to_join_type(join), to_end_type(cap));
+                    to_join_type(join),
+                    kEndTypes[static_cast<std::size_t>(cap)]);
   ClipperLib::Paths result;
   watch_memory([&, distance = static_cast<double>(to_grid(width / 2))] {
     offsetter.Execute(result, distance);

@@ -44,4 +44,9 @@ ldni::Contours to_contours(const Region& region);
 Region square(Vec2 size, bool center);
 Region circle(double r, int fragments);
 
+// The convex hull of the points: one contour, strictly convex; nothing where
+// all points lie on one line. The corners are the points themselves, and which
+// of them are corners is decided exactly (see orientation()).
+Region convex_hull(std::vector<Vec2> points);
+
 }  // namespace lamina::planar

@@ -18,12 +18,12 @@ struct Choice {
 // The place of the word; 0, with a message, where it is none of the choices.
 double choose(std::string_view word, std::initializer_list<Choice> choices,
               std::string_view parameter, std::string_view known,
-              std::vector<Message>& messages) {
+              Language rules, std::vector<Message>& messages) {
   for (const Choice& choice : choices) {
     if (choice.word == word) return choice.place;
   }
   messages.push_back(
-      {Severity::kPlain,
+      {rules == Language::k2021 ? Severity::kPlain : Severity::kWarning,
        fmt::format("Unknown value for the {} parameter (use {}): '{}'",
                    parameter, known, word)});
   return 0;
@@ -56,10 +56,22 @@ Extent extent_of(const GlyphRow& row) {
   return extent;
 }
 
-}  // namespace
-
-Vec2 align(const csg::TextParams& params, const GlyphRow& row,
+Vec2 place(const csg::TextParams& params,
+           std::initializer_list<Choice> horizontal,
+           std::initializer_list<Choice> vertical,
            std::vector<Message>& messages) {
+  const double x =
+      choose(params.halign, horizontal, "halign",
+             "\"left\", \"right\" or \"center\"", params.rules, messages);
+  const double y = choose(params.valign, vertical, "valign",
+                          "\"baseline\", \"bottom\", \"top\" or \"center\"",
+                          params.rules, messages);
+  return {x, y};
+}
+
+Vec2 align_as_2021(const csg::TextParams& params, const GlyphRow& row,
+                   std::vector<Message>& messages) {
+  const double shrunk = shrink(Language::k2021);
   double width = 0;
   double ascent = 0;
   double descent = 0;
@@ -67,24 +79,69 @@ Vec2 align(const csg::TextParams& params, const GlyphRow& row,
     const Box& box = glyph.box;
     if (row.is_horizontal) {
       width += glyph.advance.x;
-      ascent = std::max(ascent, box.high.y * kShrink);
-      descent = std::max(descent, -box.low.y * kShrink);
+      ascent = std::max(ascent, box.high.y * shrunk);
+      descent = std::max(descent, -box.low.y * shrunk);
     } else {
-      width = std::max(width, (box.high.x - box.low.x) * kShrink);
+      width = std::max(width, (box.high.x - box.low.x) * shrunk);
       ascent += glyph.advance.y;
     }
   }
-  const double x = choose(
-      params.halign, {{"left", 0}, {"center", -width / 2}, {"right", -width}},
-      "halign", "\"left\", \"right\" or \"center\"", messages);
-  const double y = choose(
-      params.valign,
+  return place(
+      params,
+      {{"left", 0}, {"default", 0}, {"center", -width / 2}, {"right", -width}},
       {{"top", -ascent},
        {"center", descent / 2 - ascent / 2},
        {"baseline", 0},
+       {"default", 0},
        {"bottom", descent}},
-      "valign", "\"baseline\", \"bottom\", \"top\" or \"center\"", messages);
-  return {x, y};
+      messages);
+}
+
+Vec2 align_row(const csg::TextParams& params, const Extent& extent,
+               std::vector<Message>& messages) {
+  return place(params,
+               {{"left", 0},
+                {"default", 0},
+                {"center", -extent.advance.x / 2},
+                {"right", -extent.advance.x}},
+               {{"top", -extent.ascent},
+                {"center", -(extent.ascent + extent.descent) / 2},
+                {"baseline", 0},
+                {"default", 0},
+                {"bottom", -extent.descent}},
+               messages);
+}
+
+Vec2 align_column(const csg::TextParams& params, const Extent& extent,
+                  std::vector<Message>& messages) {
+  if (params.valign == "baseline") {
+    messages.push_back({Severity::kWarning,
+                        "Don't use valign=\"baseline\" with vertical layouts"});
+  }
+  return place(params,
+               {{"left", -extent.ink.low.x},
+                {"default", 0},
+                {"center", 0},
+                {"right", -extent.ink.high.x}},
+               {{"top", 0},
+                {"default", 0},
+                {"baseline", 0},
+                {"center", -extent.advance.y / 2},
+                {"bottom", -extent.advance.y}},
+               messages);
+}
+
+}  // namespace
+
+Vec2 align(const csg::TextParams& params, const GlyphRow& row,
+           std::vector<Message>& messages) {
+  if (params.rules == Language::k2021) {
+    return align_as_2021(params, row, messages);
+  }
+  const Extent extent = extent_of(row);
+  if (!extent.has_ink()) return Vec2(0);
+  return row.is_horizontal ? align_row(params, extent, messages)
+                           : align_column(params, extent, messages);
 }
 
 csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,

@@ -202,6 +202,24 @@ bool has_symbols(FT_FaceRec& face) {
   return glyph != 0 && first >= kSymbolPage;
 }
 
+// Those that the pattern asks for; malformed ones are passed over.
+std::vector<hb_feature_t> read_features(const FcPattern& pattern) {
+  std::vector<hb_feature_t> features;
+  FcChar8* words = nullptr;
+  if (FcPatternGetString(&pattern, FC_FONT_FEATURES, 0, &words) !=
+      FcResultMatch) {
+    return features;
+  }
+  std::istringstream list(from_fc(words));
+  for (std::string word; std::getline(list, word, ';');) {
+    hb_feature_t feature;
+    if (hb_feature_from_string(word.c_str(), -1, &feature)) {
+      features.push_back(feature);
+    }
+  }
+  return features;
+}
+
 }  // namespace
 
 FontCache FontCache::open(const FontFiles& files) {
@@ -339,6 +357,7 @@ Font FontCache::load(const std::string& name) const {
     return font;
   }
   font.is_symbol = has_symbols(*face);
+  font.features = read_features(*matching);
   font.shaper.reset(hb_ft_font_create(face, nullptr));
   require(font.shaper.get() != hb_font_get_empty());
   font.face = std::move(owned);

@@ -52,7 +52,8 @@ Owned<hb_buffer_t> shape_text(const csg::TextParams& params, const Font& font,
       buffer, hb_language_from_string(to_c(params.language).c_str(), -1));
   hb_buffer_add_utf8(buffer, text.c_str(), -1, 0, -1);
   if (font.is_symbol) move_to_symbol_page(buffer, text, messages);
-  if (!hb_shape_full(font.shaper.get(), buffer, nullptr, 0, nullptr) ||
+  if (!hb_shape_full(font.shaper.get(), buffer, font.features.data(),
+                     static_cast<unsigned>(font.features.size()), nullptr) ||
       !hb_buffer_allocation_successful(buffer)) {
     throw std::bad_alloc();
   }
@@ -105,8 +106,9 @@ GlyphRow shape(const csg::TextParams& params, const Font& font,
       continue;
     }
     glyph.box = box_of(glyph.outline.get());
-    glyph.shift = kShrink * to_vec(places[i].x_offset, places[i].y_offset);
-    glyph.advance = kShrink * params.spacing *
+    glyph.shift =
+        shrink(params.rules) * to_vec(places[i].x_offset, places[i].y_offset);
+    glyph.advance = shrink(params.rules) * params.spacing *
                     to_vec(places[i].x_advance, places[i].y_advance);
     row.glyphs.push_back(std::move(glyph));
   }

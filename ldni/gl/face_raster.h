@@ -63,8 +63,6 @@ struct Fragment {
 class FaceRaster {
  public:
   virtual ~FaceRaster() = default;
-  FaceRaster(const FaceRaster&) = delete;
-  FaceRaster& operator=(const FaceRaster&) = delete;
 
   // Appends the fragments of all triangles in a picture of width × height
   // pixels, in any order. Entries are faces whose corners run
@@ -75,9 +73,6 @@ class FaceRaster {
   //          then as it was
   virtual bool draw(std::span<const RasterCorner> corners, int width,
                     int height, std::vector<Fragment>& fragments) = 0;
-
- protected:
-  FaceRaster() = default;
 };
 
 enum class GlMethod : std::uint8_t { kList, kPeeling };

@@ -22,11 +22,10 @@ void require_precision(const GlFunctions& gl) {
   gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   const auto [width, height] = viewport;
   if (bits >= kSubPixelBits && std::min(width, height) >= kViewportSize) return;
-  throw FileError({Severity::kError,
-                   {},
-                   fmt::format("OpenGL draws too coarsely: {} bits below a "
-                               "pixel, {} by {} pixels",
-                               bits, width, height)});
+  throw FileError(
+      fmt::format("OpenGL draws too coarsely: {} bits below a pixel, {} by {} "
+                  "pixels",
+                  bits, width, height));
 }
 
 }  // namespace

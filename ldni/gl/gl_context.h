@@ -27,13 +27,8 @@ struct GlVersion {
 class GlContext {
  public:
   virtual ~GlContext() = default;
-  GlContext(const GlContext&) = delete;
-  GlContext& operator=(const GlContext&) = delete;
 
   const GlFunctions& functions() const { return *functions_; }
-
- protected:
-  GlContext() = default;
 
  private:
   friend class GlPlatform;
@@ -60,8 +55,6 @@ class GlScope {
 class GlPlatform {
  public:
   virtual ~GlPlatform() = default;
-  GlPlatform(const GlPlatform&) = delete;
-  GlPlatform& operator=(const GlPlatform&) = delete;
 
   // Throws FileError where there is no context of that version with the
   // precision that a sampler needs.
@@ -70,8 +63,6 @@ class GlPlatform {
  protected:
   // Finds a function of OpenGL; null where no function has that name.
   using Finder = std::function<GlSymbol(const char* name)>;
-
-  GlPlatform() = default;
 
  private:
   virtual std::unique_ptr<GlContext> create(GlVersion least) const = 0;

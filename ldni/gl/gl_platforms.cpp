@@ -18,9 +18,7 @@
 namespace lamina::ldni {
 namespace {
 
-[[noreturn]] void fail(const std::string& words) {
-  throw FileError({Severity::kError, {}, words});
-}
+[[noreturn]] void fail(const std::string& words) { throw FileError(words); }
 
 // A shared library. It stays open, as the libraries below it keep state.
 class Library {
@@ -33,10 +31,8 @@ class Library {
       if (library_ != nullptr) return;
       if (reason.empty()) reason = dlerror();
     }
-    fail(
-        fmt::format("Can't open OpenGL: {}. Install the "
-                    "package {}.",
-                    reason, package));
+    fail(fmt::format("Can't open OpenGL: {}. Install the package {}.", reason,
+                     package));
   }
 
   template <typename Function>

@@ -20,7 +20,6 @@
 
 #include "csg/program_state.h"
 #include "csg/scene.h"
-#include "ldni/image/interval.h"
 #include "ldni/image/sample.h"
 
 namespace lamina::ldni {

@@ -24,8 +24,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ldni/image/interval.h"
 #include "ldni/image/ray_grid.h"
+#include "ldni/image/sample.h"
 #include "ldni/section/contours.h"
 
 namespace lamina::ldni {

@@ -6,8 +6,7 @@
 
 #include "base/thread_clock.h"
 #include "ldni/gl/face_raster.h"
-#include "ldni/image/gl_sampler.h"
-#include "ldni/image/scanline_sampler.h"
+#include "ldni/image/sampler.h"
 
 namespace lamina::ldni {
 namespace {

@@ -6,9 +6,7 @@
 //   ray_grid.h      the rays of a layer, and boxes of whole rays and layers
 //                   around leaves (section 3 of the paper)
 //   sampler.h       a leaf's layered depth-normal image: its samples on the
-//   rays
-//                   of its box, exact (scanline_sampler.h) or drawn by OpenGL
-//                   (gl_sampler.h)
+//                   rays of its box, exact or drawn by OpenGL
 //   boolean.h       the CSG program along one ray: of the samples of all leaves
 //                   those that bound the result stay, as intervals
 //                   (section 4.2)
@@ -26,10 +24,10 @@
 #include "csg/scene.h"
 #include "ldni/gl/gl_context.h"
 #include "ldni/image/boolean.h"
-#include "ldni/image/interval.h"
 #include "ldni/image/loop_builder.h"
 #include "ldni/image/paper_counts.h"
 #include "ldni/image/ray_grid.h"
+#include "ldni/image/sample.h"
 #include "ldni/image/sampler.h"
 #include "ldni/section/contours.h"
 #include "ldni/section/grid.h"

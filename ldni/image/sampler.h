@@ -2,11 +2,16 @@
 // The contract of all samplers: each makes the layered depth-normal image
 // (LDNI) of a leaf.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "csg/scene.h"
+#include "ldni/gl/face_raster.h"
 #include "ldni/image/ray_grid.h"
 #include "ldni/image/sample.h"
 
@@ -46,12 +51,14 @@ struct LeafImages {
 // or by the paper's depth peeling.
 enum class SamplerKind { kScanline, kGl, kGlPeeling };
 
+// Their names, in this order, in options and reports.
+inline constexpr std::array<std::string_view, 3> kSamplerNames = {
+    "scanline", "gl", "gl-peeling"};
+
 // One object per thread: it owns scratch, or a graphics context.
 class Sampler {
  public:
   virtual ~Sampler() = default;
-  Sampler(const Sampler&) = delete;
-  Sampler& operator=(const Sampler&) = delete;
 
   // Appends the image of `instance` in the rays and layers of `box` (not
   // empty). Every pixel gets as many entries as exits, in no particular order;
@@ -61,9 +68,28 @@ class Sampler {
 
   // Pixels so far that had to be sampled another way to keep this contract.
   virtual std::uint64_t repaired_pixels() const { return 0; }
-
- protected:
-  Sampler() = default;
 };
+
+// The exact sampler, the reference for all others. All arguments must outlive
+// it.
+//
+// Cost of an image: the rings of lofts, the vertices of rings that meet the
+// box, the vertices and triangles of meshes, the samples, the pixels of the
+// box.
+std::unique_ptr<Sampler> make_scanline_sampler(const csg::Scene& scene,
+                                               const RayGrid& rays,
+                                               const LayerGrid& layers);
+
+// The sampler of Zeng et al. 2011, by OpenGL. Scene and grids must outlive it;
+// layers must be of equal thickness.
+//
+// Cost of an image: the leaf's vertices and triangles, made for it if it is a
+// loft; a drawing of those that can cover a pixel; the samples, the pixels of
+// the box. Memory: for the leaf, and at most 128 MiB for what is drawn at a
+// time.
+std::unique_ptr<Sampler> make_gl_sampler(const csg::Scene& scene,
+                                         const RayGrid& rays,
+                                         const LayerGrid& layers,
+                                         std::unique_ptr<FaceRaster> raster);
 
 }  // namespace lamina::ldni

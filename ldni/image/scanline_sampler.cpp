@@ -1,4 +1,16 @@
-#include "ldni/image/scanline_sampler.h"
+// The exact sampler, the reference for all others: it intersects faces with
+// layers, and the segments that arise with rays, in double precision.
+//
+// A face is a triangle of a mesh, or of a loft a whole side quad or cap: they
+// are planar, which saves half the segments, and no triangle of a primitive is
+// ever stored.
+//
+// Watertight by three rules. A vertex is above a section or not by
+// LayerGrid::layers_below alone. Where an edge crosses a section is computed
+// from its lower to its upper end, so that both faces beside it get the same
+// bits. And RayGrid::rays_below of these points decides which rays a segment
+// meets. So the segments of a layer form closed loops, every ray enters a leaf
+// as often as it leaves it, and rounding can only move a sample.
 
 #include <algorithm>
 #include <array>
@@ -10,6 +22,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+
+#include "ldni/image/sampler.h"
 
 namespace lamina::ldni {
 namespace {
@@ -107,7 +121,7 @@ class ScanlineSampler final : public Sampler {
   std::vector<LevelRange> ring_levels_;
   std::vector<std::uint32_t> low_levels_;  // of the rings of a strip, by corner
   std::vector<std::uint32_t> high_levels_;
-  std::size_t filled_ring_ = 0;  // the ring of high_levels
+  std::size_t filled_ring_ = 0;  // the ring of high_levels_
 
   // The mesh at hand.
   std::vector<Corner> vertices_;

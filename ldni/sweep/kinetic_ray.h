@@ -34,7 +34,6 @@
 #include "csg/scene.h"
 #include "ldni/section/chains.h"
 #include "ldni/section/contours.h"
-#include "ldni/sweep/sweep_counts.h"
 #include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni {

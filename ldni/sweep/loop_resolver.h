@@ -5,8 +5,6 @@
 #include <memory>
 
 #include "ldni/section/contours.h"
-#include "ldni/sweep/fill_rule.h"
-#include "ldni/sweep/sweep_counts.h"
 #include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni {

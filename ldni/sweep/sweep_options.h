@@ -1,4 +1,7 @@
 #pragma once
+// What the moving ray is asked for, and what it counts.
+
+#include <cstdint>
 
 #include "csg/tie_distance.h"
 #include "ldni/section/chains.h"
@@ -18,5 +21,53 @@ struct SweepOptions {
   // faces of solids that coincide up to rounding.
   double least_area = 1e-9;
 };
+
+// What the moving ray met, added up over layers (`--report`).
+struct SweepCounts {
+  std::uint64_t layers = 0;
+  std::uint64_t chains = 0;
+  std::uint64_t points = 0;  // vertices of chains
+  std::uint64_t slabs = 0;
+  std::uint64_t event_points = 0;
+  std::uint64_t states = 0;  // of the Boolean program, as they were met
+  // Layers with faces nearer than a tie but not the same: their loops were
+  // swept once more.
+  std::uint64_t resolved_layers = 0;
+  // What must not happen (ldni/sweep/detail/ray_sweep.h): always 0.
+  std::uint64_t unbalanced_clusters = 0;  // I1: a leaf did not end on the ray
+  std::uint64_t repaired_clusters = 0;    // I4: an end found no partner
+  std::uint64_t capped_clusters = 0;      // I6: swaps reached their cap
+
+  SweepCounts& operator+=(const SweepCounts& other) {
+    layers += other.layers;
+    chains += other.chains;
+    points += other.points;
+    slabs += other.slabs;
+    event_points += other.event_points;
+    states += other.states;
+    resolved_layers += other.resolved_layers;
+    unbalanced_clusters += other.unbalanced_clusters;
+    repaired_clusters += other.repaired_clusters;
+    capped_clusters += other.capped_clusters;
+    return *this;
+  }
+};
+
+// What of loops that cross is inside, by the winding number of a point: the
+// sum of the turns that the loops make around it, counter-clockwise ones
+// counted positive.
+enum class FillRule : std::uint8_t { kNonZero, kPositive, kEvenOdd };
+
+constexpr bool is_inside(std::int32_t winding_number, FillRule rule) {
+  switch (rule) {
+    case FillRule::kNonZero:
+      return winding_number != 0;
+    case FillRule::kPositive:
+      return winding_number > 0;
+    case FillRule::kEvenOdd:
+      break;
+  }
+  return winding_number % 2 != 0;
+}
 
 }  // namespace lamina::ldni

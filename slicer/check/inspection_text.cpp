@@ -1,17 +1,44 @@
 #include "slicer/check/inspection_text.h"
 
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "slicer/check/feature_table.h"
-#include "slicer/check/materials.h"
 #include "slicer/check/printed_text.h"
 #include "slicer/contour/deviation.h"
 
 namespace lamina::slicer {
 namespace {
+
+struct Material {
+  std::string_view name;
+  double density;  // [g/cm³]
+};
+
+// Alloys differ from maker to maker by some hundredths; these are usual values
+// (docs/usage.md).
+constexpr std::array<Material, 11> kMaterials = {{
+    {"gold 18k yellow", 15.4},
+    {"gold 14k yellow", 13.1},
+    {"platinum 950", 20.7},
+    {"palladium 950", 11.8},
+    {"fine silver", 10.49},
+    {"sterling silver", 10.36},
+    {"bronze", 8.8},
+    {"brass", 8.5},
+    {"steel 316L", 8.0},
+    {"castable resin", 1.1},
+    {"casting wax", 0.95},
+}};
+
+// The weight of a volume [g].
+double weight(const Material& material, double volume_mm3) {
+  return material.density * volume_mm3 / 1000;
+}
 
 using nlohmann::ordered_json;
 

@@ -53,7 +53,7 @@ struct ThinStretch {
   Vec2 to = Vec2(0);
   double reach = 0;  // radius of the larger disk at the ends [mm]
   // The leaves whose surfaces the sides are, where they are known
-  // (leaf_search.h): indices into Scene::instances, or kNoInstance.
+  // (LeafSearch): indices into Scene::instances, or kNoInstance.
   std::array<std::uint32_t, 2> instances = {kNoInstance, kNoInstance};
 };
 

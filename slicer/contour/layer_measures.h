@@ -5,6 +5,7 @@
 // some percent of its time, are for those who ask.
 
 #include <cstddef>
+#include <vector>
 
 #include "ldni/section/contours.h"
 
@@ -21,5 +22,11 @@ LayerMeasures measure(const ldni::Contours& contours);
 
 // The length of all loops [mm].
 double total_perimeter(const ldni::Contours& contours);
+
+// The areas of the regions, each an outer loop less its holes [mm²], in the
+// order of the outer loops.
+//
+// contours  disjoint loops, outer ones counter-clockwise, holes clockwise
+std::vector<double> areas_of_regions(const ldni::Contours& contours);
 
 }  // namespace lamina::slicer

@@ -9,7 +9,6 @@
 #include "csg/plane/boolean.h"
 #include "csg/plane/region.h"
 #include "slicer/picture/detail/drawing.h"
-#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {

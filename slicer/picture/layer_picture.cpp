@@ -11,7 +11,6 @@
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/picture/detail/drawing.h"
-#include "slicer/picture/detail/lettering.h"
 
 namespace lamina::slicer {
 namespace {

@@ -12,14 +12,30 @@
 //
 // How much sky a place sees follows from the points around it in the picture.
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "slicer/contour/layer.h"
 #include "slicer/picture/camera.h"
-#include "slicer/picture/color_scheme.h"
 #include "slicer/picture/image.h"
 
 namespace lamina::slicer {
+
+// Colours of a picture of a solid: OpenSCAD's schemes by their names, and
+// materials of jewelers.
+struct ColorScheme {
+  std::string_view name;
+  Rgb background_top;  // of the picture
+  Rgb background_bottom;
+  Rgb solid;
+  double shine;  // share of the light that is mirrored, 0 … 1
+};
+
+// Null where no scheme has that name.
+const ColorScheme* find_color_scheme(std::string_view name);
+
+std::vector<std::string> color_scheme_names();
 
 struct StackOptions {
   // Of the picture [pixels].

@@ -17,7 +17,7 @@
 #include "csg/tie_distance.h"
 #include "csg/vertex_table.h"
 #include "slicer/plan/detail/stacking.h"
-#include "slicer/plan/surface_heights.h"
+#include "slicer/plan/orientation.h"
 
 namespace lamina::slicer {
 namespace {

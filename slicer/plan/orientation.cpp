@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/boundary_faces.h"
+#include "csg/boundary/move_scene.h"
 #include "csg/tie_distance.h"
 
 namespace lamina::slicer {
@@ -164,6 +165,29 @@ std::string orientation_table(const OrientationChoice& choice) {
   }
   text.pop_back();
   return text;
+}
+
+SurfaceHeights surface_heights(const csg::Scene& scene) {
+  SurfaceHeights heights;
+  csg::visit_boundary_faces(
+      scene,
+      [&](const Box3& box) {
+        return box.low.z < heights.low || box.high.z > heights.high;
+      },
+      [&](const csg::BoundaryFace& face) {
+        const Box3 box = csg::box_of(face);
+        heights.low = std::min(heights.low, box.low.z);
+        heights.high = std::max(heights.high, box.high.z);
+      });
+  return heights;
+}
+
+void place_on_bed(csg::Scene& scene) {
+  const SurfaceHeights heights = surface_heights(scene);
+  if (heights.is_empty()) return;
+  csg::move_scene(scene, Affine(1.0), Vec3(0, 0, -heights.low));
+  // Layers are counted from the bed, though leaves may reach below it.
+  scene.box.low.z = 0;
 }
 
 }  // namespace lamina::slicer

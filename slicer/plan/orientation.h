@@ -1,5 +1,6 @@
 #pragma once
-// The direction of building (`--axis`), and the choice of a good one.
+// The direction of building (`--axis`), the choice of a good one, and where the
+// part stands.
 //
 // After Byun and Lee, Determination of the optimal build direction for
 // different rapid prototyping processes using multi-criterion decision making,
@@ -50,5 +51,21 @@ OrientationChoice choose_orientation(const csg::Scene& scene, double thickness);
 // For the user: the choice, its reason, and a line for each direction, without
 // the last '\n'.
 std::string orientation_table(const OrientationChoice& choice);
+
+// How far the surface of a solid, not its leaves, reaches up and down [mm]; low
+// > high where nothing is solid.
+struct SurfaceHeights {
+  double low = 1e300;
+  double high = -1e300;
+
+  bool is_empty() const { return low > high; }
+};
+
+// Looks at faces beyond those found so far only.
+SurfaceHeights surface_heights(const csg::Scene& scene);
+
+// Shifts the scene upwards or downwards until its lowest point is at height 0;
+// x and y stay.
+void place_on_bed(csg::Scene& scene);
 
 }  // namespace lamina::slicer

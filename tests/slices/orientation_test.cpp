@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include "csg/boundary/move_scene.h"
-#include "slicer/plan/surface_heights.h"
 #include "tests/support/design.h"
 
 namespace lamina {

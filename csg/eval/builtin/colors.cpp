@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "csg/eval/builtin/xkcd_colors.h"
+
 namespace lamina::csg {
 
 namespace {
@@ -54,17 +56,28 @@ constexpr std::string_view kColors =
 
 using Table = std::unordered_map<std::string_view, std::string_view>;
 
-const Table& color_table() {
-  static const Table table = [] {
-    Table made;
-    std::string_view rest = kColors;
-    while (!rest.empty()) {
-      const std::size_t name = rest.find(' ');
-      made[rest.substr(0, name)] = rest.substr(name + 1, 6);
-      rest.remove_prefix(std::min(name + 8, rest.size()));
-    }
-    return made;
-  }();
+// Of a list of names and colors, each of these followed by `separator`.
+Table read_table(std::string_view list, char separator) {
+  constexpr std::size_t kDigits = 6;
+  Table table;
+  while (!list.empty()) {
+    const std::size_t end =
+        std::min(list.find(separator, list.find(' ') + 1), list.size());
+    const std::string_view entry = list.substr(0, end);
+    table[entry.substr(0, entry.size() - kDigits - 1)] =
+        entry.substr(entry.size() - kDigits);
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return table;
+}
+
+const Table& web_colors() {
+  static const Table table = read_table(kColors, ' ');
+  return table;
+}
+
+const Table& xkcd_colors() {
+  static const Table table = read_table(kXkcdColors, ',');
   return table;
 }
 
@@ -88,10 +101,14 @@ std::optional<std::array<float, 4>> parse_hex(std::string_view digits) {
 }  // namespace
 
 std::optional<std::array<float, 4>> find_color(std::string_view name) {
+  constexpr std::string_view kXkcd = "xkcd:";
   if (name == "transparent") return std::array<float, 4>{0, 0, 0, 0};
   if (!name.empty() && name[0] == '#') return parse_hex(name.substr(1));
-  const auto found = color_table().find(name);
-  if (found == color_table().end()) return std::nullopt;
+  const bool is_xkcd = name.starts_with(kXkcd);
+  if (is_xkcd) name.remove_prefix(kXkcd.size());
+  const Table& table = is_xkcd ? xkcd_colors() : web_colors();
+  const auto found = table.find(name);
+  if (found == table.end()) return std::nullopt;
   return parse_hex(found->second);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Names of colors: those of CSS Color Module Level 4, and hexadecimal forms.
+// Names of colors: those of CSS Color Module Level 4, those of the survey of
+// xkcd.com behind "xkcd:" (newer than 2021.01), and hexadecimal forms.
 
 #include <array>
 #include <optional>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/file/file_bytes.h"
+#include "base/file/file_access.h"
 #include "base/file/format_error.h"
 #include "csg/degrees.h"
 #include "csg/eval/builtin/call.h"
@@ -87,8 +87,8 @@ DxfDrawing read_drawing(const Query& query, const CallCode& code,
   options.fragments = [](double) { return 36; };
   DxfDrawing drawing;
   try {
-    const auto bytes = FileBytes::open(query.path, frame.in.file_access());
-    if (bytes) drawing = parse_dxf(bytes->view(), options);
+    const auto bytes = frame.in.file_access().read_regular(query.path);
+    if (bytes) drawing = parse_dxf(*bytes, options);
   } catch (const FormatError& fault) {
     warn(code, frame, "{} importing file '{}'", fault.what(), query.path);
   }

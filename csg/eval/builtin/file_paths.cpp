@@ -59,8 +59,13 @@ Vec2 read_origin(const Value& origin, std::string_view shown_name,
   const bool is_fine =
       given && std::isfinite(given->x) && std::isfinite(given->y);
   if (!origin.is_undef() && !is_fine) {
-    call.warn("{}(..., origin={}) could not be converted", shown_name,
-              to_echo(origin));
+    if (call.in.language() == Language::k2021) {
+      call.warn("{}(..., origin={}) could not be converted", shown_name,
+                to_echo(origin));
+    } else {
+      call.warn("Unable to convert {}(..., origin={}) parameter to vec2",
+                call.code.name, to_echo(origin));
+    }
   }
   return given.value_or(Vec2(0.0));
 }
@@ -68,7 +73,7 @@ Vec2 read_origin(const Value& origin, std::string_view shown_name,
 std::string drawing_text(const ImportParams& drawing, Frame& frame) {
   return fmt::format("file = {}, layer = {}, origin = [{:g}, {:g}], ",
                      relative_quoted(std::string(drawing.path), frame),
-                     in_quotes(drawing.layer), drawing.origin.x,
+                     in_quotes(drawing.layer.value_or("")), drawing.origin.x,
                      drawing.origin.y);
 }
 

@@ -23,7 +23,8 @@ std::string find_file(std::string_view name, const std::string& from,
 std::string relative_path(const std::string& path, Frame& frame);
 std::string relative_quoted(const std::string& path, Frame& frame);
 
-// The deprecated `origin` of a drawing; messages call the module `shown_name`.
+// The deprecated `origin` of a drawing; messages of 2021.01 call the module
+// `shown_name`.
 Vec2 read_origin(const Value& origin, std::string_view shown_name,
                  const ModuleCall& call);
 

@@ -11,7 +11,7 @@
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/file_paths.h"
 #include "csg/eval/builtin/modules.h"
-#include "csg/eval/builtin/script.h"
+#include "csg/eval/builtin/text_arguments.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
 
@@ -20,8 +20,10 @@ namespace lamina::csg {
 namespace {
 
 std::string facets_text(const Facets& facets) {
-  return fmt::format("$fn = {:g}, $fa = {:g}, $fs = {:g}", facets.fn, facets.fa,
-                     facets.fs);
+  const std::string fe =
+      facets.fe > 0 ? fmt::format("$fe = {:g}, ", facets.fe) : "";
+  return fmt::format("$fn = {:g}, {}$fa = {:g}, $fs = {:g}", facets.fn, fe,
+                     facets.fa, facets.fs);
 }
 
 // Makes a leaf that stands for itself in `.csg` with `csg_text`.
@@ -34,24 +36,31 @@ void make_leaf(Params params, std::string_view csg_text,
 
 // --- text -------------------------------------------------------------------
 
-void text(const BuiltinModuleCode& code, Frame& frame) {
-  const ModuleCall call(code, frame);
-  const auto keep_text = [&](std::string_view name, std::string_view fallback) {
-    return call.in.keep_text(string_or(call[name], fallback));
+TextParams read_text(const ModuleCall& call) {
+  TextArguments arguments;
+  arguments.find = [&](std::string_view name) -> const Value& {
+    return call[name];
   };
-  TextParams params;
-  params.text = keep_text("text", "");
-  params.size = number_or(call["size"], 10.0);
-  params.spacing = number_or(call["spacing"], 1.0);
-  params.font = keep_text("font", "");
-  params.script = call.in.keep_text(
-      text_script(params.text, string_or(call["script"], "")));
-  params.direction =
-      text_direction(params.script, string_or(call["direction"], ""));
-  params.language = keep_text("language", "en");
-  params.halign = keep_text("halign", "left");
-  params.valign = keep_text("valign", "baseline");
-  params.facets = current_facets(call.in);
+  arguments.warn = [&](const std::string& words) { call.warn("{}", words); };
+  arguments.caller = "text";
+  arguments.language = call.in.language();
+  // 2021.01 takes what has another type for nothing, without a word.
+  if (arguments.language != Language::k2021) check_types(arguments);
+  std::string script;
+  TextParams params = read_text(arguments, script);
+  for (std::string_view* const view :
+       {&params.text, &params.font, &params.script, &params.direction,
+        &params.language, &params.halign, &params.valign}) {
+    *view = call.in.keep_text(*view);
+  }
+  params.facets = facets_of(call);
+  return params;
+}
+
+void text(const BuiltinModuleCode& code, Frame& frame) {
+  if (!frame.in.is_2021()) warn_of_children(code, frame);
+  const ModuleCall call(code, frame);
+  const TextParams params = read_text(call);
   // OpenSCAD quotes these strings without escaping anything.
   std::string csg = fmt::format(
       "text(text = \"{}\", size = {:g}, spacing = {:g}, font = \"{}\", "
@@ -69,12 +78,14 @@ void text(const BuiltinModuleCode& code, Frame& frame) {
 // --- surface ----------------------------------------------------------------
 
 void surface(const BuiltinModuleCode& code, Frame& frame) {
+  if (!frame.in.is_2021()) warn_of_children(code, frame);
   const ModuleCall call(code, frame);
   const Value& file = call["file"];
   const std::string path =
       find_file(file.is_undef() ? "" : to_text(file), call);
   SurfaceParams params;
   params.path = frame.in.keep_text(path);
+  params.rules = frame.in.language();
   params.center = is_set(call["center"]);
   params.invert = is_set(call["invert"]);
   params.convexity = std::max(to_int(call["convexity"]), 1);
@@ -131,7 +142,35 @@ double read_dpi(const Value& value, const Value& origin,
   return kDefaultDpi;
 }
 
+// What 2021.01 does not know stands in its text only where it was given.
+std::string import_text(const ImportParams& params, Frame& frame) {
+  const std::string file = relative_quoted(std::string(params.path), frame);
+  const std::string origin =
+      fmt::format("origin = [{:g}, {:g}], ", params.origin.x, params.origin.y);
+  const std::string id =
+      params.id ? fmt::format("id = {}, ", in_quotes(*params.id)) : "";
+  const std::string dpi = params.format == ImportFormat::kSvg
+                              ? fmt::format("dpi = {:g}, ", params.dpi)
+                              : "";
+  const std::string center = fmt::format("center = {}, ", params.center);
+  const std::string end = fmt::format(
+      "convexity = {}, {}, {})", params.convexity, facets_text(params.facets),
+      timestamp_text(std::string(params.path), frame));
+  if (params.rules == Language::k2021) {
+    const bool has_center =
+        params.center || params.format == ImportFormat::kSvg;
+    return fmt::format("import(file = {}, layer = {}, {}{}{}{}scale = {:g}, {}",
+                       file, in_quotes(params.layer.value_or("")), id, origin,
+                       has_center ? center : "", dpi, params.scale, end);
+  }
+  const std::string layer =
+      params.layer ? fmt::format("layer = {}, ", in_quotes(*params.layer)) : "";
+  return fmt::format("import(file = {}, {}{}{}{}scale = {:g}, {}{}", file, id,
+                     layer, origin, dpi, params.scale, center, end);
+}
+
 void import(const BuiltinModuleCode& code, Frame& frame) {
+  if (!frame.in.is_2021()) warn_of_children(code, frame);
   const ModuleCall call(code, frame);
   const Value file =
       renamed(call["file"], call["filename"], "filename", "file", frame);
@@ -140,26 +179,22 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   const Value layer =
       renamed(call["layer"], call["layername"], "layername", "layer", frame);
   Interpreter& in = frame.in;
+  const Value& id = call["id"];
   ImportParams params;
   params.path = in.keep_text(path);
   params.format = import_format(code.name, path);
-  params.layer = in.keep_text(layer.is_undef() ? "" : to_text(layer));
-  // The name is wrong in OpenSCAD, too.
+  params.rules = in.language();
+  if (!id.is_undef()) params.id = in.keep_text(to_text(id));
+  if (!layer.is_undef()) params.layer = in.keep_text(to_text(layer));
+  // The name is wrong in 2021.01, too.
   params.origin = read_origin(call["origin"], "linear_extrude", call);
   params.center = is_set(call["center"]);
   params.dpi = read_dpi(call["dpi"], call["origin"], call);
   const double scale = call["scale"].number_or_zero();
   params.scale = scale <= 0 ? 1 : scale;
   params.convexity = std::max(to_int(call["convexity"]), 1);
-  params.facets = current_facets(in);
-  std::string csg = "import(" + drawing_text(params, frame);
-  if (params.format == ImportFormat::kSvg) {
-    csg += fmt::format("center = {}, dpi = {:g}, ", params.center, params.dpi);
-  }
-  csg += fmt::format("scale = {:g}, convexity = {}, {}, {})", params.scale,
-                     params.convexity, facets_text(params.facets),
-                     timestamp_text(path, frame));
-  make_leaf<Import>(params, csg, call);
+  params.facets = facets_of(call);
+  make_leaf<Import>(params, import_text(params, frame), call);
 }
 
 }  // namespace
@@ -168,12 +203,13 @@ std::vector<BuiltinModuleRow> file_rows() {
   const std::vector<std::string_view> positional = {
       "file", "layer", "convexity", "origin", "scale"};
   const std::vector<std::string_view> optional = {
-      "width", "height", "filename", "layername", "center", "dpi"};
+      "width", "height", "filename", "layername", "center", "dpi", "id"};
   return {
       {"text",
        text,
        {"text", "size", "font"},
-       {"direction", "language", "script", "halign", "valign", "spacing"}},
+       {"direction", "language", "script", "halign", "valign", "spacing",
+        "em"}},
       {"surface", surface, {"file", "center", "convexity"}, {"invert"}},
       {"import", import, positional, optional},
       {"import_stl", import, positional, optional, "import()"},

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/file/file_bytes.h"
+#include "base/file/file_access.h"
 #include "csg/eval/value/object.h"
 
 namespace lamina::csg {
@@ -101,13 +101,13 @@ class ValueReader : public nlohmann::json_sax<Json> {
 
 JsonResult read_json(const std::string& path, const FileAccess& access) {
   JsonResult result;
-  const auto bytes = FileBytes::open(path, access);
+  const auto bytes = access.read_regular(path);
   if (!bytes) {
     result.can_read = false;
     return result;
   }
   ValueReader reader;
-  Json::sax_parse(bytes->view(), &reader);
+  Json::sax_parse(*bytes, &reader);
   result.fault = std::move(reader.fault);
   if (result.fault.empty()) result.value = std::move(reader.value);
   return result;

@@ -9,91 +9,51 @@
 #include <vector>
 
 #include "csg/eval/builtin/call.h"
-#include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/functions.h"
-#include "csg/eval/builtin/script.h"
+#include "csg/eval/builtin/text_arguments.h"
 #include "csg/eval/value/object.h"
-#include "csg/eval/value/text.h"
 #include "csg/text_measurer.h"
 
 namespace lamina::csg {
 
 namespace {
 
-// The size without an argument. An em is 100/72 of it.
-constexpr double kDefaultSize = 10;
-constexpr double kSizePerEm = 0.72;
+constexpr std::string_view kTextNames[] = {
+    "text",   "size",   "font",   "direction", "language",
+    "script", "halign", "valign", "spacing",   "em"};
+constexpr std::string_view kFontNames[] = {"size", "font", "em"};
 
-// The arguments of one call by name. Owns the strings of its parameters.
-class TextArguments {
+// The parameters of one call. Owns their strings.
+class Call {
  public:
-  TextArguments(std::span<const std::string_view> names, std::size_t positional,
-                const CallCode& code, Frame& frame)
-      : names_(names),
-        values_(run_named_arguments(names, positional, code, frame)),
-        code_(code),
-        frame_(frame) {
-    // In the order of OpenSCAD's messages.
-    check("size", Type::kNumber);
-    check("em", Type::kNumber);
-    check("text", Type::kString);
-    check("spacing", Type::kNumber);
-    for (const char* name :
-         {"font", "direction", "language", "script", "halign", "valign"}) {
-      check(name, Type::kString);
-    }
+  Call(std::span<const std::string_view> names, const CallCode& code,
+       Frame& frame)
+      : values_(run_named_arguments(names, kPositional, code, frame)) {
+    static const Value kUndef;
+    TextArguments arguments;
+    arguments.find = [&](std::string_view name) -> const Value& {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end()) return kUndef;
+      return values_[static_cast<std::size_t>(found - names.begin())];
+    };
+    arguments.warn = [&](const std::string& words) {
+      warn_in_file(code, frame, "{}", words);
+    };
+    arguments.caller = code.name;
+    arguments.language = frame.in.language();
+    check_types(arguments);
+    params_ = read_text(arguments, script_);
   }
 
-  // Valid as long as the arguments.
-  TextParams params() {
-    TextParams params;
-    params.size = size();
-    params.text = string_or((*this)["text"], "");
-    params.spacing = number_or((*this)["spacing"], 1);
-    params.font = string_or((*this)["font"], "");
-    script_ = text_script(params.text, string_or((*this)["script"], ""));
-    params.script = script_;
-    params.direction =
-        text_direction(script_, string_or((*this)["direction"], ""));
-    params.language = string_or((*this)["language"], "en");
-    params.halign = string_or((*this)["halign"], "left");
-    params.valign = string_or((*this)["valign"], "baseline");
-    return params;
-  }
+  // Valid as long as the call.
+  const TextParams& params() const { return params_; }
 
  private:
-  // undef where the function has no such parameter.
-  const Value& operator[](std::string_view name) const {
-    static const Value kUndef;
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found == names_.end()) return kUndef;
-    return values_[static_cast<std::size_t>(found - names_.begin())];
-  }
+  static constexpr std::size_t kPositional = 3;
 
-  void check(std::string_view name, Type expected) {
-    const Value& value = (*this)[name];
-    if (value.is_undef() || value.type() == expected) return;
-    warn_in_file(code_, frame_,
-                 "{}(..., {}={}) Invalid type: expected {}, found {}",
-                 code_.name, name, to_echo(value), type_name(expected),
-                 type_name(value.type()));
-  }
-
-  double size() {
-    const Value& em = (*this)["em"];
-    if (em.is_undef()) return number_or((*this)["size"], kDefaultSize);
-    if (!(*this)["size"].is_undef()) {
-      warn_in_file(code_, frame_, "{}: \"size\" ignored when \"em\" is set",
-                   code_.name);
-    }
-    return em.number_or_zero() * kSizePerEm;
-  }
-
-  std::span<const std::string_view> names_;
   std::vector<Value> values_;
-  const CallCode& code_;
-  Frame& frame_;
   std::string script_;
+  TextParams params_;
 };
 
 Value to_value(Vec2 v) {
@@ -136,13 +96,9 @@ auto ask(const CallCode& code, Frame& frame, const Measure& measure)
 }  // namespace
 
 Value builtin_textmetrics(const CallCode& code, Frame& frame) {
-  static constexpr std::string_view kNames[] = {
-      "text",   "size",   "font",   "direction", "language",
-      "script", "halign", "valign", "spacing",   "em"};
-  TextArguments arguments(kNames, 3, code, frame);
-  const TextParams params = arguments.params();
+  const Call call(kTextNames, code, frame);
   const auto metrics = ask(code, frame, [&](auto& measurer, auto& warnings) {
-    return measurer.measure_text(params, warnings);
+    return measurer.measure_text(call.params(), warnings);
   });
   if (!metrics) return Value();
   return make_object("position", metrics->position, "size", metrics->size,
@@ -151,11 +107,9 @@ Value builtin_textmetrics(const CallCode& code, Frame& frame) {
 }
 
 Value builtin_fontmetrics(const CallCode& code, Frame& frame) {
-  static constexpr std::string_view kNames[] = {"size", "font", "em"};
-  TextArguments arguments(kNames, 3, code, frame);
-  const TextParams params = arguments.params();
+  const Call call(kFontNames, code, frame);
   const auto metrics = ask(code, frame, [&](auto& measurer, auto& warnings) {
-    return measurer.measure_font(params, warnings);
+    return measurer.measure_font(call.params(), warnings);
   });
   if (!metrics) return Value();
   return make_object(

@@ -36,6 +36,13 @@ const Value& ModuleCall::operator[](std::string_view parameter) const {
   return values_[i];
 }
 
+void warn_of_children(const BuiltinModuleCode& code, Frame& frame) {
+  if (code.block->statements.empty()) return;
+  frame.in.warn(
+      code.range,
+      fmt::format("module {}() does not support child modules", code.name));
+}
+
 Facets clamped_facets(const ModuleCall& call) {
   constexpr double kLeast = 0.01;
   Facets facets = current_facets(call.in);
@@ -149,6 +156,7 @@ bool for_each_index(const Value& which, SourceRange place, Frame& frame,
 // In 2021.01 one child alone is not grouped, and the children see what was
 // assigned before the call; since then each children() assigns it anew.
 void children(const BuiltinModuleCode& code, Frame& frame) {
+  if (!frame.in.is_2021()) warn_of_children(code, frame);
   if (frame.children == nullptr) return;  // not inside a module
   const std::size_t mark = frame.in.node_mark();
   const bool is_2021 = frame.in.is_2021();
@@ -194,7 +202,9 @@ void child(const BuiltinModuleCode& code, Frame& frame) {
          count_children(frame));
     return;
   }
+  const std::size_t mark = frame.in.node_mark();
   run_child(static_cast<std::size_t>(n), frame);
+  if (!frame.in.is_2021()) frame.in.make_node(Group{}, code, mark);
 }
 
 // --- The table --------------------------------------------------------------

@@ -53,6 +53,9 @@ class ModuleCall {
   Value values_[kMost];
 };
 
+// For modules that take no children; 2021.01 warns of those of primitives only.
+void warn_of_children(const BuiltinModuleCode& code, Frame& frame);
+
 // `$fn $fa $fs $fe` within their limits; a change is warned of.
 Facets clamped_facets(const ModuleCall& call);
 // The same in 2026; 2021.01 clamps those of primitives only.

@@ -35,7 +35,8 @@ void plain_operation(const BuiltinModuleCode& code, Frame& frame) {
 
 Color color(const ModuleCall& call) {
   // OpenSCAD keeps colors in single precision; -1 stands for "none".
-  std::array<float, 4> rgba = {-1, -1, -1, 1};
+  const bool is_2021 = call.in.language() == Language::k2021;
+  std::array<float, 4> rgba = {-1, -1, -1, is_2021 ? 1.0F : -1.0F};
   const Value& given = call["c"];
   if (given.is_vector()) {
     const std::span<const Value> parts = given.as_vector();
@@ -54,12 +55,21 @@ Color color(const ModuleCall& call) {
     if (const auto found = find_color(name)) {
       rgba = *found;
     } else {
-      call.warn("Unable to parse color \"{}\"", name);
-      call.in.note("Please see https://en.wikipedia.org/wiki/Web_colors");
+      call.warn("Unable to parse color \"{}\"",
+                is_2021 ? name : given.as_string());
+      if (is_2021) {
+        call.in.note("Please see https://en.wikipedia.org/wiki/Web_colors");
+      }
     }
   }
   if (call["alpha"].is_number()) {
     rgba[3] = static_cast<float>(call["alpha"].as_number());
+    if (!is_2021 && (rgba[3] < 0 || rgba[3] > 1)) {
+      call.warn(
+          "color() expects alpha between 0.0 and 1.0. Value of {:.1f} is out "
+          "of range",
+          rgba[3]);
+    }
   }
   return {Vec4(rgba[0], rgba[1], rgba[2], rgba[3])};
 }

@@ -13,6 +13,7 @@
 
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/modules.h"
+#include "csg/eval/builtin/point_lists.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -22,11 +23,7 @@ namespace {
 // Runs a module without children; `make` makes the leaf of the call.
 template <auto make>
 void run_primitive(const BuiltinModuleCode& code, Frame& frame) {
-  if (!code.block->statements.empty()) {
-    frame.in.warn(
-        code.range,
-        fmt::format("module {}() does not support child modules", code.name));
-  }
+  warn_of_children(code, frame);
   const ModuleCall call(code, frame);
   const Facets facets = clamped_facets(call);
   frame.in.make_node(make(call, facets), code, frame.in.node_mark());
@@ -172,7 +169,20 @@ std::string describe_point(const Value& points, std::size_t index) {
                      to_echo(points.elements()[index]));
 }
 
+Polyhedron polyhedron_2026(const ModuleCall& call) {
+  PolyhedronParams polyhedron;
+  if (const auto points = read_points_3d(call)) {
+    polyhedron.points = call.in.keep_all<Vec3>(*points);
+    if (const auto faces = read_index_lists("faces", points->size(), 3, call)) {
+      polyhedron.faces = *faces;
+    }
+  }
+  polyhedron.convexity = std::max(to_int(call["convexity"]), 1);
+  return {call.in.keep(polyhedron)};
+}
+
 Polyhedron polyhedron(const ModuleCall& call, const Facets&) {
+  if (!call.in.is_2021()) return polyhedron_2026(call);
   Interpreter& in = call.in;
   Value faces = call["faces"];
   if (faces.is_undef() && !call["triangles"].is_undef()) {
@@ -232,7 +242,21 @@ Square square(const ModuleCall& call, const Facets&) {
   return square;
 }
 
+Polygon polygon_2026(const ModuleCall& call) {
+  PolygonParams polygon;
+  if (const auto points = read_points_2d(call)) {
+    polygon.points = call.in.keep_all<Vec2>(*points);
+    if (!call["paths"].is_undef()) {
+      const auto paths = read_index_lists("paths", points->size(), 0, call);
+      if (paths && !paths->empty()) polygon.paths = *paths;
+    }
+  }
+  polygon.convexity = std::max(to_int(call["convexity"]), 1);
+  return {call.in.keep(polygon)};
+}
+
 Polygon polygon(const ModuleCall& call, const Facets&) {
+  if (!call.in.is_2021()) return polygon_2026(call);
   Interpreter& in = call.in;
   PolygonParams polygon;
   bool is_plain = call["points"].is_vector();
@@ -276,7 +300,9 @@ std::vector<BuiltinModuleRow> primitive_rows() {
       {"polyhedron",
        run_primitive<polyhedron>,
        {"points", "faces", "convexity"},
-       {"triangles"}},
+       {"triangles"},
+       {},
+       {"points", "faces", "convexity"}},
       {"square", run_primitive<square>, {"size", "center"}},
       {"circle", run_primitive<ball<Circle>>, {"r"}, {"d"}},
       {"polygon", run_primitive<polygon>, {"points", "paths", "convexity"}},

@@ -20,7 +20,6 @@
 
 #include "base/diagnostic.h"
 #include "csg/lower/detail/fineness.h"
-#include "csg/lower/detail/hull_table.h"
 #include "csg/lower/detail/leaf_store.h"
 #include "csg/lower/detail/program_builder.h"
 #include "csg/lower/lower.h"
@@ -44,6 +43,12 @@ struct Shape {
 
 struct Operand;
 
+// A node, and the matrix that its operators above make of its coordinates.
+struct Place {
+  const Node& node;
+  const Affine& world;
+};
+
 // What only unites its children.
 template <typename Op>
 concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
@@ -59,7 +64,7 @@ class Lowerer {
   // The solid parts of the subtree are left on top of the builder's stack, in
   // world coordinates; a region is in the node's own coordinates.
   // Throws GeometryError where something has to be clipped beyond 1e9 mm.
-  Shape lower(const Node& node, const Affine& world);
+  Shape lower(const Place& at);
 
   Scene take_scene();
   // The same without flat parts.
@@ -68,16 +73,16 @@ class Lowerer {
  private:
   // --- lower_operators.cpp --------------------------------------------------
   template <Grouping Op>
-  Shape lower_op(const Op&, const Node& node, const Affine& world) {
-    return lower_children(node, world, BooleanOp::kUnion);
+  Shape lower_op(const Op&, const Place& at) {
+    return lower_children(at, BooleanOp::kUnion);
   }
-  Shape lower_op(const Difference&, const Node& node, const Affine& world) {
-    return lower_children(node, world, BooleanOp::kDifference);
+  Shape lower_op(const Difference&, const Place& at) {
+    return lower_children(at, BooleanOp::kDifference);
   }
-  Shape lower_op(const Intersection&, const Node& node, const Affine& world) {
-    return lower_children(node, world, BooleanOp::kIntersection);
+  Shape lower_op(const Intersection&, const Place& at) {
+    return lower_children(at, BooleanOp::kIntersection);
   }
-  Shape lower_op(const Transform& op, const Node& node, const Affine& world);
+  Shape lower_op(const Transform& op, const Place& at);
 
   // Treats the parts above the mark, of this shape, as a singular matrix that
   // placed them asks for.
@@ -95,56 +100,50 @@ class Lowerer {
     bool has_boolean = false;     // among these
   };
   // All children; `dimension` decides unless it is kNone.
-  Operands lower_operands(const Node& node, const Affine& world, bool is_union,
-                          Dimension dimension);
-  void add_operand(const Node& child, const Affine& world, bool is_union,
-                   Operands& operands);
+  Operands lower_operands(const Place& at, bool is_union, Dimension dimension);
+  void add_operand(const Place& child, bool is_union, Operands& operands);
   static bool is_boolean(BooleanOp op, const Operands& operands);
   void report_strays(const Operands& operands);
-  Shape lower_children(const Node& node, const Affine& world, BooleanOp op);
+  Shape lower_children(const Place& at, BooleanOp op);
 
   // Leaves a scene that was lowered apart on top of the stack, as the parts of
   // its program.
   void place_scene(const Scene& scene, const Affine& world);
 
   // --- lower_leaves.cpp -----------------------------------------------------
-  Shape lower_op(const Cube& cube, const Node& node, const Affine& world);
-  Shape lower_op(const Sphere& sphere, const Node& node, const Affine& world);
-  Shape lower_op(const Cylinder& c, const Node& node, const Affine& world);
-  Shape lower_op(const Polyhedron& polyhedron, const Node& node,
-                 const Affine& world);
-  Shape lower_op(const LinearExtrude& op, const Node& node,
-                 const Affine& world);
-  Shape lower_op(const RotateExtrude& op, const Node& node,
-                 const Affine& world);
+  Shape lower_op(const Cube& cube, const Place& at);
+  Shape lower_op(const Sphere& sphere, const Place& at);
+  Shape lower_op(const Cylinder& c, const Place& at);
+  Shape lower_op(const Polyhedron& polyhedron, const Place& at);
+  Shape lower_op(const LinearExtrude& op, const Place& at);
+  Shape lower_op(const RotateExtrude& op, const Place& at);
 
   // For a node with these $fn, $fa, $fs.
   Fineness fineness(const Facets& facets, const Affine& world) const;
   // flatten_children with a share of the chordal error.
-  Shape flatten_finely(const Node& node, const Affine& world, double share);
+  Shape flatten_finely(const Place& at, double share);
 
-  void place_leaf(Leaf leaf, const Node& node, const Affine& world);
+  void place_leaf(Leaf leaf, const Place& at);
   // Nothing for a leaf without a surface.
   std::optional<std::uint32_t> add_leaf(Leaf leaf);
-  void place(std::uint32_t leaf, Vec3 size, const Node& node,
-             const Affine& world);
+  void place(std::uint32_t leaf, Vec3 size, const Place& at);
   Box3 bound(std::uint32_t leaf, const Affine& m);
 
   // --- lower_planar.cpp -----------------------------------------------------
-  Shape lower_op(const Square& op, const Node& node, const Affine& world);
-  Shape lower_op(const Circle& op, const Node& node, const Affine& world);
-  Shape lower_op(const Polygon& op, const Node& node, const Affine& world);
-  Shape lower_op(const Offset& op, const Node& node, const Affine& world);
-  Shape lower_op(const Fill& op, const Node& node, const Affine& world);
-  Shape lower_op(const Text& op, const Node& node, const Affine& world);
+  Shape lower_op(const Square& op, const Place& at);
+  Shape lower_op(const Circle& op, const Place& at);
+  Shape lower_op(const Polygon& op, const Place& at);
+  Shape lower_op(const Offset& op, const Place& at);
+  Shape lower_op(const Fill& op, const Place& at);
+  Shape lower_op(const Text& op, const Place& at);
 
   // The children's union in the plane, whatever else there is.
-  Shape flatten_children(const Node& node, const Affine& world);
+  Shape flatten_children(const Place& at);
 
   // --- lower_files.cpp ------------------------------------------------------
   // A solid or a region: its file says.
-  Shape lower_op(const Import& op, const Node& node, const Affine& world);
-  Shape lower_op(const Surface& op, const Node& node, const Affine& world);
+  Shape lower_op(const Import& op, const Place& at);
+  Shape lower_op(const Surface& op, const Place& at);
 
   // What a file holds. It is read once, however often the design names it.
   struct FileShape {
@@ -154,12 +153,11 @@ class Lowerer {
   };
   FileShape read_import(const ImportParams& params, const Fineness& fine,
                         SourceRange range);
-  Shape place_file(const FileShape& shape, const Node& node,
-                   const Affine& world);
+  Shape place_file(const FileShape& shape, const Place& at);
   // --- lower_boundary.cpp ---------------------------------------------------
-  Shape lower_op(const Hull& op, const Node& node, const Affine& world);
-  Shape lower_op(const Resize& op, const Node& node, const Affine& world);
-  Shape lower_op(const Projection& op, const Node& node, const Affine& world);
+  Shape lower_op(const Hull& op, const Place& at);
+  Shape lower_op(const Resize& op, const Place& at);
+  Shape lower_op(const Projection& op, const Place& at);
 
   // A node's children lowered by themselves, in the node's coordinates.
   struct Apart {
@@ -168,17 +166,16 @@ class Lowerer {
     Scene scene;                          // their union
     bool is_boolean = false;              // as Shape's
   };
-  Apart lower_apart(const Node& node, const Affine& world,
-                    bool takes_corners = false);
+  Apart lower_apart(const Place& at, bool takes_corners = false);
   // A lowerer for those children; nothing lowered yet.
-  Lowerer make_inner(const Node& node, const Affine& world);
+  Lowerer make_inner(const Place& at);
 
   // --- lower_minkowski.cpp --------------------------------------------------
-  Shape lower_op(const Minkowski& op, const Node& node, const Affine& world);
+  Shape lower_op(const Minkowski& op, const Place& at);
   std::vector<Scene> take_scenes(const std::vector<std::size_t>& begins);
   // The sum of all of them, in node's coordinates. At least one.
   Operand add_terms(std::vector<Operand> terms, const Node& node);
-  void place_sum(const Operand& sum, const Node& node, const Affine& world);
+  void place_sum(const Operand& sum, const Place& at);
 
   struct KeptBox {
     std::uint32_t leaf = 0;

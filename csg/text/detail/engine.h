@@ -71,7 +71,7 @@ class Engine {
 };
 
 // Grows with every change above.
-constexpr int kEngineVersion = 4;
+constexpr int kEngineVersion = 5;
 
 // The module's function: a new engine; null if it has another version, or
 // there is no memory (errno is ENOMEM then).

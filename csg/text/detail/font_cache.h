@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
@@ -48,6 +49,8 @@ struct Font {
   Owned<hb_font_t> shaper;
   // Webdings and its like: characters stand at U+F000 and above.
   bool is_symbol = false;
+  // Asked for by the name: "Amiri:fontfeatures=-liga;+smcp".
+  std::vector<hb_feature_t> features;
   std::string complaint;  // a warning to report; "" if none
 
   // Outlines are read at this size [1/64 pixel], so large that hinting does not

@@ -34,14 +34,17 @@ struct GlyphRow {
 
 // OpenSCAD 2021.01 sets glyphs, and takes the heights of rows, 2.4% smaller
 // than the outlines are. Later releases no longer do this.
-constexpr double kShrink = 1 / 1.024;
+inline double shrink(Language rules) {
+  return rules == Language::k2021 ? 1 / 1.024 : 1;
+}
 
 // messages  gets glyphs that cannot be loaded
 GlyphRow shape(const csg::TextParams& params, const Font& font,
                std::vector<Message>& messages);
 
-// Where text() of OpenSCAD 2021.01 puts the first glyph's origin: halign and
-// valign.
+// Where text() puts the first glyph's origin: halign and valign. 2021.01 goes
+// by the glyphs' advances and by the heights above and below the baseline,
+// later releases by what is drawn, and in columns otherwise than in rows.
 //
 // messages  gets unknown alignments
 Vec2 align(const csg::TextParams& params, const GlyphRow& row,

@@ -10,9 +10,7 @@
 namespace lamina::ldni {
 namespace {
 
-[[noreturn]] void fail(const std::string& words) {
-  throw InternalError({Severity::kError, {}, words});
-}
+[[noreturn]] void fail(const std::string& words) { throw InternalError(words); }
 
 // A shader that is attached lives as long as its program.
 void attach_shader(const GlFunctions& gl, GLuint program, GLenum kind,
@@ -35,8 +33,7 @@ GlFunctions load_functions(
     using Function = std::remove_reference_t<decltype(function)>;
     function = reinterpret_cast<Function>(find(name));
     if (function != nullptr) return;
-    throw FileError(
-        {Severity::kError, {}, fmt::format("OpenGL lacks {}", name)});
+    throw FileError(fmt::format("OpenGL lacks {}", name));
   };
 #define LAMINA_GL_LOAD(type, name) load(gl.name, "gl" #name);
   LAMINA_GL_FUNCTIONS(LAMINA_GL_LOAD)

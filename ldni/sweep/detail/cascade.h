@@ -32,7 +32,7 @@
 #include "ldni/sweep/detail/program_states.h"
 #include "ldni/sweep/detail/ray_sweep.h"
 #include "ldni/sweep/loop_resolver.h"
-#include "ldni/sweep/sweep_counts.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni::detail {
 

@@ -36,7 +36,7 @@
 #include <vector>
 
 #include "csg/scene.h"
-#include "ldni/sweep/fill_rule.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni::detail {
 

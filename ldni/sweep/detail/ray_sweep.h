@@ -54,7 +54,6 @@
 #include "ldni/sweep/detail/program_states.h"
 #include "ldni/sweep/detail/ray_boundary.h"
 #include "ldni/sweep/detail/ray_order.h"
-#include "ldni/sweep/sweep_counts.h"
 #include "ldni/sweep/sweep_options.h"
 
 namespace lamina::ldni::detail {

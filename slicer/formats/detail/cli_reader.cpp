@@ -381,14 +381,14 @@ void read_binary(BinaryNumbers& numbers, LayerMaker& maker) {
 
 LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
                         const FileAccess& access) {
-  const FileBytes file = open_to_read(path, access);
-  const CliHeader header = read_header(path, file.view());
+  const std::string file = read_whole(path, access);
+  const CliHeader header = read_header(path, file);
   LayerMaker maker(header, take);
   if (header.is_binary) {
-    BinaryNumbers numbers(path, file.view(), header.size);
+    BinaryNumbers numbers(path, file, header.size);
     read_binary(numbers, maker);
   } else {
-    read_ascii(path, file.view(), header.size, maker);
+    read_ascii(path, file, header.size, maker);
   }
   maker.finish();
   // A binary body has no end of its own, so that a file cut between two

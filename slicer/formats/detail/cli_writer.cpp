@@ -1,6 +1,6 @@
 // Writes CLI 2.0 (Common Layer Interface), binary or ASCII (docs/formats.md).
 //
-// Both hold the same float32 numbers (float_contours.h); ASCII has the
+// Both hold the same float32 numbers (float_writer.h); ASCII has the
 // shortest digits that read back as them. A layer's height is that of its
 // upper side. Outer loops have direction 1, holes 0.
 //

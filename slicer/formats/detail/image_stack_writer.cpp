@@ -18,7 +18,7 @@
 #include "base/diagnostic.h"
 #include "base/file/output_folder.h"
 #include "base/file/zip_output.h"
-#include "slicer/contour/regions.h"
+#include "slicer/contour/layer_measures.h"
 #include "slicer/formats/detail/grey_png.h"
 #include "slicer/formats/detail/image_stack.h"
 #include "slicer/formats/detail/writers.h"
@@ -135,7 +135,7 @@ class FolderWriter : public ImageStackWriter {
   FolderWriter(const WriterOptions& options, const std::string& path,
                TemporaryFiles& files)
       : ImageStackWriter(options, path),
-        folder_(path, kFolderContents, files) {}
+        folder_(OutputFolder::open(path, kFolderContents, files)) {}
 
   void commit() override { folder_.commit(); }
   std::uint64_t size() const override { return folder_.size(); }

@@ -285,8 +285,8 @@ class Walker {
 
 LayerFileFacts read_layers_json(const std::string& path, const TakeLayer& take,
                                 const FileAccess& access) {
-  const FileBytes file = open_to_read(path, access);
-  const std::string_view text = file.view();
+  const std::string file = read_whole(path, access);
+  const std::string_view text = file;
   const char* at = text.data();
   Handler handler(path, take, text, at);
   nlohmann::json::sax_parse(Walker(text.data(), &at),

@@ -27,9 +27,9 @@ void fail_to_open(const std::string& path) {
                   errno == 0 ? "not a regular file" : std::strerror(errno)));
 }
 
-FileBytes open_to_read(const std::string& path, const FileAccess& access) {
+std::string read_whole(const std::string& path, const FileAccess& access) {
   access.require(path);
-  std::optional<FileBytes> bytes = FileBytes::open(path, access);
+  std::optional<std::string> bytes = access.read_regular(path);
   if (!bytes) fail_to_open(path);
   return std::move(*bytes);
 }

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "base/file/file_bytes.h"
 #include "base/vec.h"
 #include "ldni/section/contours.h"
 #include "slicer/formats/layer_reader.h"
@@ -21,9 +20,9 @@ inline constexpr double kMillimetresPerInch = 25.4;
 // The same for a file that FileAccess::open could not open: errno says why.
 [[noreturn]] void fail_to_open(const std::string& path);
 
-// Throws FileError where there is no regular file that can be read, AccessError
-// for one that may not be.
-FileBytes open_to_read(const std::string& path, const FileAccess& access);
+// All bytes of a file. Throws FileError where there is no regular file that can
+// be read, AccessError for one that may not be.
+std::string read_whole(const std::string& path, const FileAccess& access);
 
 // The number of the line that holds the byte at `place`, from 1.
 std::size_t line_at(std::string_view text, std::size_t place);

@@ -1,5 +1,5 @@
 // Writes SLC 2.0 (StereoLithography Contour), the format of wax and resin
-// machines (docs/formats.md). Coordinates are float32 (float_contours.h).
+// machines (docs/formats.md). Coordinates are float32 (float_writer.h).
 //
 // The extents, which the header names, are known last, and no reader expects
 // blanks to fill a gap there. Their numbers therefore have a fixed width,

@@ -28,13 +28,12 @@ constexpr double kGreatestSlic3rHeight = 0.001;
 class SvgReader {
  public:
   SvgReader(const std::string& path, const FileAccess& access)
-      : path_(path), file_(open_to_read(path, access)) {
-    const std::string_view bytes = file_.view();
+      : path_(path), file_(read_whole(path, access)) {
     const auto fault =
-        load_xml(bytes, document_, pugi::parse_default | pugi::parse_comments);
+        load_xml(file_, document_, pugi::parse_default | pugi::parse_comments);
     if (fault) {
       fail_to_read(path,
-                   fmt::format("line {}: {}", line_at(bytes, fault->place),
+                   fmt::format("line {}: {}", line_at(file_, fault->place),
                                fault->words));
     }
     root_ = document_.child("svg");
@@ -63,8 +62,8 @@ class SvgReader {
                          std::string_view message) const {
     const auto place = static_cast<std::size_t>(
         std::max<std::ptrdiff_t>(node.offset_debug(), 0));
-    fail_to_read(path_, fmt::format("line {}: {}", line_at(file_.view(), place),
-                                    message));
+    fail_to_read(path_,
+                 fmt::format("line {}: {}", line_at(file_, place), message));
   }
 
   // Both programs name themselves in a comment.
@@ -185,7 +184,7 @@ class SvgReader {
   }
 
   const std::string& path_;
-  FileBytes file_;
+  const std::string file_;
   pugi::xml_document document_;
   pugi::xml_node root_;
   bool is_slic3r_ = false;

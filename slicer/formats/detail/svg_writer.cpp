@@ -1,7 +1,7 @@
 // Writes SVG in the layout of Slic3r: a group per layer, of polygons that are
 // contours (white) or holes (black), in millimetres (docs/formats.md).
 //
-// Coordinates are float32 (float_contours.h), as browsers hold them, with the
+// Coordinates are float32 (float_writer.h), as browsers hold them, with the
 // shortest digits that read back as them. x and y are the design's; SVG's y
 // runs downwards, so y is negated and the drawing shows a layer from above.
 // The size of the drawing is known last: its numbers have a fixed width and

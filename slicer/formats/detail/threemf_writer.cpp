@@ -5,7 +5,7 @@
 // would hold all layers (docs/decisions/0018-3mf-without-lib3mf.md). Every
 // reader needs a mesh: the box of all layers, marked as too coarse to slice.
 //
-// Coordinates are float32 (float_contours.h), as common readers hold them.
+// Coordinates are float32 (float_writer.h), as common readers hold them.
 
 #include <cstddef>
 #include <iterator>

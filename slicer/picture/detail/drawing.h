@@ -11,6 +11,17 @@
 
 namespace lamina::slicer {
 
+// Adds a line of text, in UTF-8, in an alphabet of strokes of our own, so that
+// pictures look the same everywhere and need no font. It knows ASCII letters,
+// digits and . , : - _ / ( ) + = % × ² ³; other characters become a small box.
+//
+// at    left end of the base line [pixels]
+// size  height of a capital [pixels]
+void add_text(Coverage& coverage, std::string_view text, Vec2 at, double size);
+
+// Width of the line [pixels].
+double text_width(std::string_view text, double size);
+
 inline constexpr Rgb kPaper = {0.97F, 0.965F, 0.95F};
 inline constexpr Rgb kTile = {1.0F, 1.0F, 0.995F};
 inline constexpr Rgb kFrame = {0.86F, 0.85F, 0.82F};

@@ -21,7 +21,7 @@ using Hulls = LowerFixture;
 constexpr double kRounding = 1e-9;
 
 TEST(ConvexHull, OfPointsThatSpanNoVolumeIsNothing) {
-  EXPECT_TRUE(convex_hull({}).triangles.empty());
+  EXPECT_TRUE(convex_hull(std::vector<Vec3>()).triangles.empty());
   EXPECT_TRUE(convex_hull({{1, 2, 3}, {1, 2, 3}}).triangles.empty());
   EXPECT_TRUE(
       convex_hull({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {5, 5, 5}})

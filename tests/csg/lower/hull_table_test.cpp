@@ -1,12 +1,11 @@
 // Equal hulls are made once.
 
-#include "csg/lower/detail/hull_table.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "csg/boundary/scene_hull.h"
+#include "csg/boundary/convex_hull.h"
+#include "csg/lower/detail/leaf_store.h"
 #include "tests/csg/lower/lower_fixture.h"
 
 namespace lamina::csg {

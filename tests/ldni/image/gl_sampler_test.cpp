@@ -1,7 +1,5 @@
 // What the GL samplers promise against the exact one, and of OpenGL.
 
-#include "ldni/image/gl_sampler.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -12,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "csg/boundary/leaf_mesh.h"
-#include "ldni/image/scanline_sampler.h"
+#include "ldni/image/sampler.h"
 #include "tests/ldni/gl/shared_raster.h"
 #include "tests/support/design.h"
 #include "tests/support/leaf_scenes.h"

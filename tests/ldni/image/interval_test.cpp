@@ -1,8 +1,6 @@
 // Laws of sets, kept by the intervals of a ray. Depths are whole numbers or
 // anywhere, so that the operands share end points often or never.
 
-#include "ldni/image/interval.h"
-
 #include <algorithm>
 #include <random>
 #include <vector>
@@ -11,6 +9,7 @@
 
 #include "csg/tie_distance.h"
 #include "ldni/image/boolean.h"
+#include "ldni/image/sample.h"
 #include "tests/support/leaf_scenes.h"
 
 namespace lamina::ldni {

@@ -6,7 +6,7 @@
 
 #include "ldni/image/boolean.h"
 #include "ldni/image/ray_grid.h"
-#include "ldni/image/scanline_sampler.h"
+#include "ldni/image/sampler.h"
 
 namespace lamina::ldni {
 namespace {

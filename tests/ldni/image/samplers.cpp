@@ -1,7 +1,6 @@
 #include "tests/ldni/image/samplers.h"
 
-#include "ldni/image/gl_sampler.h"
-#include "ldni/image/scanline_sampler.h"
+#include "ldni/image/sampler.h"
 #include "tests/ldni/gl/shared_raster.h"
 
 namespace lamina::ldni {

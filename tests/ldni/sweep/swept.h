@@ -8,7 +8,7 @@
 #include "ldni/section/chains.h"
 #include "ldni/section/contours.h"
 #include "ldni/sweep/detail/cascade.h"
-#include "ldni/sweep/sweep_counts.h"
+#include "ldni/sweep/sweep_options.h"
 
 namespace lamina::testing {
 

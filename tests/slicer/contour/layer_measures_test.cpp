@@ -1,9 +1,8 @@
-#include "slicer/contour/regions.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "slicer/contour/layer_measures.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::slicer {

@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/float_contours.h"
+#include "slicer/formats/detail/float_writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "compiler/imported_design.h"
+#include "compiler/request.h"
 
 #include <algorithm>
 #include <array>

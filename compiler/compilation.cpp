@@ -1,4 +1,4 @@
-#include "compiler/feature_origins.h"
+#include "compiler/compilation.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,6 +7,14 @@
 
 namespace lamina::compiler {
 namespace {
+
+std::vector<std::string> module_folders_of(const Request& request) {
+  std::vector<std::string> folders = text::module_folders();
+  if (!request.module_folder.empty()) {
+    folders.insert(folders.begin(), request.module_folder);
+  }
+  return folders;
+}
 
 std::string place_of(const SourceRange& range) {
   if (!range.is_known()) return {};
@@ -30,6 +38,25 @@ std::string text_of(const FeatureOrigin& origin) {
 }
 
 }  // namespace
+
+Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
+                         Diagnostics::Observer observer)
+    : request(its_request),
+      temporary_files(files),
+      diagnostics(std::move(observer)),
+      loader(sources, diagnostics, library_folders(files.file_access()),
+             its_request.definitions, files.file_access()),
+      typesetter(module_folders_of(its_request), diagnostics,
+                 files.file_access()) {
+  diagnostics.set_hard_warnings(its_request.has_hard_warnings);
+}
+
+std::size_t Compilation::count(Severity severity) const {
+  const std::vector<Diagnostic>& all = diagnostics.all();
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(),
+      [&](const Diagnostic& d) { return d.severity == severity; }));
+}
 
 std::vector<FeatureOrigins> origins_of(
     const csg::Scene& scene, std::span<const slicer::ThinFeature> features) {

@@ -1,5 +1,3 @@
-#include "csg/plane/convex_hull.h"
-
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/plane.h"
+#include "csg/plane/region.h"
 
 namespace lamina::planar {
 namespace {
