@@ -1,1 +1,0 @@
-linear_extrude(v = [2, 0, 6], twist = 90, slices = 6) square([3, 1]);
