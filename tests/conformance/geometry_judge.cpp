@@ -76,7 +76,7 @@ std::string missing_part(const Reference& reference) {
   for (const std::string_view words :
        {"Unable to convert to CGAL_Nef_Polyhedron",  // 2021.01
         "Unable to convert to CGALNefGeometry",      // 2025.07
-        "-> Manifold conversion failed"}) {
+        "-> Manifold conversion failed", "CGAL error in applyHull()"}) {
     if (reference.words.find(words) != std::string::npos) {
       return fmt::format("openscad left a part out: {}", words);
     }
