@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/csg/import/byte_changes.h"
@@ -17,7 +18,7 @@ std::vector<SvgContours> parse(std::string_view text, SvgOptions options = {}) {
   options.outline = [](std::span<const Vec2> path, const SvgStroke&) {
     return SvgContours{{path.begin(), path.end()}};
   };
-  return parse_svg(text, options);
+  return parse_svg(text, options).shapes;
 }
 
 // The contours of one path in a page of its own, y down as in the file.
@@ -130,9 +131,9 @@ TEST(ParseSvg, TransformsApplyFromTheInsideOut) {
   EXPECT_NEAR(shapes[0][0][0].y, -30, 1e-12);
 }
 
-TEST(ParseSvg, DefinitionsAndUsesDrawNothing) {
+TEST(ParseSvg, DefinitionsDrawNothingByThemselves) {
   EXPECT_TRUE(parse(R"svg(<svg><defs><g id="a"><rect width="1" height="1"/>
-      <use href="#a"/></g></defs><use href="#a"/></svg>)svg")
+      <use href="#a"/></g></defs></svg>)svg")
                   .empty());
 }
 
@@ -175,6 +176,55 @@ TEST(ParseSvg, SurvivesWhateverBefallsAFile) {
       <path d="M0 0c1 2 3 4 5 6a1 2 3 0 1 4 5q1 2 3 4t5 6h3z"
       style="stroke-width:3"/><rect width="3" height="4" rx="1"/></g></svg>)svg";
   expect_no_harm(text, [](std::string_view bytes) { parse(bytes); });
+}
+
+// --- What newer OpenSCAD reads
+// ------------------------------------------------
+
+constexpr const char* kLayers =
+    "<svg width='9mm' height='9mm' viewBox='0 0 9 9'"
+    " xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>"
+    "<g inkscape:groupmode='layer' inkscape:label='cut' id='g'>"
+    "<rect id='a' width='1' height='1'/>"
+    "<rect id='b' width='2' height='2'/></g>"
+    "<rect id='c' width='3' height='3'/></svg>";
+
+TEST(ParseSvg, IdAndLayerChooseWhatIsDrawn) {
+  const auto count = [](std::optional<std::string> id,
+                        std::optional<std::string> layer) {
+    SvgOptions options;
+    options.id = std::move(id);
+    options.layer = std::move(layer);
+    const SvgDrawing drawing = parse_svg(kLayers, options);
+    EXPECT_EQ(drawing.has_match, !drawing.shapes.empty());
+    return drawing.shapes.size();
+  };
+  EXPECT_EQ(count({}, {}), 3u);
+  EXPECT_EQ(count("a", {}), 1u);
+  EXPECT_EQ(count("g", {}), 2u) << "what is in the group";
+  EXPECT_EQ(count({}, "cut"), 2u);
+  EXPECT_EQ(count("c", "cut"), 0u);
+  EXPECT_EQ(count("nobody", {}), 0u);
+}
+
+TEST(ParseSvg, DisplayNoneDrawsNothing) {
+  EXPECT_EQ(parse("<svg><rect width='1' height='1' display='none'/>"
+                  "<g style='display:none'><rect width='1' height='1'/></g>"
+                  "<rect width='1' height='1' style='display:inline'/></svg>")
+                .size(),
+            1u);
+}
+
+TEST(ParseSvg, UseDrawsWhatItNamesMovedThere) {
+  const auto shapes = parse(
+      "<svg width='9mm' height='9mm' viewBox='0 0 9 9'>"
+      "<defs><rect id='a' width='1' height='1'/></defs>"
+      "<use href='#a' x='2' y='3'/></svg>");
+  ASSERT_EQ(shapes.size(), 1u);
+  Vec2 low(9);
+  for (const Vec2 point : shapes[0][0]) low = glm::min(low, point);
+  EXPECT_NEAR(low.x, 2, 1e-12);
+  EXPECT_NEAR(low.y, 5, 1e-12) << "y up";
 }
 
 }  // namespace
