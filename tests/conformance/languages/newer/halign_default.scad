@@ -1,1 +1,1 @@
-linear_extrude(1) text("lamina", halign = "default", valign = "default");
+linear_extrude(1) text("L", halign = "default", valign = "default");

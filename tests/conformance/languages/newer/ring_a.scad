@@ -1,2 +1,1 @@
-// 2026: 3.75 mm³
-rotate_extrude(a = 90) translate([2, 0]) square(1);
+rotate_extrude(a = 90, $fn = 36) translate([2, 0]) square(1);

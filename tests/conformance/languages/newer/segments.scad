@@ -1,3 +1,3 @@
 // 2026: 15.72 mm³
-linear_extrude(height = 10, twist = 90, slices = 4, segments = 64)
-  square(1.5, center = true);
+linear_extrude(height = 4, twist = 90, slices = 4, segments = 64)
+  square(2, center = true);
