@@ -87,7 +87,7 @@ class Reader {
     if (is_known(name)) {
       if (is_selected(element, place)) {
         place.is_shown = drawing_.has_match = true;
-      } else if (has_display_none(element)) {
+      } else if (!is_2021() && has_display_none(element)) {
         place.is_shown = false;
       }
       const std::string_view id = element.attribute("id").value();
@@ -103,6 +103,8 @@ class Reader {
     }
     read_children(element, place);
   }
+
+  bool is_2021() const { return options_.language == Language::k2021; }
 
   // Also notes whether the layer that the filter names begins here.
   bool is_selected(const pugi::xml_node& element, Place& place) const {
@@ -121,11 +123,12 @@ class Reader {
   // Draws what the element names; as in OpenSCAD only what <defs> above it
   // hold, and nothing that these use themselves.
   void read_use(const pugi::xml_node& element, Place place) {
-    if (place.is_copy) return;
+    if (place.is_copy || place.is_in_defs) return;
     std::string_view target = element.attribute("href").value();
     if (target.empty()) target = element.attribute("xlink:href").value();
-    const auto found = target.starts_with('#') ? defined_.find(target.substr(1))
-                                               : defined_.end();
+    const auto found = target.starts_with('#') && !is_2021()
+                           ? defined_.find(target.substr(1))
+                           : defined_.end();
     if (found == defined_.end()) {
       note_undrawn(fmt::format("<use> of '{}'", target));
       return;
@@ -135,7 +138,6 @@ class Reader {
     moved[2] = Vec3(shift, 1);
     place.page_from_parent =
         place.page_from_parent * transform_of(element) * moved;
-    place.is_in_defs = false;
     place.is_copy = true;
     read_element(found->second, place);
   }

@@ -1,14 +1,11 @@
 #pragma once
 // SVG drawings, as OpenSCAD understands them.
 //
-// Shapes and paths in groups of any depth count, with their transforms, and
-// what <use> takes from <defs>; fill, visibility and style sheets do not.
-// Nothing is drawn of an element with display:none. Closed paths are filled,
-// open ones drawn with the width, cap and join of their stroke.
-//
-// 2021.01 knows neither display nor <use>, nor sizes in percent, and no filter.
-// All this is read for both languages; the language decides how a stroke's
-// style is read, and the caller by how many lines a curve is drawn.
+// Shapes and paths in groups of any depth count, with their transforms; fill,
+// visibility and style sheets do not. Closed paths are filled, open ones drawn
+// with the width, cap and join of their stroke. In 2026 nothing is drawn of an
+// element with display:none, and <use> draws what <defs> hold. The caller
+// decides by how many lines a curve is drawn.
 
 #include <functional>
 #include <optional>
@@ -37,7 +34,7 @@ using SvgContours = std::vector<std::vector<Vec2>>;
 // Bézier curve 20, an arc one for each 18° and four more.
 struct SvgCurves {
   // Lines of an arc of a circle; null: as many as above.
-  std::function<int(double radius, double sweep_deg)> lines_of_arc;
+  std::function<int(double radius, double sweep_deg)> lines_of_arc = {};
   int lines_of_bezier = 0;
 };
 
@@ -47,7 +44,7 @@ struct SvgOptions {
   // Gives the outlines of a drawn path. It is a function, as plane geometry
   // stands above the readers.
   std::function<SvgContours(std::span<const Vec2> path, const SvgStroke&)>
-      outline;
+      outline = {};
   // Draws only the elements with this id, and only the layers of Inkscape with
   // this label; of both, the elements with the id in such a layer.
   std::optional<std::string> id = std::nullopt;

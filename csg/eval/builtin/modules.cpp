@@ -211,28 +211,28 @@ void child(const BuiltinModuleCode& code, Frame& frame) {
 
 using Table = std::unordered_map<std::string_view, BuiltinModuleEntry>;
 
-// In 2026 every parameter can be given by its place. Those that are gone are
-// still known, but calls that give them are warned.
+// In 2026 every parameter can be given by its place. What only the other
+// language has is understood, too, but calls that give it are warned.
 BuiltinModuleEntry make_entry(const BuiltinModuleRow& row, Language language) {
   BuiltinModuleEntry entry;
   entry.handler = row.handler;
   entry.replacement = row.replacement;
   std::vector<std::string_view> names = row.positional;
   names.insert(names.end(), row.optional.begin(), row.optional.end());
-  if (language == Language::k2021) {
-    entry.positional_count = row.positional.size();
-    entry.parameters = make_parameters(names);
-    return entry;
+  std::vector<std::string_view> others = row.newer.empty() ? names : row.newer;
+  entry.positional_count = row.positional.size();
+  if (language != Language::k2021) {
+    std::swap(names, others);
+    entry.positional_count = names.size();
   }
-  std::vector<std::string_view> newer = row.newer.empty() ? names : row.newer;
-  entry.positional_count = newer.size();
-  for (const std::string_view name : names) {
-    if (std::find(newer.begin(), newer.end(), name) == newer.end()) {
-      newer.push_back(name);
+  const std::size_t own = names.size();
+  for (const std::string_view name : others) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(name);
     }
   }
-  entry.parameters = make_parameters(newer);
-  for (std::size_t i = entry.positional_count; i < newer.size(); ++i) {
+  entry.parameters = make_parameters(names);
+  for (std::size_t i = own; i < names.size(); ++i) {
     entry.parameters[i].is_extra = true;
   }
   return entry;

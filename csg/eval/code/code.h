@@ -129,7 +129,7 @@ struct DynamicVariable : Expression {
   std::string_view name;
   bool is_silent = false;
 };
-// A variable of any activation. `slot` counts captured values for kCaptured.
+// A variable of any activation, or a captured value, by its slot.
 struct VariableLoad : Expression {
   std::uint32_t hops = 0;
   const Expression* otherwise = nullptr;  // where the slot is unset

@@ -56,7 +56,7 @@ TEST(ParseOff, SaysWhatWasExpectedWhere) {
   const auto fault = [](const std::string& text) {
     return fault_of([&] { parse_off(text); });
   };
-  EXPECT_EQ(fault("garbage"), "OFF line 1, expected OFF, [ST][C][N][4]OFF");
+  EXPECT_EQ(fault("garbage"), "OFF line 1, expected OFF, [ST][C][N][4][n]OFF");
   EXPECT_EQ(fault("OFF BINARY\n"), "OFF line 1, expected text, not BINARY");
   EXPECT_EQ(fault("OFF\n2 1 0\n0 0 0\n1 x 0\n"),
             "OFF line 4, expected coordinates of a vertex");

@@ -208,18 +208,21 @@ TEST(ParseSvg, IdAndLayerChooseWhatIsDrawn) {
 }
 
 TEST(ParseSvg, DisplayNoneDrawsNothing) {
-  EXPECT_EQ(parse("<svg><rect width='1' height='1' display='none'/>"
-                  "<g style='display:none'><rect width='1' height='1'/></g>"
-                  "<rect width='1' height='1' style='display:inline'/></svg>")
-                .size(),
-            1u);
+  const char* const text =
+      "<svg><rect width='1' height='1' display='none'/>"
+      "<g style='display:none'><rect width='1' height='1'/></g>"
+      "<rect width='1' height='1' style='display:inline'/></svg>";
+  EXPECT_EQ(parse(text).size(), 3u) << "2021.01 does not know display";
+  EXPECT_EQ(parse(text, {.language = Language::k2026}).size(), 1u);
 }
 
 TEST(ParseSvg, UseDrawsWhatItNamesMovedThere) {
-  const auto shapes = parse(
+  const char* const text =
       "<svg width='9mm' height='9mm' viewBox='0 0 9 9'>"
       "<defs><rect id='a' width='1' height='1'/></defs>"
-      "<use href='#a' x='2' y='3'/></svg>");
+      "<use href='#a' x='2' y='3'/></svg>";
+  EXPECT_TRUE(parse(text).empty()) << "2021.01 does not know <use>";
+  const auto shapes = parse(text, {.language = Language::k2026});
   ASSERT_EQ(shapes.size(), 1u);
   Vec2 low(9);
   for (const Vec2 point : shapes[0][0]) low = glm::min(low, point);

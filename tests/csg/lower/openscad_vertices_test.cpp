@@ -255,27 +255,27 @@ std::vector<Case> all_cases() {
        }},
       {"torus", "rotate_extrude($fn=20) translate([5,0]) circle(2, $fn=9);",
        [](TreeBuilder& b) {
-         return b.node(RotateExtrude{360, 2, fn(20)},
+         return b.node(RotateExtrude{360, 2, fn(20), 180},
                        {b.translate({5, 0, 0}, {b.node(Circle{2, fn(9)})})});
        }},
       {"torus_odd_default", "rotate_extrude() translate([4.5,1]) square(1);",
        [](TreeBuilder& b) {
-         return b.node(RotateExtrude{},
+         return b.node(RotateExtrude{.start_deg = 180},
                        {b.translate({4.5, 1, 0}, {b.node(Square{})})});
        }},
       {"torus_odd", "rotate_extrude($fn=7) translate([4.5,1]) square(1);",
        [](TreeBuilder& b) {
-         return b.node(RotateExtrude{360, 2, fn(7)},
+         return b.node(RotateExtrude{360, 2, fn(7), 180},
                        {b.translate({4.5, 1, 0}, {b.node(Square{})})});
        }},
       {"torus_negative", "rotate_extrude($fn=7) translate([-4.5,1]) square(1);",
        [](TreeBuilder& b) {
-         return b.node(RotateExtrude{360, 2, fn(7)},
+         return b.node(RotateExtrude{360, 2, fn(7), 180},
                        {b.translate({-4.5, 1, 0}, {b.node(Square{})})});
        }},
       {"lathe_on_axis", "rotate_extrude($fn=12) square([3,2]);",
        [](TreeBuilder& b) {
-         return b.node(RotateExtrude{360, 2, fn(12)},
+         return b.node(RotateExtrude{360, 2, fn(12), 180},
                        {b.node(Square{{3, 2}, false})});
        }},
       {"part_turn",

@@ -1,0 +1,2 @@
+// display:none hides, and <use> repeats.
+linear_extrude(1) import("../newer/parts.svg");

@@ -1,0 +1,1 @@
+linear_extrude(1) text("L", halign = "default", valign = "default");

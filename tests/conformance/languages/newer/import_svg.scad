@@ -1,2 +1,0 @@
-// display:none hides, and <use> repeats.
-linear_extrude(1) import("parts.svg");
