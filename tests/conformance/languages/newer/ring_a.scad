@@ -1,5 +1,1 @@
-<<<<<<< HEAD
-rotate_extrude(a = 90, $fn = 40) translate([2, 0]) square(1);
-=======
 rotate_extrude(a = 90, $fn = 36) translate([2, 0]) square(1);
->>>>>>> main
