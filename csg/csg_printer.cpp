@@ -136,6 +136,10 @@ struct OpPrinter {
     append_linear_extrude(*op.params, language, out.text());
     out << ")";
   }
+  void operator()(const Roof& op) {
+    out << "roof(method = \"" << (op.is_straight ? "straight" : "voronoi")
+        << "\", " << op.facets << ", convexity = " << op.convexity << ")";
+  }
   void operator()(const RotateExtrude& op) {
     out << "rotate_extrude(";
     append_rotate_extrude(op, language, out.text());

@@ -100,6 +100,12 @@ struct RotateExtrude {
   double start_deg = 0;
   std::string_view csg_text = {};  // as for LinearExtrude
 };
+// A solid over what its children are in the plane, with faces at 45°.
+struct Roof {
+  bool is_straight = false;  // else "voronoi": round at reflex corners
+  int convexity = 1;
+  Facets facets = {};
+};
 
 // --- Leaves ---------------------------------------------------------------
 struct Cube {
@@ -212,8 +218,8 @@ struct Surface {
 struct Node {
   std::variant<Group, Union, Difference, Intersection, Hull, Fill, Minkowski,
                Render, Transform, Color, Resize, Offset, Projection,
-               LinearExtrude, RotateExtrude, Cube, Sphere, Cylinder, Polyhedron,
-               Square, Circle, Polygon, Text, Import, Surface>
+               LinearExtrude, RotateExtrude, Roof, Cube, Sphere, Cylinder,
+               Polyhedron, Square, Circle, Polygon, Text, Import, Surface>
       op;
   std::span<const Node* const> children;
   SourceRange range;

@@ -107,6 +107,16 @@ int turn_fragments(const ProfileRange& range, double angle_deg,
                                 fineness.language, angle);
 }
 
+double arc_step_deg(double r, const Fineness& fineness) {
+  const Facets& facets = fineness.facets;
+  if (facets.fn > 0) return 360 / std::clamp(facets.fn, 3.0, kMostFragments);
+  const double step = fineness.is_by_error()
+                          ? chord_angle(r, fineness.chordal_error) * 180 / pi
+                          : std::min(facets.fa, facets.fs / r * 180 / pi);
+  require_fragments(360 / step);
+  return std::min(step, 120.0);
+}
+
 ExtrusionSteps extrusion_steps(const LinearExtrudeParams& params,
                                double max_radius, double max_shift,
                                const Fineness& fineness) {

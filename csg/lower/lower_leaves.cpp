@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <utility>
@@ -9,10 +11,12 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/leaf_mesh.h"
+#include "csg/degrees.h"
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/repair.h"
+#include "csg/lower/detail/roof.h"
 
 namespace lamina::csg {
 namespace {
@@ -231,6 +235,35 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Place& at) {
   turn.chordal_error *= 1 - kShare;
   const int n = turn_fragments(range, op.angle_deg, turn);
   place_leaf(extrude_around(profile, op.start_deg, op.angle_deg, n), at);
+  return {Dimension::kSolid};
+}
+
+Shape Lowerer::lower_op(const Roof& op, const Place& at) {
+  // The drawing and the rounded corners share the chordal error.
+  constexpr double kShare = 0.5;
+  const Shape shape = flatten_finely(at, kShare);
+  if (shape.dimension == Dimension::kNone) return {};
+  if (shape.region.is_empty()) return {Dimension::kSolid};
+  Fineness corners = fineness(op.facets, at.world);
+  corners.chordal_error *= 1 - kShare;
+  const double depth = greatest_depth(shape.region);
+  const double step_deg = arc_step_deg(depth, corners);
+  // A polygon in a circle leaves more than the circle.
+  const double top = op.is_straight ? depth : depth / cos_deg(step_deg / 2);
+  // The cutters go through the prism's top.
+  const double cut_top = top * 1.01;
+  const std::size_t mark = builder_.mark();
+  LinearExtrudeParams prism;
+  prism.height = top;
+  place_leaf(extrude_linearly(prism, shape.region, {}), at);
+  const std::array begins = {mark, builder_.mark()};
+  Leaf cutters;
+  cutters.may_overlap_itself = true;
+  cutters.meshes.push_back(
+      op.is_straight ? sharp_cutters(shape.region, cut_top)
+                     : round_cutters(shape.region, cut_top, step_deg));
+  place_leaf(std::move(cutters), at);
+  builder_.apply(BooleanOp::kDifference, begins);
   return {Dimension::kSolid};
 }
 

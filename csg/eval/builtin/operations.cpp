@@ -125,6 +125,22 @@ Offset offset(const ModuleCall& call) {
   return offset;
 }
 
+Roof roof(const ModuleCall& call) {
+  Roof roof;
+  roof.facets = facets_of(call);
+  if (const Value& method = call["method"]; !method.is_undef()) {
+    const std::string name = to_text(method);
+    roof.is_straight = name == "straight";
+    if (name != "straight" && name != "voronoi") {
+      call.warn("Unknown roof method '{}'. Using 'voronoi'.", name);
+    }
+  }
+  if (to_finite(call["convexity"])) {
+    roof.convexity = std::max(to_int(call["convexity"]), 1);
+  }
+  return roof;
+}
+
 // The value of a parameter that has two names.
 const Value& either(std::string_view name, std::string_view other,
                     const ModuleCall& call) {
@@ -332,6 +348,7 @@ std::vector<BuiltinModuleRow> operation_rows() {
       {"minkowski", run_operation<minkowski>, {"convexity"}},
       {"resize", run_operation<resize>, {"newsize", "auto", "convexity"}},
       {"projection", run_operation<projection>, {"cut"}, {"convexity"}},
+      {"roof", run_operation<roof>, {"method"}, {"convexity"}},
       {"offset", run_operation<offset>, {"r"}, {"delta", "chamfer"}},
       {"linear_extrude",
        linear_extrude,

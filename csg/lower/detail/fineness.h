@@ -31,6 +31,10 @@ int sphere_fragments(double r, const Fineness& fineness);
 int turn_fragments(const ProfileRange& range, double angle_deg,
                    const Fineness& fineness);
 
+// Greatest angle of a side of an arc of radius r that a roof draws: unlike in
+// circles, both $fa and $fs bound it [degrees].
+double arc_step_deg(double r, const Fineness& fineness);
+
 // Steps of an extrusion whose sides are not planar.
 struct ExtrusionSteps {
   int slices = 1;

@@ -117,6 +117,7 @@ class Lowerer {
   Shape lower_op(const Polyhedron& polyhedron, const Place& at);
   Shape lower_op(const LinearExtrude& op, const Place& at);
   Shape lower_op(const RotateExtrude& op, const Place& at);
+  Shape lower_op(const Roof& op, const Place& at);
 
   // For a node with these $fn, $fa, $fs.
   Fineness fineness(const Facets& facets, const Affine& world) const;

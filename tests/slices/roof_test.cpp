@@ -1,0 +1,185 @@
+// roof() against the distance from its drawing's outline, closed formulas, and
+// outlines that move inwards in small steps.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "csg/plane/offset.h"
+#include "csg/plane/region.h"
+#include "tests/support/contour_checks.h"
+#include "tests/support/design.h"
+
+namespace lamina {
+namespace {
+
+using ldni::Contours;
+using planar::Region;
+using support::Design;
+
+constexpr auto kAngle = "polygon([[0,0],[9,0],[9,3],[4,3],[4,8],[0,8]]);";
+constexpr auto kCross =
+    "square([12, 4], center = true); square([4, 12], center = true);";
+constexpr auto kFrame =
+    "difference() { square(10); translate([3, 2.5]) square([3, 5]); }";
+constexpr auto kStar =
+    "polygon([for (i = [0:17]) (i % 2 == 0 ? 10 : 4 + i / 6) * "
+    "[cos(20 * i), sin(20 * i)]]);";
+constexpr auto kWasher =
+    "difference() { circle(9, $fn = 24); circle(4, $fn = 15); "
+    "translate([6, 0]) square(3, center = true); }";
+constexpr std::array kDrawings = {kAngle, kCross, kFrame, kStar, kWasher};
+
+Contours section(const std::string& text, double z) {
+  const Design design = Design::from_text(text);
+  const auto layers = support::slice_heights(design.scene(), {z});
+  EXPECT_TRUE(support::are_sound(layers.at(0).contours)) << text;
+  return layers.at(0).contours;
+}
+
+Contours drawing(const std::string& text) {
+  return section("linear_extrude(2) { " + text + " }", 1);
+}
+
+std::string straight(const std::string& text) {
+  return "roof(method = \"straight\") { " + text + " }";
+}
+
+double volume(const std::string& text, double top) {
+  constexpr int kLayers = 400;
+  const Design design = Design::from_text(text);
+  std::vector<double> heights;
+  for (int i = 0; i < kLayers; ++i)
+    heights.push_back(top * (i + 0.5) / kLayers);
+  double sum = 0;
+  for (const auto& layer : support::slice_heights(design.scene(), heights)) {
+    sum += support::total_area(layer.contours);
+  }
+  return sum * top / kLayers;
+}
+
+// The outline after moving inwards by z, in small steps with sharp joins.
+double stepped_area(const std::string& text, double z) {
+  constexpr int kSteps = 400;
+  Region region = planar::to_region(drawing(text));
+  for (int i = 0; i < kSteps; ++i) {
+    region = planar::offset(region, -z / kSteps, planar::Join::kMiter, 1);
+  }
+  return planar::area(region);
+}
+
+double distance(Vec2 p, const Contours& outline) {
+  double least = 1e9;
+  for (std::size_t l = 0; l < outline.loop_count(); ++l) {
+    const auto loop = outline.loop(l);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 a = loop[i];
+      const Vec2 along = loop[(i + 1) % loop.size()] - a;
+      const double share =
+          std::clamp(glm::dot(p - a, along) / glm::dot(along, along), 0.0, 1.0);
+      least = std::min(least, glm::distance(p, a + along * share));
+    }
+  }
+  return least;
+}
+
+TEST(Roof, OfAConvexDrawingIsAHippedRoof) {
+  // Over 10 x 4 a ridge of 6: three prisms' and one pyramid's volume.
+  for (const std::string method : {"voronoi", "straight"}) {
+    EXPECT_NEAR(volume("roof(method = \"" + method + "\") square([10, 4]);", 2),
+                104.0 / 3, 1e-3)
+        << method;
+  }
+  EXPECT_NEAR(volume("roof() square(2);", 1), 4.0 / 3, 1e-4);
+}
+
+TEST(Roof, StraightMeetsClosedFormulas) {
+  EXPECT_NEAR(volume(straight("square([10, 3]); square([3, 10]);"), 1.5), 36,
+              1e-3);
+  EXPECT_NEAR(volume(straight(kCross), 2), 224.0 / 3, 1e-3);
+}
+
+TEST(Roof, StraightIsTheOutlineMovedInwardsStepByStep) {
+  for (const std::string text : kDrawings) {
+    for (const double z : {0.1, 0.6, 1.1, 1.4, 1.9, 2.3}) {
+      const double expected = stepped_area(text, z);
+      EXPECT_NEAR(support::total_area(section(straight(text), z)), expected,
+                  0.005 + 0.005 * expected)
+          << text << " at " << z;
+    }
+  }
+}
+
+TEST(Roof, StraightOfRandomDrawingsIsTheOutlineMovedInwards) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> radius(2, 10);
+  for (int design = 0; design < 40; ++design) {
+    const int n = 5 + design % 12;
+    std::string points;
+    for (int i = 0; i < n; ++i) {
+      points += fmt::format("{}*[cos({}),sin({})],", radius(random),
+                            360.0 * i / n, 360.0 * i / n);
+    }
+    const std::string text = "polygon([" + points + "]);";
+    for (const double z : {0.3, 0.9, 1.5, 2.1}) {
+      const double expected = stepped_area(text, z);
+      EXPECT_NEAR(support::total_area(section(straight(text), z)), expected,
+                  0.01 + 0.005 * expected)
+          << text << " at " << z;
+    }
+  }
+}
+
+TEST(Roof, ReflexCornersThatMeetGoOnAsOne) {
+  const std::string text =
+      "polygon([[-10,0],[-5,0],[-1,5],[-4,0],[4,0],[1,5],[5,0],[10,0],"
+      "[10,20],[-10,20]]);";
+  for (const double z : {0.6, 1.2, 3.0}) {
+    // Where the outer edges' lines, z further inwards, meet.
+    const Vec2 peak(0, (25 + z * std::sqrt(41)) / 4);
+    const Contours contours = section(straight(text), z);
+    EXPECT_NEAR(distance(peak, contours), 0, 1e-9) << z;
+    EXPECT_GT(distance(peak + Vec2(0, 0.01), contours), 1e-3) << z;
+  }
+}
+
+TEST(Roof, VoronoiIsWhereTheOutlineIsFartherThanTheHeight) {
+  for (const std::string text : kDrawings) {
+    const Contours outline = drawing(text);
+    for (const double z : {0.2, 0.8, 1.3, 1.8}) {
+      const Contours roof = section("roof($fn = 720) { " + text + " }", z);
+      for (std::size_t l = 0; l < roof.loop_count(); ++l) {
+        for (const Vec2 p : roof.loop(l)) {
+          EXPECT_NEAR(distance(p, outline), z, 1e-4 * z) << text;
+        }
+      }
+    }
+  }
+}
+
+TEST(Roof, OfTextHasOneTopForEachLetter) {
+  const std::string text = "text(\"Roof\", size = 10);";
+  for (const std::string roof : {"roof() ", "roof(method = \"straight\") "}) {
+    const double before = support::total_area(drawing(text));
+    const Contours contours = section(roof + text, 0.3);
+    EXPECT_LT(support::total_area(contours), before);
+    EXPECT_EQ(contours.loop_count(), drawing(text).loop_count());
+  }
+}
+
+TEST(Roof, TakesTheMethodsOfOpenScad) {
+  const Design design = Design::from_text("roof(method = \"x\") square(3);");
+  const auto layers = support::slice_heights(design.scene(), {0.5});
+  EXPECT_DOUBLE_EQ(support::total_area(layers.at(0).contours), 4);
+}
+
+}  // namespace
+}  // namespace lamina
