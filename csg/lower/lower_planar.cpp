@@ -82,8 +82,11 @@ Shape Lowerer::lower_op(const Offset& op, const Place& at) {
   const double distance = std::abs(op.amount);
   const int n = circle_fragments(distance, fineness(op.facets, at.world));
   const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
-  return {Dimension::kFlat,
-          planar::offset(shape.region, op.amount, join_of(op), arc_tolerance)};
+  const auto steps = options_.language == Language::k2021
+                         ? planar::ArcSteps::kNearest
+                         : planar::ArcSteps::kUp;
+  return {Dimension::kFlat, planar::offset(shape.region, op.amount, join_of(op),
+                                           arc_tolerance, steps)};
 }
 
 Shape Lowerer::lower_op(const Fill&, const Place& at) {

@@ -1,11 +1,15 @@
 #include "csg/plane/offset.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <clipper.hpp>
+#include <glm/geometric.hpp>
 
 #include "base/memory_end.h"
 #include "csg/limits.h"
@@ -14,10 +18,12 @@
 namespace lamina::planar {
 namespace {
 
+using std::numbers::pi;
+
 constexpr double kGridPerMm = 1e8;
 
-// Clipper multiplies coordinates in 128 bits; it asks for no more than 2^62
-// grid units.
+// Clipper, which strokes need, multiplies coordinates in 128 bits; it asks for
+// no more than 2^62 grid units.
 static_assert(csg::kGreatestCoordinate * kGridPerMm < 0x1p62);
 
 // Two grid diagonals: closer to the line between its neighbours, or to one of
@@ -27,12 +33,20 @@ constexpr double kCleanDistance = 1.415;
 // OpenSCAD's limit for spikes at sharp corners of delta offsets [amounts].
 constexpr double kMiterLimit = 1000000;
 
+// Clipper's greatest tolerance of arcs whose steps go to the nearest number
+// [amounts]: no arc has fewer than 4.35 sides of a circle.
+constexpr double kGreatestTolerance = 0.25;
+
 // Its limit for those of strokes [half widths].
 constexpr double kStrokeMiterLimit = 2;
 
 ClipperLib::cInt to_grid(double x) {
   if (csg::is_too_far(x)) csg::fail_too_far();
   return std::llround(x * kGridPerMm);
+}
+
+double round_to_grid(double x) {
+  return static_cast<double>(to_grid(x)) / kGridPerMm;
 }
 
 ClipperLib::Path to_path(const Contour& contour) {
@@ -42,12 +56,6 @@ ClipperLib::Path to_path(const Contour& contour) {
     path.push_back({to_grid(point.x), to_grid(point.y)});
   }
   return path;
-}
-
-ClipperLib::Paths to_paths(std::span<const Contour> contours) {
-  ClipperLib::Paths paths;
-  for (const Contour& contour : contours) paths.push_back(to_path(contour));
-  return paths;
 }
 
 // Clipper may join edges that end in one point to contours that cross there, or
@@ -76,23 +84,121 @@ ClipperLib::JoinType to_join_type(Join join) {
   return kJoinTypes[static_cast<std::size_t>(join)];
 }
 
+// Drops corners that the line between their neighbours all but passes.
+void drop_straight(Contour& contour) {
+  Contour kept;
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Vec2 before = kept.empty() ? contour.back() : kept.back();
+    const Vec2 along = contour[(i + 1) % contour.size()] - before;
+    const Vec2 way = contour[i] - before;
+    const double aside = std::abs(way.x * along.y - way.y * along.x);
+    const bool is_between = glm::dot(way, along) > 0 &&
+                            glm::dot(way, along) < glm::dot(along, along);
+    if (!is_between || aside * kGridPerMm > kCleanDistance * glm::length(along))
+      kept.push_back(contour[i]);
+  }
+  contour = std::move(kept);
+}
+
+// Moves contours, the inside on their left, to their right.
+class Mover {
+ public:
+  Mover(double amount, Join join, double arc_tolerance, ArcSteps steps)
+      : amount_(amount), join_(join), steps_(steps) {
+    const double size = std::abs(amount);
+    const double greatest =
+        steps == ArcSteps::kNearest ? kGreatestTolerance * size : size;
+    // In Clipper's order: corners of 90° take 7.5 steps of 12°, or almost.
+    const double sides =
+        pi / std::acos(1 - std::min(arc_tolerance, greatest) / size);
+    step_ = 2 * pi / sides;
+    steps_per_radian_ = sides / (2 * pi);
+  }
+
+  Contour move(const Contour& contour) const {
+    Contour curve;
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 before = contour[(i + contour.size() - 1) % contour.size()];
+      const Vec2 after = contour[(i + 1) % contour.size()];
+      add_corner(contour[i], outwards(before, contour[i]),
+                 outwards(contour[i], after), curve);
+    }
+    return curve;
+  }
+
+ private:
+  static Vec2 outwards(Vec2 begin, Vec2 end) {
+    const Vec2 direction = glm::normalize(end - begin);
+    return {direction.y, -direction.x};
+  }
+
+  // Normals of the edges before and after it.
+  void add_corner(Vec2 corner, Vec2 before, Vec2 after, Contour& curve) const {
+    const double sine = before.x * after.y - before.y * after.x;
+    const double cosine = glm::dot(before, after);
+    if (std::abs(sine * amount_) * kGridPerMm < 1 && cosine > 0) {
+      add(corner + before * amount_, curve);
+    } else if (sine * amount_ < 0) {
+      // The edges' strips overlap.
+      add(corner + before * amount_, curve);
+      add(corner, curve);
+      add(corner + after * amount_, curve);
+    } else if (join_ == Join::kRound) {
+      add_arc(corner, before, after, std::atan2(sine, cosine), curve);
+    } else if (join_ == Join::kMiter &&
+               1 + cosine >= 2 / (kMiterLimit * kMiterLimit)) {
+      add(corner + (before + after) * (amount_ / (1 + cosine)), curve);
+    } else {
+      const double share = std::tan(std::atan2(sine, cosine) / 4);
+      add(corner + (before + across(before) * share) * amount_, curve);
+      add(corner + (after - across(after) * share) * amount_, curve);
+    }
+  }
+
+  void add_arc(Vec2 corner, Vec2 before, Vec2 after, double angle,
+               Contour& curve) const {
+    const double share = std::abs(angle) * steps_per_radian_;
+    const double count =
+        steps_ == ArcSteps::kUp ? std::ceil(share) : std::round(share);
+    const double turn = std::copysign(step_, angle);
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    Vec2 spoke = before;
+    add(corner + spoke * amount_, curve);
+    for (double i = 1; i < count; ++i) {
+      spoke = spoke * c + across(spoke) * s;
+      add(corner + spoke * amount_, curve);
+    }
+    add(corner + after * amount_, curve);
+  }
+
+  static Vec2 across(Vec2 v) { return {-v.y, v.x}; }
+
+  static void add(Vec2 point, Contour& curve) {
+    curve.emplace_back(round_to_grid(point.x), round_to_grid(point.y));
+  }
+
+  double amount_;
+  Join join_;
+  ArcSteps steps_;
+  double step_ = 0;  // [rad]
+  double steps_per_radian_ = 0;
+};
+
 }  // namespace
 
 Region offset(const Region& region, double amount, Join join,
-              double arc_tolerance) {
-  ClipperLib::ClipperOffset offsetter(kMiterLimit, arc_tolerance * kGridPerMm);
-  offsetter.AddPaths(to_paths(region.contours), to_join_type(join),
-                     ClipperLib::etClosedPolygon);
-  ClipperLib::Paths result;
-  try {
-    watch_memory([&, distance = static_cast<double>(to_grid(amount))] {
-      offsetter.Execute(result, distance);
-    });
-  } catch (const ClipperLib::clipperException&) {
-    // A sharp corner's spike went too far.
-    csg::fail_too_far();
+              double arc_tolerance, ArcSteps steps) {
+  const Mover mover(amount, join, arc_tolerance, steps);
+  std::vector<Contour> curves;
+  for (const Contour& contour : region.contours) {
+    curves.push_back(mover.move(contour));
   }
-  return to_region(std::move(result));
+  Region result = from_contours(curves, FillRule::kPositive);
+  for (Contour& contour : result.contours) drop_straight(contour);
+  std::erase_if(result.contours,
+                [](const Contour& contour) { return contour.size() < 3; });
+  return result;
 }
 
 Region stroke(std::span<const Vec2> path, double width, Join join, Cap cap,

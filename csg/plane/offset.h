@@ -1,11 +1,14 @@
 #pragma once
 // Borders moved outwards or inwards, and pens drawn along paths.
 //
+// The border's edges are moved and joined to a curve that winds around what
+// they sweep as well; what it winds around is the result (Chen, McMains 2005;
+// so does Clipper).
+//
 // Corners are rounded to a grid of 1e-8 mm, 1500 times finer than OpenSCAD's
-// 2^-16 mm, because the polygon clipper underneath is exact on integers and on
-// nothing else. The grid is decimal, so that a coordinate such as 2.4 comes
-// back as the same double, and a face that stands at a layer's height in the
-// design still does.
+// 2^-16 mm. The grid is decimal, so that a coordinate such as 2.4 comes back as
+// the same double, and a face that stands at a layer's height in the design
+// still does.
 
 #include <span>
 
@@ -18,11 +21,15 @@ namespace lamina::planar {
 
 enum class Join { kRound, kMiter, kBevel };
 
+// A round join takes steps of an angle that the tolerance gives, and a last
+// one that may be shorter, or up to half as long again.
+enum class ArcSteps { kNearest, kUp };
+
 // Moves the border outwards by `amount` [mm], inwards if that is negative.
 //
-// arc_tolerance  greatest distance of a round join from its arc [mm]
+// arc_tolerance  greatest distance of a round join's steps from its arc [mm]
 Region offset(const Region& region, double amount, Join join,
-              double arc_tolerance);
+              double arc_tolerance, ArcSteps steps = ArcSteps::kNearest);
 
 enum class Cap { kButt, kRound, kSquare };
 
