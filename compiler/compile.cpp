@@ -1,6 +1,7 @@
 #include "compiler/compile.h"
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "compiler/make_rule.h"
 #include "compiler/passes.h"
 #include "parser/ast_printer.h"
+#include "parser/customizer.h"
 #include "slicer/formats/panel.h"
 
 namespace lamina::compiler {
@@ -117,6 +119,11 @@ bool compile(Compilation& c) {
   // does is no matter of its syntax.
   if (c.request.format == OutputFormat::kAst) {
     return finish_text(c, ast::print(c.program), begin_rule(c).get());
+  }
+  if (c.request.format == OutputFormat::kParam) {
+    const std::filesystem::path design = c.request.design;
+    return finish_text(c, parameters_json(c.program, design.stem().string()),
+                       begin_rule(c).get());
   }
 
   // Evaluate: the program runs, echoes, and leaves the CSG tree.

@@ -107,7 +107,8 @@ ast::Program load(Compilation& c) {
       c.language = choose_language(c);
       if (!request.parameter_file.empty() &&
           !apply_parameter_set(request.parameter_file, request.parameter_set,
-                               program, c.diagnostics, c.file_access())) {
+                               program, c.language, c.diagnostics,
+                               c.file_access())) {
         c.has_failed = true;
       }
       return program;

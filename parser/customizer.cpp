@@ -105,30 +105,45 @@ std::size_t Customizer::skip_comment(std::size_t place, std::uint32_t& line) {
   return end;
 }
 
-ParameterComment Customizer::comment_of(
-    const ast::Statement& assignment) const {
-  ParameterComment result;
+bool Customizer::is_parameter(const ast::Statement& assignment) const {
   const SourceRange range = assignment.range;
   const auto& node = std::get<ast::Assignment>(assignment.node);
-  if (range.source != &source_ || !node.value->range.is_known() ||
-      !ast::is_literal(*node.value)) {
-    return result;
-  }
-  const std::uint32_t line = source_.openscad_line(range.begin);
-  if (line >= end_line_) return result;
-  result.is_parameter = true;
-  result.description = read_description(source_.line_text(line - 1));
-  Arena arena;
+  return range.source == &source_ && node.value->range.is_known() &&
+         ast::is_literal(*node.value) &&
+         source_.openscad_line(range.begin) < end_line_;
+}
+
+const ast::Expr* Customizer::values_of(const ast::Statement& assignment,
+                                       Arena& arena) const {
+  const std::uint32_t line = source_.openscad_line(assignment.range.begin);
   const std::string comment(find_comment(source_.line_text(line)));
-  if (const ast::Expr* values = detail::read_customizer_value(comment, arena)) {
-    result.values.clear();
-    ast::append_expression(*values, result.values);
-  }
+  return detail::read_customizer_value(comment, arena);
+}
+
+const std::string* Customizer::group_of(
+    const ast::Statement& assignment) const {
+  const std::uint32_t line = source_.openscad_line(assignment.range.begin);
   const auto group =
       std::find_if(groups_.rbegin(), groups_.rend(),
                    [line](const Group& g) { return g.line < line; });
-  result.has_group = group != groups_.rend();
-  if (result.has_group) result.group = group->name;
+  return group == groups_.rend() ? nullptr : &group->name;
+}
+
+ParameterComment Customizer::comment_of(
+    const ast::Statement& assignment) const {
+  ParameterComment result;
+  if (!is_parameter(assignment)) return result;
+  const std::uint32_t line = source_.openscad_line(assignment.range.begin);
+  result.is_parameter = true;
+  result.description = read_description(source_.line_text(line - 1));
+  Arena arena;
+  if (const ast::Expr* values = values_of(assignment, arena)) {
+    result.values.clear();
+    ast::append_expression(*values, result.values);
+  }
+  const std::string* group = group_of(assignment);
+  result.has_group = group != nullptr;
+  if (result.has_group) result.group = *group;
   return result;
 }
 

@@ -9,8 +9,12 @@
 // is a parameter. The comment behind it says which values it may take, the
 // line above it describes it, and the last /* [group] */ above it groups it.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "parser/ast.h"
@@ -27,6 +31,21 @@ struct ParameterComment {
   std::string values = "\"\"";
 };
 
+// The values that the comment lets a parameter have, as the customizer of
+// OpenSCAD 2026 reads it. The parameter's own value is always one of them.
+struct ParameterRule {
+  struct Choice {
+    std::variant<double, std::string> value;
+    std::string label;
+  };
+  std::vector<Choice> choices;  // none: all
+  // Of numbers, and of each in a vector.
+  std::optional<double> least;
+  std::optional<double> greatest;
+  std::optional<double> step;
+  std::optional<std::size_t> most_bytes;  // of a text
+};
+
 class Customizer {
  public:
   // Reads the comments of a program, which must outlive the result. Cost: one
@@ -36,6 +55,11 @@ class Customizer {
   // assignment  a statement of the program that holds an ast::Assignment
   ParameterComment comment_of(const ast::Statement& assignment) const;
 
+  // Nothing for what OpenSCAD 2026 does not show: a variable that is no
+  // parameter, one of the group "Hidden", one whose value is neither a truth
+  // value, a number, a text nor a vector of one to four numbers.
+  std::optional<ParameterRule> rule_of(const ast::Statement& assignment) const;
+
  private:
   struct Group {
     std::string name;
@@ -44,6 +68,11 @@ class Customizer {
 
   explicit Customizer(const Source& source) : source_(source) {}
   std::size_t skip_comment(std::size_t place, std::uint32_t& line);
+  bool is_parameter(const ast::Statement& assignment) const;
+  // The comment behind it as an expression in `arena`; null: none.
+  const ast::Expr* values_of(const ast::Statement& assignment,
+                             Arena& arena) const;
+  const std::string* group_of(const ast::Statement& assignment) const;
   void scan();
 
   const Source& source_;
@@ -61,5 +90,12 @@ struct CustomizerEntry {
 // In the order of the design. A variable that is set more than once stands in
 // its first place and has its last value.
 std::vector<CustomizerEntry> list_parameters(const ast::Program& program);
+
+// All parameters with their rules as OpenSCAD 2026 exports them: what `-o
+// x.param` writes.
+//
+// title  the name of the design
+std::string parameters_json(const ast::Program& program,
+                            const std::string& title);
 
 }  // namespace lamina

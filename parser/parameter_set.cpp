@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "parser/customizer.h"
 #include "parser/detail/customizer_value.h"
 #include "parser/tree_facts.h"
 
@@ -152,57 +153,173 @@ const ast::Expr* read_value(std::string_view text, ast::ValueType type,
   return is_fit ? value : nullptr;
 }
 
-// Sets what `statement` assigns. False where the text is no value of a
-// parameter that wants true or false.
-bool set_value(const ast::Statement*& statement, std::string_view text,
-               Arena& arena) {
-  const auto& assignment = std::get<ast::Assignment>(statement->node);
-  const auto type = ast::type_of(*assignment.value);
-  if (type == ast::ValueType::kAny) return true;
-  const ast::Expr* value = read_value(text, type, arena);
-  if (value == nullptr) return type != ast::ValueType::kBool;
-  // A variable that was no parameter must not become one, so its value gets no
-  // place: comments describe values that have one.
-  const bool was_literal = ast::is_literal(*assignment.value);
-  const SourceRange range =
-      was_literal ? assignment.value->range : SourceRange();
-  ast::Statement replaced = *statement;
-  replaced.node = ast::Assignment{assignment.name,
-                                  arena.make(ast::Expr{value->node, range})};
-  statement = arena.make(replaced);
-  return true;
+// A value, and what of it does not keep to the parameter's rule.
+struct Fitted {
+  const ast::Expr* value = nullptr;  // null: keeps its own
+  bool keeps_rule = true;
+};
+
+const ast::Expr* make_number(double value, Arena& arena) {
+  return arena.make(ast::Expr{ast::Number{value}, {}});
 }
 
-// Sets values variable by variable, as OpenSCAD does: that decides which are
-// set before one fails.
-bool set_values(const std::vector<Entry>& entries, ast::Program& program) {
-  Arena& arena = *program.arena;
-  std::vector<const ast::Statement*> statements(program.statements.begin(),
-                                                program.statements.end());
-  bool is_good = true;
-  for (const std::size_t place :
-       ast::assignments_that_count(program.statements)) {
-    const ast::Statement*& statement = statements[place];
-    for (const Entry& entry : entries) {
-      if (std::get<ast::Assignment>(statement->node).name != entry.name) {
-        continue;
-      }
-      is_good = is_good && set_value(statement, entry.text, arena);
+// No more than so many bytes of a text, no character cut.
+std::string_view cut(std::string_view text, std::size_t most_bytes) {
+  std::size_t size = std::min(text.size(), most_bytes);
+  const auto goes_on = [](char c) { return (c & 0xC0) == 0x80; };
+  while (size > 0 && size < text.size() && goes_on(text[size])) --size;
+  return text.substr(0, size);
+}
+
+double clamp(double value, const ParameterRule& rule) {
+  if (rule.least) value = std::max(value, *rule.least);
+  if (rule.greatest) value = std::min(value, *rule.greatest);
+  return value;
+}
+
+Fitted fit_choice(std::string_view text, const ParameterRule& rule,
+                  Arena& arena) {
+  const ast::Expr* read = detail::read_customizer_value(text, arena);
+  const auto number = read ? ast::number_of(*read) : std::nullopt;
+  for (const ParameterRule::Choice& choice : rule.choices) {
+    const auto* as_number = std::get_if<double>(&choice.value);
+    if (as_number != nullptr && number == *as_number) return {read};
+    const auto* as_text = std::get_if<std::string>(&choice.value);
+    if (as_text != nullptr && text == *as_text) {
+      return {arena.make(ast::Expr{ast::String{arena.copy(text)}, {}})};
     }
   }
-  program.statements =
-      arena.copy(std::span<const ast::Statement* const>(statements));
-  return is_good;
+  return {nullptr, false};
 }
+
+Fitted fit_numbers(std::string_view text, const std::vector<double>& own,
+                   const ParameterRule& rule, Arena& arena) {
+  const ast::Expr* read = detail::read_customizer_value(text, arena);
+  auto numbers = read ? ast::numbers_of(*read) : std::nullopt;
+  if (!numbers || numbers->size() != own.size()) return {nullptr, false};
+  bool keeps_rule = true;
+  for (double& number : *numbers) {
+    keeps_rule = keeps_rule && clamp(number, rule) == number;
+    number = clamp(number, rule);
+  }
+  const auto copy = arena.copy(std::span<const double>(*numbers));
+  return {arena.make(ast::Expr{ast::Numbers{copy}, {}}), keeps_rule};
+}
+
+// The text as a value of a parameter that OpenSCAD 2026 shows.
+Fitted fit(std::string_view text, const ast::Expr& own,
+           const ParameterRule& rule, Arena& arena) {
+  if (!rule.choices.empty()) return fit_choice(text, rule, arena);
+  if (const auto numbers = ast::numbers_of(own)) {
+    return fit_numbers(text, *numbers, rule, arena);
+  }
+  const ast::Expr* value = read_value(text, ast::type_of(own), arena);
+  if (value == nullptr) return {nullptr, false};
+  if (const auto number = ast::number_of(*value)) {
+    const double within = clamp(*number, rule);
+    return {make_number(within, arena), within == *number};
+  }
+  if (rule.most_bytes && text.size() > *rule.most_bytes) {
+    return {
+        read_value(cut(text, *rule.most_bytes), ast::ValueType::kString, arena),
+        false};
+  }
+  return {value};
+}
+
+class SetApplier {
+ public:
+  SetApplier(const std::vector<Entry>& entries, ast::Program& program,
+             Language language, Diagnostics& diagnostics)
+      : entries_(entries),
+        program_(program),
+        arena_(*program.arena),
+        customizer_(Customizer::read(program)),
+        language_(language),
+        diagnostics_(diagnostics) {}
+
+  // Sets values variable by variable, as OpenSCAD does: that decides which are
+  // set before one fails. False where a text is no value of a parameter that
+  // wants true or false.
+  bool apply() {
+    std::vector<const ast::Statement*> statements(program_.statements.begin(),
+                                                  program_.statements.end());
+    bool is_good = true;
+    for (const std::size_t place :
+         ast::assignments_that_count(program_.statements)) {
+      for (const Entry& entry : entries_) {
+        const ast::Statement*& statement = statements[place];
+        if (std::get<ast::Assignment>(statement->node).name == entry.name) {
+          is_good = is_good && apply(entry, statement);
+        }
+      }
+    }
+    program_.statements =
+        arena_.copy(std::span<const ast::Statement* const>(statements));
+    return is_good;
+  }
+
+ private:
+  bool apply(const Entry& entry, const ast::Statement*& statement) {
+    const auto& own = *std::get<ast::Assignment>(statement->node).value;
+    const auto rule = customizer_.rule_of(*statement);
+    Fitted fitted;
+    if (rule) fitted = fit(entry.text, own, *rule, arena_);
+    const auto type = ast::type_of(own);
+    if (language_ == Language::k2021 && type != ast::ValueType::kAny) {
+      fitted.value = read_value(entry.text, type, arena_);
+      if (!fitted.value && type == ast::ValueType::kBool) return false;
+    }
+    if (!fitted.keeps_rule) warn(entry, *statement, fitted.value != nullptr);
+    if (fitted.value != nullptr) set(statement, *fitted.value);
+    return true;
+  }
+
+  void warn(const Entry& entry, const ast::Statement& statement, bool is_set) {
+    const std::string values = customizer_.comment_of(statement).values;
+    std::string text =
+        fmt::format("parameter {} = {} of the set ", entry.name, entry.text);
+    text += values == "\"\"" ? std::string("is no value for it")
+                             : fmt::format("does not keep to {}", values);
+    if (!is_set) {
+      text += "; it keeps its own value";
+    } else if (language_ == Language::k2026) {
+      text += "; it is moved there";
+    }
+    Diagnostic warning{Severity::kWarning, statement.range, std::move(text)};
+    warning.audience = Audience::kTerminal;  // OpenSCAD does not say it
+    diagnostics_.report(std::move(warning));
+  }
+
+  void set(const ast::Statement*& statement, const ast::Expr& value) {
+    const auto& assignment = std::get<ast::Assignment>(statement->node);
+    // A variable that was no parameter must not become one, so its value gets
+    // no place: comments describe values that have one.
+    const bool was_literal = ast::is_literal(*assignment.value);
+    const SourceRange range =
+        was_literal ? assignment.value->range : SourceRange();
+    ast::Statement replaced = *statement;
+    replaced.node = ast::Assignment{assignment.name,
+                                    arena_.make(ast::Expr{value.node, range})};
+    statement = arena_.make(replaced);
+  }
+
+  const std::vector<Entry>& entries_;
+  ast::Program& program_;
+  Arena& arena_;
+  const Customizer customizer_;
+  Language language_;
+  Diagnostics& diagnostics_;
+};
 
 }  // namespace
 
 bool apply_parameter_set(const std::string& path, const std::string& set,
-                         ast::Program& program, Diagnostics& diagnostics,
-                         const FileAccess& access) {
+                         ast::Program& program, Language language,
+                         Diagnostics& diagnostics, const FileAccess& access) {
   const auto entries = read_set(path, set, access, diagnostics);
   if (!entries) return false;
-  if (set_values(*entries, program)) return true;
+  if (SetApplier(*entries, program, language, diagnostics).apply()) return true;
   diagnostics.error(
       {},
       "Cannot apply Parameter Set 'conversion of data to type \"b\" failed'");

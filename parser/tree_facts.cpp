@@ -74,6 +74,31 @@ ValueType type_of(const Expr& expr) {
   return ValueType::kAny;
 }
 
+std::optional<double> number_of(const Expr& expr) {
+  if (const auto* number = std::get_if<Number>(&expr.node)) {
+    return number->value;
+  }
+  const auto* unary = std::get_if<Unary>(&expr.node);
+  if (unary == nullptr || unary->op != UnaryOp::kNegate) return std::nullopt;
+  const std::optional<double> operand = number_of(*unary->operand);
+  return operand ? std::optional(-*operand) : std::nullopt;
+}
+
+std::optional<std::vector<double>> numbers_of(const Expr& expr) {
+  if (const auto* numbers = std::get_if<Numbers>(&expr.node)) {
+    return std::vector(numbers->values.begin(), numbers->values.end());
+  }
+  const auto* vector = std::get_if<Vector>(&expr.node);
+  if (vector == nullptr) return std::nullopt;
+  std::vector<double> numbers;
+  for (const Expr* element : vector->elements) {
+    const std::optional<double> number = number_of(*element);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::vector<std::size_t> assignments_that_count(Statements statements) {
   std::vector<std::size_t> last;
   std::unordered_map<std::string_view, std::size_t> places;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "parser/ast.h"
@@ -25,6 +26,13 @@ enum class ValueType : std::uint8_t {
 // The type of the value of a literal, or of arithmetic on literals; kAny for
 // undef and for whatever names a variable or calls a function.
 ValueType type_of(const Expr& expr);
+
+// The number that a literal stands for, its sign included; nothing where it is
+// none.
+std::optional<double> number_of(const Expr& expr);
+
+// Those of a vector of such; nothing where it is none.
+std::optional<std::vector<double>> numbers_of(const Expr& expr);
 
 // The variables that a scope assigns, in the order of their first assignments:
 // of each the index of its last assignment, which counts.

@@ -45,6 +45,7 @@ Output:
                         .3mf             a stack of slices
                         .layers.json     layers with every digit
                         .csg .echo .ast  what the design makes, says, and is
+                        .param           its parameters, as JSON
   --export-format F   one of these formats, whatever the output's name
   --printer P         of images: whose panel they are for: a name or a file of
                       profile (see docs/formats.md) [plain; of .sl1

@@ -15,7 +15,7 @@ struct Written {
   std::string_view extension;
   OutputFormat format;
 };
-constexpr std::array<Written, 12> kWritten = {{
+constexpr std::array<Written, 13> kWritten = {{
     {"slc", OutputFormat::kSlc},
     {"cli", OutputFormat::kCli},
     {"svg", OutputFormat::kSvg},
@@ -26,6 +26,7 @@ constexpr std::array<Written, 12> kWritten = {{
     {"3mf", OutputFormat::kThreemf},
     {"layers.json", OutputFormat::kLayersJson},
     {"ast", OutputFormat::kAst},
+    {"param", OutputFormat::kParam},
     {"echo", OutputFormat::kEcho},
     {"csg", OutputFormat::kCsg},
 }};
@@ -53,7 +54,8 @@ bool has_extension(std::string_view name, std::string_view extension) {
 
 bool is_of_layers(OutputFormat format) {
   using enum OutputFormat;
-  return format != kAst && format != kEcho && format != kCsg;
+  return format != kAst && format != kParam && format != kEcho &&
+         format != kCsg;
 }
 
 bool is_of_images(OutputFormat format) {
@@ -85,7 +87,8 @@ FormatChoice choose_output_format(std::string_view name) {
   return {{},
           fmt::format(
               "'{}' has no extension that lamina knows (.slc .cli "
-              ".svg .png .sl1 .zip .nanodlp .3mf .layers.json .csg .echo .ast)",
+              ".svg .png .sl1 .zip .nanodlp .3mf .layers.json .csg .echo .ast "
+              ".param)",
               name),
           false};
 }

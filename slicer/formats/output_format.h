@@ -18,9 +18,10 @@ enum class OutputFormat {
   kNanoDlp,
   kThreemf,
   kLayersJson,
-  kAst,   // the parser's product
-  kEcho,  // what the design prints
-  kCsg,   // the evaluator's product
+  kAst,    // the parser's product
+  kParam,  // the parameters of the customizer
+  kEcho,   // what the design prints
+  kCsg,    // the evaluator's product
 };
 
 enum class CliEncoding { kBinary, kAscii };

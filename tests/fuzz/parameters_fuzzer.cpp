@@ -25,7 +25,9 @@ void set_parameters(const std::string& path, const std::string& set) {
   Diagnostics diagnostics;
   Loader loader(sources, diagnostics, {});
   ast::Program program = loader.load_text("x.scad", kDesign);
-  apply_parameter_set(path, set, program, diagnostics);
+  for (const Language language : {Language::k2021, Language::k2026}) {
+    apply_parameter_set(path, set, program, language, diagnostics);
+  }
   ast::print(program);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/parser/parsed.h"
 
@@ -60,6 +61,37 @@ TEST(Parameters, AreLiteralsBeforeTheFirstBrace) {
   EXPECT_EQ(Parsed("a = 1;\nb = a;\nc = [1, -a];\nmodule m() {}\nd = 1;").ast(),
             "module m() {\n}\n"
             "//Parameter(\"\")\na = 1;\nb = a;\nc = [1, -a];\nd = 1;\n");
+}
+
+TEST(Parameters, AreExportedWithTheirRules) {
+  const Parsed parsed(
+      "/* [ Stone ] */\n"
+      "// carat weight\n"
+      "carat = 0.5; // [0.25:0.25:3]\n"
+      "cut = \"round\"; // [round:Brilliant, oval]\n"
+      "count = 3; // [5]\n"
+      "name = \"Ada\"; // 8\n"
+      "at = [1, -2];\n"
+      "open = true;\n"
+      "/* [Hidden] */\n"
+      "eps = 0.01;\n");
+  const auto json =
+      nlohmann::json::parse(parameters_json(parsed.program(), "ring"));
+  EXPECT_EQ(json["title"], "ring");
+  const auto expected = nlohmann::json::parse(R"([
+    {"name": "carat", "caption": "carat weight", "group": "Stone",
+     "type": "number", "initial": 0.5, "min": 0.25, "max": 3.0, "step": 0.25},
+    {"name": "cut", "group": "Stone", "type": "string", "initial": "round",
+     "options": [{"name": "Brilliant", "value": "round"},
+                 {"name": "oval", "value": "oval"}]},
+    {"name": "count", "group": "Stone", "type": "number", "initial": 3.0,
+     "min": 0.0, "max": 5.0, "step": 1.0},
+    {"name": "name", "group": "Stone", "type": "string", "initial": "Ada",
+     "maxLength": 8},
+    {"name": "at", "group": "Stone", "type": "number", "initial": [1.0, -2.0]},
+    {"name": "open", "group": "Stone", "type": "boolean", "initial": true}
+  ])");
+  EXPECT_EQ(json["parameters"], expected) << json.dump(2);
 }
 
 }  // namespace

@@ -16,11 +16,11 @@ namespace {
 class Applied {
  public:
   Applied(const std::string& design, const std::string& file,
-          const std::string& set = "s")
+          const std::string& set = "s", Language language = Language::k2021)
       : parsed_(design), program_(parsed_.program()) {
     folder_.write("f.json", file);
-    is_good_ =
-        apply_parameter_set(folder_.file("f.json"), set, program_, messages_);
+    is_good_ = apply_parameter_set(folder_.file("f.json"), set, program_,
+                                   language, messages_);
   }
 
   bool is_good() const { return is_good_; }
@@ -111,6 +111,75 @@ TEST(ParameterSet, NamesTheLineOfBadJson) {
   EXPECT_NE(applied.message().find("f.json(2): syntax error"),
             std::string::npos)
       << applied.message();
+}
+
+// --- Rules of the customizer -------------------------------------------------
+
+// `x = <own>; // <comment>` with the entry `"x": "<entry>"`, and the warning.
+struct Kept {
+  std::string value;
+  std::string warning;
+  bool operator==(const Kept&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const Kept& kept) {
+  return out << kept.value << " " << kept.warning;
+}
+
+Kept kept(const std::string& own, const std::string& comment,
+          const std::string& entry, Language language = Language::k2026) {
+  const Applied applied("x = " + own + "; // " + comment + "\n",
+                        set_of("\"x\": \"" + entry + "\""), "s", language);
+  const std::string ast = applied.ast();
+  const std::size_t begin = ast.find("x = ") + 4;
+  return {ast.substr(begin, ast.find(';') - begin), applied.message()};
+}
+
+TEST(ParameterRules, TakeWhatKeepsToThem) {
+  EXPECT_EQ(kept("1", "[0:0.5:4]", "2.5"), (Kept{"2.5", ""}));
+  EXPECT_EQ(kept("1", "[1, 2, 3]", "2"), (Kept{"2", ""}));
+  EXPECT_EQ(kept("10", "[10:S, 20:M]", "20"), (Kept{"20", ""}));
+  EXPECT_EQ(kept("\"S\"", "[S:Small, M:Medium]", "M"), (Kept{"\"M\"", ""}));
+  EXPECT_EQ(kept("[1, 2]", "[9]", "[3, 9]"), (Kept{"[3, 9]", ""}));
+  EXPECT_EQ(kept("true", "", "0"), (Kept{"false", ""}));
+}
+
+TEST(ParameterRules, MoveNumbersIntoTheirRangeIn2026) {
+  const std::string said = "does not keep to [10 : 100]";
+  EXPECT_EQ(kept("34", "[10:100]", "340"),
+            (Kept{"100", "parameter x = 340 of the set " + said +
+                             "; it is moved there"}));
+  EXPECT_EQ(kept("34", "[10:100]", "340", Language::k2021),
+            (Kept{"340", "parameter x = 340 of the set " + said}));
+  // The design's own value is always good.
+  EXPECT_EQ(kept("200", "[10:100]", "150"), (Kept{"150", ""}));
+  EXPECT_EQ(kept("[12, 34]", "[1:50]", "[0, 60]").value, "[1, 50]");
+}
+
+TEST(ParameterRules, LeaveOutWhatIsNoChoiceIn2026) {
+  const std::string said =
+      "parameter x = S new of the set does not keep to "
+      "[[\"S\", \"Small\"], [\"M\", \"Medium\"]]";
+  EXPECT_EQ(kept("\"S\"", "[S:Small, M:Medium]", "S new"),
+            (Kept{"\"S\"", said + "; it keeps its own value"}));
+  EXPECT_EQ(kept("\"S\"", "[S:Small, M:Medium]", "S new", Language::k2021),
+            (Kept{"\"S new\"", said}));
+}
+
+TEST(ParameterRules, CutTextsToTheirLengthIn2026) {
+  EXPECT_EQ(kept("\"ab\"", "5", "abcdefg").value, "\"abcde\"");
+  EXPECT_EQ(kept("\"ab\"", "3", "ab\u00e9").value, "\"ab\"");
+}
+
+TEST(ParameterRules, AreThoseOfShownParametersOnly) {
+  const std::string design =
+      "/* [ Hidden ] */\nx = 1;\n/* [Shown] */\ny = 1;\n"
+      "module m() {}\nz = 1;\n";
+  const std::string set = set_of(R"("x": "2", "y": "2", "z": "2")");
+  const std::string of_2026 = Applied(design, set, "s", Language::k2026).ast();
+  EXPECT_NE(of_2026.find("x = 1;"), std::string::npos);
+  EXPECT_NE(of_2026.find("y = 2;"), std::string::npos);
+  EXPECT_NE(of_2026.find("z = 1;"), std::string::npos);
+  EXPECT_NE(Applied(design, set).ast().find("x = 2;"), std::string::npos);
 }
 
 }  // namespace
