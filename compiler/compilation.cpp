@@ -49,6 +49,7 @@ Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
       typesetter(module_folders_of(its_request), diagnostics,
                  files.file_access()) {
   diagnostics.set_hard_warnings(its_request.has_hard_warnings);
+  if (request.language == "2026") loader.set_language(Language::k2026);
 }
 
 std::size_t Compilation::count(Severity severity) const {

@@ -95,6 +95,13 @@ std::optional<slicer::Deviation> promised_deviation(const Request& request) {
   return deviation;
 }
 
+// Whether the run ends with an error though its text is complete: OpenSCAD 2026
+// ends so at the first of hard warnings, 2021.01 ends well.
+bool ends_hard(const Compilation& c) {
+  return c.has_failed && c.request.has_hard_warnings &&
+         c.language == Language::k2026;
+}
+
 // The panel of the printer; of formats without images an empty one.
 slicer::Panel chosen_panel(const Request& request, const FileAccess& access) {
   if (!slicer::is_of_images(request.format)) return {};
@@ -135,10 +142,10 @@ bool compile(Compilation& c) {
 
   // Texts end well even where the design failed, as openscad's do.
   if (c.request.format == OutputFormat::kEcho) {
-    return finish_text(c, echo_text(c), rule.get());
+    return finish_text(c, echo_text(c), rule.get()) && !ends_hard(c);
   }
   if (c.request.format == OutputFormat::kCsg) {
-    return finish_text(c, csg_text(c), rule.get());
+    return finish_text(c, csg_text(c), rule.get()) && !ends_hard(c);
   }
   if (c.has_failed) return false;
 

@@ -74,7 +74,8 @@ BLANKS    [ \t\r\n]*
 include{BLANKS}"<"      { yyextra->begin_token(*range); BEGIN(IN_INCLUDE); }
 <IN_INCLUDE>{
 [^\t\r\n>]+             { yyextra->set_file_name({yytext, static_cast<std::size_t>(yyleng)}); }
-[\t\r\n]+               { }
+\t+                     { }
+[\r\n]                  { yyextra->warn_in_2026("new lines in 'include<>'-statement is not defined - behavior may change in the future"); }
 ">"                     {
                           BEGIN(INITIAL);
                           if (yyextra->open_include()) {
@@ -88,7 +89,8 @@ include{BLANKS}"<"      { yyextra->begin_token(*range); BEGIN(IN_INCLUDE); }
 use{BLANKS}"<"          { yyextra->begin_token(*range); BEGIN(IN_USE); }
 <IN_USE>{
 [^\t\r\n>]+             { yyextra->set_file_name({yytext, static_cast<std::size_t>(yyleng)}); }
-[\t\r\n]+               { }
+\t+                     { }
+[\r\n]                  { yyextra->warn_in_2026("new lines 'use<>'-statement is not defined - behavior may change in the future"); }
 ">"                     {
                           BEGIN(INITIAL);
                           *range = yyextra->whole_token();
@@ -112,7 +114,7 @@ use{BLANKS}"<"          { yyextra->begin_token(*range); BEGIN(IN_USE); }
 \\x[0-7]{HEX}           |
 \\u{HEX}{4}             |
 \\U{HEX}{6}             { yyextra->add_code_point(yytext + 2); }
-\\                      { }
+\\                      { yyextra->warn_in_2026("Undefined escape sequence"); }
 \n                      { yyextra->break_string(*range); }
 [^\\\n\"]+              { yyextra->add_to_string({yytext, static_cast<std::size_t>(yyleng)}); }
 \"                      {

@@ -38,6 +38,11 @@ class Loader {
          std::vector<std::string> folders, std::string definitions = {},
          const FileAccess& access = kAllFiles);
 
+  // Whose words the parser's messages have, where that is known before it is
+  // done: 2021.01's else.
+  void set_language(Language language) { language_ = language; }
+  Language language() const { return language_; }
+
   // Reads and parses a design, its includes and all files that it uses.
   // Throws FileError if it cannot be read, AccessError where it or a file that
   // it names may not be, SyntaxError if it has errors (they are already
@@ -94,6 +99,7 @@ class Loader {
   std::vector<std::string> folders_;
   std::string definitions_;
   const FileAccess& access_;
+  Language language_ = Language::k2021;
   std::vector<std::string> files_;
   std::vector<std::string> fonts_;
   std::optional<NewerSyntax> newer_;

@@ -17,12 +17,6 @@
 
 namespace lamina::detail {
 
-namespace {
-
-std::string quote(std::string_view text) { return fmt::format("'{}'", text); }
-
-}  // namespace
-
 Reader::Reader(const Source& source, Arena& arena, Loader& loader,
                SyntaxErrors& errors, Diagnostics& diagnostics)
     : arena_(arena),
@@ -68,16 +62,34 @@ std::vector<const Source*> Reader::open_includes() const {
   return open;
 }
 
+void Reader::warn_in_2026(std::string_view message) {
+  if (loader_.language() == Language::k2026) {
+    diagnostics_.warning(place(), std::string(message));
+  }
+}
+
+// Places of missing files are OpenSCAD 2026's; 2021.01 has none.
+void Reader::warn_of_file(std::string_view message, SourceRange range,
+                          std::string_view hint) {
+  const std::string text = fmt::format("{} '{}'.", message, file_name_);
+  if (loader_.language() == Language::k2026) {
+    diagnostics_.warning(place(), text);
+  } else {
+    diagnostics_.report(
+        {Severity::kWarning, {}, text, {}, {{range, std::string(hint)}}});
+  }
+}
+
 bool Reader::open_include() {
   const std::string path =
       loader_.find(whole_token(), file_name_, open_includes());
   const Source* source = path.empty() ? nullptr : loader_.open_include(path);
   if (source == nullptr) {
-    diagnostics_.report({Severity::kWarning,
-                         {},
-                         "Can't open include file " + quote(file_name_) + ".",
-                         {},
-                         {{whole_token(), "included here"}}});
+    const bool is_named_so =
+        loader_.language() == Language::k2021 || !path.empty();
+    warn_of_file(
+        is_named_so ? "Can't open include file" : "Can't find include file",
+        whole_token(), "included here");
     return false;
   }
   open_file(*source);
@@ -94,11 +106,7 @@ ast::Use* Reader::find_use(SourceRange range) {
   std::string path = loader_.find(range, file_name_, open_includes());
   const bool is_found = !path.empty();
   if (!is_found) {
-    diagnostics_.report({Severity::kWarning,
-                         {},
-                         "Can't open library " + quote(file_name_) + ".",
-                         {},
-                         {{range, "used here"}}});
+    warn_of_file("Can't open library", range, "used here");
     path = file_name_;
   }
   return arena_.make(ast::Use{arena_.copy(path), range, is_found});
@@ -132,15 +140,30 @@ void Reader::close_bracket() {
   brackets_.pop_back();
 }
 
-bool Reader::read_number(const char* begin, const char* end,
-                         double& value) const {
+bool Reader::read_number(const char* begin, const char* end, double& value) {
   const auto result = std::from_chars(begin, end, value);
-  if (result.ec == std::errc()) return true;
+  if (result.ec == std::errc()) {
+    constexpr double kGreatestExact = 0x1p53;
+    if (value > kGreatestExact) warn_of_digits({begin, end}, value);
+    return true;
+  }
   // Too large or too small.
   const auto small =
       parse_number({begin, static_cast<std::size_t>(end - begin)});
   value = small.value_or(HUGE_VAL);
   return small.has_value();
+}
+
+void Reader::warn_of_digits(std::string_view digits, double value) {
+  std::uint64_t whole = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto read = std::from_chars(digits.data(), end, whole);
+  if (read.ptr != end) return;  // no integer
+  const bool is_exact = read.ec == std::errc() && value < 0x1p64 &&
+                        static_cast<std::uint64_t>(value) == whole;
+  if (is_exact) return;
+  warn_in_2026(
+      fmt::format("Integer \"{}\" cannot be represented precisely", digits));
 }
 
 void Reader::report_syntax_error(SourceRange range, std::string_view symbol,

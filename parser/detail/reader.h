@@ -45,6 +45,9 @@ class Reader {
   void begin_token(SourceRange range) { opening_ = token_begin_ = range; }
   SourceRange whole_token() const;
 
+  // What OpenSCAD 2021.01 accepts without a word.
+  void warn_in_2026(std::string_view message);
+
   // `include <…>` and `use <…>`.
   void set_file_name(std::string_view name) { file_name_ = name; }
   bool open_include();   // false: not found, a warning is reported
@@ -64,7 +67,7 @@ class Reader {
   void close_bracket();
 
   // False if the number is beyond double.
-  bool read_number(const char* begin, const char* end, double& value) const;
+  bool read_number(const char* begin, const char* end, double& value);
 
   // An error at the token `range`, which the grammar calls `symbol`; what it
   // could take there is `expected`.
@@ -87,6 +90,9 @@ class Reader {
   };
 
   void open_file(const Source& source);
+  void warn_of_file(std::string_view message, SourceRange range,
+                    std::string_view hint);
+  void warn_of_digits(std::string_view digits, double value);
   std::vector<const Source*> open_includes() const;
   SourceRange last_text(SourceRange before) const;
 

@@ -80,6 +80,26 @@ TEST_F(LoaderTest, MissingFilesAreWarnings) {
   EXPECT_EQ(loader_.used_program(program_.uses[0]), nullptr);
 }
 
+TEST_F(LoaderTest, MessagesHaveTheWordsOf2026WhereThatIsAskedFor) {
+  loader_.set_language(Language::k2026);
+  write("main.scad",
+        "include <no/i.scad>\nuse <no/u.scad>\nx = \"\\q\";\n"
+        "y = 18446744073709551600;\ninclude <\nno.scad>\n");
+  load("main.scad");
+  const std::string place = " in file main.scad, line ";
+  EXPECT_EQ(messages(),
+            "WARNING: Can't find include file 'no/i.scad'." + place + "1\n" +
+                "WARNING: Can't open library 'no/u.scad'." + place + "2\n" +
+                "WARNING: Undefined escape sequence" + place + "3\n" +
+                "WARNING: Integer \"18446744073709551600\" cannot be "
+                "represented precisely" +
+                place + "4\n" +
+                "WARNING: new lines in 'include<>'-statement is not defined - "
+                "behavior may change in the future" +
+                place + "6\n" + "WARNING: Can't find include file 'no.scad'." +
+                place + "6\n");
+}
+
 TEST_F(LoaderTest, AFolderIsNoFile) {
   write("sub/x.scad", "");
   write("main.scad", "include <sub>\nuse <sub>");

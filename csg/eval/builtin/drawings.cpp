@@ -39,9 +39,25 @@ std::string folder_of(const Frame& frame) {
 
 enum class Kind : std::uint8_t { kDim, kCross };
 
+bool takes(Kind kind, std::string_view name) {
+  return name == "file" || name == "layer" || name == "origin" ||
+         name == "scale" || (kind == Kind::kDim && name == "name");
+}
+
+// 2026 says so before it takes any argument, 2021.01 when it comes to it.
+void warn_of_unknown(Kind kind, const CallCode& code, Frame& frame) {
+  for (const WrittenArgument& argument : code.arguments) {
+    if (takes(kind, argument.name)) continue;
+    warn(code, frame, "variable \"{}\" not specified as parameter",
+         argument.name);
+  }
+}
+
 // Reads the arguments, which all go by name.
 Query read_query(Kind kind, const CallCode& code, Frame& frame) {
   Query query;
+  const bool is_2021 = frame.in.is_2021();
+  if (!is_2021) warn_of_unknown(kind, code, frame);
   for (const WrittenArgument& argument : code.arguments) {
     const Value value = run(argument.value, frame);
     if (argument.name == "file") {
@@ -60,9 +76,9 @@ Query read_query(Kind kind, const CallCode& code, Frame& frame) {
       }
     } else if (argument.name == "scale") {
       if (value.is_number()) query.scale = value.as_number();
-    } else if (argument.name == "name" && kind == Kind::kDim) {
+    } else if (takes(kind, argument.name)) {
       query.name = to_text(value);
-    } else {
+    } else if (is_2021) {
       warn(code, frame, "{}(..., {}=...) is not supported", code.name,
            argument.name);
     }

@@ -41,6 +41,7 @@ std::string find_file(std::string_view name, const std::string& from,
 }
 
 std::string relative_path(const std::string& path, Frame& frame) {
+  if (path.empty() && !frame.in.is_2021()) return "";
   const FileAccess& access = frame.in.file_access();
   const fs::path folder = access.weakly_canonical(frame.in.design_folder());
   const fs::path file =

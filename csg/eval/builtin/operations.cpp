@@ -116,6 +116,9 @@ Offset offset(const ModuleCall& call) {
   offset.facets = facets_of(call);
   offset.amount = 1;
   if (call["r"].is_number()) {
+    if (call["delta"].is_number() && !call.in.is_2021()) {
+      call.warn("Ignoring \"delta\" argument as \"r\" is defined too.");
+    }
     offset.amount = call["r"].as_number();
   } else if (call["delta"].is_number()) {
     offset.amount = call["delta"].as_number();
