@@ -1,5 +1,6 @@
 #include "csg/eval/run/interpreter.h"
 
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -51,23 +52,42 @@ Interpreter::~Interpreter() {
 
 // --- Messages ---------------------------------------------------------------
 
-void Interpreter::warn(SourceRange range, std::string message,
-                       const Source* document) {
+void Interpreter::report_warning(Diagnostic warning) {
   ++effects_;
-  Diagnostic diagnostic{.severity = Severity::kWarning,
-                        .range = range,
-                        .message = std::move(message),
-                        .document = document};
   // The calls that lead to a hard warning are noted like those of an error.
-  if (diagnostics_.has_hard_warnings()) fail(std::move(diagnostic));
-  diagnostics_.report(std::move(diagnostic));
+  if (diagnostics_.has_hard_warnings()) fail(std::move(warning));
+  diagnostics_.report(std::move(warning));
 }
 
-void Interpreter::warn_of_unknown(SourceRange range, std::string_view variable,
+void Interpreter::warn(SourceRange range, std::string message,
+                       const Source* document) {
+  report_warning({.severity = Severity::kWarning,
+                  .range = range,
+                  .message = std::move(message),
+                  .document = document});
+}
+
+void Interpreter::warn_of_unknown(Named kind, SourceRange range,
+                                  std::string_view name,
                                   const Source* document) {
-  warn(range,
-       "Ignoring unknown variable " + quoted_name(variable, language(), "'"),
-       document);
+  constexpr std::array<std::string_view, 3> kWords = {"variable", "function",
+                                                      "module"};
+  const bool is_variable = kind == Named::kVariable;
+  Diagnostic warning{
+      .severity = Severity::kWarning,
+      .range = range,
+      .message = fmt::format(
+          "Ignoring unknown {} {}", kWords[static_cast<std::size_t>(kind)],
+          quoted_name(name, is_variable ? language() : Language::k2021, "'")),
+      .document = document};
+  if (is_variable && range.is_defined_by_option()) {
+    warning.hints.push_back(
+        {{}, "a text needs quotes that the shell leaves: -D 'name=\"text\"'"});
+  } else if (const std::string hint = resolver_.did_you_mean(kind, name);
+             !hint.empty()) {
+    warning.hints.push_back({{}, hint});
+  }
+  report_warning(std::move(warning));
 }
 
 // Reports each text once for each place.
@@ -211,12 +231,16 @@ const LiteralCall& Interpreter::find_plan(const CallCode& call,
 
 // --- Used files -------------------------------------------------------------
 
+// In 2021 what is called sees the `$` variables that its file sets; in 2026
+// only the file's own assignments do.
 Frame& Interpreter::enter_unit(const Unit& unit) {
   if (!unit.is_resolved) resolve(unit);
   if (const UnitValues& known = unit_values_[unit.number];
       known.frame != nullptr) {
-    for (const auto& [index, value] : known.dynamic_values) {
-      bind_dynamic(index, value);
+    if (is_2021()) {
+      for (const auto& [index, value] : known.dynamic_values) {
+        bind_dynamic(index, value);
+      }
     }
     return *known.frame;
   }
@@ -236,6 +260,7 @@ Frame& Interpreter::enter_unit(const Unit& unit) {
     }
     known.frame = &made.frame;
   }
+  if (!is_2021()) unwind(mark);
   return made.frame;
 }
 
