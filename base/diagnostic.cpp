@@ -88,6 +88,13 @@ void append_carets(std::string& text, SourceRange range) {
 
 void append_terminal_text(std::string& text, SourceRange range,
                           std::string_view prefix, std::string_view message) {
+  if (range.is_defined_by_option()) {
+    const LineColumn place = range.source->line_column(range.begin);
+    std::string_view line = range.source->line_text(place.line);
+    if (line.ends_with(';')) line.remove_suffix(1);
+    text += fmt::format("-D {}: {}{}\n", printable(line), prefix, message);
+    return;
+  }
   if (range.is_known()) {
     const LineColumn place = range.source->line_column(range.begin);
     text += fmt::format("{}:{}:{}: ", shown_path(range.source->path()),

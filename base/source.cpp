@@ -32,6 +32,10 @@ Source::Source(std::string path, std::string text)
     end = text_.find('\n', end + 1);
   }
   has_returns_ = text_.find('\r') != std::string::npos;
+  const std::size_t mark = text_.rfind(kEndOfFile);
+  if (mark != std::string::npos && mark + kEndOfFile.size() < text_.size()) {
+    definitions_begin_ = mark + kEndOfFile.size();
+  }
 }
 
 std::uint32_t Source::openscad_line(std::uint32_t offset) const {

@@ -5,6 +5,7 @@
 // that each later stage can say where a fault comes from. A range is two
 // offsets and a pointer: 16 bytes, cheap enough to stand everywhere.
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -12,6 +13,9 @@
 #include <vector>
 
 namespace lamina {
+
+// Stands between the text of a file and the definitions of `-D` behind it.
+inline constexpr std::string_view kEndOfFile = "\n\x03\n";
 
 // Line and column, both counted from 1; the column counts bytes.
 struct LineColumn {
@@ -36,12 +40,16 @@ class Source {
   // none, and in the messages of its parser, it is the line above.
   std::uint32_t openscad_line(std::uint32_t offset) const;
 
+  // Where the definitions of `-D` begin; npos where there are none.
+  std::size_t definitions_begin() const { return definitions_begin_; }
+
   // Line `line` (from 1) without its line break.
   std::string_view line_text(std::uint32_t line) const;
 
  private:
   std::string path_;
   std::string text_;
+  std::size_t definitions_begin_ = std::string::npos;
   std::vector<std::uint32_t> line_starts_;
   bool has_returns_ = false;
 };
@@ -53,6 +61,10 @@ struct SourceRange {
   std::uint32_t end = 0;
 
   bool is_known() const { return source != nullptr; }
+  // Whether it stands in the definitions of `-D`.
+  bool is_defined_by_option() const {
+    return is_known() && begin >= source->definitions_begin();
+  }
   // Its first line as OpenSCAD counts it; 0 without a place.
   std::uint32_t openscad_line() const {
     return is_known() ? source->openscad_line(begin) : 0;

@@ -5,7 +5,9 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -14,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/memory_end.h"
+#include "base/similar.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
 #include "cli/process/exit_status.h"
@@ -31,6 +34,24 @@ int show_usage_fault(std::string_view message, int status = kUsageFault) {
     print_error("Run 'lamina --help' for the options.\n");
   }
   return status;
+}
+
+// For the first word that is no option but much like one.
+std::string hint_for(const CLI::App& app) {
+  std::vector<std::string> own;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      own.push_back("--" + name);
+    }
+  }
+  const std::vector<std::string_view> names(own.begin(), own.end());
+  for (const std::string& word : app.remaining()) {
+    if (!word.starts_with("--")) continue;
+    const std::string hint =
+        did_you_mean(std::string_view(word).substr(0, word.find('=')), names);
+    if (!hint.empty()) return "; " + hint;
+  }
+  return "";
 }
 
 // Reads the words into the options of `command`, `limits` and `access`. Returns
@@ -53,6 +74,8 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
   } catch (const CLI::CallForVersion& version) {
     print_out(fmt::format("{}\n", version.what()));
     return kDone;
+  } catch (const CLI::ExtrasError& error) {
+    return show_usage_fault(error.what() + hint_for(app));
   } catch (const CLI::ParseError& error) {
     return show_usage_fault(error.what());
   } catch (const UsageError& error) {

@@ -80,6 +80,11 @@ struct Compilation {
     return temporary_files.file_access();
   }
 
+  // Whether a warning ends the run without an output.
+  bool is_strict() const {
+    return request.is_strict.value_or(file_access().is_confined());
+  }
+
   // Messages of a severity so far.
   std::size_t count(Severity severity) const;
 

@@ -1,5 +1,6 @@
 #include "compiler/compile.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -51,6 +52,36 @@ void require_sliceable(const Compilation& c, const csg::Lowered& lowered) {
   if (lowered.outline() != nullptr && !holds_outlines(c.request.format)) {
     throw GeometryError("Current top level object is not a 3D object.");
   }
+}
+
+// A file without units, or in others, makes pieces a thousand times too small
+// or too large.
+void warn_of_size(Compilation& c, const csg::Lowered& lowered) {
+  constexpr double kSmallest = 0.25;  // mm
+  constexpr double kLargest = 5000;
+  if (lowered.scene() == nullptr) return;
+  const Vec3 size = lowered.scene()->box.size();
+  const double greatest = std::max({size.x, size.y, size.z});
+  if (greatest >= kSmallest && greatest <= kLargest) return;
+  Diagnostic warning{
+      Severity::kWarning,
+      {},
+      fmt::format("the design is {:g} x {:g} x {:g} mm: are its units "
+                  "millimetres?",
+                  size.x, size.y, size.z)};
+  warning.audience = Audience::kTerminal;
+  c.diagnostics.report(std::move(warning));
+}
+
+// Whether warnings end the run here, without an output.
+bool ends_strictly(Compilation& c) {
+  const std::size_t warnings = c.count(Severity::kWarning);
+  if (!c.is_strict() || warnings == 0) return false;
+  c.has_failed = true;
+  c.diagnostics.error(
+      {}, fmt::format("{} {}, so nothing is written; with --no-strict it is",
+                      warnings, warnings == 1 ? "warning" : "warnings"));
+  return true;
 }
 
 // Passes layers on and counts them.
@@ -121,6 +152,7 @@ slicer::Panel chosen_panel(const Request& request, const FileAccess& access) {
 bool compile(Compilation& c) {
   // Load and parse: the files of the design, then its parameter set.
   c.program = load(c);
+  if (ends_strictly(c)) return false;
 
   // The syntax tree is written before anything is evaluated: what a design
   // does is no matter of its syntax.
@@ -140,6 +172,8 @@ bool compile(Compilation& c) {
   // cut short does not know all of it.
   const auto rule = c.tree.root != nullptr ? begin_rule(c) : nullptr;
 
+  if (ends_strictly(c)) return false;
+
   // Texts end well even where the design failed, as openscad's do.
   if (c.request.format == OutputFormat::kEcho) {
     return finish_text(c, echo_text(c), rule.get()) && !ends_hard(c);
@@ -156,8 +190,11 @@ bool compile(Compilation& c) {
   // leaves. The scene is turned and placed here, while it is still one thing.
   const csg::Lowered lowered = lower_tree(c);
 
+  if (ends_strictly(c)) return false;
+
   // Plan, and slice layer by layer into the output.
   make_layers(c, lowered, settings_of(c.request), output.sink());
+  if (ends_strictly(c)) return false;
 
   // Write the end of the output. It gets its name when all has gone well.
   output.finish(c.diagnostics, c.report);
@@ -179,6 +216,7 @@ csg::Lowered lower_tree(Compilation& c) {
   csg::Lowered lowered = lower(c);
   c.tree.drop_nodes();
   require_sliceable(c, lowered);
+  warn_of_size(c, lowered);
   return lowered;
 }
 

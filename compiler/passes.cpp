@@ -8,6 +8,7 @@
 #include "base/thread_clock.h"
 #include "csg/boundary/move_scene.h"
 #include "csg/csg_printer.h"
+#include "parser/definitions.h"
 #include "parser/parameter_set.h"
 #include "slicer/plan/orientation.h"
 
@@ -105,6 +106,7 @@ ast::Program load(Compilation& c) {
     return timed(c.report.load_seconds, [&] {
       ast::Program program = read_design(request, c.loader);
       c.language = choose_language(c);
+      check_definitions(program, c.loader, c.diagnostics);
       if (!request.parameter_file.empty() &&
           !apply_parameter_set(request.parameter_file, request.parameter_set,
                                program, c.language, c.diagnostics,

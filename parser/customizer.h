@@ -46,6 +46,10 @@ struct ParameterRule {
   std::optional<std::size_t> most_bytes;  // of a text
 };
 
+// Whether the customizer lets a parameter with this rule have the value. What
+// is no literal may be anything.
+bool keeps_rule(const ast::Expr& value, const ParameterRule& rule);
+
 class Customizer {
  public:
   // Reads the comments of a program, which must outlive the result. Cost: one

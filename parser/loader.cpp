@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "base/paths.h"
+#include "base/similar.h"
 #include "parser/parser.h"
 
 namespace lamina {
@@ -20,9 +21,6 @@ namespace {
 
 // Where Debian and most others install OpenSCAD's libraries.
 constexpr const char* kInstalledLibraries = "/usr/share/openscad/libraries";
-
-// Stands between a file and what `-D` appends.
-constexpr std::string_view kEndOfFile = "\n\x03\n";
 
 // Ranges are 32-bit offsets.
 constexpr std::uintmax_t kLargestText =
@@ -42,6 +40,18 @@ bool is_open(const std::string& path, std::span<const Source* const> open) {
   return std::any_of(open.begin(), open.end(), [&](const Source* source) {
     return source->path() == path;
   });
+}
+
+// A hint for a file that is not there: one of the same kind beside it.
+std::string similar_file(const std::string& path, const FileAccess& access) {
+  const fs::path wanted(path);
+  std::vector<std::string> names;
+  for (const std::string& name : access.names_in(folder_of(path))) {
+    if (fs::path(name).extension() != wanted.extension()) continue;
+    names.push_back((wanted.parent_path() / name).string());
+  }
+  const std::vector<std::string_view> all(names.begin(), names.end());
+  return did_you_mean(path, all);
 }
 
 }  // namespace
@@ -134,7 +144,14 @@ const Source* Loader::open_include(const std::string& path) {
 ast::Program Loader::load(const std::string& path) {
   access_.require(path);
   std::optional<std::string> text = read(path);
-  if (!text) throw FileError("Can't open input file '" + path + "'!");
+  if (!text) {
+    Diagnostic missing{
+        Severity::kError, {}, "Can't open input file '" + path + "'!"};
+    if (const std::string hint = similar_file(path, access_); !hint.empty()) {
+      missing.hints.push_back({{}, hint});
+    }
+    throw FileError(std::move(missing));
+  }
   add_file(path);
   return load_text(path, std::move(*text));
 }

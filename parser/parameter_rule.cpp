@@ -125,6 +125,27 @@ std::string trimmed(const std::string& text) {
 
 }  // namespace
 
+bool keeps_rule(const ast::Expr& value, const ParameterRule& rule) {
+  if (!ast::is_literal(value)) return true;
+  if (!rule.choices.empty()) {
+    const auto chosen = read_choice(value);
+    return std::any_of(
+        rule.choices.begin(), rule.choices.end(),
+        [&](const Choice& choice) { return choice.value == chosen; });
+  }
+  const auto is_within = [&](double number) {
+    return number >= rule.least.value_or(number) &&
+           number <= rule.greatest.value_or(number);
+  };
+  if (const auto number = number_of(value)) return is_within(*number);
+  if (const auto numbers = numbers_of(value)) {
+    return std::all_of(numbers->begin(), numbers->end(), is_within);
+  }
+  const auto* text = std::get_if<ast::String>(&value.node);
+  return text == nullptr ||
+         text->value.size() <= rule.most_bytes.value_or(text->value.size());
+}
+
 std::optional<ParameterRule> Customizer::rule_of(
     const ast::Statement& assignment) const {
   if (!is_parameter(assignment)) return std::nullopt;

@@ -24,7 +24,7 @@ constexpr std::string_view kBatchHelp =
 Makes a piece for every row of a table: the header of a .csv file names
 variables of the design, every row gives their values. Of a .json file of
 OpenSCAD's customizer, every parameter set is a piece. A bad row never stops
-the rest.
+the rest. A piece with a warning is not written, unless --no-strict.
 
   --table TABLE   the table: .csv (with commas, semicolons or tabs) or .json
   -o PATTERN      the outputs: {name} or any other column, {row} the number of
@@ -65,6 +65,7 @@ class BatchCommand : public Command {
               "-o needs a pattern, such as 'out/{{name}}.slc' or "
               "'out/{{row}}.slc'");
     choose_format(table_.request, output_options_, table_.request.output);
+    if (!table_.request.is_strict) table_.request.is_strict = true;
     table_.skipped.insert(skipped_.begin(), skipped_.end());
   }
 

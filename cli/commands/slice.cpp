@@ -1,12 +1,15 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
+#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/similar.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
@@ -61,6 +64,9 @@ Design:
   --check-parameter-ranges true|false
                       warn of numbers out of range [false]
   --hardwarnings      stop at the first warning
+  --strict            write nothing where there is a warning, whichever; so do
+                      batches and runs with --root
+  --no-strict         but not those with this option
   --language WORD     what OpenSCAD the design is written for: 2021 (2021.01),
                       2026, or auto: 2026 if 2021.01 cannot parse it [auto]
   --seed N            seed of rands() where the design gives none [0]
@@ -145,6 +151,16 @@ void refuse_layers(const std::string& file) {
           : "");
 }
 
+// A word that looks like no file but much like a command.
+void refuse_misspelt_command(const std::string& word) {
+  constexpr std::array<std::string_view, 4> kCommands = {"batch", "inspect",
+                                                         "compare", "view"};
+  if (word.find_first_of("./") != std::string::npos) return;
+  const std::string hint = did_you_mean(word, kCommands);
+  refuse_if(!hint.empty(), "there is no command '{0}'; {1} (a file: ./{0})",
+            word, hint);
+}
+
 class SliceCommand : public Command {
  public:
   std::string_view help() const override { return kHelp; }
@@ -161,6 +177,7 @@ class SliceCommand : public Command {
 
   void check() override {
     refuse_if(designs_.empty(), "no design was given");
+    refuse_misspelt_command(designs_.front());
     for (const std::string& design : designs_) refuse_layers(design);
     refuse_if(request_.output == "-" && output_.export_format.empty(),
               "-o - needs --export-format");

@@ -148,6 +148,11 @@ void add_output_options(CLI::App& app, compiler::Request& request,
         request.cli_encoding = word == "ascii" ? slicer::CliEncoding::kAscii
                                                : slicer::CliEncoding::kBinary;
       });
+  CLI::Option* strict = app.add_flag_callback(
+      "--strict", [&request] { request.is_strict = true; });
+  app.add_flag_callback("--no-strict",
+                        [&request] { request.is_strict = false; })
+      ->excludes(strict);
   app.add_option("--printer", request.printer)->type_name("printer");
   add_choice(app, "--mirror", {"x", "y", "xy"},
              [&request](const std::string& axes) {

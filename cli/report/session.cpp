@@ -53,13 +53,21 @@ Diagnostic with_folded_notes(const Diagnostic& diagnostic) {
   return folded;
 }
 
+bool ends_run(const Diagnostic& diagnostic,
+              const compiler::Compilation& compilation) {
+  return diagnostic.severity == Severity::kWarning &&
+         (compilation.request.has_hard_warnings || compilation.is_strict());
+}
+
 }  // namespace
 
 Session::Session(const compiler::Request& request, bool is_quiet,
                  const Context& context, Inbox* inbox)
     : terminal(is_quiet, inbox),
       compilation(request, context.temporary_files,
-                  [this](const Diagnostic& d) { terminal.show(d); }) {
+                  [this](const Diagnostic& d) {
+                    terminal.show(d, ends_run(d, compilation));
+                  }) {
   compilation.evaluation_stack = std::min(context.stack / 2, kEvaluationStack);
   compilation.on_progress = [this](std::uint64_t done, std::uint64_t all) {
     ProgressLine& line = terminal.progress();
@@ -101,8 +109,9 @@ Terminal::Terminal(bool is_quiet, Inbox* inbox)
 
 Terminal::~Terminal() { finish(); }
 
-void Terminal::show(const Diagnostic& diagnostic) {
-  if (is_quiet_ && diagnostic.severity != Severity::kError) return;
+void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
+  const bool is_loud = diagnostic.severity == Severity::kError || ends_run;
+  if (is_quiet_ && !is_loud) return;
   std::string text = caret_text(with_folded_notes(diagnostic));
   if (text.empty()) return;
   if (inbox_ != nullptr && inbox_->first_error.empty() &&

@@ -34,8 +34,9 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
 
   // Shows a message in caret form. One that was shown before is only counted;
-  // equal echoes are counted while they follow each other.
-  void show(const Diagnostic& diagnostic);
+  // equal echoes are counted while they follow each other. When quiet, errors
+  // only, and what ends the run.
+  void show(const Diagnostic& diagnostic, bool ends_run = false);
 
   // A line of its own; not when quiet.
   void say(std::string_view line);

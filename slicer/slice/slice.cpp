@@ -77,6 +77,16 @@ void warn_of_losses(const CompensationCounts& losses, double compensation,
                           : "Current top level object is empty.");
 }
 
+// Throws where the design stands between the heights at which layers are cut.
+void require_height(const csg::Scene& scene, const Settings& settings) {
+  const double height = scene.box.size().z;
+  if (!settings.heights.empty() || height > settings.layer_thickness) return;
+  throw GeometryError(
+      fmt::format("The design is {:g} mm high: too thin for layers of {:g} mm, "
+                  "which are cut in their middle",
+                  height, settings.layer_thickness));
+}
+
 [[noreturn]] void throw_out_of_range(const SliceReport& report,
                                      const LayerNumbers& wanted) {
   throw GeometryError(
@@ -148,6 +158,7 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (report.layers == 0) {
     if (report.layers_there > 0) throw_out_of_range(report, settings.written);
+    require_height(scene, settings);
     throw_empty(report);
   }
   return report;

@@ -398,7 +398,8 @@ TEST_F(Root, IsReadAsOnesOwnFolderIs) {
   // What is missing inside is reported as ever, and the run goes on.
   all_.write("root/d.scad",
              "include <none.scad>\nimport(\"none.stl\");\ncube(1);\n");
-  const auto confined = run_confined({"d.scad", "-o", "a.slc", "-q"});
+  const auto confined =
+      run_confined({"d.scad", "-o", "a.slc", "-q", "--no-strict"});
   const auto free = support::run_process(
       command({"d.scad", "-o", "b.slc", "-q"}), all_.file("root"));
   EXPECT_EQ(confined.status, 0) << confined.errors;
@@ -445,8 +446,8 @@ TEST_F(Root, ReadsOnlyRegularFiles) {
   ASSERT_EQ(::mkfifo(inside("o.slc").c_str(), 0666), 0);
   all_.write("root/d.scad",
              "import(\"f.stl\");\necho(import(\"f.json\"));\ncube(1);\n");
-  EXPECT_EQ(run_confined({"d.scad", "-o", "a.slc"}).status, 0);
-  EXPECT_EQ(run_confined({"d.scad", "-o", "o.slc"}).status, 1);
+  EXPECT_EQ(run_confined({"d.scad", "-o", "a.slc", "--no-strict"}).status, 0);
+  EXPECT_EQ(run_confined({"d.scad", "-o", "o.slc", "--no-strict"}).status, 1);
 }
 
 TEST_F(Root, WritesToStandardOutput) {

@@ -332,7 +332,7 @@ TEST(Medal, ShowsItsNameAndDate) {
   // In the field: the rim with field and eye, the bezel, and the letter.
   const auto field = [](const std::string& letter) {
     const auto layer = slice_at(
-        "medal", 1.65, {"-D", "name=\"" + letter + "\"", "-D", "name_width=4"});
+        "medal", 1.65, {"-D", "name=\"" + letter + "\"", "-D", "name_width=6"});
     return support::count_loops(layer.contours);
   };
   EXPECT_EQ(field("T"), (LoopCounts{3, 3}));

@@ -1,5 +1,6 @@
 #include "csg/eval/builtin/functions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -134,6 +135,13 @@ Value call_math(const CallCode& code, Frame& frame) {
 const BuiltinFunctionRow* find_builtin_function(std::string_view name) {
   const auto row = builtin_table().find(name);
   return row == builtin_table().end() ? nullptr : row->second;
+}
+
+std::vector<std::string_view> builtin_function_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, row] : builtin_table()) names.push_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace lamina::csg

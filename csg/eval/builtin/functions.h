@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "csg/eval/code/code.h"
 
@@ -16,6 +17,8 @@ struct BuiltinFunctionRow {
 
 // Null where there is no such function.
 const BuiltinFunctionRow* find_builtin_function(std::string_view name);
+
+std::vector<std::string_view> builtin_function_names();
 
 // The resolver knows it by its address, since its argument does not warn.
 Value builtin_is_undef(const CallCode& code, Frame& frame);

@@ -279,4 +279,14 @@ const BuiltinModuleEntry* find_builtin_module(std::string_view name,
   return entry == table.end() ? nullptr : &entry->second;
 }
 
+std::vector<std::string_view> builtin_module_names() {
+  std::vector<std::string_view> names = {"for", "intersection_for", "let",
+                                         "assign", "assert"};
+  for (const auto& [name, entry] : builtin_table(Language::k2026)) {
+    names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 }  // namespace lamina::csg

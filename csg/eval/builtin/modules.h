@@ -27,6 +27,8 @@ struct BuiltinModuleEntry {
 const BuiltinModuleEntry* find_builtin_module(std::string_view name,
                                               Language language);
 
+std::vector<std::string_view> builtin_module_names();
+
 // --- For the files that define them ---
 
 // A call of a module, and the values that it gives to parameters.

@@ -6,6 +6,8 @@
 // reaches the resolver through this interface, and sees what it makes as const.
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "csg/eval/code/code.h"
 
@@ -18,6 +20,8 @@ struct CodeCounts {
   std::uint32_t calls = 0;          // CallCode::number
   std::uint32_t tail_defaults = 0;  // CallCode::TailDefault::number
 };
+
+enum class Named : std::uint8_t { kVariable, kFunction, kModule };
 
 class LazyResolver {
  public:
@@ -32,6 +36,10 @@ class LazyResolver {
   // The plan for a call of a literal. Made once for each pair.
   virtual const LiteralCall& plan_for(const CallCode& call,
                                       const FunctionLiteral& literal) = 0;
+
+  // A hint for a name that nothing has: the similar one of all that the design
+  // and its files define at their top, and OpenSCAD itself. Empty: none.
+  virtual std::string did_you_mean(Named kind, std::string_view name) = 0;
 
   virtual CodeCounts counts() const = 0;
 };

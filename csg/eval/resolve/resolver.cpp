@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "base/similar.h"
+#include "csg/eval/builtin/functions.h"
+#include "csg/eval/builtin/modules.h"
 #include "csg/eval/resolve/expression.h"
 #include "csg/eval/resolve/statement.h"
 #include "parser/loader.h"
@@ -249,6 +252,25 @@ void Resolver::resolve(const Module& asked) {
   StatementResolver resolver(*this, scope);
   resolver.module(module);
   module.slot_count = activation.slot_count;
+}
+
+std::string Resolver::did_you_mean(Named kind, std::string_view name) {
+  const auto [hint, is_new] = hints_.try_emplace({kind, name});
+  if (!is_new) return hint->second;
+  std::vector<std::string_view> names;
+  if (kind == Named::kModule) names = builtin_module_names();
+  if (kind == Named::kFunction) names = builtin_function_names();
+  const auto add = [&](const auto& table) {
+    for (const auto& [own, code] : table) names.push_back(own);
+  };
+  for (const DeclaredUnit& unit : units_) {
+    if (unit.scope == nullptr) continue;
+    if (kind == Named::kVariable) add(unit.scope->variables);
+    if (kind == Named::kFunction) add(unit.scope->functions);
+    if (kind == Named::kModule) add(unit.scope->modules);
+  }
+  std::sort(names.begin(), names.end());
+  return hint->second = lamina::did_you_mean(name, names);
 }
 
 }  // namespace lamina::csg

@@ -129,6 +129,7 @@ class Resolver : public LazyResolver {
   void resolve(const Module& module) override;
   const LiteralCall& plan_for(const CallCode& call,
                               const FunctionLiteral& literal) override;
+  std::string did_you_mean(Named kind, std::string_view name) override;
   CodeCounts counts() const override { return counts_; }
 
   // --- For ExpressionResolver and StatementResolver
@@ -241,6 +242,7 @@ class Resolver : public LazyResolver {
   std::map<std::pair<const void*, std::string>, const FunctionLiteral*>
       extra_literals_;
   std::deque<DeclaredUnit> units_;
+  std::map<std::pair<Named, std::string_view>, std::string> hints_;
   std::unordered_map<const ast::Program*, DeclaredUnit*> unit_of_;
   CodeCounts counts_;
 };

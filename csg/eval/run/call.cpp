@@ -351,8 +351,7 @@ Value call_closure(const CallCode& code, const Value& function, Frame& frame) {
 }
 
 Value report_unknown(const CallCode& code, Frame& frame) {
-  frame.in.warn(code.range,
-                fmt::format("Ignoring unknown function '{}'", code.name));
+  frame.in.warn_of_unknown(Named::kFunction, code.range, code.name);
   return Value();
 }
 

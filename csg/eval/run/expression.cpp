@@ -58,7 +58,8 @@ Value run_dynamic(const Expression& expression, Frame& frame) {
   const Value& value = frame.in.dynamic(code.index);
   if (!value.is_unset()) return value;
   if (!code.is_silent) {
-    frame.in.warn_of_unknown(code.range, code.name, frame.document);
+    frame.in.warn_of_unknown(Named::kVariable, code.range, code.name,
+                             frame.document);
   }
   return Value();
 }
@@ -68,7 +69,7 @@ Value run_inexact_literal(const Expression& expression, Frame& frame) {
   return Value(code.value);
 }
 Value run_unknown_variable(const Expression& expression, Frame& frame) {
-  frame.in.warn_of_unknown(expression.range,
+  frame.in.warn_of_unknown(Named::kVariable, expression.range,
                            as<UnknownVariable>(expression).name);
   return Value();
 }

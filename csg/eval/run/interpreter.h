@@ -52,7 +52,7 @@ class Interpreter {
   // code's file, and null where it shows them relative to the design.
   void warn(SourceRange range, std::string message,
             const Source* document = nullptr);
-  void warn_of_unknown(SourceRange range, std::string_view variable,
+  void warn_of_unknown(Named kind, SourceRange range, std::string_view name,
                        const Source* document = nullptr);
   void deprecate(SourceRange range, std::string message,
                  const Source* document = nullptr);
@@ -213,6 +213,7 @@ class Interpreter {
   }
 
  private:
+  void report_warning(Diagnostic warning);
   struct Saved {
     std::uint32_t index;
     Value value;

@@ -136,8 +136,7 @@ void run_builtin_module(const InstantiationCode& instantiation, Frame& frame) {
 }
 
 void run_unknown_module(const InstantiationCode& code, Frame& frame) {
-  frame.in.warn(code.range,
-                fmt::format("Ignoring unknown module '{}'", code.name));
+  frame.in.warn_of_unknown(Named::kModule, code.range, code.name);
 }
 
 // --- Control ----------------------------------------------------------------

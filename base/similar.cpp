@@ -1,0 +1,66 @@
+#include "base/similar.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/letter_case.h"
+
+namespace lamina {
+namespace {
+
+// The fewest letters to change, add, drop or swap with a neighbour: the
+// "optimal string alignment" of Damerau and Levenshtein.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last;
+  std::vector<std::size_t> last(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::swap(before_last, last);
+    std::swap(last, row);
+    row.assign(b.size() + 1, i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + change});
+      const bool is_swapped =
+          i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string_view most_similar(std::string_view name,
+                              std::span<const std::string_view> candidates) {
+  const std::size_t most = (name.size() + 2) / 3;
+  const std::string lower = lower_case(name);
+  std::size_t least = most + 1;
+  std::string_view best;
+  for (const std::string_view candidate : candidates) {
+    if (candidate == name) continue;
+    const std::size_t gap = candidate.size() > name.size()
+                                ? candidate.size() - name.size()
+                                : name.size() - candidate.size();
+    if (gap > most) continue;
+    const std::size_t distance = edit_distance(lower, lower_case(candidate));
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string did_you_mean(std::string_view name,
+                         std::span<const std::string_view> candidates) {
+  const std::string_view similar = most_similar(name, candidates);
+  return similar.empty() ? "" : fmt::format("did you mean '{}'?", similar);
+}
+
+}  // namespace lamina

@@ -1,0 +1,20 @@
+#pragma once
+// "Did you mean": the name among others that a misspelt one most likely is.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lamina {
+
+// Empty where none is near: within one letter in three that is wrong, missing,
+// too much, or swapped with its neighbour. Letter case does not count. Of
+// equally near ones the first.
+std::string_view most_similar(std::string_view name,
+                              std::span<const std::string_view> candidates);
+
+// "did you mean 'sphere'?", empty where none is near.
+std::string did_you_mean(std::string_view name,
+                         std::span<const std::string_view> candidates);
+
+}  // namespace lamina

@@ -1,0 +1,180 @@
+// What must not pass silently: each with its message, and the status that
+// --strict makes of it.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::ProcessResult;
+using support::TemporaryFolder;
+
+constexpr auto kDesign =
+    "initials = \"AB\";\n"
+    "inner = 17;       // [10:20]\n"
+    "style = \"round\";  // [round, square]\n"
+    "cube(inner);\n"
+    "translate([0, 0, 16]) linear_extrude(2) text(initials);\n";
+
+class Strict : public ::testing::Test {
+ protected:
+  Strict() { folder_.write("d.scad", kDesign); }
+
+  // Whether d.slc was written, too.
+  void expect(std::vector<std::string> words, int status,
+              const std::string& messages) {
+    words.insert(words.end(), {"-o", "d.slc"});
+    const ProcessResult result = run(folder_, words);
+    EXPECT_EQ(result.status, status) << result.errors;
+    EXPECT_EQ(result.errors.substr(0, messages.size()), messages);
+    EXPECT_EQ(std::filesystem::exists(folder_.file("d.slc")), status == 0);
+    std::filesystem::remove(folder_.file("d.slc"));
+  }
+
+  // A warning, and what --strict adds to it.
+  void expect_warning(std::vector<std::string> words,
+                      const std::string& warning) {
+    expect(words, 0, warning + "d.slc: ");
+    words.insert(words.end(), {"--strict", "-q"});
+    expect(words, 1,
+           warning +
+               "error: 1 warning, so nothing is written; with --no-strict it "
+               "is\n");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Strict, NamesThatTheDesignLacks) {
+  expect_warning({"d.scad", "-D", "intials=\"XY\""},
+                 "-D intials=\"XY\": warning: the design has no variable "
+                 "'intials'\nnote: did you mean 'initials'?\n");
+  expect({"d.scad", "--strict", "-D", "$fn=9", "-D", "inner=20"}, 0, "d.slc: ");
+}
+
+TEST_F(Strict, TextsWhoseQuotesTheShellTook) {
+  expect_warning({"d.scad", "-D", "initials=XY"},
+                 "-D initials=XY: warning: Ignoring unknown variable 'XY'\n"
+                 "note: a text needs quotes that the shell leaves: -D "
+                 "'name=\"text\"'\n");
+  expect_warning({"d.scad", "-D", "inner=abc"},
+                 "-D inner=abc: warning: Ignoring unknown variable 'abc'\n"
+                 "note: a text needs quotes that the shell leaves: -D "
+                 "'name=\"text\"'\n");
+}
+
+TEST_F(Strict, ValuesThatAreNoExpressions) {
+  expect({"d.scad", "-D", "inner="}, 1,
+         "-D inner=: error: Parser error: syntax error\n");
+}
+
+TEST_F(Strict, ValuesThatTheCustomizerDoesNotAllow) {
+  expect_warning({"d.scad", "-D", "inner=50"},
+                 "-D inner=50: warning: the value does not keep to [10 : 20]\n"
+                 "d.scad:2:1: note: the design says so here\n"
+                 "    2 | inner = 17;       // [10:20]\n"
+                 "      | ^~~~~~~~~~~\n");
+  expect_warning({"d.scad", "-D", "style=\"oval\""},
+                 "-D style=\"oval\": warning: the value does not keep to "
+                 "[\"round\", \"square\"]\n"
+                 "d.scad:3:1: note: the design says so here\n"
+                 "    3 | style = \"round\";  // [round, square]\n"
+                 "      | ^~~~~~~~~~~~~~~~\n");
+  folder_.write("s.json", R"({"parameterSets": {"s": {"inner": "50"}}})");
+  expect_warning({"d.scad", "-p", "s.json", "-P", "s"},
+                 "d.scad:2:1: warning: parameter inner = 50 of the set does "
+                 "not keep to [10 : 20]\n"
+                 "    2 | inner = 17;       // [10:20]\n"
+                 "      | ^~~~~~~~~~~\n");
+}
+
+TEST_F(Strict, MisspeltModulesAndFunctions) {
+  folder_.write("d.scad", "cube(10); shpere(3);\n");
+  expect_warning({"d.scad"},
+                 "d.scad:1:11: warning: Ignoring unknown module 'shpere'\n"
+                 "    1 | cube(10); shpere(3);\n"
+                 "      |           ^~~~~~~~~\n"
+                 "note: did you mean 'sphere'?\n");
+  folder_.write("d.scad", "function twice(x) = 2 * x; cube(twise(1) + 1);\n");
+  const ProcessResult result = run(folder_, {"d.scad"});
+  EXPECT_NE(result.errors.find("note: did you mean 'twice'?\n"),
+            std::string::npos)
+      << result.errors;
+}
+
+TEST_F(Strict, HardWarningsSpeakThoughTheRunIsQuiet) {
+  folder_.write("d.scad", "cube(10); shpere(3);\n");
+  expect({"d.scad", "-q", "--hardwarnings"}, 1,
+         "d.scad:1:11: warning: Ignoring unknown module 'shpere'\n");
+}
+
+TEST_F(Strict, IsTheRuleUnderARoot) {
+  expect({"d.scad", "--root", ".", "--no-import", "-q"}, 1,
+         "d.scad:5:41: warning: Can't get font \n"
+         "    5 | translate([0, 0, 16]) linear_extrude(2) text(initials);\n"
+         "      |                                         ^~~~~~~~~~~~~~\n"
+         "error: 1 warning, so nothing is written; with --no-strict it is\n");
+  expect({"d.scad", "--root", ".", "--no-import", "-q", "--no-strict"}, 0, "");
+}
+
+TEST_F(Strict, IsTheRuleInBatches) {
+  folder_.write("b.scad", "n = 1; cube(n); if (n == 2) shpere(3);\n");
+  folder_.write("t.csv", "n\n1\n2\n");
+  const ProcessResult strict =
+      run(folder_, {"batch", "b.scad", "--table", "t.csv", "-o", "{row}.slc"});
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_NE(strict.errors.find("error: 1 warning, so nothing is written"),
+            std::string::npos)
+      << strict.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("1.slc")));
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("2.slc")));
+  EXPECT_EQ(run(folder_, {"batch", "b.scad", "--table", "t.csv", "-o",
+                          "{row}.slc", "--no-strict"})
+                .status,
+            0);
+}
+
+TEST_F(Strict, FilesInOtherUnits) {
+  folder_.write("d.scad", "scale(0.001) cube([20, 10, 200]);\n");
+  expect_warning({"d.scad", "--layer", "0.01"},
+                 "warning: the design is 0.02 x 0.01 x 0.2 mm: are its units "
+                 "millimetres?\n");
+  folder_.write("d.scad", "scale(1000) cube([20, 1, 1]);\n");
+  const ProcessResult large = run(folder_, {"d.scad", "--layer", "100"});
+  EXPECT_NE(large.errors.find("warning: the design is 20000 x 1000 x 1000 mm: "
+                              "are its units millimetres?\n"),
+            std::string::npos)
+      << large.errors;
+}
+
+TEST_F(Strict, DesignsThinnerThanALayer) {
+  folder_.write("d.scad", "cube([1, 1, 0.02]);\n");
+  expect({"d.scad"}, 1,
+         "error: The design is 0.02 mm high: too thin for layers of 0.05 mm, "
+         "which are cut in their middle\n");
+  folder_.write("d.scad", "cube(17);\n");
+  expect({"d.scad", "--layer", "50"}, 1,
+         "error: The design is 17 mm high: too thin for layers of 50 mm, which "
+         "are cut in their middle\n");
+}
+
+TEST_F(Strict, MisspeltWordsGetAGuess) {
+  expect({"d.scad", "--layr", "0.1"}, 2,
+         "lamina: The following argument was not expected: --layr; did you "
+         "mean '--layer'?\n");
+  expect({"insepct"}, 2,
+         "lamina: there is no command 'insepct'; did you mean 'inspect'? (a "
+         "file: ./insepct)\n");
+  expect({"dd.scad"}, 1,
+         "error: Can't open input file 'dd.scad'!\n"
+         "note: did you mean 'd.scad'?\n");
+}
+
+}  // namespace
+}  // namespace lamina::cli
