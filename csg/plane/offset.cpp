@@ -120,8 +120,10 @@ class Mover {
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const Vec2 before = contour[(i + contour.size() - 1) % contour.size()];
       const Vec2 after = contour[(i + 1) % contour.size()];
+      const double shorter = std::min(glm::distance(before, contour[i]),
+                                      glm::distance(contour[i], after));
       add_corner(contour[i], outwards(before, contour[i]),
-                 outwards(contour[i], after), curve);
+                 outwards(contour[i], after), shorter, curve);
     }
     return curve;
   }
@@ -132,12 +134,18 @@ class Mover {
     return {direction.y, -direction.x};
   }
 
-  // Normals of the edges before and after it.
-  void add_corner(Vec2 corner, Vec2 before, Vec2 after, Contour& curve) const {
+  // before, after  normals of its edges
+  // shorter        length of the shorter one [mm]
+  void add_corner(Vec2 corner, Vec2 before, Vec2 after, double shorter,
+                  Contour& curve) const {
     const double sine = before.x * after.y - before.y * after.x;
     const double cosine = glm::dot(before, after);
     if (std::abs(sine * amount_) * kGridPerMm < 1 && cosine > 0) {
       add(corner + before * amount_, curve);
+    } else if (sine * amount_ < 0 &&
+               -sine * amount_ <= shorter / 2 * (1 + cosine)) {
+      // The moved edges cross before their middles.
+      add_miter(corner, before, after, curve);
     } else if (sine * amount_ < 0) {
       // The edges' strips overlap.
       add(corner + before * amount_, curve);
@@ -147,12 +155,17 @@ class Mover {
       add_arc(corner, before, after, std::atan2(sine, cosine), curve);
     } else if (join_ == Join::kMiter &&
                1 + cosine >= 2 / (kMiterLimit * kMiterLimit)) {
-      add(corner + (before + after) * (amount_ / (1 + cosine)), curve);
+      add_miter(corner, before, after, curve);
     } else {
       const double share = std::tan(std::atan2(sine, cosine) / 4);
       add(corner + (before + across(before) * share) * amount_, curve);
       add(corner + (after - across(after) * share) * amount_, curve);
     }
+  }
+
+  void add_miter(Vec2 corner, Vec2 before, Vec2 after, Contour& curve) const {
+    const double share = amount_ / (1 + glm::dot(before, after));
+    add(corner + (before + after) * share, curve);
   }
 
   void add_arc(Vec2 corner, Vec2 before, Vec2 after, double angle,
