@@ -178,6 +178,12 @@ std::string report_text(const compiler::Compilation& compilation,
        {"peak_memory_bytes", peak_memory_bytes()}}));
 }
 
+// "1 layer", "98 layers"; `more` is the word for several.
+std::string counted(std::uint64_t count, std::string_view one,
+                    std::string_view more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
+}
+
 // "ring.slc: 98 layers, 810 loops, …"
 std::string summary_line(const compiler::Compilation& compilation,
                          double earlier_seconds) {
@@ -185,12 +191,16 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {} layers, {} loops, {} vertices, {}\n"
+      "{}: {}, {}, {}, {}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
-      output == "-" ? "standard output" : output, slice.layers, slice.loops,
-      slice.points, memory_text(report.output_bytes),
+      output == "-" ? "standard output" : output,
+      counted(slice.layers, "layer", "layers"),
+      counted(slice.loops, "loop", "loops"),
+      counted(slice.points, "vertex", "vertices"),
+      memory_text(report.output_bytes),
+      slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
       process_seconds() - earlier_seconds, report.load_seconds,
       report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
       slice.sweep_seconds, slice.output_seconds,
