@@ -44,12 +44,16 @@ bool is_open(const std::string& path, std::span<const Source* const> open) {
 
 // A hint for a file that is not there: one of the same kind beside it.
 std::string similar_file(const std::string& path, const FileAccess& access) {
+  using Names = std::vector<std::string>;
   const fs::path wanted(path);
-  std::vector<std::string> names;
-  for (const std::string& name : access.names_in(folder_of(path))) {
+  const std::string folder =
+      wanted.has_parent_path() ? wanted.parent_path().string() : ".";
+  Names names;
+  for (const std::string& name : access.list(folder).value_or(Names())) {
     if (fs::path(name).extension() != wanted.extension()) continue;
     names.push_back((wanted.parent_path() / name).string());
   }
+  std::sort(names.begin(), names.end());
   const std::vector<std::string_view> all(names.begin(), names.end());
   return did_you_mean(path, all);
 }

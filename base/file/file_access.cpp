@@ -347,15 +347,4 @@ std::string FileAccess::scratch_folder() const {
   return folder == nullptr || *folder == '\0' ? "/tmp" : folder;
 }
 
-std::vector<std::string> FileAccess::names_in(const std::string& folder) const {
-  if (is_confined()) return {};
-  std::vector<std::string> names;
-  std::error_code fault;
-  for (const auto& entry : fs::directory_iterator(folder, fault)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 }  // namespace lamina

@@ -114,10 +114,6 @@ class FileAccess {
   // errno tells why; it is 0 for what is no regular file. Never waits.
   OpenFile open(const std::string& path) const;
 
-  // The names of what stands in a folder, sorted, for hints; none where files
-  // are confined.
-  std::vector<std::string> names_in(const std::string& folder) const;
-
   // All bytes of a file, or, where nothing is confined, of a stream such as a
   // pipe. errno as above.
   std::optional<std::string> read(const std::string& path) const;

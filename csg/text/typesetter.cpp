@@ -178,7 +178,13 @@ std::vector<std::vector<Vec2>> Typesetter::outline(
     Diagnostics& diagnostics) {
   const Typeset& typeset = checked(engine().set(params, chords));
   for (const Message& message : typeset.messages) {
-    diagnostics.report({message.severity, range, message.words});
+    Diagnostic said{message.severity, range, message.words};
+    if (!typeset.has_font && readable_fonts_->is_confined()) {
+      said.hints.push_back({{},
+                            "the system's fonts may not be read: try "
+                            "--allow-read /usr/share/fonts"});
+    }
+    diagnostics.report(std::move(said));
   }
   std::vector<std::vector<Vec2>> contours;
   std::size_t begin = 0;

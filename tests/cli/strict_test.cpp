@@ -119,6 +119,8 @@ TEST_F(Strict, IsTheRuleUnderARoot) {
          "d.scad:5:41: warning: Can't get font \n"
          "    5 | translate([0, 0, 16]) linear_extrude(2) text(initials);\n"
          "      |                                         ^~~~~~~~~~~~~~\n"
+         "note: the system's fonts may not be read: try --allow-read "
+         "/usr/share/fonts\n"
          "error: 1 warning, so nothing is written; with --no-strict it is\n");
   expect({"d.scad", "--root", ".", "--no-import", "-q", "--no-strict"}, 0, "");
 }
