@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/plane.h"
 #include "csg/boundary/convex_hull.h"
 #include "csg/lower/detail/tracks.h"
 #include "csg/plane/offset.h"
@@ -23,20 +24,17 @@ using planar::Region;
 constexpr double kRadians = std::numbers::pi / 180;
 
 Vec2 turned(Vec2 v, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
+  return std::cos(angle) * v + std::sin(angle) * left_of(v);
 }
 
 // Adds convex solids to one mesh.
 class Cutters {
  public:
-  // At each height z the strip that is nearer than z to the edge.
-  void add_strip(const Edge& edge, double top) {
-    const Vec2 out = edge.normal() * top;
-    add({Vec3(edge.begin, 0), Vec3(edge.end, 0), Vec3(edge.begin - out, top),
-         Vec3(edge.begin + out, top), Vec3(edge.end - out, top),
-         Vec3(edge.end + out, top)});
+  // Begins with the strips along all edges of the region.
+  Cutters(const Region& region, double top) {
+    for (const Contour& contour : region.contours) {
+      for (const Edge& edge : edges_of(contour)) add_strip(edge, top);
+    }
   }
 
   void add(std::vector<Vec3> points) {
@@ -52,6 +50,14 @@ class Cutters {
   Mesh take() { return std::move(mesh_); }
 
  private:
+  // At each height z the strip that is nearer than z to the edge.
+  void add_strip(const Edge& edge, double top) {
+    const Vec2 out = edge.normal() * top;
+    add({Vec3(edge.begin, 0), Vec3(edge.end, 0), Vec3(edge.begin - out, top),
+         Vec3(edge.begin + out, top), Vec3(edge.end - out, top),
+         Vec3(edge.end + out, top)});
+  }
+
   Mesh mesh_;
 };
 
@@ -132,9 +138,8 @@ double greatest_depth(const Region& region) {
 }
 
 Mesh round_cutters(const Region& region, double top, double corner_step_deg) {
-  Cutters cutters;
+  Cutters cutters(region, top);
   for (const Contour& contour : region.contours) {
-    for (const Edge& edge : edges_of(contour)) cutters.add_strip(edge, top);
     for (const ReflexCorner& corner : reflex_corners(contour)) {
       add_fan(cutters, corner, top, corner_step_deg);
     }
@@ -143,10 +148,7 @@ Mesh round_cutters(const Region& region, double top, double corner_step_deg) {
 }
 
 Mesh sharp_cutters(const Region& region, double top) {
-  Cutters cutters;
-  for (const Contour& contour : region.contours) {
-    for (const Edge& edge : edges_of(contour)) cutters.add_strip(edge, top);
-  }
+  Cutters cutters(region, top);
   for (const Track& track : trace_corners(region)) {
     add_track(cutters, track, top);
   }

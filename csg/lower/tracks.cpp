@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <queue>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "base/plane.h"
 #include "csg/limits.h"
 
 namespace lamina::csg {
@@ -30,32 +30,17 @@ constexpr double kStraight = 1e-9;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
-double distance(Vec2 p, const Edge& edge) {
-  const Vec2 along = edge.end - edge.begin;
-  const double share = glm::dot(p - edge.begin, along) / glm::dot(along, along);
-  return glm::distance(p, edge.begin + along * std::clamp(share, 0.0, 1.0));
-}
-
-double size_of(const std::vector<Edge>& edges) {
-  Vec2 low(kNever);
-  Vec2 high(-kNever);
-  for (const Edge& edge : edges) {
-    low = glm::min(low, edge.begin);
-    high = glm::max(high, edge.begin);
-  }
-  return std::max(high.x - low.x, high.y - low.y);
-}
-
 class Tracer {
  public:
   explicit Tracer(const Region& region) {
+    Box2 box;
     for (const Contour& contour : region.contours) {
       const std::vector<Edge> edges = edges_of(contour);
       edges_.insert(edges_.end(), edges.begin(), edges.end());
+      box.add(contour);
     }
-    same_ = std::max(kSame, kSameShare * size_of(edges_));
+    const Vec2 size = box.size();
+    same_ = std::max(kSame, kSameShare * std::max(size.x, size.y));
   }
 
   void start(Vec2 point, double time, const Edge& before, const Edge& after) {
@@ -122,7 +107,7 @@ class Tracer {
       const double share = cross(way, track.velocity) / rate;
       const bool meets = time > 0 && share >= 0 && share <= 1;
       if (!meets || track.start_time + time >= earliest) continue;
-      if (distance(track.start, edge) > same_) {
+      if (distance_to_segment(track.start, edge.begin, edge.end) > same_) {
         earliest = track.start_time + time;
       }
     }
@@ -230,10 +215,7 @@ class Tracer {
 
 Vec2 Edge::direction() const { return glm::normalize(end - begin); }
 
-Vec2 Edge::normal() const {
-  const Vec2 d = direction();
-  return {-d.y, d.x};
-}
+Vec2 Edge::normal() const { return left_of(direction()); }
 
 double ReflexCorner::turn() const {
   const Vec2 from = before.direction();

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/memory_end.h"
+#include "base/plane.h"
 #include "csg/limits.h"
 #include "csg/plane/boolean.h"
 
@@ -91,7 +92,7 @@ void drop_straight(Contour& contour) {
     const Vec2 before = kept.empty() ? contour.back() : kept.back();
     const Vec2 along = contour[(i + 1) % contour.size()] - before;
     const Vec2 way = contour[i] - before;
-    const double aside = std::abs(way.x * along.y - way.y * along.x);
+    const double aside = std::abs(cross(way, along));
     const bool is_between = glm::dot(way, along) > 0 &&
                             glm::dot(way, along) < glm::dot(along, along);
     if (!is_between || aside * kGridPerMm > kCleanDistance * glm::length(along))
@@ -130,15 +131,14 @@ class Mover {
 
  private:
   static Vec2 outwards(Vec2 begin, Vec2 end) {
-    const Vec2 direction = glm::normalize(end - begin);
-    return {direction.y, -direction.x};
+    return -left_of(glm::normalize(end - begin));
   }
 
   // before, after  normals of its edges
   // shorter        length of the shorter one [mm]
   void add_corner(Vec2 corner, Vec2 before, Vec2 after, double shorter,
                   Contour& curve) const {
-    const double sine = before.x * after.y - before.y * after.x;
+    const double sine = cross(before, after);
     const double cosine = glm::dot(before, after);
     if (std::abs(sine * amount_) * kGridPerMm < 1 && cosine > 0) {
       add(corner + before * amount_, curve);
@@ -158,8 +158,8 @@ class Mover {
       add_miter(corner, before, after, curve);
     } else {
       const double share = std::tan(std::atan2(sine, cosine) / 4);
-      add(corner + (before + across(before) * share) * amount_, curve);
-      add(corner + (after - across(after) * share) * amount_, curve);
+      add(corner + (before + left_of(before) * share) * amount_, curve);
+      add(corner + (after - left_of(after) * share) * amount_, curve);
     }
   }
 
@@ -179,13 +179,11 @@ class Mover {
     Vec2 spoke = before;
     add(corner + spoke * amount_, curve);
     for (double i = 1; i < count; ++i) {
-      spoke = spoke * c + across(spoke) * s;
+      spoke = spoke * c + left_of(spoke) * s;
       add(corner + spoke * amount_, curve);
     }
     add(corner + after * amount_, curve);
   }
-
-  static Vec2 across(Vec2 v) { return {-v.y, v.x}; }
 
   static void add(Vec2 point, Contour& curve) {
     curve.emplace_back(round_to_grid(point.x), round_to_grid(point.y));

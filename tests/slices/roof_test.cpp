@@ -1,7 +1,6 @@
 // roof() against the distance from its drawing's outline, closed formulas, and
 // outlines that move inwards in small steps.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -10,7 +9,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "csg/plane/offset.h"
@@ -76,21 +74,6 @@ double stepped_area(const std::string& text, double z) {
   return planar::area(region);
 }
 
-double distance(Vec2 p, const Contours& outline) {
-  double least = 1e9;
-  for (std::size_t l = 0; l < outline.loop_count(); ++l) {
-    const auto loop = outline.loop(l);
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vec2 a = loop[i];
-      const Vec2 along = loop[(i + 1) % loop.size()] - a;
-      const double share =
-          std::clamp(glm::dot(p - a, along) / glm::dot(along, along), 0.0, 1.0);
-      least = std::min(least, glm::distance(p, a + along * share));
-    }
-  }
-  return least;
-}
-
 TEST(Roof, OfAConvexDrawingIsAHippedRoof) {
   // Over 10 x 4 a ridge of 6: three prisms' and one pyramid's volume.
   for (const std::string method : {"voronoi", "straight"}) {
@@ -146,8 +129,9 @@ TEST(Roof, ReflexCornersThatMeetGoOnAsOne) {
     // Where the outer edges' lines, z further inwards, meet.
     const Vec2 peak(0, (25 + z * std::sqrt(41)) / 4);
     const Contours contours = section(straight(text), z);
-    EXPECT_NEAR(distance(peak, contours), 0, 1e-9) << z;
-    EXPECT_GT(distance(peak + Vec2(0, 0.01), contours), 1e-3) << z;
+    EXPECT_NEAR(support::distance_to_edges(contours, peak), 0, 1e-9) << z;
+    EXPECT_GT(support::distance_to_edges(contours, peak + Vec2(0, 0.01)), 1e-3)
+        << z;
   }
 }
 
@@ -158,7 +142,8 @@ TEST(Roof, VoronoiIsWhereTheOutlineIsFartherThanTheHeight) {
       const Contours roof = section("roof($fn = 720) { " + text + " }", z);
       for (std::size_t l = 0; l < roof.loop_count(); ++l) {
         for (const Vec2 p : roof.loop(l)) {
-          EXPECT_NEAR(distance(p, outline), z, 1e-4 * z) << text;
+          EXPECT_NEAR(support::distance_to_edges(outline, p), z, 1e-4 * z)
+              << text;
         }
       }
     }
