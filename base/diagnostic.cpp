@@ -106,6 +106,12 @@ void append_terminal_text(std::string& text, SourceRange range,
 
 }  // namespace
 
+std::vector<Note> hint_of(std::string text) {
+  std::vector<Note> hints;
+  if (!text.empty()) hints.push_back({{}, std::move(text)});
+  return hints;
+}
+
 Error::Error(Diagnostic diagnostic) : diagnostic_(std::move(diagnostic)) {}
 
 Error::Error(std::string message, SourceRange range)
@@ -140,6 +146,14 @@ void Diagnostics::echo(std::string text) {
 void Diagnostics::warning(SourceRange range, std::string message,
                           std::vector<Note> notes) {
   report({Severity::kWarning, range, std::move(message), std::move(notes)});
+}
+
+void Diagnostics::own_warning(SourceRange range, std::string message,
+                              std::vector<Note> hints) {
+  Diagnostic warning{Severity::kWarning, range, std::move(message)};
+  warning.hints = std::move(hints);
+  warning.audience = Audience::kTerminal;
+  report(std::move(warning));
 }
 
 void Diagnostics::error(SourceRange range, std::string message,

@@ -29,6 +29,9 @@ struct Note {
   const Source* document = nullptr;  // as in Diagnostic
 };
 
+// A note without a place; none of an empty text.
+std::vector<Note> hint_of(std::string text);
+
 struct Diagnostic {
   Severity severity = Severity::kError;
   SourceRange range;    // unknown where OpenSCAD gives no place either
@@ -90,6 +93,9 @@ class Diagnostics {
   void echo(std::string text);
   void warning(SourceRange range, std::string message,
                std::vector<Note> notes = {});
+  // Of what OpenSCAD does not say: on the terminal only.
+  void own_warning(SourceRange range, std::string message,
+                   std::vector<Note> hints = {});
   void error(SourceRange range, std::string message,
              std::vector<Note> notes = {});
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <double-conversion/double-conversion.h>
+#include <fmt/format.h>
 
 namespace lamina {
 
@@ -105,6 +106,13 @@ std::optional<double> parse_number(std::string_view text) {
     return std::nullopt;
   }
   return value;
+}
+
+std::string counted(std::uint64_t count, std::string_view one,
+                    std::string_view more) {
+  if (count == 1) return fmt::format("1 {}", one);
+  return more.empty() ? fmt::format("{} {}s", count, one)
+                      : fmt::format("{} {}", count, more);
 }
 
 }  // namespace lamina

@@ -1,11 +1,12 @@
 #pragma once
-// Numbers and strings as OpenSCAD shows them.
+// Numbers and strings as OpenSCAD shows them, and words of messages.
 //
 // OpenSCAD writes the numbers of values with double-conversion (six significant
 // digits, zeros at the end cut off: 1e+6) and those of most module parameters
 // with C++ streams (`%g`: 1e+06). Both are here, because a `.csg` file mixes
 // them.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,25 @@ void append_stream_number(double number, std::string& text);
 
 // "…" with \t \n \r \" \\ escaped.
 std::string in_quotes(std::string_view content);
+
+// Blanks of ASCII: of plain text, not of Unicode.
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' ||
+         c == '\f';
+}
+
+// Without the blanks at both ends.
+inline std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// "1 layer", "98 layers", "2 vertices".
+//
+// more  the word for several; empty: `one` with an s
+std::string counted(std::uint64_t count, std::string_view one,
+                    std::string_view more = {});
 
 // A finite number and nothing else, such as "-1.5e3"; no value for all other
 // texts. For what people type outside of a design: options, cells of tables.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.h"
 #include "base/thread_clock.h"
 #include "compiler/make_rule.h"
 #include "compiler/passes.h"
@@ -63,14 +64,10 @@ void warn_of_size(Compilation& c, const csg::Lowered& lowered) {
   const Vec3 size = lowered.scene()->box.size();
   const double greatest = std::max({size.x, size.y, size.z});
   if (greatest >= kSmallest && greatest <= kLargest) return;
-  Diagnostic warning{
-      Severity::kWarning,
-      {},
-      fmt::format("the design is {:g} x {:g} x {:g} mm: are its units "
-                  "millimetres?",
-                  size.x, size.y, size.z)};
-  warning.audience = Audience::kTerminal;
-  c.diagnostics.report(std::move(warning));
+  c.diagnostics.own_warning(
+      {}, fmt::format("the design is {:g} x {:g} x {:g} mm: are its units "
+                      "millimetres?",
+                      size.x, size.y, size.z));
 }
 
 // Whether warnings end the run here, without an output.
@@ -79,8 +76,8 @@ bool ends_strictly(Compilation& c) {
   if (!c.is_strict() || warnings == 0) return false;
   c.has_failed = true;
   c.diagnostics.error(
-      {}, fmt::format("{} {}, so nothing is written; with --no-strict it is",
-                      warnings, warnings == 1 ? "warning" : "warnings"));
+      {}, fmt::format("{}, so nothing is written; with --no-strict it is",
+                      counted(warnings, "warning")));
   return true;
 }
 

@@ -47,8 +47,8 @@ struct Request {
   std::string preview;
   std::string dependencies;  // path of the rule for make (-d); empty: none
   bool has_hard_warnings = false;
-  // A warning ends with no output, once all are said. Not given: where the
-  // files that may be read are confined.
+  // A warning ends the run with no output, when its stage is done. Not given:
+  // where the files that may be read are confined.
   std::optional<bool> is_strict;
   // A folder where lamina_text.so is looked for first; empty: none.
   std::string module_folder;

@@ -44,6 +44,9 @@ struct ParameterRule {
   std::optional<double> greatest;
   std::optional<double> step;
   std::optional<std::size_t> most_bytes;  // of a text
+
+  // The number itself, or the limit that it is beyond.
+  double nearest(double number) const;
 };
 
 // Whether the customizer lets a parameter with this rule have the value. What

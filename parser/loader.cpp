@@ -151,9 +151,7 @@ ast::Program Loader::load(const std::string& path) {
   if (!text) {
     Diagnostic missing{
         Severity::kError, {}, "Can't open input file '" + path + "'!"};
-    if (const std::string hint = similar_file(path, access_); !hint.empty()) {
-      missing.hints.push_back({{}, hint});
-    }
+    missing.hints = hint_of(similar_file(path, access_));
     throw FileError(std::move(missing));
   }
   add_file(path);
@@ -206,6 +204,20 @@ std::optional<ast::Program> Loader::load_used(const std::string& path,
   } catch (const SyntaxError&) {
     return std::nullopt;  // reported already; the names stay unknown
   }
+}
+
+std::vector<const ast::Program*> Loader::with_used(
+    const ast::Program& program) const {
+  std::vector<const ast::Program*> all;
+  const auto add = [&](const auto& self, const ast::Program& one) -> void {
+    if (std::find(all.begin(), all.end(), &one) != all.end()) return;
+    all.push_back(&one);
+    for (const ast::Use& use : one.uses) {
+      if (const ast::Program* used = used_program(use)) self(self, *used);
+    }
+  };
+  add(add, program);
+  return all;
 }
 
 const ast::Program* Loader::used_program(const ast::Use& use) const {

@@ -58,6 +58,10 @@ class Loader {
   // entries that name one file have one program.
   const ast::Program* used_program(const ast::Use& use) const;
 
+  // The program and all that it uses, directly or not, each once: first itself,
+  // then file by file with what that uses.
+  std::vector<const ast::Program*> with_used(const ast::Program& program) const;
+
   // Fonts that the design and the files that it uses bring along
   // (`use <….ttf>`), in the order in which they were read; files that exist.
   const std::vector<std::string>& fonts() const { return fonts_; }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "parser/customizer.h"
 #include "parser/tree_facts.h"
 
@@ -117,13 +118,12 @@ void add_value(const ast::Expr& value, const ParameterRule& rule, Json& json) {
   }
 }
 
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
-}
-
 }  // namespace
+
+double ParameterRule::nearest(double number) const {
+  number = std::max(number, least.value_or(number));
+  return std::min(number, greatest.value_or(number));
+}
 
 bool keeps_rule(const ast::Expr& value, const ParameterRule& rule) {
   if (!ast::is_literal(value)) return true;
@@ -134,8 +134,7 @@ bool keeps_rule(const ast::Expr& value, const ParameterRule& rule) {
         [&](const Choice& choice) { return choice.value == chosen; });
   }
   const auto is_within = [&](double number) {
-    return number >= rule.least.value_or(number) &&
-           number <= rule.greatest.value_or(number);
+    return rule.nearest(number) == number;
   };
   if (const auto number = number_of(value)) return is_within(*number);
   if (const auto numbers = numbers_of(value)) {
@@ -150,7 +149,7 @@ std::optional<ParameterRule> Customizer::rule_of(
     const ast::Statement& assignment) const {
   if (!is_parameter(assignment)) return std::nullopt;
   const std::string* group = group_of(assignment);
-  if (group != nullptr && trimmed(*group) == "Hidden") return std::nullopt;
+  if (group != nullptr && trim(*group) == "Hidden") return std::nullopt;
   const auto& value = *std::get<ast::Assignment>(assignment.node).value;
   const auto own = read_choice(value);
   const auto numbers = numbers_of(value);
@@ -191,7 +190,7 @@ std::string parameters_json(const ast::Program& program,
     Json& json = file["parameters"].emplace_back(Json::object());
     json["name"] = assignment.name;
     if (!comment.description.empty()) json["caption"] = comment.description;
-    json["group"] = comment.has_group ? trimmed(comment.group) : "Parameters";
+    json["group"] = comment.has_group ? trim(comment.group) : "Parameters";
     add_value(*assignment.value, *rule, json);
   }
   return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

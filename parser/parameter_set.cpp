@@ -159,22 +159,12 @@ struct Fitted {
   bool keeps_rule = true;
 };
 
-const ast::Expr* make_number(double value, Arena& arena) {
-  return arena.make(ast::Expr{ast::Number{value}, {}});
-}
-
 // No more than so many bytes of a text, no character cut.
 std::string_view cut(std::string_view text, std::size_t most_bytes) {
   std::size_t size = std::min(text.size(), most_bytes);
   const auto goes_on = [](char c) { return (c & 0xC0) == 0x80; };
   while (size > 0 && size < text.size() && goes_on(text[size])) --size;
   return text.substr(0, size);
-}
-
-double clamp(double value, const ParameterRule& rule) {
-  if (rule.least) value = std::max(value, *rule.least);
-  if (rule.greatest) value = std::min(value, *rule.greatest);
-  return value;
 }
 
 Fitted fit_choice(std::string_view text, const ParameterRule& rule,
@@ -199,8 +189,9 @@ Fitted fit_numbers(std::string_view text, const std::vector<double>& own,
   if (!numbers || numbers->size() != own.size()) return {nullptr, false};
   bool keeps_rule = true;
   for (double& number : *numbers) {
-    keeps_rule = keeps_rule && clamp(number, rule) == number;
-    number = clamp(number, rule);
+    const double within = rule.nearest(number);
+    keeps_rule = keeps_rule && within == number;
+    number = within;
   }
   const auto copy = arena.copy(std::span<const double>(*numbers));
   return {arena.make(ast::Expr{ast::Numbers{copy}, {}}), keeps_rule};
@@ -216,8 +207,8 @@ Fitted fit(std::string_view text, const ast::Expr& own,
   const ast::Expr* value = read_value(text, ast::type_of(own), arena);
   if (value == nullptr) return {nullptr, false};
   if (const auto number = ast::number_of(*value)) {
-    const double within = clamp(*number, rule);
-    return {make_number(within, arena), within == *number};
+    const double within = rule.nearest(*number);
+    return {arena.make(ast::Expr{ast::Number{within}, {}}), within == *number};
   }
   if (rule.most_bytes && text.size() > *rule.most_bytes) {
     return {
@@ -286,9 +277,7 @@ class SetApplier {
     } else if (language_ == Language::k2026) {
       text += "; it is moved there";
     }
-    Diagnostic warning{Severity::kWarning, statement.range, std::move(text)};
-    warning.audience = Audience::kTerminal;  // OpenSCAD does not say it
-    diagnostics_.report(std::move(warning));
+    diagnostics_.own_warning(statement.range, std::move(text));
   }
 
   void set(const ast::Statement*& statement, const ast::Expr& value) {

@@ -65,7 +65,7 @@ class BatchCommand : public Command {
               "-o needs a pattern, such as 'out/{{name}}.slc' or "
               "'out/{{row}}.slc'");
     choose_format(table_.request, output_options_, table_.request.output);
-    if (!table_.request.is_strict) table_.request.is_strict = true;
+    table_.request.is_strict = table_.request.is_strict.value_or(true);
     table_.skipped.insert(skipped_.begin(), skipped_.end());
   }
 

@@ -1,6 +1,5 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
-#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -153,10 +152,12 @@ void refuse_layers(const std::string& file) {
 
 // A word that looks like no file but much like a command.
 void refuse_misspelt_command(const std::string& word) {
-  constexpr std::array<std::string_view, 4> kCommands = {"batch", "inspect",
-                                                         "compare", "view"};
+  std::vector<std::string_view> commands;
+  for (const NamedCommand& named : kNamedCommands) {
+    commands.push_back(named.name);
+  }
   if (word.find_first_of("./") != std::string::npos) return;
-  const std::string hint = did_you_mean(word, kCommands);
+  const std::string hint = did_you_mean(word, commands);
   refuse_if(!hint.empty(), "there is no command '{0}'; {1} (a file: ./{0})",
             word, hint);
 }

@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "compiler/compile.h"
 #include "compiler/passes.h"
@@ -178,12 +179,6 @@ std::string report_text(const compiler::Compilation& compilation,
        {"peak_memory_bytes", peak_memory_bytes()}}));
 }
 
-// "1 layer", "98 layers"; `more` is the word for several.
-std::string counted(std::uint64_t count, std::string_view one,
-                    std::string_view more) {
-  return fmt::format("{} {}", count, count == 1 ? one : more);
-}
-
 // "ring.slc: 98 layers, 810 loops, …"
 std::string summary_line(const compiler::Compilation& compilation,
                          double earlier_seconds) {
@@ -196,8 +191,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
       output == "-" ? "standard output" : output,
-      counted(slice.layers, "layer", "layers"),
-      counted(slice.loops, "loop", "loops"),
+      counted(slice.layers, "layer"), counted(slice.loops, "loop"),
       counted(slice.points, "vertex", "vertices"),
       memory_text(report.output_bytes),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",

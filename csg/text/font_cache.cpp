@@ -18,6 +18,8 @@
 #include <sys/mman.h>
 #include FT_TRUETYPE_IDS_H
 
+#include "base/text.h"
+
 namespace lamina::text {
 namespace {
 
@@ -39,13 +41,6 @@ const char* from_fc(const FcChar8* text) {
 // another one.
 void require(bool is_done) {
   if (!is_done) throw std::bad_alloc();
-}
-
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\n\v\f\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
 // --- Fontconfig -------------------------------------------------------------
@@ -321,7 +316,7 @@ Owned<FT_FaceRec> FontCache::open_face(const std::string& bytes,
 Font FontCache::load(const std::string& name) const {
   Font font;
   font.complaint = fmt::format("Can't get font {}", name);
-  const std::string wanted = trimmed(name);
+  const std::string wanted(trim(name));
   errno = 0;
   const Owned<FcPattern> pattern(
       FcNameParse(to_fc(wanted.empty() ? kDefaultFont : wanted.c_str())));

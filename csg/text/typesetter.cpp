@@ -180,9 +180,9 @@ std::vector<std::vector<Vec2>> Typesetter::outline(
   for (const Message& message : typeset.messages) {
     Diagnostic said{message.severity, range, message.words};
     if (!typeset.has_font && readable_fonts_->is_confined()) {
-      said.hints.push_back({{},
-                            "the system's fonts may not be read: try "
-                            "--allow-read /usr/share/fonts"});
+      said.hints = hint_of(
+          "the system's fonts may not be read: try --allow-read "
+          "/usr/share/fonts");
     }
     diagnostics.report(std::move(said));
   }

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
+
 namespace lamina::slicer {
 namespace {
 
@@ -18,10 +20,6 @@ constexpr std::size_t kMostLines = 20;
 
 // Sides that are no farther apart than this [mm] meet in an edge.
 constexpr double kEdgeWidth = 1e-6;
-
-std::string plural(std::size_t count, std::string_view word) {
-  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
 
 std::string layers_text(const ThinFeature& feature) {
   return feature.first_layer == feature.last_layer
@@ -32,8 +30,8 @@ std::string layers_text(const ThinFeature& feature) {
 std::string counts_text(std::span<const ThinFeature* const> features) {
   const auto walls = static_cast<std::size_t>(
       std::ranges::count(features, ThinKind::kWall, &ThinFeature::kind));
-  return fmt::format("{}, {}", plural(walls, "wall"),
-                     plural(features.size() - walls, "gap"));
+  return fmt::format("{}, {}", counted(walls, "wall"),
+                     counted(features.size() - walls, "gap"));
 }
 
 // A line of the table: the thinnest of all features of one origin.
@@ -106,7 +104,7 @@ std::string feature_table(std::span<const ThinFeature> features, double width,
     fmt::format_to(
         out, "{:>9} {:>8} {:>11} {:>10.4f} {:>10.4f} {:>10.4f}",
         is_edge(feature) ? "edge" : fmt::format("{:.4f}", feature.width),
-        plural(line.count, name_of(feature.kind)), layers_text(feature),
+        counted(line.count, name_of(feature.kind)), layers_text(feature),
         feature.section_z, feature.place.x, feature.place.y);
     if (!origins.empty()) {
       fmt::format_to(

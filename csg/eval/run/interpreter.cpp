@@ -80,13 +80,10 @@ void Interpreter::warn_of_unknown(Named kind, SourceRange range,
           "Ignoring unknown {} {}", kWords[static_cast<std::size_t>(kind)],
           quoted_name(name, is_variable ? language() : Language::k2021, "'")),
       .document = document};
-  if (is_variable && range.is_defined_by_option()) {
-    warning.hints.push_back(
-        {{}, "a text needs quotes that the shell leaves: -D 'name=\"text\"'"});
-  } else if (const std::string hint = resolver_.did_you_mean(kind, name);
-             !hint.empty()) {
-    warning.hints.push_back({{}, hint});
-  }
+  warning.hints = hint_of(
+      is_variable && range.is_defined_by_option()
+          ? "a text needs quotes that the shell leaves: -D 'name=\"text\"'"
+          : resolver_.did_you_mean(kind, name));
   report_warning(std::move(warning));
 }
 

@@ -7,18 +7,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/text.h"
+
 namespace lamina::csg {
-
-inline bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' ||
-         c == '\f';
-}
-
-inline std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 // Takes the first word off `text`; empty at the end.
 inline std::string_view take_word(std::string_view& text) {
