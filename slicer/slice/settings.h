@@ -41,10 +41,17 @@ struct Settings {
   // Walls and gaps thinner than this are searched for, in faithful contours
   // only [mm]; 0: there is no search.
   double min_feature = 0;
+  // How far a layer may stand out over the one below before that is reported
+  // [mm]; 0: as far as a surface of 45° does.
+  double self_supporting = 0;
   ContourMode contour = ContourMode::kFaithful;
   ldni::PaperOptions paper;  // for ContourMode::kPaper
   unsigned threads = 0;      // 0: as many as the machine has
 };
+
+// Whether the layers are the whole print, so that the layer graph can say what
+// hangs together.
+bool makes_whole_print(const Settings& settings);
 
 // Bounds that the contours keep before they are written; none for the paper's.
 std::optional<Deviation> promised_deviation(const Settings& settings);

@@ -11,6 +11,7 @@
 #include "slicer/contour/compensate.h"
 #include "slicer/plan/adaptive.h"
 #include "slicer/slice/detail/block_slicer.h"
+#include "slicer/slice/detail/leaf_at.h"
 #include "slicer/slice/detail/slice_job.h"
 
 namespace lamina::slicer {
@@ -104,6 +105,12 @@ Box3 box_of(const ldni::Contours& contours) {
 
 }  // namespace
 
+bool makes_whole_print(const Settings& settings) {
+  const LayerNumbers all;
+  return settings.heights.empty() && settings.written.first == all.first &&
+         settings.written.last == all.last;
+}
+
 std::optional<Deviation> promised_deviation(const Settings& settings) {
   if (settings.contour == ContourMode::kPaper) return std::nullopt;
   Deviation deviation;
@@ -150,9 +157,17 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   }
   sink.begin(scene.box);
   sink.expect(grid.layer_count());
-  run_slice_job(plan, grid, settings, sink, features ? &*features : nullptr,
+  std::optional<LayerGraph> graph;
+  if (makes_whole_print(settings)) graph.emplace(settings.self_supporting);
+  run_slice_job(plan, grid, settings, sink,
+                {features ? &*features : nullptr, graph ? &*graph : nullptr},
                 report);
   if (features) report.features = features->finish();
+  if (graph) {
+    report.print = graph->finish();
+    report.graph_seconds += measure_seconds(
+        [&] { find_makers(scene, grid, report.print->findings); });
+  }
   warn_of_broken_promises(report, diagnostics);
   warn_of_repairs(report, diagnostics);
   warn_of_losses(report.losses, settings.compensation, diagnostics);

@@ -3,6 +3,7 @@
 // leaves, move the ray, build loops) in parallel and leave it in order.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "ldni/image/paper_counts.h"
 #include "ldni/section/grid.h"
 #include "ldni/sweep/kinetic_ray.h"
+#include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/layer.h"
@@ -31,6 +33,7 @@ struct SliceReport {
   double section_seconds = 0;      // leaves to chains, or to samples
   double sweep_seconds = 0;        // Boolean and contours
   double feature_seconds = 0;      // search for thin places
+  double graph_seconds = 0;        // layer graph
   double output_seconds = 0;       // compensation, simplification and writing
   std::uint32_t layers = 0;        // written
   std::uint32_t layers_there = 0;  // written or not
@@ -41,6 +44,8 @@ struct SliceReport {
   double greatest_area = 0;  // of a layer [mm²]
   CompensationCounts losses;
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
+  // Of the layer graph; none where makes_whole_print() is false.
+  std::optional<PrintCheck> print;
 
   // Counts a layer that is written.
   void add(const LayerMeasures& layer, double thickness);

@@ -14,6 +14,7 @@
 
 #include "base/parallel.h"
 #include "base/thread_clock.h"
+#include "slicer/check/layer_overlay.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/layer.h"
@@ -43,22 +44,34 @@ struct Block {
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
   std::vector<Draft> layers;
+  // Of each layer over the one before; of the first, and of one that repeats,
+  // there is none.
+  std::vector<std::optional<LayerOverlay>> overlays;
   double section_seconds = 0;
   double sweep_seconds = 0;
   double feature_seconds = 0;
+  double graph_seconds = 0;
   double finish_seconds = 0;  // compensation, simplification, encoding
+
+  const LayerOverlay* overlay_of(std::uint32_t i) const {
+    return i < overlays.size() && overlays[i] ? &*overlays[i] : nullptr;
+  }
 };
 
 // What one thread keeps from block to block.
 class Worker {
  public:
   // sink  encodes layers, and takes none
-  Worker(const Plan& plan, const Settings& settings, const LayerSink& sink)
+  Worker(const Plan& plan, const ldni::LayerGrid& grid,
+         const Settings& settings, const LayerSink& sink)
       : plan_(plan),
+        grid_(grid),
         sink_(sink),
+        self_supporting_(settings.self_supporting),
         compensation_(settings.compensation),
         simplifier_(settings.tolerance) {
     if (settings.min_feature > 0) thin_finder_.emplace(settings.min_feature);
+    if (makes_whole_print(settings)) overlay_sweep_.emplace();
   }
 
   void make_contours(Block& block) {
@@ -100,6 +113,9 @@ class Worker {
         }
       }
     });
+    if (overlay_sweep_) {
+      block.graph_seconds = measure_seconds([&] { lay_over(block); });
+    }
   }
 
   void report_to(SliceReport& report) const {
@@ -107,6 +123,25 @@ class Worker {
   }
 
  private:
+  // Lays each layer of the block over the one before.
+  void lay_over(Block& block) {
+    block.overlays.resize(block.layers.size());
+    overlay_sweep_->start(block.layers[0].layer.contours);
+    for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+      std::optional<LayerOverlay>& overlay = block.overlays[i];
+      if (i == 0 || repeats_[i] != 0) {
+        overlay.reset();
+        continue;
+      }
+      if (!overlay) overlay.emplace();
+      const std::uint32_t number = block.first_layer + i;
+      const double rise =
+          grid_.section_z(number) - grid_.section_z(number - 1);
+      overlay_sweep_->lay_over(block.layers[i].layer.contours,
+                               reach_of(self_supporting_, rise), *overlay);
+    }
+  }
+
   void finish(Draft& draft) {
     Layer& layer = draft.layer;
     draft.losses = compensate(layer.contours, compensation_);
@@ -119,10 +154,13 @@ class Worker {
   }
 
   const Plan& plan_;
+  const ldni::LayerGrid& grid_;
   const LayerSink& sink_;
+  const double self_supporting_;
   const double compensation_;
   std::unique_ptr<BlockSlicer> slicer_;
   std::optional<ThinFinder> thin_finder_;  // if thin places are searched for
+  std::optional<OverlaySweep> overlay_sweep_;  // if there is a layer graph
   Simplifier simplifier_;
   std::vector<std::uint8_t> repeats_;  // of the block's layers
 };
@@ -130,31 +168,34 @@ class Worker {
 // Hands layers on in order.
 class OrderedOutput {
  public:
-  // features  gets the thin places of the layers; may be null
   OrderedOutput(const ldni::LayerGrid& grid, const Settings& settings,
-                LayerSink& sink, FeatureCollector* features,
-                SliceReport& report)
+                LayerSink& sink, const Checks& checks, SliceReport& report)
       : grid_(grid),
         keeps_empty_(!settings.heights.empty()),
         wanted_(settings.written),
         sink_(sink),
-        features_(features),
+        checks_(checks),
         report_(report) {
     empty_.layer.compensation = settings.compensation;
   }
 
-  void take(std::uint32_t index, Draft& draft) {
+  // overlay  of the layer over the one before; null where it is not known
+  void take(std::uint32_t index, Draft& draft,
+            const LayerOverlay* overlay) {
     report_.losses += draft.losses;
     if (draft.layer.contours.is_empty() && !keeps_empty_) {
       if (report_.layers_there > 0) ++held_back_;
       return;
     }
-    for (; held_back_ > 0; --held_back_) emit(index - held_back_, empty_);
-    emit(index, draft);
+    for (; held_back_ > 0; --held_back_) {
+      emit(index - held_back_, empty_, nullptr);
+    }
+    emit(index, draft, overlay);
   }
 
  private:
-  void emit(std::uint32_t index, Draft& draft) {
+  void emit(std::uint32_t index, Draft& draft,
+            const LayerOverlay* overlay) {
     if (!wanted_.contains(++report_.layers_there)) return;
     Layer& layer = draft.layer;
     layer.section_z = grid_.section_z(index);
@@ -162,9 +203,14 @@ class OrderedOutput {
     layer.top = grid_.layer_top(index);
     report_.add(draft.measures, layer.top - layer.bottom);
     sink_.take(layer);
-    if (features_ != nullptr) {
-      report_.feature_seconds +=
-          measure_seconds([&] { features_->take(layer, draft.thin); });
+    if (checks_.features != nullptr) {
+      report_.feature_seconds += measure_seconds(
+          [&] { checks_.features->take(layer, draft.thin); });
+    }
+    if (checks_.graph != nullptr) {
+      report_.graph_seconds += measure_seconds([&] {
+        checks_.graph->take(layer, overlay);
+      });
     }
   }
 
@@ -172,7 +218,7 @@ class OrderedOutput {
   bool keeps_empty_;
   LayerNumbers wanted_;
   LayerSink& sink_;
-  FeatureCollector* features_;
+  const Checks checks_;
   SliceReport& report_;
   std::uint32_t held_back_ = 0;
   Draft empty_;
@@ -204,15 +250,18 @@ class Job {
     report_.section_seconds += block.section_seconds;
     report_.sweep_seconds += block.sweep_seconds;
     report_.feature_seconds += block.feature_seconds;
-    const double before = report_.feature_seconds;
+    report_.graph_seconds += block.graph_seconds;
+    const double before = report_.feature_seconds + report_.graph_seconds;
     const double seconds = measure_seconds([&] {
       for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-        output_.take(block.first_layer + i, block.layers[i]);
+        output_.take(block.first_layer + i, block.layers[i],
+                     block.overlay_of(i));
       }
     });
-    // Features are collected on the way.
+    // Checks look at the layers on the way.
     report_.output_seconds +=
-        block.finish_seconds + seconds - (report_.feature_seconds - before);
+        block.finish_seconds + seconds -
+        (report_.feature_seconds + report_.graph_seconds - before);
   }
 
  private:
@@ -285,11 +334,11 @@ unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
 
 void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
                    const Settings& settings, LayerSink& sink,
-                   FeatureCollector* features, SliceReport& report) {
-  OrderedOutput output(grid, settings, sink, features, report);
+                   const Checks& checks, SliceReport& report) {
+  OrderedOutput output(grid, settings, sink, checks, report);
   Job job(plan, grid.layer_count(), output, report);
   const unsigned threads = choose_threads(settings, job.block_count());
-  const auto make_worker = [&] { return Worker(plan, settings, sink); };
+  const auto make_worker = [&] { return Worker(plan, grid, settings, sink); };
   if (threads == 1) {
     run_alone(job, make_worker, report);
   } else {

@@ -3,6 +3,7 @@
 // contours, which leave in order.
 
 #include "ldni/section/grid.h"
+#include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/slice/detail/block_slicer.h"
 #include "slicer/slice/settings.h"
@@ -10,14 +11,19 @@
 
 namespace lamina::slicer {
 
+// Who looks at the layers besides their sink; none where null.
+struct Checks {
+  FeatureCollector* features = nullptr;
+  LayerGraph* graph = nullptr;
+};
+
 // Hands the layers of `grid` to `sink`. Empty layers wait until another layer
 // with a contour follows, unless the settings give heights: each of those is
 // wanted.
 //
-// features  gets the thin places of the layers; may be null
-// report    gets times and counts
+// report  gets times and counts
 void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
                    const Settings& settings, LayerSink& sink,
-                   FeatureCollector* features, SliceReport& report);
+                   const Checks& checks, SliceReport& report);
 
 }  // namespace lamina::slicer

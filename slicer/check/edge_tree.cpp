@@ -1,0 +1,98 @@
+#include "slicer/check/edge_tree.h"
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "slicer/contour/layer_edges.h"
+
+namespace lamina::slicer {
+namespace {
+
+double squared_distance_to(const Box2& box, Vec2 point) {
+  const double x =
+      std::max({box.low.x - point.x, point.x - box.high.x, 0.0});
+  const double y =
+      std::max({box.low.y - point.y, point.y - box.high.y, 0.0});
+  return x * x + y * y;
+}
+
+}  // namespace
+
+EdgeTree::EdgeTree(const ldni::Contours& contours) {
+  edges_.reserve(contours.points.size());
+  visit_edges(contours,
+              [&](Vec2 from, Vec2 to) { edges_.push_back({from, to}); });
+  std::vector<Box2> boxes((edges_.size() + kFanOut - 1) / kFanOut);
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    boxes[i / kFanOut].add(edges_[i].from);
+    boxes[i / kFanOut].add(edges_[i].to);
+  }
+  while (boxes.size() > 1) {
+    std::vector<Box2> wider((boxes.size() + kFanOut - 1) / kFanOut);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      wider[i / kFanOut].add(boxes[i]);
+    }
+    levels_.push_back(std::move(boxes));
+    boxes = std::move(wider);
+  }
+  levels_.push_back(std::move(boxes));
+}
+
+// Follows the edges as long as they come nearer.
+void EdgeTree::follow(Vec2 point, double enough, std::size_t& edge,
+                      double& its_distance) const {
+  for (const std::size_t step : {std::size_t{1}, edges_.size() - 1}) {
+    while (its_distance > enough) {
+      std::size_t next = edge + step;
+      if (next >= edges_.size()) next -= edges_.size();
+      const double there = distance(next, point);
+      if (!(there < its_distance)) break;
+      its_distance = there;
+      edge = next;
+    }
+  }
+}
+
+std::size_t EdgeTree::nearest(Vec2 point, std::size_t guess,
+                              double enough) const {
+  double best = distance(guess, point);
+  std::size_t found = guess;
+  follow(point, enough, found, best);
+  if (best <= enough) return found;
+  struct Place {
+    std::uint32_t level;
+    std::uint32_t index;
+  };
+  // As deep as 64 bits can count, and kFanOut open on each level.
+  std::array<Place, 32 * kFanOut> open;
+  std::size_t count = 0;
+  open[count++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  while (count > 0) {
+    const auto [level, index] = open[--count];
+    if (squared_distance_to(levels_[level][index], point) >= best * best) {
+      continue;
+    }
+    const std::size_t begin = index * kFanOut;
+    if (level == 0) {
+      const std::size_t end = std::min(begin + kFanOut, edges_.size());
+      for (std::size_t edge = begin; edge < end; ++edge) {
+        const double here = distance(edge, point);
+        if (here >= best) continue;
+        best = here;
+        found = edge;
+      }
+      if (best <= enough) return found;
+      continue;
+    }
+    const std::vector<Box2>& boxes = levels_[level - 1];
+    const std::size_t end = std::min(begin + kFanOut, boxes.size());
+    for (std::size_t i = end; i > begin; --i) {
+      if (squared_distance_to(boxes[i - 1], point) >= best * best) continue;
+      open[count++] = {level - 1, static_cast<std::uint32_t>(i - 1)};
+    }
+  }
+  return found;
+}
+
+}  // namespace lamina::slicer

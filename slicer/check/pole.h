@@ -1,0 +1,19 @@
+#pragma once
+// The pole of inaccessibility of a region: the place inside it that is farthest
+// from its boundary, which is where a mark or a support stands best.
+//
+// A square is halved as long as it may hold a better place: its middle's
+// distance and half its diagonal say so (Garcia-Castellanos and Lombardo 2007;
+// the halving is that of Mapbox's polylabel).
+
+#include "base/vec.h"
+#include "ldni/section/contours.h"
+
+namespace lamina::slicer {
+
+// region  loops with winding 1 inside and 0 outside, at least one
+// returns a place inside whose distance from the boundary is 90 % of the
+//         greatest at least; of a sliver, a point of its boundary
+Vec2 pole_of(const ldni::Contours& region);
+
+}  // namespace lamina::slicer

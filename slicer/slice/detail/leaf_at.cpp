@@ -1,0 +1,104 @@
+#include "slicer/slice/detail/leaf_at.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "ldni/section/leaf_section.h"
+
+namespace lamina::slicer {
+namespace {
+
+// Findings whose makers are looked for, the lowest of them: a reader has seen
+// enough, and each costs a cut.
+constexpr std::size_t kMostFindings = 1000;
+
+struct Winding {
+  std::uint32_t instance = 0;
+  std::int32_t number = 0;
+};
+
+double y_at(std::span<const Vec2> points, double x) {
+  const auto right = std::partition_point(
+      points.begin() + 1, points.end() - 1,
+      [x](const Vec2& point) { return point.x <= x; });
+  const Vec2& b = *right;
+  const Vec2& a = *(right - 1);
+  return a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x);
+}
+
+// The instances that contain a place of a layer, ascending.
+class LeafFinder {
+ public:
+  LeafFinder(const csg::Scene& scene, const ldni::LayerGrid& grid)
+      : sectioner_(scene, grid) {}
+
+  std::vector<std::uint32_t> find(std::uint32_t layer, Vec2 place) {
+    if (layer != layer_) sectioner_.cut(layer, 1, block_);
+    layer_ = layer;
+    // Chains come instance by instance.
+    std::vector<Winding> windings;
+    for (const ldni::Chain& chain : block_.layer(0)) {
+      const auto points = chain.points_in(block_.points);
+      if (place.x < points.front().x || place.x >= points.back().x) continue;
+      if (y_at(points, place.x) > place.y) continue;
+      if (windings.empty() || windings.back().instance != chain.instance) {
+        windings.push_back({chain.instance});
+      }
+      windings.back().number += chain.winding;
+    }
+    std::vector<std::uint32_t> instances;
+    for (const Winding& winding : windings) {
+      if (winding.number != 0) instances.push_back(winding.instance);
+    }
+    return instances;
+  }
+
+ private:
+  const ldni::LeafSectioner sectioner_;
+  ldni::ChainBlock block_;
+  std::uint32_t layer_ = 0xffffffff;
+};
+
+// The number of the layer with that section.
+std::uint32_t layer_at(const ldni::LayerGrid& grid, double section_z) {
+  std::uint32_t low = 0;
+  std::uint32_t high = grid.layer_count();
+  while (high - low > 1) {
+    const std::uint32_t middle = (low + high) / 2;
+    (grid.section_z(middle) <= section_z ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
+                 std::span<Finding> findings) {
+  std::vector<Finding*> wanted;
+  for (Finding& finding : findings) {
+    if (!finding.is_minor) wanted.push_back(&finding);
+  }
+  if (wanted.empty()) return;
+  std::ranges::stable_sort(wanted, {}, &Finding::section_z);
+  if (wanted.size() > kMostFindings) wanted.resize(kMostFindings);
+  // Two, for two layers.
+  LeafFinder here(scene, grid);
+  LeafFinder below(scene, grid);
+  for (Finding* const finding : wanted) {
+    const std::uint32_t layer = layer_at(grid, finding->section_z);
+    const auto now = here.find(layer, finding->place);
+    std::vector<std::uint32_t> before;
+    if (layer > 0) before = below.find(layer - 1, finding->place);
+    std::vector<std::uint32_t> changed;
+    std::ranges::set_symmetric_difference(now, before,
+                                          std::back_inserter(changed));
+    if (!changed.empty()) {
+      finding->instance = changed.front();
+    } else if (!now.empty()) {
+      finding->instance = now.front();
+    }
+  }
+}
+
+}  // namespace lamina::slicer

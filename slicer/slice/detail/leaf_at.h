@@ -1,0 +1,19 @@
+#pragma once
+// Which leaves of a scene make a place solid or empty.
+
+#include <span>
+
+#include "csg/scene.h"
+#include "ldni/section/grid.h"
+#include "slicer/check/layer_graph.h"
+
+namespace lamina::slicer {
+
+// Sets the instances of findings: of what contains the finding's place in its
+// layer and not in the one below, or the other way round, the first; else the
+// first that contains it. Cuts the leaves in these layers once more, so that
+// only designs with findings pay for it. Minor findings keep none.
+void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
+                 std::span<Finding> findings);
+
+}  // namespace lamina::slicer
