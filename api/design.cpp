@@ -312,13 +312,11 @@ std::vector<ThinPlace> Design::find_thin_places(
                   slicer::kGreatestThinWidth));
   slicer::Settings settings = to_settings(options);
   settings.min_feature = width;
-  struct : slicer::LayerSink {
-    void take(const slicer::Layer&) override {}
-  } nobody;
+  slicer::LayerDrain drain;
   Messages messages(state_->show);
   return messages.run([&](Diagnostics& diagnostics) {
     const std::vector<slicer::ThinFeature> features =
-        state_->slice(settings, nobody, diagnostics).features;
+        state_->slice(settings, drain, diagnostics).features;
     const std::vector<std::string> origins = compiler::origin_texts(
         compiler::origins_of(*state_->lowered.scene(), features));
     std::vector<ThinPlace> places;

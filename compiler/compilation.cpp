@@ -78,6 +78,17 @@ std::vector<FeatureOrigins> origins_of(
   return all;
 }
 
+std::vector<FeatureOrigins> origins_of(
+    const csg::Scene& scene, std::span<const slicer::Finding> findings) {
+  std::vector<FeatureOrigins> all;
+  for (const slicer::Finding& finding : findings) {
+    FeatureOrigins& origins = all.emplace_back();
+    if (finding.instance == slicer::kNoInstance) continue;
+    origins.push_back(origin_of(scene.instances[finding.instance]));
+  }
+  return all;
+}
+
 std::vector<std::string> origin_texts(std::span<const FeatureOrigins> all) {
   std::vector<std::string> texts;
   for (const FeatureOrigins& origins : all) {

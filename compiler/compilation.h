@@ -20,13 +20,15 @@
 #include "csg/tree.h"
 #include "parser/ast.h"
 #include "parser/loader.h"
+#include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/deviation.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
 
-// What made a side of a thin feature: the lines of the design.
+// What made a side of a thin feature, or what the layer graph found: the lines
+// of the design.
 struct FeatureOrigin {
   struct Call {
     std::string module;
@@ -36,12 +38,14 @@ struct FeatureOrigin {
   std::vector<Call> calls;  // modules around it, innermost first
 };
 
-// The leaves of a feature: those of both sides, if they differ; none where it
-// is not known.
+// The leaves of a feature: those of both sides, if they differ; of a finding,
+// one; none where it is not known.
 using FeatureOrigins = std::vector<FeatureOrigin>;
 
 std::vector<FeatureOrigins> origins_of(
     const csg::Scene& scene, std::span<const slicer::ThinFeature> features);
+std::vector<FeatureOrigins> origins_of(
+    const csg::Scene& scene, std::span<const slicer::Finding> findings);
 
 // One text for each: "lib.scad:8:5 from ring.scad:40:3, ring.scad:12:3".
 std::vector<std::string> origin_texts(std::span<const FeatureOrigins> all);
@@ -54,6 +58,8 @@ struct Report {
   slicer::SliceReport slice;
   // What made each of slice.features.
   std::vector<FeatureOrigins> origins;
+  // What made each of the findings of slice.print.
+  std::vector<FeatureOrigins> finding_origins;
   // No value where nothing is promised: the paper's contours.
   std::optional<slicer::Deviation> deviation;
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter

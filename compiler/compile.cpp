@@ -236,6 +236,9 @@ void make_layers(Compilation& c, const csg::Lowered& lowered,
   c.report.slice.section_seconds += plan_seconds;
   if (const csg::Scene* scene = lowered.scene()) {
     c.report.origins = origins_of(*scene, c.report.slice.features);
+    if (const auto& print = c.report.slice.print) {
+      c.report.finding_origins = origins_of(*scene, print->findings);
+    }
   }
   counting.finish();
 }

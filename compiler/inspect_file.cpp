@@ -11,9 +11,10 @@ namespace lamina::compiler {
 
 using slicer::Layer;
 
-slicer::Inspection inspect_file(const std::string& path, double min_feature,
+slicer::Inspection inspect_file(const std::string& path,
+                                const slicer::InspectOptions& options,
                                 const FileAccess& access) {
-  slicer::Inspector inspector(min_feature);
+  slicer::Inspector inspector(options);
   if (!slicer::is_named(path, ".slc")) {
     slicer::LayerFileFacts facts = slicer::read_layers(
         path, [&](Layer& layer) { inspector.take(layer); }, access);

@@ -10,7 +10,8 @@ namespace lamina::compiler {
 
 // Reads the file layer by layer. Throws FileError where it is no file of layers
 // (layer_reader.h) or breaks off.
-slicer::Inspection inspect_file(const std::string& path, double min_feature,
+slicer::Inspection inspect_file(const std::string& path,
+                                const slicer::InspectOptions& options,
                                 const FileAccess& access);
 
 }  // namespace lamina::compiler

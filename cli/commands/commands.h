@@ -32,6 +32,7 @@ class Command {
 
 std::unique_ptr<Command> make_slice_command();
 std::unique_ptr<Command> make_batch_command();
+std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_inspect_command();
 std::unique_ptr<Command> make_view_command();
@@ -44,6 +45,7 @@ struct NamedCommand {
 // Where none of these comes first, the words are those of slicing a design.
 inline constexpr std::array kNamedCommands = {
     NamedCommand{"batch", make_batch_command},
+    NamedCommand{"check", make_check_command},
     NamedCommand{"compare", make_compare_command},
     NamedCommand{"inspect", make_inspect_command},
     NamedCommand{"view", make_view_command}};

@@ -27,7 +27,8 @@ Shows the header, the layers, the box, the volume and the weight in usual
 metals of a file of layers (.slc, .cli, .svg, .layers.json), or of a .scad or
 .csg design with any option that slicing has. Checks the loops: closed, without
 repeats, crossings and empty loops, in the direction that their nesting asks
-for, layers rising. Ends with 1 if there is a defect.
+for, layers rising. Ends with 1 if there is a defect. Says what would go wrong
+in the print as 'lamina check' does.
 
   --all       list every layer of a long file
   --json      print all of it as JSON
@@ -66,17 +67,22 @@ class InspectCommand : public Command {
   std::optional<slicer::Inspection> look(
       compiler::Compilation& compilation) const {
     if (slicer::is_readable_layer_file(request_.design)) {
-      return compiler::inspect_file(request_.design, min_feature_,
+      return compiler::inspect_file(request_.design,
+                                    {.min_feature = min_feature_},
                                     compilation.file_access());
     }
     const auto lowered = compiler::make_geometry(compilation);
     if (!lowered) return std::nullopt;
-    slicer::Inspector inspector(min_feature_);
+    slicer::Inspector inspector(
+        {.min_feature = min_feature_, .makes_graph = false});
     compiler::make_layers(compilation, *lowered,
                           compiler::settings_of(request_), inspector);
     slicer::LayerFileFacts exact;
     exact.is_float32 = false;
-    return inspector.finish(request_.design, std::move(exact));
+    slicer::Inspection found =
+        inspector.finish(request_.design, std::move(exact));
+    found.print = compilation.report.slice.print;
+    return found;
   }
 
   int inspect(compiler::Compilation& compilation) const {

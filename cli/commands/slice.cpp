@@ -29,7 +29,8 @@ Usage:
   lamina DESIGN... [-o FILE] [OPTION]...  slice .scad, .csg or meshes
   lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
                                           a piece for every row of a table
-  lamina inspect FILE [OPTION]...         check layers, list and weigh them
+  lamina check FILE [OPTION]...           say what would go wrong in the print
+  lamina inspect FILE [OPTION]...         list layers, measure and weigh them
   lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
 
@@ -124,7 +125,8 @@ Checks:
   --min-feature MM    report walls and gaps thinner than this, and what
                       made them
   --report FILE       write times, counts, memory, the bound on what contours
-                      deviate by, and thin features, as JSON
+                      deviate by, thin features, and what would go wrong in
+                      the print, as JSON
 
 Messages:
   -q, --quiet         say nothing but errors

@@ -172,6 +172,7 @@ void choose_format(compiler::Request& request, const OutputOptions& options,
     throw UsageError(choice.complaint, choice.is_known ? kFault : kUsageFault);
   }
   request.format = *choice.format;
+  request.settings.finds_makers = !options.report.empty();
   refuse_contradictions(request.settings);
   refuse_misfits(request, !options.report.empty());
 }

@@ -1,5 +1,6 @@
 #include "cli/report/run_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "compiler/compile.h"
 #include "compiler/passes.h"
 #include "slicer/check/feature_table.h"
+#include "slicer/check/finding_table.h"
 
 namespace lamina::cli {
 namespace {
@@ -107,6 +109,7 @@ Json passes_json(const compiler::Report& report) {
           {"section_seconds", number(slice.section_seconds)},
           {"sweep_seconds", number(slice.sweep_seconds)},
           {"feature_seconds", number(slice.feature_seconds)},
+          {"graph_seconds", number(slice.graph_seconds)},
           {"output_seconds", number(slice.output_seconds)}};
 }
 
@@ -162,6 +165,7 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   if (settings.contour == slicer::ContourMode::kPaper) {
     json.update(paper_json(report.slice, settings.paper.sampler));
   }
+  if (report.slice.print) json["print"] = print_json(report);
   if (settings.min_feature > 0) {
     json["min_feature_mm"] = number(settings.min_feature);
     json["features"] = features_json(report, settings.min_feature);
@@ -179,6 +183,19 @@ std::string report_text(const compiler::Compilation& compilation,
        {"peak_memory_bytes", peak_memory_bytes()}}));
 }
 
+// "print: 2 islands; 'lamina check ring.scad' says where"
+std::string print_line(const compiler::Compilation& compilation) {
+  const auto& print = compilation.report.slice.print;
+  if (!print) return {};
+  const std::string counts = slicer::finding_counts(*print);
+  const bool is_any = std::ranges::any_of(
+      print->findings,
+      [](const slicer::Finding& finding) { return !finding.is_minor; });
+  return is_any ? fmt::format("\nprint: {}; 'lamina check {}' says where", counts,
+                              compilation.request.design)
+                : fmt::format("\nprint: {}", counts);
+}
+
 // "ring.slc: 98 layers, 810 loops, …"
 std::string summary_line(const compiler::Compilation& compilation,
                          double earlier_seconds) {
@@ -186,7 +203,7 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {}, {}, {}, {}{}\n"
+      "{}: {}, {}, {}, {}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
@@ -195,6 +212,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       counted(slice.points, "vertex", "vertices"),
       memory_text(report.output_bytes),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
+      print_line(compilation),
       process_seconds() - earlier_seconds, report.load_seconds,
       report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
       slice.sweep_seconds, slice.output_seconds,
@@ -224,6 +242,26 @@ Json report_json(const compiler::Compilation& compilation) {
 
 std::string json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json print_json(const compiler::Report& report) {
+  const slicer::PrintCheck& print = *report.slice.print;
+  Json findings = Json::array();
+  for (std::size_t i = 0; i < print.findings.size(); ++i) {
+    Json& finding =
+        findings.emplace_back(slicer::finding_json(print.findings[i]));
+    if (i < report.finding_origins.size()) {
+      finding["made_by"] = origins_json(report.finding_origins[i]);
+    }
+  }
+  return {{"peel", slicer::peel_json(print.peel)},
+          {"findings", std::move(findings)}};
+}
+
+std::string finding_lines(const compiler::Compilation& compilation) {
+  const compiler::Report& report = compilation.report;
+  return slicer::finding_table(*report.slice.print,
+                               compiler::origin_texts(report.finding_origins));
 }
 
 std::string feature_lines(const compiler::Compilation& compilation) {

@@ -24,6 +24,12 @@ nlohmann::ordered_json report_json(const compiler::Compilation& compilation);
 // of files and messages can hold any.
 std::string json_text(const nlohmann::ordered_json& json);
 
+// What the layer graph found, with what made it, and the peel.
+nlohmann::ordered_json print_json(const compiler::Report& report);
+
+// The same as a table for people. Each line ends with '\n'.
+std::string finding_lines(const compiler::Compilation& compilation);
+
 // The table of thin features that were found, without the last '\n'.
 std::string feature_lines(const compiler::Compilation& compilation);
 

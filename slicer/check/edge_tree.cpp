@@ -59,7 +59,12 @@ std::size_t EdgeTree::nearest(Vec2 point, std::size_t guess,
   double best = distance(guess, point);
   std::size_t found = guess;
   follow(point, enough, found, best);
-  if (best <= enough) return found;
+  if (best > enough) lower(point, enough, best, found);
+  return found;
+}
+
+void EdgeTree::lower(Vec2 point, double enough, double& best,
+                     std::size_t& guess) const {
   struct Place {
     std::uint32_t level;
     std::uint32_t index;
@@ -80,9 +85,9 @@ std::size_t EdgeTree::nearest(Vec2 point, std::size_t guess,
         const double here = distance(edge, point);
         if (here >= best) continue;
         best = here;
-        found = edge;
+        guess = edge;
       }
-      if (best <= enough) return found;
+      if (best <= enough) return;
       continue;
     }
     const std::vector<Box2>& boxes = levels_[level - 1];
@@ -92,7 +97,6 @@ std::size_t EdgeTree::nearest(Vec2 point, std::size_t guess,
       open[count++] = {level - 1, static_cast<std::uint32_t>(i - 1)};
     }
   }
-  return found;
 }
 
 }  // namespace lamina::slicer

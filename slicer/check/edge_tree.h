@@ -36,6 +36,12 @@ class EdgeTree {
   // guess  any edge; the search is the faster the nearer it is
   std::size_t nearest(Vec2 point, std::size_t guess, double enough) const;
 
+  // Lowers `best`, the distance of some edge that the caller knows of [mm], to
+  // that of the nearest one, which becomes the guess; or to that of any that is
+  // no farther than `enough`.
+  void lower(Vec2 point, double enough, double& best,
+             std::size_t& guess) const;
+
  private:
   static constexpr std::size_t kFanOut = 6;
 

@@ -15,12 +15,13 @@ constexpr std::size_t kReportedDefects = 20;
 
 }  // namespace
 
-Inspector::Inspector(double min_feature) {
-  found_.min_feature = min_feature;
-  if (min_feature > 0) {
-    finder_.emplace(min_feature);
-    collector_.emplace(min_feature, std::vector<std::uint32_t>{});
+Inspector::Inspector(const InspectOptions& options) {
+  found_.min_feature = options.min_feature;
+  if (options.min_feature > 0) {
+    finder_.emplace(options.min_feature);
+    collector_.emplace(options.min_feature, std::vector<std::uint32_t>{});
   }
+  if (options.makes_graph) graph_.emplace(options.self_supporting);
 }
 
 void Inspector::add_defect(std::string words) {
@@ -56,6 +57,7 @@ void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
   found_.volume +=
       found_.layers.back().measures.area * found_.layers.back().thickness;
   found_.top = layer.top;
+  if (graph_) graph_->take(layer, nullptr);
   if (!finder_) return;
   finder_->find(layer.contours, stretches_);
   collector_->take(layer, stretches_);
@@ -72,6 +74,7 @@ Inspection Inspector::finish(std::string name, LayerFileFacts file) {
     }
   }
   if (collector_) found_.features = collector_->finish();
+  if (graph_) found_.print = graph_->finish();
   return std::move(found_);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer.h"
@@ -37,13 +38,21 @@ struct Inspection {
   std::vector<std::string> reported_defects;  // the first ones, in words
   double min_feature = 0;                     // [mm]; 0: not searched for
   std::vector<ThinFeature> features;
+  std::optional<PrintCheck> print;  // of the layer graph
+};
+
+struct InspectOptions {
+  // Width below which walls and gaps are reported [mm]; 0: none.
+  double min_feature = 0;
+  // Whether a layer graph is made; of a design the slicer makes it.
+  bool makes_graph = true;
+  double self_supporting = 0;  // as of Settings
 };
 
 // Takes layers in their order and looks at them one by one.
 class Inspector : public LayerSink {
  public:
-  // min_feature  width below which walls and gaps are reported [mm]; 0: none
-  explicit Inspector(double min_feature);
+  explicit Inspector(const InspectOptions& options);
 
   void take(const Layer& layer) override;
   // Takes a layer with its loops as the file holds them.
@@ -57,6 +66,7 @@ class Inspector : public LayerSink {
   Inspection found_;
   std::optional<ThinFinder> finder_;
   std::optional<FeatureCollector> collector_;
+  std::optional<LayerGraph> graph_;
   std::vector<ThinStretch> stretches_;
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "slicer/check/feature_table.h"
+#include "slicer/check/finding_table.h"
 #include "slicer/check/printed_text.h"
 #include "slicer/contour/deviation.h"
 
@@ -82,6 +83,10 @@ class Text : PrintedText {
     print_weights();
     print_exactness();
     print_defects();
+    if (found_.print) {
+      text_ += '\n';
+      text_ += finding_table(*found_.print, {});
+    }
     if (found_.min_feature > 0) {
       text_ += '\n';
       text_ += feature_table(found_.features, found_.min_feature, {});
@@ -269,6 +274,13 @@ std::string inspection_json(const Inspection& found) {
   json["deviation_mm"] = number_or_null(found.file.deviation);
   json["defects"] = found.defects;
   json["reported_defects"] = found.reported_defects;
+  if (found.print) {
+    json["peel"] = peel_json(found.print->peel);
+    json["findings"] = ordered_json::array();
+    for (const Finding& finding : found.print->findings) {
+      json["findings"].push_back(finding_json(finding));
+    }
+  }
   if (found.min_feature > 0) json["features"] = features_json(found);
   json["layers"] = layers_json(found);
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) +

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <tuple>
 
-#include "base/loop_area.h"
 #include "slicer/check/pole.h"
 
 namespace lamina::slicer {
@@ -23,8 +23,8 @@ constexpr double kPeakArea = 0.1;
 constexpr double kLeastOverhangArea = 0.05;
 constexpr double kLeastOverhang = 0.2;
 
-// Overhangs no farther from each other than the reach and this are one [mm]:
-// twice the distance of the places where they are looked for.
+// Overhangs no farther from each other than twice the reach and this are one
+// [mm]: the least distance of the places where they are looked for.
 constexpr double kSamePlace = 0.1;
 
 // The pull of a cup grows with its area; a drilled hole of 2 mm has this one
@@ -106,7 +106,8 @@ std::size_t PrintCheck::count_minor() const {
 }
 
 double reach_of(double self_supporting, double rise) {
-  return self_supporting > 0 ? self_supporting : rise + kReachSlack;
+  return self_supporting > 0 ? self_supporting
+                             : std::max(rise, 0.0) + kReachSlack;
 }
 
 LayerGraph::LayerGraph(double self_supporting)
@@ -131,8 +132,7 @@ void LayerGraph::take(const Layer& layer, const LayerOverlay* overlay) {
                       own_overlay_);
       overlay = &own_overlay_;
     }
-    around_ = overlay->around;
-    measure_regions(layer.contours);
+    measure_regions(*overlay);
     next_members_.assign(around_.size(), kNone);
     take_solids(layer, *overlay);
     take_voids(layer, *overlay);
@@ -149,18 +149,19 @@ void LayerGraph::take(const Layer& layer, const LayerOverlay* overlay) {
 
 // --- Regions ----------------------------------------------------------------
 
-void LayerGraph::measure_regions(const ldni::Contours& contours) {
-  areas_.resize(contours.loop_count());
+void LayerGraph::measure_regions(const LayerOverlay& overlay) {
+  around_ = overlay.around;
+  areas_ = overlay.areas;
   double whole = 0;
-  for (std::size_t i = 0; i < areas_.size(); ++i) {
-    const double area = signed_area(contours.loop(i));
+  for (double& area : areas_) {
     whole += area;
-    areas_[i] = std::abs(area);
+    area = std::abs(area);
   }
-  // Take off what stands in each, of which all areas are whole so far.
-  const std::vector<double> all = areas_;
+  // Take off what stands in each.
   for (std::size_t i = 0; i < areas_.size(); ++i) {
-    if (around_[i] < areas_.size()) areas_[around_[i]] -= all[i];
+    if (around_[i] < areas_.size()) {
+      areas_[around_[i]] -= std::abs(overlay.areas[i]);
+    }
   }
   take_area(whole);
 }
@@ -207,7 +208,7 @@ void LayerGraph::take_solids(const Layer& layer, const LayerOverlay& overlay) {
   }
   for (std::uint32_t i = 0; i < around_.size(); ++i) {
     if (around_[i] == kNowhere || next_members_[i] != kNone) continue;
-    if (signed_area(layer.contours.loop(i)) <= 0) continue;
+    if (overlay.areas[i] <= 0) continue;
     Finding finding = begin_finding(FindingKind::kLoosePart, layer);
     if (layers_ > 1) {
       finding.area = areas_[i];
@@ -230,7 +231,10 @@ void LayerGraph::take_voids(const Layer& layer, const LayerOverlay& overlay) {
                                    std::uint32_t region) {
     return region == kOutside ? kOpen : root_of(members[region]);
   };
-  for (const auto& [below, above] : overlay.voids) {
+  // The plate closes what the first layer leaves open.
+  const std::span<const Overlap> overlaps =
+      layers_ == 1 ? std::span<const Overlap>() : overlay.voids;
+  for (const auto& [below, above] : overlaps) {
     const std::uint32_t component = component_of(members_, below);
     if (above == kOutside) {
       join_voids(component, kOpen);
@@ -346,7 +350,7 @@ void LayerGraph::take_overhangs(const Layer& layer,
                                 const LayerOverlay& overlay) {
   next_patches_.clear();
   const double reach =
-      kSamePlace + reach_of(self_supporting_, layer.section_z - last_z_);
+      kSamePlace + 2 * reach_of(self_supporting_, layer.section_z - last_z_);
   for (const Overhang& overhang : overlay.overhangs) {
     Finding finding = begin_finding(FindingKind::kOverhang, layer);
     finding.area = overhang.area;

@@ -122,7 +122,7 @@ class LayerGraph {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   bool repeats(const Layer& layer) const;
-  void measure_regions(const ldni::Contours& contours);
+  void measure_regions(const LayerOverlay& overlay);
   void take_solids(const Layer& layer, const LayerOverlay& overlay);
   void take_voids(const Layer& layer, const LayerOverlay& overlay);
   void take_area(double area);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "base/diagnostic.h"
 #include "base/loop_area.h"
 #include "slicer/check/edge_tree.h"
 
@@ -20,13 +21,19 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kNone = 0xffffffff;
 constexpr std::uint32_t kUnknown = 0xfffffffd;  // a region, so far
 
-// Neighbours have crossed where their order is wrong by more than this [mm]:
-// what rounding leaves of a coincidence.
-constexpr double kCrossingDepth = 1e-9;
+// Neighbours of different layers have crossed where their order is wrong by
+// more than this [mm]: what lies between them until then is none.
+constexpr double kCrossingDepth = kContactWidth;
+
+// Chains begin at one point of the ray where they are no farther apart [mm].
+constexpr double kSamePoint = 1e-9;
 
 // Segments that a first look at a pair takes in; each further look takes in
 // twice as many. A pair that is parted soon has cost little.
 constexpr int kFirstSegments = 16;
+
+// Crossings of two layers, at most: they take a minute.
+constexpr std::uint64_t kMostCrossings = 200'000'000;
 
 // Chains of both layers on the ray.
 struct Sample {
@@ -241,7 +248,7 @@ class OverhangSearch {
       for (double row = std::ceil(low / pitch_); row <= last_row;) {
         const Vec2 place(x, row * pitch_);
         const double distance =
-            is_held(ledge, lower, upper, place) ? 0 : ask(place);
+            ask(place, distance_to_chains(ledge, lower, upper, place));
         if (distance <= reach_) {
           ++row;
           continue;
@@ -261,35 +268,40 @@ class OverhangSearch {
       if (is_held_chain || cursor->right() != right) continue;
       if (is_near(cursor->end(), asked_vertex_)) continue;
       asked_vertex_ = cursor->end();
-      if (!is_held(ledge, lower, upper, asked_vertex_)) ask(asked_vertex_);
+      ask(asked_vertex_,
+          distance_to_chains(ledge, lower, upper, asked_vertex_));
     }
   }
 
-  // Whether one of the two chains is seen to hold the place. Where they are
-  // steep they are within reach, though not above or below.
-  bool is_held(const Ledge& ledge, const Cursor& lower, const Cursor& upper,
-               Vec2 place) const {
-    return (ledge.is_lower_held &&
-            passes_near(lower.at(), ledge.lower, ledge.lower_last, place)) ||
-           (ledge.is_upper_held &&
-            passes_near(upper.at(), ledge.upper, ledge.upper_last, place));
+  // The distance from those parts of the two chains near the place that hold
+  // it. Where chains are steep they are within reach, though not above or below.
+  double distance_to_chains(const Ledge& ledge, const Cursor& lower,
+                            const Cursor& upper, Vec2 place) const {
+    double least = kNever;
+    if (ledge.is_lower_held) {
+      look_around(lower.at(), ledge.lower, ledge.lower_last, place, least);
+    }
+    if (ledge.is_upper_held && least > reach_) {
+      look_around(upper.at(), ledge.upper, ledge.upper_last, place, least);
+    }
+    return least;
   }
   // Looks from a segment of a chain to both sides.
-  bool passes_near(const Vec2* at, const Vec2* first, const Vec2* last,
-                   Vec2 place) const {
-    const auto is_within = [&](const Vec2* segment) {
-      return distance_to_segment(place, segment[0], segment[1]) <= reach_;
+  void look_around(const Vec2* at, const Vec2* first, const Vec2* last,
+                   Vec2 place, double& least) const {
+    const auto look = [&](const Vec2* segment) {
+      least = std::min(least,
+                       distance_to_segment(place, segment[0], segment[1]));
     };
     const Vec2* left = at;
     const Vec2* right = at + 1;
-    for (int i = 0; i < kFirstSegments; ++i) {
+    for (int i = 0; i < kFirstSegments && least > reach_; ++i) {
       const bool goes_left = left >= first && left[1].x >= place.x - reach_;
       const bool goes_right = right < last && right->x <= place.x + reach_;
-      if (!goes_left && !goes_right) return false;
-      if (goes_left && is_within(left--)) return true;
-      if (goes_right && is_within(right++)) return true;
+      if (!goes_left && !goes_right) return;
+      if (goes_left) look(left--);
+      if (goes_right) look(right++);
     }
-    return false;
   }
 
   bool is_near(Vec2 a, Vec2 b) const {
@@ -297,9 +309,14 @@ class OverhangSearch {
   }
 
   // The distance from what holds the place; within reach, that from any such.
-  double ask(Vec2 place) {
-    guess_ = tree_.nearest(place, guess_, reach_);
-    const double distance = tree_.distance(guess_, place);
+  //
+  // known  the distance from some of that
+  double ask(Vec2 place, double known) {
+    double distance = known;
+    if (distance > reach_) {
+      distance = std::min(distance, tree_.distance(guess_, place));
+    }
+    if (distance > reach_) tree_.lower(place, reach_, distance, guess_);
     if (distance <= reach_) return distance;
     overhang_.box.add(place);
     if (distance > overhang_.distance) {
@@ -331,16 +348,17 @@ void LayerOverlay::clear() {
   solids.clear();
   voids.clear();
   around.clear();
+  areas.clear();
   overhangs.clear();
 }
 
 void ChainedLayer::fill(const ldni::Contours& contours) {
   block_.layer_count = 1;
-  is_outer_.clear();
+  areas_.clear();
   builder_.begin(block_);
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
-    is_outer_.push_back(signed_area(loop) > 0 ? 1 : 0);
+    areas_.push_back(signed_area(loop));
     builder_.loop().assign(loop.begin(), loop.end());
     builder_.close_loop(0, static_cast<std::uint32_t>(i), 1);
   }
@@ -398,6 +416,7 @@ struct OverlaySweep::State {
   std::vector<std::uint32_t> position_;  // of each sample there, or none
   std::vector<Endpoint> endpoints_;
   std::size_t next_endpoint_ = 0;
+  std::uint64_t crossings_ = 0;
   std::vector<Event> events_;  // heap
   std::vector<std::uint32_t> dirty_;
   std::vector<std::uint32_t> begun_;
@@ -429,6 +448,7 @@ void OverlaySweep::State::lay_over(const ldni::Contours& layer, double reach,
                     overlaps->end());
   }
   overlay.around = around_[1];
+  overlay.areas = layers_[1].areas();
   find_overhangs(*contours_, overlay);
   contours_ = &layer;
 }
@@ -459,6 +479,7 @@ void OverlaySweep::State::begin() {
     return a.x != b.x ? a.x < b.x : a.sample < b.sample;
   });
   next_endpoint_ = 0;
+  crossings_ = 0;
   gaps_.assign(samples_.size(), {});
   position_.assign(samples_.size(), kNone);
   order_.clear();
@@ -481,6 +502,11 @@ void OverlaySweep::State::take_events(double end) {
     if (gaps_[event.sample].stamp != event.stamp) continue;
     switch (event.kind) {
       case EventKind::kCrossing:
+        if (++crossings_ > kMostCrossings) {
+          throw GeometryError(
+              "contours of neighbouring layers cross each other too often to "
+              "be compared");
+        }
         swap_with_upper(event.sample);
         settle(event.x);
         break;
@@ -532,7 +558,7 @@ bool OverlaySweep::State::is_below(const Sample& sample, const Sample& other,
   Sample one = sample;
   one.advance(x);
   const double distance = other.at->y - one.y_at(x);
-  if (std::abs(distance) > kCrossingDepth) return distance > 0;
+  if (std::abs(distance) > kSamePoint) return distance > 0;
   const double right = std::min(one.at[1].x, other.at[1].x);
   return other.y_at(right) > one.y_at(right);
 }
@@ -678,6 +704,10 @@ bool OverlaySweep::State::is_linked(const Gap& gap) const {
 void OverlaySweep::State::link(const Gap& gap) {
   const auto& [below, above] = gap.labels;
   if (below.is_solid != above.is_solid || is_linked(gap)) return;
+  // Loops that cross may leave a solid that no loop goes around.
+  if (above.is_solid && (below.region == kOutside || above.region == kOutside)) {
+    return;
+  }
   auto& linked = last_linked_[above.is_solid ? 1 : 0];
   linked[std::min<std::size_t>(above.region, linked.size() - 1)] =
       below.region;

@@ -59,6 +59,7 @@ struct LayerOverlay {
   // The region around each loop of the layer above: of an outer loop a void, of
   // a hole a solid.
   std::vector<std::uint32_t> around;
+  std::vector<double> areas;  // of each of them, signed [mm²]
   // Of regions that overlap a solid below; others are islands as a whole.
   std::vector<Overhang> overhangs;
 
@@ -74,14 +75,15 @@ class ChainedLayer {
 
   ldni::LayerChains chains() const { return block_.chains_of(0); }
   std::uint32_t loop_count() const {
-    return static_cast<std::uint32_t>(is_outer_.size());
+    return static_cast<std::uint32_t>(areas_.size());
   }
-  bool is_outer(std::uint32_t loop) const { return is_outer_[loop] != 0; }
+  bool is_outer(std::uint32_t loop) const { return areas_[loop] > 0; }
+  const std::vector<double>& areas() const { return areas_; }
 
  private:
   ldni::ChainBuilder builder_;
   ldni::ChainBlock block_;
-  std::vector<std::uint8_t> is_outer_;
+  std::vector<double> areas_;
 };
 
 class OverlaySweep {
@@ -98,6 +100,8 @@ class OverlaySweep {
   // Lays a layer over the one of the call before.
   //
   // reach  how far it may stand out over that [mm]
+  // throws GeometryError where the two cross each other so often that it would
+  //        take minutes
   void lay_over(const ldni::Contours& layer, double reach,
                 LayerOverlay& overlay);
 

@@ -40,4 +40,10 @@ class LayerSink {
   virtual void take(const Layer& layer) = 0;
 };
 
+// Takes layers for jobs of which only the report matters.
+class LayerDrain : public LayerSink {
+ public:
+  void take(const Layer& /*layer*/) override {}
+};
+
 }  // namespace lamina::slicer

@@ -44,6 +44,7 @@ struct Settings {
   // How far a layer may stand out over the one below before that is reported
   // [mm]; 0: as far as a surface of 45° does.
   double self_supporting = 0;
+  bool finds_makers = false;  // of what the layer graph finds: its leaves
   ContourMode contour = ContourMode::kFaithful;
   ldni::PaperOptions paper;  // for ContourMode::kPaper
   unsigned threads = 0;      // 0: as many as the machine has

@@ -165,8 +165,10 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   if (features) report.features = features->finish();
   if (graph) {
     report.print = graph->finish();
-    report.graph_seconds += measure_seconds(
-        [&] { find_makers(scene, grid, report.print->findings); });
+    if (settings.finds_makers) {
+      report.graph_seconds += measure_seconds(
+          [&] { find_makers(scene, grid, report.print->findings); });
+    }
   }
   warn_of_broken_promises(report, diagnostics);
   warn_of_repairs(report, diagnostics);

@@ -54,7 +54,7 @@ std::vector<slicer::Layer> read_layers(const std::string& path) {
   });
   try_to([&] {
     const slicer::Inspection found =
-        compiler::inspect_file(path, kMinFeature, FileAccess());
+        compiler::inspect_file(path, {.min_feature = kMinFeature}, FileAccess());
     slicer::inspection_text(found, slicer::LayerList::kAll);
     slicer::inspection_json(found);
   });

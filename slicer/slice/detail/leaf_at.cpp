@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "ldni/section/leaf_section.h"
@@ -12,6 +13,9 @@ namespace {
 // Findings whose makers are looked for, the lowest of them: a reader has seen
 // enough, and each costs a cut.
 constexpr std::size_t kMostFindings = 1000;
+
+// How far beside a place is looked for what made it [mm]: within a pixel.
+constexpr double kAside = 0.02;
 
 struct Winding {
   std::uint32_t instance = 0;
@@ -36,7 +40,7 @@ class LeafFinder {
   std::vector<std::uint32_t> find(std::uint32_t layer, Vec2 place) {
     if (layer != layer_) sectioner_.cut(layer, 1, block_);
     layer_ = layer;
-    // Chains come instance by instance.
+    // The chains of an instance follow each other.
     std::vector<Winding> windings;
     for (const ldni::Chain& chain : block_.layer(0)) {
       const auto points = chain.points_in(block_.points);
@@ -51,6 +55,7 @@ class LeafFinder {
     for (const Winding& winding : windings) {
       if (winding.number != 0) instances.push_back(winding.instance);
     }
+    std::ranges::sort(instances);
     return instances;
   }
 
@@ -59,6 +64,18 @@ class LeafFinder {
   ldni::ChainBlock block_;
   std::uint32_t layer_ = 0xffffffff;
 };
+
+// What contains the place in one of the two layers only.
+std::vector<std::uint32_t> changed_at(LeafFinder& here, LeafFinder& below,
+                                      std::uint32_t layer, Vec2 place) {
+  const auto now = here.find(layer, place);
+  std::vector<std::uint32_t> before;
+  if (layer > 0) before = below.find(layer - 1, place);
+  std::vector<std::uint32_t> changed;
+  std::ranges::set_symmetric_difference(now, before,
+                                        std::back_inserter(changed));
+  return changed;
+}
 
 // The number of the layer with that section.
 std::uint32_t layer_at(const ldni::LayerGrid& grid, double section_z) {
@@ -87,17 +104,18 @@ void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,
   LeafFinder below(scene, grid);
   for (Finding* const finding : wanted) {
     const std::uint32_t layer = layer_at(grid, finding->section_z);
-    const auto now = here.find(layer, finding->place);
-    std::vector<std::uint32_t> before;
-    if (layer > 0) before = below.find(layer - 1, finding->place);
-    std::vector<std::uint32_t> changed;
-    std::ranges::set_symmetric_difference(now, before,
-                                          std::back_inserter(changed));
-    if (!changed.empty()) {
+    // The farthest place of an overhang may be a corner of the layer.
+    for (const Vec2 aside : {Vec2(0), Vec2(kAside, 0), Vec2(-kAside, 0),
+                             Vec2(0, kAside), Vec2(0, -kAside)}) {
+      const auto changed =
+          changed_at(here, below, layer, finding->place + aside);
+      if (changed.empty()) continue;
       finding->instance = changed.front();
-    } else if (!now.empty()) {
-      finding->instance = now.front();
+      break;
     }
+    if (finding->instance != kNoInstance) continue;
+    const auto now = here.find(layer, finding->place);
+    if (!now.empty()) finding->instance = now.front();
   }
 }
 
