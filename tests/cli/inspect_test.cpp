@@ -34,7 +34,7 @@ TEST(Inspect, LongFilesAreSummarisedUnlessAllIsWanted) {
   const auto lines = [](const std::string& text) {
     return std::count(text.begin(), text.end(), '\n');
   };
-  EXPECT_LT(lines(run(folder, {"inspect", "a.slc"}).output), 50);
+  EXPECT_LT(lines(run(folder, {"inspect", "a.slc"}).output), 60);
   EXPECT_GT(lines(run(folder, {"inspect", "--all", "a.slc"}).output), 200);
 }
 
