@@ -297,7 +297,7 @@ void Design::write(const std::string& path, const SliceOptions& options,
   messages.run([&](Diagnostics& diagnostics) {
     TemporaryFiles temporary_files(state_->access);
     compiler::LayerOutput output =
-        compiler::LayerOutput::open(request, temporary_files);
+        compiler::LayerOutput::open(request, temporary_files, diagnostics);
     state_->slice(compiler::settings_of(request), output.sink(), diagnostics);
     compiler::Report report;
     output.finish(diagnostics, report);

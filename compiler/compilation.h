@@ -23,6 +23,7 @@
 #include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/deviation.h"
+#include "slicer/machine/estimate.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
@@ -50,6 +51,12 @@ std::vector<FeatureOrigins> origins_of(
 // One text for each: "lib.scad:8:5 from ring.scad:40:3, ring.scad:12:3".
 std::vector<std::string> origin_texts(std::span<const FeatureOrigins> all);
 
+// What the print is made with, as far as it is known.
+struct Machine {
+  std::optional<slicer::Printer> printer;
+  std::optional<slicer::Material> material;
+};
+
 struct Report {
   // Processor seconds of the passes; those of slicing are in `slice`.
   double load_seconds = 0;
@@ -62,6 +69,8 @@ struct Report {
   std::vector<FeatureOrigins> finding_origins;
   // No value where nothing is promised: the paper's contours.
   std::optional<slicer::Deviation> deviation;
+  Machine machine;
+  slicer::PrintEstimate estimate;
   std::uint64_t snapped_layers = 0;  // slicer::LayerWriter
   std::uint64_t warnings = 0;
   std::uint64_t output_bytes = 0;

@@ -14,7 +14,7 @@
 #include "compiler/passes.h"
 #include "parser/ast_printer.h"
 #include "parser/customizer.h"
-#include "slicer/formats/panel.h"
+#include "slicer/machine/printer.h"
 
 namespace lamina::compiler {
 namespace {
@@ -130,18 +130,60 @@ bool ends_hard(const Compilation& c) {
          c.language == Language::k2026;
 }
 
-// The panel of the printer; of formats without images an empty one.
-slicer::Panel chosen_panel(const Request& request, const FileAccess& access) {
-  if (!slicer::is_of_images(request.format)) return {};
-  const std::string usual = request.format == OutputFormat::kSl1 ? "prusa-sl1"
-                            : request.format == OutputFormat::kNanoDlp
-                                ? "wanhao-d7"
-                                : "plain";
-  slicer::Panel panel = slicer::find_panel(
-      request.printer.empty() ? usual : request.printer, access);
-  if (request.mirrors_x) panel.right = -panel.right;
-  if (request.mirrors_y) panel.up = -panel.up;
-  return panel;
+// The printer that was asked for, else of images the usual one of the format.
+std::optional<slicer::Printer> choose_printer(const Request& request,
+                                              const FileAccess& access) {
+  std::string name = request.printer;
+  if (name.empty() && slicer::is_of_images(request.format)) {
+    name = request.format == OutputFormat::kSl1       ? "prusa-sl1"
+           : request.format == OutputFormat::kNanoDlp ? "wanhao-d7"
+                                                      : "plain";
+  }
+  if (name.empty()) return std::nullopt;
+  slicer::Printer printer = slicer::find_printer(name, access);
+  if (request.mirrors_x) printer.right = -printer.right;
+  if (request.mirrors_y) printer.up = -printer.up;
+  return printer;
+}
+
+Machine choose_machine(const Request& request, const FileAccess& access) {
+  Machine machine;
+  machine.printer = choose_printer(request, access);
+  if (!request.material.empty()) {
+    machine.material = slicer::find_material(request.material, access);
+  }
+  return machine;
+}
+
+// Prusa's printers alone read the archive as it is.
+void warn_of_archive(const Request& request, const Machine& machine,
+                     Diagnostics& diagnostics) {
+  if (request.format != OutputFormat::kSl1) return;
+  if (machine.printer->name.starts_with("prusa-sl1")) return;
+  diagnostics.own_warning(
+      {}, fmt::format("an .sl1 archive for {} is for programs that convert it, "
+                      "such as UVtools: the printer does not read it",
+                      machine.printer->name));
+}
+
+// Exposures hold for a printer and a thickness.
+void warn_of_exposure(const Request& request, const Machine& machine,
+                      Diagnostics& diagnostics) {
+  const auto& [printer, material] = machine;
+  if (!printer || !material || !slicer::is_of_images(request.format)) return;
+  const auto warn = [&](const std::string& what) {
+    diagnostics.own_warning(
+        {}, fmt::format("the exposure of {} is for {}; a profile of your own "
+                        "can have yours",
+                        material->title, what));
+  };
+  if (material->exposure == 0) return;
+  if (!material->printer.empty() && material->printer != printer->name) {
+    warn(material->printer);
+  } else if (material->layer_thickness > 0 &&
+             material->layer_thickness != request.settings.layer_thickness) {
+    warn(fmt::format("layers of {:g} mm", material->layer_thickness));
+  }
 }
 
 }  // namespace
@@ -181,7 +223,7 @@ bool compile(Compilation& c) {
   if (c.has_failed) return false;
 
   // The output is opened first: nothing is computed for a file that cannot be.
-  LayerOutput output = LayerOutput::open(c.request, c.temporary_files);
+  LayerOutput output = LayerOutput::open(c.request, c.temporary_files, c.diagnostics);
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
   // leaves. The scene is turned and placed here, while it is still one thing.
@@ -243,22 +285,45 @@ void make_layers(Compilation& c, const csg::Lowered& lowered,
   counting.finish();
 }
 
+LayerOutput::LayerOutput(Machine machine,
+                         std::optional<slicer::Deviation> deviation,
+                         std::unique_ptr<slicer::LayerWriter> writer)
+    : machine_(std::make_unique<const Machine>(std::move(machine))),
+      deviation_(std::move(deviation)),
+      writer_(std::move(writer)) {
+  if (machine_->printer) {
+    build_volume_ = std::make_unique<slicer::BuildVolumeSink>(
+        *machine_->printer, *writer_);
+  }
+}
+
 LayerOutput LayerOutput::open(const Request& request,
-                              TemporaryFiles& temporary_files) {
+                              TemporaryFiles& temporary_files,
+                              Diagnostics& diagnostics) {
+  Machine machine = choose_machine(request, temporary_files.file_access());
+  warn_of_archive(request, machine, diagnostics);
+  warn_of_exposure(request, machine, diagnostics);
   const auto deviation = promised_deviation(request);
   slicer::WriterOptions options;
   options.format = request.format;
   if (request.cli_encoding) options.cli = *request.cli_encoding;
-  options.panel = chosen_panel(request, temporary_files.file_access());
+  if (machine.printer) options.printer = *machine.printer;
+  options.exposure = slicer::exposure_of(machine.material);
+  if (machine.material) options.material = machine.material->title;
   if (deviation) options.deviation = deviation->from_section();
-  return {deviation,
-          slicer::make_layer_writer(options, request.output, temporary_files)};
+  auto writer =
+      slicer::make_layer_writer(options, request.output, temporary_files);
+  return {std::move(machine), deviation, std::move(writer)};
 }
 
 void LayerOutput::finish(Diagnostics& diagnostics, Report& report) {
   writer_->finish(diagnostics);
   if (deviation_) deviation_->rounding = writer_->greatest_rounding();
   report.deviation = deviation_;
+  report.machine = *machine_;
+  report.estimate =
+      slicer::estimate_print(machine_->printer, machine_->material,
+                             report.slice.layers, report.slice.volume);
   report.snapped_layers = writer_->snapped_layers();
   writer_->commit();
   report.output_bytes = writer_->size();

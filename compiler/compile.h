@@ -15,6 +15,7 @@
 #include "csg/lower/lower.h"
 #include "slicer/contour/layer.h"
 #include "slicer/formats/layer_writer.h"
+#include "slicer/machine/build_volume.h"
 
 namespace lamina::compiler {
 
@@ -47,24 +48,29 @@ struct LayerList : slicer::LayerSink {
 // The output of layers that a request asks for.
 class LayerOutput {
  public:
-  // Opens the output. Throws FileError where it or the printer's profile cannot
-  // be opened.
+  // Opens the output. Throws FileError where it or a profile of the printer or
+  // the material cannot be opened. Warns of exposures that are not for them.
   static LayerOutput open(const Request& request,
-                          TemporaryFiles& temporary_files);
+                          TemporaryFiles& temporary_files,
+                          Diagnostics& diagnostics);
 
-  // Takes the layers.
-  slicer::LayerSink& sink() { return *writer_; }
+  // Takes the layers. Throws GeometryError where the printer cannot build them.
+  slicer::LayerSink& sink() {
+    return build_volume_ ? static_cast<slicer::LayerSink&>(*build_volume_)
+                         : *writer_;
+  }
 
   // Ends the file, gives it its name, and completes the report.
   void finish(Diagnostics& diagnostics, Report& report);
 
  private:
-  LayerOutput(std::optional<slicer::Deviation> deviation,
-              std::unique_ptr<slicer::LayerWriter> writer)
-      : deviation_(std::move(deviation)), writer_(std::move(writer)) {}
+  LayerOutput(Machine machine, std::optional<slicer::Deviation> deviation,
+              std::unique_ptr<slicer::LayerWriter> writer);
 
+  std::unique_ptr<const Machine> machine_;
   std::optional<slicer::Deviation> deviation_;
   std::unique_ptr<slicer::LayerWriter> writer_;
+  std::unique_ptr<slicer::BuildVolumeSink> build_volume_;  // of a printer
 };
 
 }  // namespace lamina::compiler

@@ -24,7 +24,8 @@ struct Request {
   std::string output;  // path; "-": standard output
   slicer::OutputFormat format = slicer::OutputFormat::kSlc;
   std::optional<slicer::CliEncoding> cli_encoding;
-  std::string printer;     // name or profile of its panel; empty: the format's
+  std::string printer;     // name or profile; empty: of images the format's
+  std::string material;    // name or profile; empty: none
   bool mirrors_x = false;  // the image
   bool mirrors_y = false;
   std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"

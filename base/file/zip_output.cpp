@@ -1,11 +1,22 @@
 #include "base/file/zip_output.h"
 
+#include <cstdint>
+#include <cstring>
+#include <new>
+
 #include <minizip/zip.h>
+#include <zlib.h>
 
 #include "base/diagnostic.h"
 
 namespace lamina {
 namespace {
+
+// What pack() puts before the packed bytes.
+struct PackedHead {
+  std::uint64_t size = 0;  // unpacked
+  std::uint32_t crc = 0;
+};
 
 ZipOutput::Stream& to_stream(voidpf stream) {
   return *static_cast<ZipOutput::Stream*>(stream);
@@ -71,10 +82,36 @@ ZipOutput::~ZipOutput() {
   if (archive_ != nullptr) zipClose(archive_, nullptr);
 }
 
-void ZipOutput::add_packed(const std::string& name, std::string_view bytes) {
-  begin(name, 0);
-  write(bytes);
-  end_entry();
+std::string ZipOutput::pack(std::string_view bytes) {
+  z_stream stream = {};
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS,
+                   MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  PackedHead head;
+  head.size = bytes.size();
+  head.crc = static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  const auto size = static_cast<uInt>(bytes.size());
+  std::string packed(sizeof(head) + deflateBound(&stream, size), '\0');
+  std::memcpy(packed.data(), &head, sizeof(head));
+  stream.next_in =
+      reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = size;
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data() + sizeof(head));
+  stream.avail_out = static_cast<uInt>(packed.size() - sizeof(head));
+  deflate(&stream, Z_FINISH);
+  packed.resize(sizeof(head) + stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+void ZipOutput::add_packed(const std::string& name, std::string_view packed) {
+  PackedHead head;
+  std::memcpy(&head, packed.data(), sizeof(head));
+  begin(name, true);
+  write(packed.substr(sizeof(head)));
+  check(zipCloseFileInZipRaw64(archive_, head.size, head.crc));
 }
 
 void ZipOutput::add_text(const std::string& name, std::string_view bytes) {
@@ -83,15 +120,16 @@ void ZipOutput::add_text(const std::string& name, std::string_view bytes) {
   end_entry();
 }
 
-void ZipOutput::begin_text(const std::string& name) { begin(name, Z_DEFLATED); }
+void ZipOutput::begin_text(const std::string& name) { begin(name, false); }
 
-void ZipOutput::begin(const std::string& name, int method) {
+void ZipOutput::begin(const std::string& name, bool is_packed) {
   zip_fileinfo info = {};
   info.tmz_date.tm_year = 1980;
   info.tmz_date.tm_mday = 1;
   constexpr uLong kNamesAreUtf8 = 1 << 11;  // a flag of the entry
   check(zipOpenNewFileInZip4(archive_, name.c_str(), &info, nullptr, 0, nullptr,
-                             0, nullptr, method, Z_DEFAULT_COMPRESSION, 0,
+                             0, nullptr, Z_DEFLATED, Z_DEFAULT_COMPRESSION,
+                             is_packed ? 1 : 0,
                              -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
                              nullptr, 0, 0, kNamesAreUtf8));
 }

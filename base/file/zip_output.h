@@ -21,10 +21,13 @@ class ZipOutput {
   ZipOutput(const ZipOutput&) = delete;
   ZipOutput& operator=(const ZipOutput&) = delete;
 
-  // Add an entry: as it is, where it is packed already (images), or packed.
-  // Throw FileError.
-  void add_packed(const std::string& name, std::string_view bytes);
+  // Adds an entry. Throws FileError.
   void add_text(const std::string& name, std::string_view bytes);
+
+  // The same in two steps, the first of which several threads may take at once:
+  // packs the bytes, and adds what it has made of them.
+  static std::string pack(std::string_view bytes);
+  void add_packed(const std::string& name, std::string_view packed);
 
   // Write a text in several parts, below 4 GB in all. Throw FileError.
   void begin_text(const std::string& name);
@@ -43,7 +46,7 @@ class ZipOutput {
   };
 
  private:
-  void begin(const std::string& name, int method);
+  void begin(const std::string& name, bool is_packed);
   void check(int status);
 
   Stream stream_;

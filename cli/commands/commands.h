@@ -35,6 +35,8 @@ std::unique_ptr<Command> make_batch_command();
 std::unique_ptr<Command> make_check_command();
 std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_inspect_command();
+std::unique_ptr<Command> make_materials_command();
+std::unique_ptr<Command> make_printers_command();
 std::unique_ptr<Command> make_view_command();
 
 struct NamedCommand {
@@ -48,6 +50,8 @@ inline constexpr std::array kNamedCommands = {
     NamedCommand{"check", make_check_command},
     NamedCommand{"compare", make_compare_command},
     NamedCommand{"inspect", make_inspect_command},
+    NamedCommand{"materials", make_materials_command},
+    NamedCommand{"printers", make_printers_command},
     NamedCommand{"view", make_view_command}};
 
 }  // namespace lamina::cli

@@ -33,6 +33,7 @@ Usage:
   lamina inspect FILE [OPTION]...         list layers, measure and weigh them
   lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
+  lamina printers, lamina materials       list those that lamina knows
 
 Output:
   -o FILE             the output, by its extension; '-' is standard output;
@@ -50,9 +51,12 @@ Output:
                         .csg .echo .ast  what the design makes, says, and is
                         .param           its parameters, as JSON
   --export-format F   one of these formats, whatever the output's name
-  --printer P         of images: whose panel they are for: a name or a file of
-                      profile (see docs/formats.md) [plain; of .sl1
-                      prusa-sl1; of .zip wanhao-d7]
+  --printer P         the printer, a name ('lamina printers' lists them) or a
+                      profile: whether the part fits, how long it takes, the
+                      panel of images [of images plain; of .sl1 prusa-sl1; of
+                      .zip wanhao-d7]
+  --material M        a resin or a metal, a name ('lamina materials' lists
+                      them) or a profile: exposure, weight, price
   --mirror x|y|xy     of images: turned over
   --cli ENCODING      of .cli: binary or ascii [binary]
 

@@ -128,7 +128,9 @@ constexpr std::chrono::milliseconds kClockStep{10};
 std::set<std::string> given_files(const compiler::Request& request) {
   std::set<std::string> files = {request.design};
   if (!request.parameter_file.empty()) files.insert(request.parameter_file);
-  if (fs::is_regular_file(request.printer)) files.insert(request.printer);
+  for (const std::string& profile : {request.printer, request.material}) {
+    if (fs::is_regular_file(profile)) files.insert(profile);
+  }
   return files;
 }
 

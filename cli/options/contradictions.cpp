@@ -38,8 +38,9 @@ void refuse_misfits(const compiler::Request& request, bool has_report) {
   refuse_if(!has_layers && settings.min_feature > 0,
             "--min-feature needs layers");
   const bool has_images = slicer::is_of_images(format);
-  refuse_if(!has_images && !request.printer.empty(),
-            "--printer needs images: .png, .sl1 or .zip");
+  refuse_if(!has_layers && !request.printer.empty(), "--printer needs layers");
+  refuse_if(!has_layers && !request.material.empty(),
+            "--material needs layers");
   refuse_if(!has_images && (request.mirrors_x || request.mirrors_y),
             "--mirror needs images: .png, .sl1 or .zip");
   refuse_if(request.cli_encoding && format != kCli, "--cli needs .cli output");

@@ -154,6 +154,7 @@ void add_output_options(CLI::App& app, compiler::Request& request,
                         [&request] { request.is_strict = false; })
       ->excludes(strict);
   app.add_option("--printer", request.printer)->type_name("printer");
+  app.add_option("--material", request.material)->type_name("material");
   add_choice(app, "--mirror", {"x", "y", "xy"},
              [&request](const std::string& axes) {
                request.mirrors_x = axes != "y";

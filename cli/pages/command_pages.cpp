@@ -12,7 +12,8 @@
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/formats/panel.h"
+#include "slicer/machine/material.h"
+#include "slicer/machine/printer.h"
 
 namespace lamina::cli {
 namespace {
@@ -55,14 +56,21 @@ bool read_entry(const std::vector<HelpBlock>& help, OptionPage& page) {
 }
 
 // The words of CLI::IsMember, "{a,b}" at the end of the type's name; those that
-// the help names, "auto|MM"; printers and formats.
+// the help names, "auto|MM"; printers, materials and formats.
 std::vector<std::string> words_of(const CLI::Option& option,
                                   const std::string& value) {
   const std::string type = option.get_type_name();
   if (type == "printer") {
     std::vector<std::string> names;
-    for (const slicer::Panel& panel : slicer::known_panels()) {
-      names.push_back(panel.name);
+    for (const slicer::Printer& printer : slicer::known_printers()) {
+      names.push_back(printer.name);
+    }
+    return names;
+  }
+  if (type == "material") {
+    std::vector<std::string> names;
+    for (const slicer::Material& material : slicer::known_materials()) {
+      names.push_back(material.name);
     }
     return names;
   }

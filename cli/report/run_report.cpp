@@ -155,6 +155,25 @@ Json paper_json(const slicer::SliceReport& slice, ldni::SamplerKind sampler) {
           {"repaired_pixels", paper.repaired_pixels}};
 }
 
+// What is known of the machine, and what the print takes.
+Json machine_json(const compiler::Report& report) {
+  const auto& [printer, material] = report.machine;
+  Json json = Json::object();
+  if (printer) json["printer"] = printer->name;
+  if (material) {
+    json["material"] = material->name;
+    json["grams"] = report.estimate.grams;
+  }
+  if (report.estimate.price > 0) {
+    json["price"] = report.estimate.price;
+    json["currency"] = material->currency;
+  }
+  if (report.estimate.seconds > 0) {
+    json["print_seconds"] = report.estimate.seconds;
+  }
+  return json;
+}
+
 // whole  what the whole program took; empty for one compilation among several
 Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   const compiler::Report& report = compilation.report;
@@ -166,6 +185,7 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
     json.update(paper_json(report.slice, settings.paper.sampler));
   }
   if (report.slice.print) json["print"] = print_json(report);
+  json.update(machine_json(report));
   if (settings.min_feature > 0) {
     json["min_feature_mm"] = number(settings.min_feature);
     json["features"] = features_json(report, settings.min_feature);
@@ -196,6 +216,12 @@ std::string print_line(const compiler::Compilation& compilation) {
                 : fmt::format("\nprint: {}", counts);
 }
 
+std::string machine_line(const compiler::Report& report) {
+  const std::string text = slicer::estimate_text(
+      report.machine.printer, report.machine.material, report.estimate);
+  return text.empty() ? "" : "\n" + text;
+}
+
 // "ring.slc: 98 layers, 810 loops, …"
 std::string summary_line(const compiler::Compilation& compilation,
                          double earlier_seconds) {
@@ -203,7 +229,7 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {}, {}, {}, {}{}{}\n"
+      "{}: {}, {}, {}, {}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
@@ -212,7 +238,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       counted(slice.points, "vertex", "vertices"),
       memory_text(report.output_bytes),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
-      print_line(compilation),
+      machine_line(report), print_line(compilation),
       process_seconds() - earlier_seconds, report.load_seconds,
       report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
       slice.sweep_seconds, slice.output_seconds,

@@ -1,8 +1,8 @@
 #include "slicer/check/inspection_text.h"
 
-#include <array>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,34 +11,18 @@
 #include "slicer/check/finding_table.h"
 #include "slicer/check/printed_text.h"
 #include "slicer/contour/deviation.h"
+#include "slicer/machine/material.h"
 
 namespace lamina::slicer {
 namespace {
 
-struct Material {
-  std::string_view name;
-  double density;  // [g/cm³]
-};
-
-// Alloys differ from maker to maker by some hundredths; these are usual values
-// (docs/usage.md).
-constexpr std::array<Material, 11> kMaterials = {{
-    {"gold 18k yellow", 15.4},
-    {"gold 14k yellow", 13.1},
-    {"platinum 950", 20.7},
-    {"palladium 950", 11.8},
-    {"fine silver", 10.49},
-    {"sterling silver", 10.36},
-    {"bronze", 8.8},
-    {"brass", 8.5},
-    {"steel 316L", 8.0},
-    {"castable resin", 1.1},
-    {"casting wax", 0.95},
-}};
-
-// The weight of a volume [g].
-double weight(const Material& material, double volume_mm3) {
-  return material.density * volume_mm3 / 1000;
+// Metals, wax, and resin as such.
+std::vector<Material> weighed_materials() {
+  std::vector<Material> materials = known_materials();
+  std::erase_if(materials, [](const Material& material) {
+    return material.exposure > 0;
+  });
+  return materials;
 }
 
 using nlohmann::ordered_json;
@@ -169,9 +153,9 @@ class Text : PrintedText {
   void print_weights() {
     if (!(found_.volume > 0)) return;
     std::string_view title = "weight";
-    for (const Material& material : kMaterials) {
+    for (const Material& material : weighed_materials()) {
       print("{:<9} {:>10.3f} g  {} ({} g/cm³)\n", title,
-            weight(material, found_.volume), material.name, material.density);
+            material.weight(found_.volume), material.title, material.density);
       title = "";
     }
   }
@@ -263,9 +247,9 @@ std::string inspection_json(const Inspection& found) {
   json["box_mm"] = box_json(found.box);
   json["top_mm"] = found.top;
   json["volume_mm3"] = found.volume;
-  for (const Material& material : kMaterials) {
-    json["weight_g"][std::string(material.name)] =
-        weight(material, found.volume);
+  for (const Material& material : weighed_materials()) {
+    json["weight_g"][material.title] =
+        material.weight(found.volume);
   }
   json["loops"] = totals.loops;
   json["holes"] = totals.holes;

@@ -12,7 +12,8 @@
 #include "base/file/temporary_files.h"
 #include "slicer/contour/layer.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/formats/panel.h"
+#include "slicer/machine/estimate.h"
+#include "slicer/machine/printer.h"
 
 namespace lamina::slicer {
 
@@ -41,7 +42,10 @@ class LayerWriter : public LayerSink {
 struct WriterOptions {
   OutputFormat format = OutputFormat::kSlc;  // one of layers
   CliEncoding cli = CliEncoding::kBinary;
-  Panel panel = {};  // of formats of images
+  // Of formats of images.
+  Printer printer = {};
+  Exposure exposure = {};
+  std::string material = {};  // its name for people; empty: none was named
   // Bound on the deviation of the contours that the writer takes [mm], if
   // known; noted where the format has a place for it.
   std::optional<double> deviation = {};

@@ -5,7 +5,7 @@
 
 #include "ldni/section/contours.h"
 #include "slicer/formats/coverage.h"
-#include "slicer/formats/panel.h"
+#include "slicer/machine/printer.h"
 
 namespace lamina::slicer {
 

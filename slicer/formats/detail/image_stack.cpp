@@ -16,18 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Usual times [s]; printers have their own or let users set them.
-constexpr double kExposure = 8;
-constexpr double kFirstExposure = 35;
-
 std::string print(const Json& json) { return json.dump(1) + "\n"; }
 
 std::string index_of(const ImageStack& stack) {
   Json index;
   index["software"] = fmt::format("lamina {}", version());
   index["units"] = "mm";
-  index["pixels"] = {stack.panel.width, stack.panel.height};
-  index["pixel_mm"] = {stack.panel.pixel.x, stack.panel.pixel.y};
+  index["pixels"] = {stack.printer.width, stack.printer.height};
+  index["pixel_mm"] = {stack.printer.pixel.x, stack.printer.pixel.y};
   index["layer_thickness"] = stack.layer_thickness;
   index["volume_mm3"] = stack.volume;
   Json& layers = index["layers"] = Json::array();
@@ -39,24 +35,78 @@ std::string index_of(const ImageStack& stack) {
   return print(index);
 }
 
-// What Prusa's printers and UVtools read.
+const char* prusa_model(const Printer& printer) {
+  return printer.name == "prusa-sl1s" ? "SL1S" : "SL1";
+}
+
+// What Prusa's printers read; the members are those that PrusaSlicer 2.5
+// writes. The date is the one that ZIP begins with, as that of all entries.
 std::string sl1_config(const ImageStack& stack) {
+  const Exposure& exposure = stack.exposure;
   return fmt::format(
       "action = print\n"
       "expTime = {}\n"
       "expTimeFirst = {}\n"
+      "expUserProfile = 0\n"
+      "fileCreationTimestamp = 1980-01-01 at 00:00:00 UTC\n"
+      "hollow = 0\n"
       "jobDir = {}\n"
       "layerHeight = {:.6g}\n"
-      "numFade = 10\n"
+      "materialName = {}\n"
+      "numFade = {}\n"
       "numFast = {}\n"
       "numSlow = 0\n"
+      "printProfile = \n"
+      "printTime = {:.6f}\n"
       "printerModel = {}\n"
+      "printerProfile = {}\n"
       "printerVariant = default\n"
       "prusaSlicerVersion = lamina-{}\n"
       "usedMaterial = {:.6f}\n",
-      kExposure, kFirstExposure, stack.job, stack.layer_thickness,
-      stack.layers.size(), stack.panel.name == "prusa-sl1s" ? "SL1S" : "SL1",
-      version(), stack.volume / 1000);
+      exposure.layer, exposure.first, stack.job, stack.layer_thickness,
+      stack.material, kFadeLayers, stack.layers.size(),
+      print_seconds(stack.printer, exposure, stack.layers.size()),
+      prusa_model(stack.printer), stack.printer.title, version(),
+      stack.volume / 1000);
+}
+
+// The settings of PrusaSlicer that say how the images were made, for programs
+// that convert the archive. It counts the long side of the panel first.
+std::string sl1_settings(const ImageStack& stack) {
+  const Printer& printer = stack.printer;
+  const bool is_portrait = printer.right.x == 0;
+  const Vec2 size = Vec2(printer.width, printer.height) * printer.pixel;
+  const auto mirrors = [](double direction) { return direction < 0 ? 1 : 0; };
+  return fmt::format(
+      "display_height = {:.6g}\n"
+      "display_mirror_x = {}\n"
+      "display_mirror_y = {}\n"
+      "display_orientation = {}\n"
+      "display_pixels_x = {}\n"
+      "display_pixels_y = {}\n"
+      "display_width = {:.6g}\n"
+      "exposure_time = {}\n"
+      "faded_layers = {}\n"
+      "gamma_correction = 1\n"
+      "initial_exposure_time = {}\n"
+      "initial_layer_height = {:.6g}\n"
+      "layer_height = {:.6g}\n"
+      "max_print_height = {:.6g}\n"
+      "printer_model = {}\n"
+      "printer_settings_id = {}\n"
+      "printer_technology = SLA\n"
+      "printer_variant = default\n"
+      "sla_material_settings_id = {}\n",
+      is_portrait ? size.x : size.y,
+      is_portrait ? (printer.is_mirrored() ? 1 : 0) : mirrors(printer.right.x),
+      is_portrait ? 0 : mirrors(printer.up.y),
+      is_portrait ? "portrait" : "landscape",
+      is_portrait ? printer.height : printer.width,
+      is_portrait ? printer.width : printer.height,
+      is_portrait ? size.y : size.x, stack.exposure.layer, kFadeLayers,
+      stack.exposure.first, stack.layer_thickness, stack.layer_thickness,
+      printer.build_height, prusa_model(printer), printer.title,
+      stack.material);
 }
 
 // A number of six decimals at most, and of none where it is whole: some readers
@@ -73,10 +123,10 @@ Json number(double value) {
 // NanoDLP has thicknesses in µm and the rest in mm.
 Json micrometres(double mm) { return number(1000 * mm); }
 
-// The box of all layers, from the middle of the panel [mm].
+// The box of all layers, from the middle of the printer [mm].
 Json boundary_of(const ImageStack& stack) {
-  const Panel& panel = stack.panel;
-  const Vec2 middle = Vec2(panel.width, panel.height) / 2.0;
+  const Printer& printer = stack.printer;
+  const Vec2 middle = Vec2(printer.width, printer.height) / 2.0;
   Vec2 low = 2.0 * middle;
   Vec2 high(0);
   for (const ImageLayer& layer : stack.layers) {
@@ -84,8 +134,8 @@ Json boundary_of(const ImageStack& stack) {
     low = glm::min(low, layer.low);
     high = glm::max(high, layer.high);
   }
-  low = (glm::min(low, high) - middle) * panel.pixel;
-  high = (high - middle) * panel.pixel;
+  low = (glm::min(low, high) - middle) * printer.pixel;
+  high = (high - middle) * printer.pixel;
   const double height =
       stack.layer_thickness * static_cast<double>(stack.layers.size());
   return {{"XMin", number(low.x)},
@@ -103,19 +153,19 @@ Json meta_of() {
 }
 
 Json slicer_of(const ImageStack& stack) {
-  const Panel& panel = stack.panel;
+  const Printer& printer = stack.printer;
   const Json thickness = micrometres(stack.layer_thickness);
   return {{"Type", "png"},
-          {"PWidth", panel.width},
-          {"PHeight", panel.height},
-          {"XPixelSize", panel.pixel.x},
-          {"YPixelSize", panel.pixel.y},
-          {"XOffset", number(panel.width / 2.0)},
-          {"YOffset", number(panel.height / 2.0)},
+          {"PWidth", printer.width},
+          {"PHeight", printer.height},
+          {"XPixelSize", printer.pixel.x},
+          {"YPixelSize", printer.pixel.y},
+          {"XOffset", number(printer.width / 2.0)},
+          {"YOffset", number(printer.height / 2.0)},
           {"Thickness", thickness},
           {"SupportDepth", thickness},
           {"LayerCount", stack.layers.size()},
-          {"ImageMirror", panel.is_mirrored() ? 1 : 0},
+          {"ImageMirror", printer.is_mirrored() ? 1 : 0},
           {"DisplayController", 1},  // one grey a pixel, not colours
           {"Boundary", boundary_of(stack)}};
 }
@@ -134,12 +184,12 @@ Json profile_of(const ImageStack& stack) {
   const Json thickness = micrometres(stack.layer_thickness);
   return {{"ResinID", 0},
           {"ProfileID", 0},
-          {"Title", stack.panel.name},
+          {"Title", stack.printer.name},
           {"Desc", fmt::format("lamina {}", version())},
           {"Depth", thickness},
           {"SupportDepth", thickness},
-          {"CureTime", number(kExposure)},
-          {"SupportCureTime", number(kFirstExposure)},
+          {"CureTime", number(stack.exposure.layer)},
+          {"SupportCureTime", number(stack.exposure.first)},
           {"SupportLayerNumber", 1}};
 }
 
@@ -180,7 +230,8 @@ std::string image_name(const ImageStack& stack, std::size_t layer) {
 std::vector<StackText> stack_texts(const ImageStack& stack) {
   switch (stack.format) {
     case OutputFormat::kSl1:
-      return {{"config.ini", sl1_config(stack)}};
+      return {{"config.ini", sl1_config(stack)},
+              {"prusaslicer.ini", sl1_settings(stack)}};
     case OutputFormat::kNanoDlp:
       return nanodlp_texts(stack);
     default:

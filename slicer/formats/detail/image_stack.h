@@ -8,7 +8,8 @@
 
 #include "base/vec.h"
 #include "slicer/formats/output_format.h"
-#include "slicer/formats/panel.h"
+#include "slicer/machine/estimate.h"
+#include "slicer/machine/printer.h"
 
 namespace lamina::slicer {
 
@@ -25,7 +26,9 @@ struct ImageLayer {
 struct ImageStack {
   OutputFormat format = OutputFormat::kPng;
   std::string job;  // name of the design's output, without folder and ending
-  Panel panel;
+  Printer printer;
+  Exposure exposure;
+  std::string material;  // empty: none was named
   double layer_thickness = 0;  // [mm]; 0 if layers differ
   double volume = 0;           // of the layers [mm³]
   std::vector<ImageLayer> layers;

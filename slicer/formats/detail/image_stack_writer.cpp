@@ -47,20 +47,22 @@ class ImageStackWriter : public LayerWriter {
   ImageStackWriter(const WriterOptions& options, const std::string& path) {
     stack_.format = options.format;
     stack_.job = job_name(path);
-    stack_.panel = options.panel;
-    map_ = options.panel.map_around(Vec2(0));
+    stack_.printer = options.printer;
+    stack_.exposure = options.exposure;
+    stack_.material = options.material;
+    map_ = map_around(Vec2(0));
   }
 
   void begin(const Box3& box) override {
-    map_ = stack_.panel.map_around((Vec2(box.low) + Vec2(box.high)) / 2.0);
+    map_ = map_around((Vec2(box.low) + Vec2(box.high)) / 2.0);
   }
 
   // Returns the layer's image.
   std::string encode(const Layer& layer) const override {
-    const Panel& panel = stack_.panel;
-    return draw_grey_png(layer.contours, panel.width, panel.height, map_,
+    const Printer& printer = stack_.printer;
+    return draw_grey_png(layer.contours, printer.width, printer.height, map_,
                          stack_.format == OutputFormat::kNanoDlp
-                             ? panel.nanodlp_layout
+                             ? printer.nanodlp_layout
                              : PixelLayout::kGrey);
   }
 
@@ -84,14 +86,27 @@ class ImageStackWriter : public LayerWriter {
   }
 
  protected:
+  // bytes  of encode()
   virtual void add_image(const std::string& name, std::string_view bytes) = 0;
   virtual void add_text(const std::string& name, std::string_view bytes) = 0;
 
  private:
+  // Maps the design to pixels so that `middle` [mm] is in the panel's middle.
+  PixelMap map_around(Vec2 middle) const {
+    const Printer& printer = stack_.printer;
+    PixelMap map;
+    map.per_x = {printer.right.x / printer.pixel.x,
+                 -printer.up.x / printer.pixel.y};
+    map.per_y = {printer.right.y / printer.pixel.x,
+                 -printer.up.y / printer.pixel.y};
+    map.origin = Vec2(printer.width, printer.height) / 2.0 - map(middle);
+    return map;
+  }
+
   // Throws GeometryError where the layer reaches beyond the panel.
   ImageLayer measure(const Layer& layer) const {
-    const Panel& panel = stack_.panel;
-    const Vec2 size(panel.width, panel.height);
+    const Printer& printer = stack_.printer;
+    const Vec2 size(printer.width, printer.height);
     ImageLayer measures;
     measures.z = layer.section_z;
     measures.thickness = thickness_of(layer);
@@ -110,11 +125,10 @@ class ImageStackWriter : public LayerWriter {
       measures.high = glm::min(measures.high, size);
       return measures;
     }
-    throw GeometryError(fmt::format(
-        "The design is larger than the panel of {:.6g} mm x {:.6g} mm "
-        "({}): the layer at {:.6g} mm reaches beyond it",
-        panel.width * panel.pixel.x, panel.height * panel.pixel.y, panel.name,
-        layer.section_z));
+    const Vec2 mm = (measures.high - measures.low) * printer.pixel;
+    throw too_large(printer, printer.right.x != 0
+                                 ? Vec3(mm, measures.thickness)
+                                 : Vec3(mm.y, mm.x, measures.thickness));
   }
 
   void note_thickness(double thickness) {
@@ -159,6 +173,10 @@ class ArchiveWriter : public ImageStackWriter {
         file_(OutputFile::open(path, files)),
         archive_(file_) {}
 
+  // Printers and slicers of Prusa pack images, too.
+  std::string encode(const Layer& layer) const override {
+    return ZipOutput::pack(ImageStackWriter::encode(layer));
+  }
   void finish(Diagnostics& diagnostics) override {
     ImageStackWriter::finish(diagnostics);
     archive_.finish();
@@ -167,8 +185,8 @@ class ArchiveWriter : public ImageStackWriter {
   std::uint64_t size() const override { return file_.size(); }
 
  private:
-  void add_image(const std::string& name, std::string_view bytes) override {
-    archive_.add_packed(name, bytes);
+  void add_image(const std::string& name, std::string_view packed) override {
+    archive_.add_packed(name, packed);
   }
   void add_text(const std::string& name, std::string_view bytes) override {
     archive_.add_text(name, bytes);

@@ -1,4 +1,4 @@
-// Images for resin printers: what goes where on the panel, and when a folder
+// Images for resin printers: what goes where on the printer, and when a folder
 // may be replaced. Their areas are checked in tests/formats.
 
 #include <array>
@@ -27,13 +27,13 @@ using support::TemporaryFolder;
 using Rows = std::vector<std::vector<int>>;
 
 // 4 × 3 pixels of 1 mm × 2 mm.
-Panel small_panel() {
-  Panel panel;
-  panel.name = "small";
-  panel.width = 4;
-  panel.height = 3;
-  panel.pixel = {1, 2};
-  return panel;
+Printer small_printer() {
+  Printer printer;
+  printer.name = "small";
+  printer.width = 4;
+  printer.height = 3;
+  printer.pixel = {1, 2};
+  return printer;
 }
 
 Layer layer_of(const std::vector<Vec2>& loop) {
@@ -51,11 +51,11 @@ Box3 box_around(Vec2 low, Vec2 high) {
   return box;
 }
 
-void write_folder(const std::string& path, const Panel& panel,
+void write_folder(const std::string& path, const Printer& printer,
                   const std::vector<Layer>& layers, const Box3& box) {
   TemporaryFiles files;
   const auto writer = make_layer_writer(
-      {.format = OutputFormat::kPng, .panel = panel}, path, files);
+      {.format = OutputFormat::kPng, .printer = printer}, path, files);
   writer->begin(box);
   for (const Layer& layer : layers) writer->take(layer);
   Diagnostics unheard;
@@ -78,14 +78,14 @@ Rows read_png(const std::string& path) {
   return rows;
 }
 
-// One and a half pixels of the panel: its middle is at (12, 23).
+// One and a half pixels of the printer: its middle is at (12, 23).
 const std::vector<Vec2> kBar = {{12, 21}, {13.5, 21}, {13.5, 23}, {12, 23}};
 const Box3 kBox = box_around({10, 20}, {14, 26});
 
 TEST(ImageStackWriter, PutsTheMiddleOfTheBoxInTheMiddle) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.png");
-  write_folder(path, small_panel(), {layer_of(kBar)}, kBox);
+  write_folder(path, small_printer(), {layer_of(kBar)}, kBox);
   // The middle row shows y from 22 to 24, the lowest one from 20 to 22.
   EXPECT_EQ(read_png(path + "/00000.png"),
             (Rows{{0, 0, 0, 0}, {0, 0, 128, 64}, {0, 0, 128, 64}}));
@@ -94,20 +94,20 @@ TEST(ImageStackWriter, PutsTheMiddleOfTheBoxInTheMiddle) {
 TEST(ImageStackWriter, TurnsAsThePanelIsSeen) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.png");
-  Panel panel = small_panel();
-  panel.right = {-1, 0};
-  write_folder(path, panel, {layer_of(kBar)}, kBox);
+  Printer printer = small_printer();
+  printer.right = {-1, 0};
+  write_folder(path, printer, {layer_of(kBar)}, kBox);
   EXPECT_EQ(read_png(path + "/00000.png"),
             (Rows{{0, 0, 0, 0}, {64, 128, 0, 0}, {64, 128, 0, 0}}));
-  panel = small_panel();
-  panel.up = {0, -1};
-  write_folder(path, panel, {layer_of(kBar)}, kBox);
+  printer = small_printer();
+  printer.up = {0, -1};
+  write_folder(path, printer, {layer_of(kBar)}, kBox);
   EXPECT_EQ(read_png(path + "/00000.png"),
             (Rows{{0, 0, 128, 64}, {0, 0, 128, 64}, {0, 0, 0, 0}}));
   // A quarter turn: y to the right, x upwards, pixels of 1 mm × 2 mm again.
-  panel.right = {0, 1};
-  panel.up = {1, 0};
-  write_folder(path, panel, {layer_of(kBar)}, kBox);
+  printer.right = {0, 1};
+  printer.up = {1, 0};
+  write_folder(path, printer, {layer_of(kBar)}, kBox);
   EXPECT_EQ(read_png(path + "/00000.png"),
             (Rows{{64, 64, 0, 0}, {128, 128, 0, 0}, {0, 0, 0, 0}}));
 }
@@ -115,7 +115,7 @@ TEST(ImageStackWriter, TurnsAsThePanelIsSeen) {
 TEST(ImageStackWriter, TellsWhatTheFolderHolds) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.png");
-  write_folder(path, small_panel(), {layer_of(kBar)}, kBox);
+  write_folder(path, small_printer(), {layer_of(kBar)}, kBox);
   const auto index = nlohmann::json::parse(read_file(path + "/index.json"));
   EXPECT_EQ(index.at("pixels"), (std::array<int, 2>{4, 3}));
   EXPECT_EQ(index.at("pixel_mm"), (std::array<double, 2>{1, 2}));
@@ -126,7 +126,7 @@ TEST(ImageStackWriter, TellsWhatTheFolderHolds) {
 
 TEST(ImageStackWriter, RefusesWhatReachesBeyondThePanel) {
   const TemporaryFolder folder;
-  EXPECT_THROW(write_folder(folder.file("a.png"), small_panel(),
+  EXPECT_THROW(write_folder(folder.file("a.png"), small_printer(),
                             {layer_of({{0, 0}, {4.1, 0}, {0, 1}})},
                             box_around({0, 0}, {4.1, 1})),
                GeometryError);
@@ -136,16 +136,16 @@ TEST(ImageStackWriter, RefusesWhatReachesBeyondThePanel) {
 TEST(ImageStackWriter, APartAsLargeAsThePanelFits) {
   const TemporaryFolder folder;
   for (const char* const name : {"plain", "prusa-sl1", "elegoo-mars-3"}) {
-    const Panel panel = find_panel(name);
-    const bool is_turned = panel.right.x == 0;
-    const Vec2 size(panel.width * panel.pixel.x, panel.height * panel.pixel.y);
+    const Printer printer = find_printer(name);
+    const bool is_turned = printer.right.x == 0;
+    const Vec2 size(printer.width * printer.pixel.x, printer.height * printer.pixel.y);
     const Vec2 low(33.3, 17.7);
     const Vec2 high = low + (is_turned ? Vec2(size.y, size.x) : size);
-    write_folder(folder.file(name), panel,
+    write_folder(folder.file(name), printer,
                  {layer_of({low, {high.x, low.y}, high, {low.x, high.y}})},
                  box_around(low, high));
     const Rows rows = read_png(folder.file(name) + "/00000.png");
-    EXPECT_EQ(rows, Rows(panel.height, std::vector<int>(panel.width, 255)))
+    EXPECT_EQ(rows, Rows(printer.height, std::vector<int>(printer.width, 255)))
         << name;
   }
 }
@@ -156,7 +156,7 @@ TEST(ImageStackWriter, TellsTheThicknessWithoutRounding) {
   Layer layer = layer_of(kBar);
   layer.bottom = 9.95;
   layer.top = 10;  // 0.05000000000000071 higher
-  write_folder(path, small_panel(), {layer}, kBox);
+  write_folder(path, small_printer(), {layer}, kBox);
   const auto index = nlohmann::json::parse(read_file(path + "/index.json"));
   EXPECT_EQ(index.at("layer_thickness"), 0.05);
 }
@@ -169,13 +169,13 @@ TEST(ImageStackWriter, ArchivesHoldLayersOfOneThickness) {
   for (const auto format : {OutputFormat::kSl1, OutputFormat::kNanoDlp}) {
     TemporaryFiles files;
     const auto writer = make_layer_writer(
-        {.format = format, .panel = small_panel()}, folder.file("a"), files);
+        {.format = format, .printer = small_printer()}, folder.file("a"), files);
     writer->begin(kBox);
     writer->take(layers[0]);
     EXPECT_THROW(writer->take(layers[1]), GeometryError);
   }
   EXPECT_EQ(folder.entry_count(), 0U);
-  write_folder(folder.file("a.png"), small_panel(), layers, kBox);
+  write_folder(folder.file("a.png"), small_printer(), layers, kBox);
   const auto index =
       nlohmann::json::parse(read_file(folder.file("a.png/index.json")));
   EXPECT_EQ(index.at("layer_thickness"), 0);
@@ -186,13 +186,13 @@ TEST(ImageStackWriter, FollowsLinksToFolders) {
   const Layer layer = layer_of(kBar);
   std::filesystem::create_directory(folder.file("real"));
   std::filesystem::create_directory_symlink("real", folder.file("a.png"));
-  write_folder(folder.file("a.png"), small_panel(), {layer, layer}, kBox);
-  write_folder(folder.file("a.png"), small_panel(), {layer}, kBox);
+  write_folder(folder.file("a.png"), small_printer(), {layer, layer}, kBox);
+  write_folder(folder.file("a.png"), small_printer(), {layer}, kBox);
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("a.png")));
   EXPECT_TRUE(std::filesystem::exists(folder.file("real/00000.png")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("real/00001.png")));
   std::filesystem::create_directory_symlink("none", folder.file("b.png"));
-  EXPECT_THROW(write_folder(folder.file("b.png"), small_panel(), {layer}, kBox),
+  EXPECT_THROW(write_folder(folder.file("b.png"), small_printer(), {layer}, kBox),
                FileError);
   EXPECT_EQ(folder.entry_count(), 3U);
 }
@@ -202,7 +202,7 @@ TEST(ImageStackWriter, NamesInArchivesAreUtf8) {
   const std::string path = folder.file("Rîng.sl1");
   TemporaryFiles files;
   const auto writer = make_layer_writer(
-      {.format = OutputFormat::kSl1, .panel = small_panel()}, path, files);
+      {.format = OutputFormat::kSl1, .printer = small_printer()}, path, files);
   writer->begin(kBox);
   writer->take(layer_of(kBar));
   Diagnostics unheard;
@@ -212,7 +212,7 @@ TEST(ImageStackWriter, NamesInArchivesAreUtf8) {
       {"/usr/bin/python3", "-c",
        "import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).namelist())",
        path});
-  EXPECT_EQ(listing.output, "['Rîng00000.png', 'config.ini']\n")
+  EXPECT_EQ(listing.output, "['Rîng00000.png', 'config.ini', 'prusaslicer.ini']\n")
       << listing.errors;
 }
 
@@ -220,29 +220,29 @@ TEST(ImageStackWriter, ReplacesOnlyFoldersOfItsOwn) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.png");
   const Layer layer = layer_of(kBar);
-  write_folder(path, small_panel(), {layer, layer}, kBox);
+  write_folder(path, small_printer(), {layer, layer}, kBox);
   EXPECT_TRUE(std::filesystem::exists(path + "/00001.png"));
-  write_folder(path, small_panel(), {layer}, kBox);
+  write_folder(path, small_printer(), {layer}, kBox);
   EXPECT_FALSE(std::filesystem::exists(path + "/00001.png"));
   EXPECT_EQ(folder.entry_count(), 1U);
 
   // A letter among the images, and another program's file of contents.
   std::ofstream(path + "/letter.txt") << "dear";
-  EXPECT_THROW(write_folder(path, small_panel(), {layer}, kBox), FileError);
+  EXPECT_THROW(write_folder(path, small_printer(), {layer}, kBox), FileError);
   EXPECT_EQ(read_file(path + "/letter.txt"), "dear");
   std::filesystem::remove(path + "/letter.txt");
-  write_folder(path, small_panel(), {layer}, kBox);
+  write_folder(path, small_printer(), {layer}, kBox);
   std::ofstream(path + "/index.json") << "{\"file\": \"00000.png\"}";
-  EXPECT_THROW(write_folder(path, small_panel(), {layer}, kBox), FileError);
+  EXPECT_THROW(write_folder(path, small_printer(), {layer}, kBox), FileError);
 
   std::filesystem::create_directory(folder.file("mine"));
   std::ofstream(folder.file("mine/letter.txt")) << "dear";
-  EXPECT_THROW(write_folder(folder.file("mine"), small_panel(), {layer}, kBox),
+  EXPECT_THROW(write_folder(folder.file("mine"), small_printer(), {layer}, kBox),
                FileError);
   EXPECT_EQ(read_file(folder.file("mine/letter.txt")), "dear");
   std::ofstream(folder.file("file.png")) << "picture";
   EXPECT_THROW(
-      write_folder(folder.file("file.png"), small_panel(), {layer}, kBox),
+      write_folder(folder.file("file.png"), small_printer(), {layer}, kBox),
       FileError);
   EXPECT_EQ(read_file(folder.file("file.png")), "picture");
   EXPECT_EQ(folder.entry_count(), 3U);
@@ -254,7 +254,7 @@ TEST(ImageStackWriter, AnInterruptLeavesNothing) {
   // is about to end.
   static auto* const files = new TemporaryFiles;
   static auto* const writer =
-      make_layer_writer({.format = OutputFormat::kPng, .panel = small_panel()},
+      make_layer_writer({.format = OutputFormat::kPng, .printer = small_printer()},
                         folder.file("a.png"), *files)
           .release();
   writer->begin(kBox);
@@ -264,16 +264,16 @@ TEST(ImageStackWriter, AnInterruptLeavesNothing) {
   EXPECT_EQ(folder.entry_count(), 0U);
 }
 
-TEST(Panel, IsFoundByNameOrFile) {
-  EXPECT_EQ(find_panel("prusa-sl1").height, 2560U);
+TEST(Printer, IsFoundByNameOrFile) {
+  EXPECT_EQ(find_printer("prusa-sl1").height, 2560U);
   const TemporaryFolder folder;
   const std::string good = folder.write(
       "good.json",
       R"({"name":"mine","pixels":[100,50],"pixel_mm":[0.1,0.2],"right":"-x","up":"+y"})");
-  const Panel panel = find_panel(good);
-  EXPECT_EQ(panel.name, "mine");
-  EXPECT_EQ(panel.width, 100U);
-  EXPECT_EQ(panel.right, Vec2(-1, 0));
+  const Printer printer = find_printer(good);
+  EXPECT_EQ(printer.name, "mine");
+  EXPECT_EQ(printer.width, 100U);
+  EXPECT_EQ(printer.right, Vec2(-1, 0));
   for (
       const char* const text :
       {"", "{}", "[1]",
@@ -288,12 +288,12 @@ TEST(Panel, IsFoundByNameOrFile) {
        R"({"name":"a","pixels":[5,5],"pixel_mm":[1,1],"right":"","up":"+y"})",
        R"({"name":"a","pixels":[5,5],"pixel_mm":[1,1],"right":"+-x","up":"+y"})"}) {
     const std::string bad = folder.write("bad.json", text);
-    EXPECT_THROW(find_panel(bad), FileError) << text;
+    EXPECT_THROW(find_printer(bad), FileError) << text;
   }
   std::filesystem::create_directory(folder.file("folder.json"));
-  EXPECT_THROW(find_panel(folder.file("folder.json")), FileError);
-  EXPECT_THROW(find_panel("unknown"), FileError);
-  EXPECT_THROW(find_panel(folder.file("none.json")), FileError);
+  EXPECT_THROW(find_printer(folder.file("folder.json")), FileError);
+  EXPECT_THROW(find_printer("unknown"), FileError);
+  EXPECT_THROW(find_printer(folder.file("none.json")), FileError);
 }
 
 }  // namespace

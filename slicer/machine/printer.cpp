@@ -1,0 +1,158 @@
+#include "slicer/machine/printer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "slicer/machine/detail/profile.h"
+
+namespace lamina::slicer {
+namespace {
+
+using nlohmann::json;
+
+constexpr unsigned kMostPixels = 65536;  // along a side
+constexpr double kGreatestHeight = 10'000;
+constexpr double kGreatestPixel = 10;
+constexpr double kLongestMove = 1000;
+
+// Printers that a message names, at most.
+constexpr std::size_t kMostNamed = 3;
+
+Vec2 read_direction(const json& word_of) {
+  const std::string word = word_of.get<std::string>();
+  if (word == "+x") return {1, 0};
+  if (word == "-x") return {-1, 0};
+  if (word == "+y") return {0, 1};
+  if (word == "-y") return {0, -1};
+  throw std::runtime_error(
+      fmt::format("a direction is +x, -x, +y or -y, not '{}'", word));
+}
+
+PixelLayout read_layout(const json& word_of, unsigned width) {
+  const std::string word = word_of.get<std::string>();
+  if (word == "grey") return PixelLayout::kGrey;
+  if (word != "rgb") {
+    throw std::runtime_error(
+        fmt::format("nanodlp_pixels are grey or rgb, not '{}'", word));
+  }
+  if (width % 3 != 0) {
+    throw std::runtime_error("rgb takes three pixels at a time");
+  }
+  return PixelLayout::kThreeInOne;
+}
+
+unsigned read_pixels(const json& number) {
+  const double pixels = number.get<double>();
+  if (!(pixels >= 1 && pixels <= kMostPixels) || pixels != std::floor(pixels)) {
+    throw std::runtime_error(
+        fmt::format("pixels are from 1 to {}, not {}", kMostPixels, pixels));
+  }
+  return static_cast<unsigned>(pixels);
+}
+
+Printer read_printer(const json& object) {
+  detail::require_members(
+      object, {"name", "title", "source", "pixels", "pixel_mm", "right", "up",
+               "height_mm", "move_s", "nanodlp_pixels"});
+  Printer printer;
+  printer.name = object.at("name").get<std::string>();
+  printer.title = object.value("title", printer.name);
+  printer.source = object.value("source", "");
+  printer.width = read_pixels(object.at("pixels").at(0));
+  printer.height = read_pixels(object.at("pixels").at(1));
+  printer.pixel = {object.at("pixel_mm").at(0).get<double>(),
+                   object.at("pixel_mm").at(1).get<double>()};
+  printer.right = read_direction(object.at("right"));
+  printer.up = read_direction(object.at("up"));
+  printer.build_height =
+      detail::read_number(object, "height_mm", 0.001, kGreatestHeight, 0);
+  printer.move_seconds =
+      detail::read_number(object, "move_s", 0, kLongestMove, 0);
+  if (object.contains("nanodlp_pixels")) {
+    printer.nanodlp_layout =
+        read_layout(object.at("nanodlp_pixels"), printer.width);
+  }
+  const auto is_size = [](double mm) { return mm > 0 && mm <= kGreatestPixel; };
+  if (!is_size(printer.pixel.x) || !is_size(printer.pixel.y)) {
+    throw std::runtime_error("pixel_mm must be positive");
+  }
+  if (printer.right.x * printer.up.x + printer.right.y * printer.up.y != 0) {
+    throw std::runtime_error("right and up are one direction");
+  }
+  return printer;
+}
+
+std::string volume_text(Vec3 size) {
+  return std::isinf(size.z)
+             ? fmt::format("{:.6g} x {:.6g} mm", size.x, size.y)
+             : fmt::format("{:.6g} x {:.6g} x {:.6g} mm", size.x, size.y,
+                           size.z);
+}
+
+bool fits(Vec3 size, Vec3 volume) {
+  return size.x <= volume.x && size.y <= volume.y && size.z <= volume.z;
+}
+
+}  // namespace
+
+Vec3 Printer::build_volume() const {
+  const Vec2 panel = Vec2(width, height) * pixel;
+  const double z = build_height > 0 ? build_height
+                                    : std::numeric_limits<double>::infinity();
+  return right.x != 0 ? Vec3(panel.x, panel.y, z) : Vec3(panel.y, panel.x, z);
+}
+
+std::vector<Printer> known_printers() {
+  std::vector<Printer> printers;
+  for (const std::string_view profile : detail::kPrinterProfiles) {
+    printers.push_back(read_printer(json::parse(profile)));
+  }
+  return printers;
+}
+
+Printer find_printer(const std::string& name_or_file,
+                     const FileAccess& access) {
+  Printer printer;
+  detail::read_profile(
+      "printer", name_or_file, detail::kPrinterProfiles, access,
+      [&](const json& object) { printer = read_printer(object); });
+  return printer;
+}
+
+GeometryError too_large(const Printer& printer, Vec3 size) {
+  std::string words = fmt::format(
+      "The design is {:.6g} x {:.6g} x {:.6g} mm, larger than what {} builds: "
+      "{}",
+      size.x, size.y, size.z, printer.name, volume_text(printer.build_volume()));
+  const Vec3 turned(size.y, size.x, size.z);
+  if (fits(turned, printer.build_volume())) {
+    return GeometryError(words + "; turned by 90° it fits");
+  }
+  std::vector<Printer> larger = known_printers();
+  std::erase_if(larger, [&](const Printer& other) {
+    return other.build_height == 0 || (!fits(size, other.build_volume()) &&
+                                       !fits(turned, other.build_volume()));
+  });
+  std::ranges::stable_sort(larger, {}, [](const Printer& other) {
+    const Vec3 volume = other.build_volume();
+    return volume.x * volume.y * volume.z;
+  });
+  if (larger.empty()) {
+    return GeometryError(words + "; lamina knows no printer that is large enough");
+  }
+  if (larger.size() > kMostNamed) larger.resize(kMostNamed);
+  words += "; it fits";
+  for (std::size_t i = 0; i < larger.size(); ++i) {
+    words += fmt::format("{} {} ({})",
+                         i == 0 ? "" : i + 1 == larger.size() ? " or" : ",",
+                         larger[i].name, volume_text(larger[i].build_volume()));
+  }
+  return GeometryError(words);
+}
+
+}  // namespace lamina::slicer

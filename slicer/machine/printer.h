@@ -1,0 +1,66 @@
+#pragma once
+// A resin printer: its build volume, the panel of pixels that hardens a layer,
+// and where on it a part is shown.
+
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "base/vec.h"
+
+namespace lamina::slicer {
+
+// How pixels stand in a PNG file.
+enum class PixelLayout {
+  kGrey,  // 8 bits each
+  // Three neighbours are red, green and blue of one pixel: 8 bits each. The
+  // width must be a multiple of three.
+  kThreeInOne,
+};
+
+struct Printer {
+  std::string name;
+  std::string title;    // as its maker writes it
+  std::string source;   // of these figures
+  unsigned width = 0;   // of the panel [pixels]
+  unsigned height = 0;
+  Vec2 pixel = Vec2(0);  // its size to the right and upwards [mm]
+  // The directions of the design that run to the right and upwards in the
+  // image, ±x and ±y. Panels seen from below show a mirrored part.
+  Vec2 right = Vec2(1, 0);
+  Vec2 up = Vec2(0, 1);
+  double build_height = 0;  // [mm]; 0: not known
+  // What it takes to lift the part from the film and to come back, for each
+  // layer [s]; 0: not known.
+  double move_seconds = 0;
+
+  // How NanoDLP hands pixels to its display.
+  PixelLayout nanodlp_layout = PixelLayout::kGrey;
+
+  // Whether the panel shows a mirrored part.
+  bool is_mirrored() const { return right.x * up.y - right.y * up.x < 0; }
+
+  // What it builds, along the axes of the design [mm]; z is infinite where the
+  // height is not known.
+  Vec3 build_volume() const;
+};
+
+// The printers that lamina knows, in alphabetical order of their names.
+std::vector<Printer> known_printers();
+
+// Returns the printer that lamina knows by that name, or else that of a
+// profile: a JSON file (docs/formats.md).
+//
+// throws  FileError where there is no such printer, or the file is no profile;
+//         AccessError where the file may not be read
+Printer find_printer(const std::string& name_or_file,
+                     const FileAccess& access = kAllFiles);
+
+// Says that a part is larger than what the printer builds, and which known
+// printers are large enough.
+//
+// size  of the part along the axes of the design [mm]
+GeometryError too_large(const Printer& printer, Vec3 size);
+
+}  // namespace lamina::slicer
