@@ -33,7 +33,8 @@ Usage:
   lamina inspect FILE [OPTION]...         list layers, measure and weigh them
   lamina compare A B [OPTION]...          compare two files or designs
   lamina view FILE -o PICTURE.png         draw a layer file or a design
-  lamina printers, lamina materials       list those that lamina knows
+  lamina printers                         list the printers that lamina knows
+  lamina materials                        list its resins and metals
 
 Output:
   -o FILE             the output, by its extension; '-' is standard output;

@@ -1,6 +1,8 @@
 #include "slicer/check/inspection_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -16,12 +18,13 @@
 namespace lamina::slicer {
 namespace {
 
-// Metals, wax, and resin as such.
+// Metals, wax, and resin as such, the heaviest first.
 std::vector<Material> weighed_materials() {
   std::vector<Material> materials = known_materials();
   std::erase_if(materials, [](const Material& material) {
     return material.exposure > 0;
   });
+  std::ranges::stable_sort(materials, std::greater(), &Material::density);
   return materials;
 }
 

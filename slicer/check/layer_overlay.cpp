@@ -202,11 +202,11 @@ Outlook look_along(const Sample& lower, const Sample& upper, double x,
 // vertices of the layer above.
 class OverhangSearch {
  public:
-  OverhangSearch(const ldni::Contours& below, double reach,
-                 std::vector<Overhang>& found)
+  OverhangSearch(const ldni::Contours& below, const ldni::Contours& above,
+                 double reach, std::vector<Overhang>& found)
       : tree_(below),
         reach_(reach),
-        pitch_(std::max(reach, kPitch)),
+        pitch_(std::max({reach, kPitch, extent(above) / kMostColumns})),
         found_(found) {}
 
   void search(const Ledge& ledge) {
@@ -236,6 +236,12 @@ class OverhangSearch {
   }
 
  private:
+  static double extent(const ldni::Contours& contours) {
+    Box2 box;
+    box.add(std::span<const Vec2>(contours.points));
+    return std::max(box.size().x, box.size().y);
+  }
+
   // Between two successive vertices of either chain.
   void search_part(const Ledge& ledge, const Cursor& lower,
                    const Cursor& upper, double left, double right) {
@@ -326,8 +332,10 @@ class OverhangSearch {
     return distance;
   }
 
-  // Places are so far apart [mm], where the reach is not more.
+  // Places are so far apart [mm], where the reach is not more, and where no
+  // more than so many columns are needed.
   static constexpr double kPitch = 0.1;
+  static constexpr double kMostColumns = 4000;
   // In a column the next place follows after this share of the distance that
   // the last one had beyond the reach: the greatest distance falls short by a
   // tenth at most.
@@ -386,7 +394,8 @@ struct OverlaySweep::State {
   void close(std::uint32_t lower, double x);
   void link(const Gap& gap);
   bool is_linked(const Gap& gap) const;
-  void find_overhangs(const ldni::Contours& below, LayerOverlay& overlay);
+  void find_overhangs(const ldni::Contours& below, const ldni::Contours& above,
+                      LayerOverlay& overlay);
 
   bool is_below(const Sample& sample, const Sample& other, double x) const;
   Label above(const Sample& sample) const { return side(sample, true); }
@@ -449,7 +458,7 @@ void OverlaySweep::State::lay_over(const ldni::Contours& layer, double reach,
   }
   overlay.around = around_[1];
   overlay.areas = layers_[1].areas();
-  find_overhangs(*contours_, overlay);
+  find_overhangs(*contours_, layer, overlay);
   contours_ = &layer;
 }
 
@@ -716,13 +725,14 @@ void OverlaySweep::State::link(const Gap& gap) {
 }
 
 void OverlaySweep::State::find_overhangs(const ldni::Contours& below,
+                                         const ldni::Contours& above,
                                          LayerOverlay& overlay) {
   std::erase_if(ledges_, [&](const Ledge& ledge) {
     return std::ranges::find(overlay.solids, ledge.region, &Overlap::above) ==
            overlay.solids.end();
   });
   if (ledges_.empty()) return;
-  OverhangSearch search(below, reach_, overlay.overhangs);
+  OverhangSearch search(below, above, reach_, overlay.overhangs);
   for (const Ledge& ledge : ledges_) search.search(ledge);
 }
 

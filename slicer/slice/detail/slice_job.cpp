@@ -291,10 +291,15 @@ void run_alone(Job& job, const MakeWorker& make_worker, SliceReport& report) {
   worker.report_to(report);
 }
 
-void run_together(Job& job, unsigned threads, const MakeWorker& make_worker,
-                  SliceReport& report) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  threads);
+// is_limited  whether no more threads may work, nor fewer than asked for
+void run_together(Job& job, unsigned threads, bool is_limited,
+                  const MakeWorker& make_worker, SliceReport& report) {
+  // Where nobody says how many there are to be, the blocks under way say it.
+  // (oneTBB 2021.8 hangs in this where memory ends while threads start.)
+  std::optional<tbb::global_control> limit;
+  if (is_limited) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  }
   tbb::enumerable_thread_specific<Worker> workers(make_worker);
   std::vector<Block> blocks(kBlocksPerThread * threads);
   // Input and output keep the same order and at most blocks.size() blocks are
@@ -342,7 +347,7 @@ void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
   if (threads == 1) {
     run_alone(job, make_worker, report);
   } else {
-    run_together(job, threads, make_worker, report);
+    run_together(job, threads, settings.threads != 0, make_worker, report);
   }
 }
 

@@ -1,0 +1,135 @@
+// lamina check, and what runs say of the print.
+
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using nlohmann::json;
+using support::read_file;
+using support::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const char* const kFloating = "cube(10);\ntranslate([20, 0, 5]) cube(4);\n";
+
+TEST(Check, EndsWellWhereNothingGoesWrong) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(10);");
+  const auto result = run(folder, {"check", "a.scad"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.output,
+            "print: nothing found\npeel: 100 mm² at most, in layer 1\n");
+}
+
+TEST(Check, NamesTheLineOfAnIsland) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kFloating);
+  const auto result = run(folder, {"check", "a.scad"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.output, "print: 1 island, 1 loose part\n"))
+      << result.output;
+  EXPECT_TRUE(has(result.output, "16 mm², never joined, by a.scad:2:23\n"))
+      << result.output;
+}
+
+TEST(Check, AllowsWhatItIsTold) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kFloating);
+  EXPECT_EQ(run(folder, {"check", "a.scad", "--allow", "islands"}).status, 1);
+  EXPECT_EQ(run(folder, {"check", "a.scad", "--allow", "islands", "--allow",
+                         "loose-parts"})
+                .status,
+            0);
+}
+
+TEST(Check, SaysTheSameOfAFileAndOfItsDesign) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kFloating);
+  const json of_design =
+      json::parse(run(folder, {"check", "a.scad", "--json"}).output);
+  for (const std::string format : {"slc", "cli", "svg", "layers.json"}) {
+    ASSERT_EQ(run(folder, {"a.scad", "-q", "-o", "a." + format}).status, 0);
+    const auto result = run(folder, {"check", "a." + format, "--json"});
+    EXPECT_EQ(result.status, 1) << format;
+    const json of_file = json::parse(result.output);
+    ASSERT_EQ(of_file.at("findings").size(), of_design.at("findings").size());
+    for (std::size_t i = 0; i < of_file.at("findings").size(); ++i) {
+      const json& mine = of_file.at("findings")[i];
+      const json& other = of_design.at("findings")[i];
+      EXPECT_EQ(mine.at("kind"), other.at("kind")) << format;
+      EXPECT_EQ(mine.at("first_layer"), other.at("first_layer")) << format;
+      EXPECT_EQ(mine.at("last_layer"), other.at("last_layer")) << format;
+    }
+  }
+}
+
+TEST(Check, IsInSummariesReportsAndInspections) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kFloating);
+  const auto result = run(folder, {"a.scad", "--report", "a.json"});
+  EXPECT_TRUE(has(result.errors,
+                  "print: 1 island, 1 loose part; 'lamina check a.scad' says "
+                  "where\n"))
+      << result.errors;
+  const json report = json::parse(read_file(folder.file("a.json")));
+  EXPECT_EQ(report.at("print").at("findings")[0].at("kind"), "island");
+  EXPECT_EQ(report.at("print")
+                .at("findings")[0]
+                .at("made_by")[0]
+                .at("place"),
+            "a.scad:2:23");
+  EXPECT_EQ(report.at("print").at("peel").at("jump_layer"), 101);
+  EXPECT_TRUE(has(run(folder, {"inspect", "a.slc"}).output,
+                  "print: 1 island, 1 loose part\n"));
+}
+
+TEST(Machine, APartThatDoesNotFitIsAnError) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "$fn = 40; cylinder(r = 2, h = 400);");
+  for (const std::string output : {"a.sl1", "a.slc"}) {
+    const auto result =
+        run(folder, {"a.scad", "-o", output, "--printer", "prusa-sl1"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.errors,
+              "error: The design is 4 x 4 x 400 mm, larger than what prusa-sl1 "
+              "builds: 120.96 x 68.04 x 150 mm; lamina knows no printer that "
+              "is large enough\n");
+    EXPECT_EQ(folder.entry_count(), 1U);
+  }
+}
+
+TEST(Machine, WarnsOfArchivesAndExposuresForOthers) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  const auto archive =
+      run(folder, {"a.scad", "-o", "a.sl1", "--printer", "elegoo-mars-3"});
+  EXPECT_EQ(archive.status, 0);
+  EXPECT_TRUE(has(archive.errors,
+                  "warning: an .sl1 archive for elegoo-mars-3 is for programs "
+                  "that convert it, such as UVtools: the printer does not read "
+                  "it\n"))
+      << archive.errors;
+  const auto exposure = run(folder, {"a.scad", "-o", "b.sl1", "--layer", "0.1",
+                                     "--material", "prusa-orange-tough"});
+  EXPECT_TRUE(has(exposure.errors,
+                  "warning: the exposure of Prusa Orange Tough is for layers "
+                  "of 0.05 mm; a profile of your own can have yours\n"))
+      << exposure.errors;
+}
+
+TEST(Machine, IsListed) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(has(run(folder, {"printers"}).output, "elegoo-mars-3"));
+  EXPECT_TRUE(has(run(folder, {"materials"}).output, "sterling-silver"));
+}
+
+}  // namespace
+}  // namespace lamina::cli

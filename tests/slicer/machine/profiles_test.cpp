@@ -1,0 +1,150 @@
+// Profiles of printers and materials: those that lamina knows, and faulty ones.
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/diagnostic.h"
+#include "slicer/machine/build_volume.h"
+#include "slicer/machine/material.h"
+#include "slicer/machine/printer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::slicer {
+namespace {
+
+using nlohmann::json;
+using support::TemporaryFolder;
+namespace fs = std::filesystem;
+
+json read_json(const fs::path& path) {
+  std::ifstream file(path);
+  return json::parse(file);
+}
+
+TEST(KnownPrinters, AreMoreThanTwentyWithASourceEach) {
+  const auto printers = known_printers();
+  EXPECT_GT(printers.size(), 30U);
+  std::set<std::string> names;
+  for (const Printer& printer : printers) {
+    EXPECT_TRUE(names.insert(printer.name).second) << printer.name;
+    EXPECT_NE(printer.source, "") << printer.name;
+    if (printer.name == "plain") continue;
+    EXPECT_GT(printer.build_height, 100) << printer.name;
+    const Vec3 volume = printer.build_volume();
+    EXPECT_GT(volume.x * volume.y, 60 * 60) << printer.name;
+  }
+  for (const Material& material : known_materials()) {
+    EXPECT_NE(material.source, "") << material.name;
+    EXPECT_TRUE(material.printer.empty() || names.contains(material.printer))
+        << material.name;
+  }
+}
+
+// The schemas list the members that are read, and the profiles keep to them.
+TEST(Profiles, KeepToTheirSchema) {
+  const fs::path folder = LAMINA_MACHINES;
+  for (const std::string kind : {"printer", "material"}) {
+    const json schema = read_json(folder / (kind + ".schema.json"));
+    for (const auto& file : fs::directory_iterator(folder / (kind + "s"))) {
+      if (file.path().extension() != ".json") continue;
+      const json profile = read_json(file.path());
+      EXPECT_EQ(profile.at("name"), file.path().stem().string());
+      for (const auto& [member, value] : profile.items()) {
+        EXPECT_TRUE(schema.at("properties").contains(member))
+            << file.path() << ": " << member;
+      }
+      for (const json& member : schema.at("required")) {
+        EXPECT_TRUE(profile.contains(member)) << file.path() << ": " << member;
+      }
+    }
+  }
+}
+
+std::string fault_of(const std::string& text, bool is_printer) {
+  const TemporaryFolder folder;
+  folder.write("a.json", text);
+  try {
+    if (is_printer) {
+      find_printer(folder.file("a.json"));
+    } else {
+      find_material(folder.file("a.json"));
+    }
+  } catch (const FileError& error) {
+    const std::string words = error.what();
+    return words.substr(words.find("json': ") + 7);
+  }
+  return "";
+}
+
+TEST(Profiles, SayWhatIsWrong) {
+  EXPECT_EQ(fault_of(R"({"name": "a", "density": 1.2})", false), "");
+  EXPECT_EQ(fault_of(R"({"name": "a", "density": 99})", false),
+            "density is from 0.01 to 25, not 99");
+  EXPECT_EQ(fault_of(R"({"name": "a"})", false), "key 'density' not found");
+  EXPECT_EQ(fault_of(R"({"name": "a", "density": 1, "exposure": 3})", false),
+            "there is no member 'exposure'; did you mean 'exposure_s'?");
+  const std::string printer =
+      R"({"name": "a", "pixels": [9, 9], "pixel_mm": [1, 1], "right": "+x",)";
+  EXPECT_EQ(fault_of(printer + R"("up": "+y"})", true), "");
+  EXPECT_EQ(fault_of(printer + R"("up": "+y", "height_mm": -1})", true),
+            "height_mm is from 0.001 to 10000, not -1");
+  EXPECT_EQ(fault_of(printer + R"("up": "+y", "hight_mm": 1})", true),
+            "there is no member 'hight_mm'; did you mean 'height_mm'?");
+}
+
+TEST(Profiles, GuessNames) {
+  try {
+    find_printer("elego-mars-3");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(),
+                 "Can't use printer 'elego-mars-3': did you mean "
+                 "'elegoo-mars-3'? 'lamina printers' lists those that lamina "
+                 "knows, and a file of your own ends in .json");
+  }
+}
+
+TEST(TooLarge, NamesPrintersThatAreLargeEnough) {
+  const Printer mars = find_printer("elegoo-mars-3");
+  EXPECT_STREQ(too_large(mars, Vec3(80, 120, 20)).what(),
+               "The design is 80 x 120 x 20 mm, larger than what elegoo-mars-3 "
+               "builds: 143.43 x 89.6 x 175 mm; turned by 90° it fits");
+  const std::string words = too_large(mars, Vec3(20, 20, 280)).what();
+  EXPECT_NE(words.find("; it fits elegoo-jupiter (277.848 x 156.264 x 300 mm) "
+                       "or anycubic-photon-m3-max ("),
+            std::string::npos)
+      << words;
+  EXPECT_NE(std::string(too_large(mars, Vec3(4, 4, 400)).what())
+                .find("lamina knows no printer that is large enough"),
+            std::string::npos);
+}
+
+Layer layer_of(Vec2 size, double bottom, double top) {
+  Layer layer;
+  layer.bottom = bottom;
+  layer.top = top;
+  layer.contours.points = {{0, 0}, {size.x, 0}, {size.x, size.y}, {0, size.y}};
+  layer.contours.ends = {4};
+  return layer;
+}
+
+TEST(BuildVolumeSink, TakesWhatFitsToTheLastMicrometre) {
+  const Printer mars = find_printer("elegoo-mars-3");
+  const Vec3 volume = mars.build_volume();
+  LayerDrain drain;
+  BuildVolumeSink sink(mars, drain);
+  sink.begin({Vec3(0), volume});
+  EXPECT_NO_THROW(sink.take(layer_of({volume.x, volume.y}, 0, volume.z)));
+  EXPECT_THROW(sink.take(layer_of({volume.x, volume.y}, volume.z, volume.z + 1)),
+               GeometryError);
+  EXPECT_THROW(sink.take(layer_of({volume.x + 0.01, 1}, 0, 1)), GeometryError);
+}
+
+}  // namespace
+}  // namespace lamina::slicer
