@@ -348,5 +348,22 @@ TEST(Braid, ShowsACrestOfEachStrandInEveryPlait) {
             (LoopCounts{3 * 8, 0}));
 }
 
+// The table of examples/README.md.
+TEST(Examples, FindWhatTheirPageSays) {
+  const std::string page =
+      support::read_file(fmt::format("{}/README.md", LAMINA_EXAMPLES));
+  for (const std::string name : {"braid", "eternity", "filigree", "hoop",
+                                 "medal", "pendant", "signet", "solitaire"}) {
+    const ProcessResult result = run_lamina({"check", design_path(name)});
+    EXPECT_EQ(result.status, 1);
+    const std::string counts = result.output.substr(
+        std::string("print: ").size(),
+        result.output.find('\n') - std::string("print: ").size());
+    EXPECT_NE(page.find(fmt::format("| {} | {} |", name, counts)),
+              std::string::npos)
+        << name << ": " << counts;
+  }
+}
+
 }  // namespace
 }  // namespace lamina
