@@ -335,7 +335,7 @@ class OverhangSearch {
   // Places are so far apart [mm], where the reach is not more, and where no
   // more than so many columns are needed.
   static constexpr double kPitch = 0.1;
-  static constexpr double kMostColumns = 4000;
+  static constexpr double kMostColumns = 512;
   // In a column the next place follows after this share of the distance that
   // the last one had beyond the reach: the greatest distance falls short by a
   // tenth at most.

@@ -10,10 +10,10 @@ namespace lamina::slicer {
 namespace {
 
 // No place is farther from the boundary than so many times the one returned.
-constexpr double kEnough = 1.1;
+constexpr double kEnough = 1.25;
 
-// Squares to look at: a sliver has no place that is worth more.
-constexpr int kMostSquares = 20'000;
+// Squares to look at: what many more would find is hardly better.
+constexpr int kMostSquares = 1000;
 
 struct Square {
   Vec2 middle;

@@ -12,8 +12,9 @@
 namespace lamina::slicer {
 
 // region  loops with winding 1 inside and 0 outside, at least one
-// returns a place inside whose distance from the boundary is 90 % of the
-//         greatest at least; of a sliver, a point of its boundary
+// returns a place inside whose distance from the boundary is 80 % of the
+//         greatest, where that takes no thousands of looks; of a sliver, a
+//         point of its boundary
 Vec2 pole_of(const ldni::Contours& region);
 
 }  // namespace lamina::slicer
