@@ -30,7 +30,7 @@ constexpr std::string_view kCheckHelp =
     R"(Usage: lamina check FILE [OPTION]...
 
 Says what would go wrong in the print of a .scad or .csg design, with any option
-that slicing has, or of a file of layers (.slc, .cli, .svg, .layers.json):
+that slicing has, or of a file of layers (.slc, .cli, .svg, .3mf, .layers.json):
 
   islands        begin in mid-air: nothing in the layer below holds them
   loose parts    hang together with nothing that reaches the bed
@@ -103,7 +103,8 @@ class CheckCommand : public Command {
 
   // Whether the design or the file could be looked at.
   bool look(compiler::Compilation& compilation) const {
-    if (slicer::is_readable_layer_file(request_.design)) {
+    if (slicer::is_readable_layer_file(request_.design,
+                                       compilation.file_access())) {
       compilation.report.slice.print =
           compiler::inspect_file(
               request_.design,

@@ -30,7 +30,7 @@ constexpr std::string_view kCompareHelp =
     R"(Usage: lamina compare A B [OPTION]...
        lamina compare DESIGN --against openscad [OPTION]...
 
-Compares the layers of files (.slc .cli .svg .layers.json), designs (.scad
+Compares the layers of files (.slc .cli .svg .3mf .layers.json), designs (.scad
 .csg), meshes (.stl .off .obj .amf .3mf) and drawings (.dxf), in any pairing.
 All but files are cut at the heights of the other one; two designs at those of
 the first. Shows for each layer the areas that only one of them covers, regions

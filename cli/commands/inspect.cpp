@@ -24,7 +24,7 @@ constexpr std::string_view kInspectHelp =
     R"(Usage: lamina inspect FILE [OPTION]...
 
 Shows the header, the layers, the box, the volume and the weight in usual
-metals of a file of layers (.slc, .cli, .svg, .layers.json), or of a .scad or
+metals of a file of layers (.slc, .cli, .svg, .3mf, .layers.json), or of a .scad or
 .csg design with any option that slicing has. Checks the loops: closed, without
 repeats, crossings and empty loops, in the direction that their nesting asks
 for, layers rising. Ends with 1 if there is a defect. Says what would go wrong
@@ -66,7 +66,8 @@ class InspectCommand : public Command {
   // No value where the design failed.
   std::optional<slicer::Inspection> look(
       compiler::Compilation& compilation) const {
-    if (slicer::is_readable_layer_file(request_.design)) {
+    if (slicer::is_readable_layer_file(request_.design,
+                                       compilation.file_access())) {
       return compiler::inspect_file(request_.design,
                                     {.min_feature = min_feature_},
                                     compilation.file_access());

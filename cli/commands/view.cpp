@@ -116,7 +116,7 @@ constexpr std::string_view kViewHelp =
     R"(Usage: lamina view FILE -o PICTURE.png [OPTION]...
        lamina view FILE -o PAGE.html [OPTION]...
 
-Draws the layers of a .slc, .cli, .svg or .layers.json file, or of a .scad or
+Draws the layers of a .slc, .cli, .svg, .3mf or .layers.json file, or of a .scad or
 .csg design with any option of Design, Slicing and Limits (see 'lamina --help').
 A page shows all layers in any browser, to leaf through, zoom and measure; it is
 one file and needs no network.
@@ -173,7 +173,8 @@ std::optional<std::vector<slicer::Layer>> layers_of(
     compiler::Compilation& compilation) {
   const compiler::Request& request = compilation.request;
   compiler::LayerList list;
-  if (slicer::is_readable_layer_file(request.design)) {
+  if (slicer::is_readable_layer_file(request.design,
+                                     compilation.file_access())) {
     slicer::read_layers(
         request.design,
         [&](slicer::Layer& layer) { list.layers.push_back(std::move(layer)); },

@@ -184,7 +184,7 @@ bool can_compare(const std::string& path) {
 std::unique_ptr<Compared> open_compared(const std::string& path,
                                         const compiler::Request& request,
                                         bool is_quiet, const Context& context) {
-  if (slicer::is_readable_layer_file(path)) {
+  if (slicer::is_readable_layer_file(path, context.file_access())) {
     return std::make_unique<ComparedFile>(path, context.file_access());
   }
   if (compiler::is_imported(path)) {

@@ -32,11 +32,12 @@ struct Format {
   std::string_view ending;
   ReadLayers* read;
 };
-constexpr std::array<Format, 4> kFormats = {{
+constexpr std::array<Format, 5> kFormats = {{
     {".slc", read_slc},
     {".cli", read_cli},
     {".svg", read_svg},
     {".layers.json", read_layers_json},
+    {".3mf", read_3mf},
 }};
 
 ReadLayers* reader_for(std::string_view path) {
@@ -68,8 +69,10 @@ void require_within_reach(const std::string& path, const Layer& layer,
                                  number, kGreatestCoordinate));
 }
 
-bool is_readable_layer_file(std::string_view path) {
-  return reader_for(path) != nullptr;
+bool is_readable_layer_file(const std::string& path,
+                            const FileAccess& access) {
+  ReadLayers* const read = reader_for(path);
+  return read != nullptr && (read != read_3mf || has_slices(path, access));
 }
 
 LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
@@ -77,7 +80,7 @@ LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
   ReadLayers* const read = reader_for(path);
   if (read == nullptr) {
     fail_to_read(path,
-                 "layers are read from .slc, .cli, .svg and .layers.json only");
+                 "layers are read from .slc, .cli, .svg, .layers.json and .3mf only");
   }
   std::size_t count = 0;
   return read(

@@ -20,12 +20,13 @@ namespace lamina::slicer {
 // SLC) these run clockwise, the others counter-clockwise.
 using TakeLayer = std::function<void(Layer&)>;
 
-// Whether a file with that name can be read: .slc .cli .svg .layers.json, in
-// any letter case.
-bool is_readable_layer_file(std::string_view path);
+// Whether the file can be read: by its name .slc .cli .svg .layers.json, in any
+// letter case, or a .3mf that holds slices.
+bool is_readable_layer_file(const std::string& path,
+                            const FileAccess& access = kAllFiles);
 
-// Throws FileError, also for a file whose name is_readable_layer_file() does
-// not take, and AccessError for one that may not be read.
+// Throws FileError, also for a file that is_readable_layer_file() does not
+// take, and AccessError for one that may not be read.
 LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
                            const FileAccess& access = kAllFiles);
 

@@ -55,7 +55,7 @@ TEST(Check, SaysTheSameOfAFileAndOfItsDesign) {
   folder.write("a.scad", kFloating);
   const json of_design =
       json::parse(run(folder, {"check", "a.scad", "--json"}).output);
-  for (const std::string format : {"slc", "cli", "svg", "layers.json"}) {
+  for (const std::string format : {"slc", "cli", "svg", "3mf", "layers.json"}) {
     ASSERT_EQ(run(folder, {"a.scad", "-q", "-o", "a." + format}).status, 0);
     const auto result = run(folder, {"check", "a." + format, "--json"});
     EXPECT_EQ(result.status, 1) << format;

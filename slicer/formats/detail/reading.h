@@ -50,5 +50,9 @@ using ReadLayers = LayerFileFacts(const std::string& path,
 ReadLayers read_cli;
 ReadLayers read_layers_json;
 ReadLayers read_svg;
+ReadLayers read_3mf;
+
+// Whether the file is a 3MF with slices; they may also hold meshes alone.
+bool has_slices(const std::string& path, const FileAccess& access);
 
 }  // namespace lamina::slicer

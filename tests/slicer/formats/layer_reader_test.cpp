@@ -113,6 +113,7 @@ std::vector<Written> files() {
   add("ascii.CLI", {.format = kCli, .cli = CliEncoding::kAscii}, "CLI, ASCII",
       true);
   add("a.svg", {.format = kSvg}, "SVG", true);
+  add("a.3mf", {.format = kThreemf}, "3MF with slices", true);
   add("a.layers.json", {.format = kLayersJson}, "layers.json", false);
   return files;
 }
@@ -145,6 +146,9 @@ TEST(ReadLayers, ACutFileIsAnErrorWhereverItIsCut) {
     const std::size_t whole = file.bytes.find_last_not_of('\n') + 1;
     for (std::size_t size = 0; size < whole; ++size) {
       if (file.name == "binary.cli" && size == whole - kLastPolyline) continue;
+      // Where the directory stands, and how long a comment is, ends archives:
+      // minizip finds the directory by itself.
+      if (file.name == "a.3mf" && size + 6 >= whole) continue;
       ASSERT_NE(error_of(file.name, file.bytes.substr(0, size)), "")
           << size << " of " << whole << " bytes";
     }

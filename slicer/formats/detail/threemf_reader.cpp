@@ -1,0 +1,195 @@
+// Reads the slices of 3MF files (docs/formats.md): one stack, whatever the mesh
+// is that stands in for it.
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include "base/file/format_error.h"
+#include "base/file/xml.h"
+#include "base/file/zip.h"
+#include "base/loop_area.h"
+#include "base/text.h"
+#include "slicer/formats/detail/reading.h"
+
+namespace lamina::slicer {
+namespace {
+
+constexpr const char* kModel = "3D/3dmodel.model";
+
+// The name without the prefix of its namespace.
+std::string_view local_name(const pugi::xml_node& node) {
+  const std::string_view name = node.name();
+  return name.substr(name.rfind(':') + 1);
+}
+
+template <typename Visit>
+void visit_children(const pugi::xml_node& parent, std::string_view name,
+                    const Visit& visit) {
+  for (const pugi::xml_node& node : parent.children()) {
+    if (local_name(node) == name) visit(node);
+  }
+}
+
+// The length of a unit [mm]; 0 where there is none of that name.
+double length_of_unit(std::string_view name) {
+  if (name.empty() || name == "millimeter") return 1;
+  if (name == "micron") return 0.001;
+  if (name == "centimeter") return 10;
+  if (name == "inch") return kMillimetresPerInch;
+  if (name == "foot") return 12 * kMillimetresPerInch;
+  if (name == "meter") return 1000;
+  return 0;
+}
+
+// The model of an archive; nothing where it is no archive with one.
+std::optional<std::string> read_model(std::string_view bytes) {
+  return ZipArchive::open(bytes).read(kModel);
+}
+
+class ThreemfReader {
+ public:
+  ThreemfReader(const std::string& path, const FileAccess& access)
+      : path_(path), file_(read_whole(path, access)) {
+    std::optional<std::string> model;
+    try {
+      model = read_model(file_);
+    } catch (const FormatError& error) {
+      fail_to_read(path, error.what());
+    }
+    if (!model) fail_to_read(path, fmt::format("it holds no {}", kModel));
+    if (const auto fault = load_xml(*model, document_)) {
+      fail_to_read(path, fmt::format("{} at byte {}: {}", kModel, fault->place,
+                                     fault->words));
+    }
+    unit_ = length_of_unit(root().attribute("unit").value());
+    if (unit_ == 0) {
+      fail_to_read(path, fmt::format("unknown unit '{}'",
+                                     root().attribute("unit").value()));
+    }
+  }
+
+  LayerFileFacts read(const TakeLayer& take) {
+    std::size_t stacks = 0;
+    visit_children(root(), "resources", [&](const pugi::xml_node& resources) {
+      visit_children(resources, "slicestack", [&](const pugi::xml_node& stack) {
+        if (++stacks > 1) {
+          fail_to_read(path_, "it holds several stacks of slices");
+        }
+        read_stack(stack, take);
+      });
+    });
+    if (stacks == 0) fail_to_read(path_, "it holds no slices");
+    LayerFileFacts facts;
+    facts.format = "3MF with slices";
+    visit_children(root(), "resources", [&](const pugi::xml_node& resources) {
+      visit_children(resources, "object", [&](const pugi::xml_node& object) {
+        facts.deviation = deviation_of(object.attribute("name").value());
+      });
+    });
+    visit_children(root(), "metadata", [&](const pugi::xml_node& metadata) {
+      if (metadata.attribute("name").value() == std::string_view("Application"))
+        facts.writer = metadata.child_value();
+    });
+    return facts;
+  }
+
+ private:
+  pugi::xml_node root() const { return document_.document_element(); }
+
+  // "contours within 0.001 mm", as lamina names its object.
+  static std::optional<double> deviation_of(std::string_view name) {
+    constexpr std::string_view kBegin = "contours within ";
+    constexpr std::string_view kEnd = " mm";
+    if (!name.starts_with(kBegin) || !name.ends_with(kEnd)) return {};
+    name.remove_prefix(kBegin.size());
+    name.remove_suffix(kEnd.size());
+    return parse_number(name);
+  }
+
+  double number(const pugi::xml_node& node, const char* attribute) const {
+    const std::string_view text = node.attribute(attribute).value();
+    const auto value = parse_number(text);
+    if (!value) {
+      fail_to_read(path_, fmt::format("expected a number in {} of a {}, not "
+                                      "'{}'",
+                                      attribute, local_name(node), text));
+    }
+    return *value * unit_;
+  }
+
+  std::size_t index(const pugi::xml_node& node, const char* attribute) const {
+    const std::string_view text = node.attribute(attribute).value();
+    std::size_t value = 0;
+    const auto [end, fault] =
+        std::from_chars(text.data(), text.data() + text.size(), value);
+    if (fault != std::errc() || end != text.data() + text.size() ||
+        value >= vertices_.size()) {
+      fail_to_read(path_, fmt::format("there is no vertex '{}'", text));
+    }
+    return value;
+  }
+
+  void read_stack(const pugi::xml_node& stack, const TakeLayer& take) {
+    double bottom = stack.attribute("zbottom") ? number(stack, "zbottom") : 0;
+    visit_children(stack, "slice", [&](const pugi::xml_node& slice) {
+      Layer layer;
+      layer.bottom = bottom;
+      layer.top = bottom = number(slice, "ztop");
+      layer.section_z = (layer.bottom + layer.top) / 2;
+      read_slice(slice, layer.contours);
+      take(layer);
+    });
+  }
+
+  void read_slice(const pugi::xml_node& slice, ldni::Contours& contours) {
+    vertices_.clear();
+    visit_children(slice, "vertices", [&](const pugi::xml_node& vertices) {
+      visit_children(vertices, "vertex", [&](const pugi::xml_node& vertex) {
+        vertices_.emplace_back(number(vertex, "x"), number(vertex, "y"));
+      });
+    });
+    visit_children(slice, "polygon", [&](const pugi::xml_node& polygon) {
+      loop_.assign(1, vertices_.empty() ? Vec2(0)
+                                        : vertices_[index(polygon, "startv")]);
+      visit_children(polygon, "segment", [&](const pugi::xml_node& segment) {
+        loop_.push_back(vertices_[index(segment, "v2")]);
+      });
+      if (loop_.size() > 1 && loop_.front() == loop_.back()) loop_.pop_back();
+      // The positive fill rule: what runs clockwise takes away.
+      add_loop(loop_, signed_area(loop_) < 0 ? LoopKind::kHole : LoopKind::kOuter,
+               contours);
+    });
+  }
+
+  const std::string path_;
+  const std::string file_;
+  pugi::xml_document document_;
+  double unit_ = 1;
+  std::vector<Vec2> vertices_;  // of the slice in hand
+  std::vector<Vec2> loop_;
+};
+
+}  // namespace
+
+LayerFileFacts read_3mf(const std::string& path, const TakeLayer& take,
+                        const FileAccess& access) {
+  return ThreemfReader(path, access).read(take);
+}
+
+bool has_slices(const std::string& path, const FileAccess& access) {
+  const std::optional<std::string> bytes = access.read(path);
+  if (!bytes || !ZipArchive::is_zip(*bytes)) return false;
+  try {
+    const std::optional<std::string> model = read_model(*bytes);
+    return model && model->find("slicestack") != std::string::npos;
+  } catch (const FormatError&) {
+    return false;
+  }
+}
+
+}  // namespace lamina::slicer
