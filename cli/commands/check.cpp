@@ -30,7 +30,8 @@ constexpr std::string_view kCheckHelp =
     R"(Usage: lamina check FILE [OPTION]...
 
 Says what would go wrong in the print of a .scad or .csg design, with any option
-that slicing has, or of a file of layers (.slc, .cli, .svg, .3mf, .layers.json):
+that slicing has, or of a file of layers (.slc, .cli, .svg, .3mf, .sl1, .zip,
+.layers.json, a folder of images):
 
   islands        begin in mid-air: nothing in the layer below holds them
   loose parts    hang together with nothing that reaches the bed

@@ -30,8 +30,9 @@ constexpr std::string_view kCompareHelp =
     R"(Usage: lamina compare A B [OPTION]...
        lamina compare DESIGN --against openscad [OPTION]...
 
-Compares the layers of files (.slc .cli .svg .3mf .layers.json), designs (.scad
-.csg), meshes (.stl .off .obj .amf .3mf) and drawings (.dxf), in any pairing.
+Compares the layers of files (.slc .cli .svg .3mf .sl1 .zip .layers.json, a
+folder of images), designs (.scad .csg), meshes (.stl .off .obj .amf .3mf) and
+drawings (.dxf), in any pairing.
 All but files are cut at the heights of the other one; two designs at those of
 the first. Shows for each layer the areas that only one of them covers, regions
 and holes, and the greatest distance of their contours: no point of one is
@@ -107,7 +108,7 @@ class CompareCommand : public Command {
     for (const std::string& path : {a_, b_}) {
       refuse_if(!path.empty() && !can_compare(path),
                 "'{}' is no file that compare reads (.slc .cli .svg "
-                ".layers.json .scad .csg .stl .off .obj .amf .3mf .dxf)",
+                ".sl1 .zip .layers.json .scad .csg .stl .off .obj .amf .3mf .dxf)",
                 path);
     }
     if (is_against_openscad_) check_openscad();

@@ -24,7 +24,8 @@ constexpr std::string_view kInspectHelp =
     R"(Usage: lamina inspect FILE [OPTION]...
 
 Shows the header, the layers, the box, the volume and the weight in usual
-metals of a file of layers (.slc, .cli, .svg, .3mf, .layers.json), or of a .scad or
+metals of a file of layers (.slc, .cli, .svg, .3mf, .sl1, .zip, .layers.json, a folder
+of images), or of a .scad or
 .csg design with any option that slicing has. Checks the loops: closed, without
 repeats, crossings and empty loops, in the direction that their nesting asks
 for, layers rising. Ends with 1 if there is a defect. Says what would go wrong

@@ -116,8 +116,8 @@ constexpr std::string_view kViewHelp =
     R"(Usage: lamina view FILE -o PICTURE.png [OPTION]...
        lamina view FILE -o PAGE.html [OPTION]...
 
-Draws the layers of a .slc, .cli, .svg, .3mf or .layers.json file, or of a .scad or
-.csg design with any option of Design, Slicing and Limits (see 'lamina --help').
+Draws the layers of a file (.slc, .cli, .svg, .3mf, .sl1, .zip, .layers.json, a
+folder of images), or of a .scad or .csg design with any option of Design, Slicing and Limits (see 'lamina --help').
 A page shows all layers in any browser, to leaf through, zoom and measure; it is
 one file and needs no network.
 

@@ -56,8 +56,8 @@ void refuse_misfits(const compiler::Request& request, bool has_report) {
 void require_readable(std::string_view command, const std::string& file) {
   refuse_if(slicer::is_named_as_layers(file) && !compiler::is_imported(file) &&
                 !slicer::is_readable_layer_file(file),
-            "{} reads .slc, .cli, .svg, .3mf and .layers.json, designs and "
-            "meshes; not '{}'",
+            "{} reads files of layers, folders of images, designs and meshes; "
+            "not '{}'",
             command, file);
 }
 

@@ -177,8 +177,8 @@ std::vector<Layer> Compared::cut(const std::vector<double>& /*heights*/) {
 }
 
 bool can_compare(const std::string& path) {
-  return slicer::is_readable_layer_file(path) || is_design(path) ||
-         compiler::is_imported(path);
+  return is_design(path) || compiler::is_imported(path) ||
+         slicer::is_readable_layer_file(path);
 }
 
 std::unique_ptr<Compared> open_compared(const std::string& path,

@@ -32,15 +32,20 @@ struct Format {
   std::string_view ending;
   ReadLayers* read;
 };
-constexpr std::array<Format, 5> kFormats = {{
+constexpr std::array<Format, 9> kFormats = {{
     {".slc", read_slc},
     {".cli", read_cli},
     {".svg", read_svg},
     {".layers.json", read_layers_json},
     {".3mf", read_3mf},
+    {".sl1", read_image_archive},
+    {".zip", read_image_archive},
+    {".nanodlp", read_image_archive},
+    {".png", read_image_folder},
 }};
 
 ReadLayers* reader_for(std::string_view path) {
+  while (path.ends_with('/')) path.remove_suffix(1);
   for (const Format& format : kFormats) {
     if (is_named(path, format.ending)) return format.read;
   }
@@ -72,7 +77,9 @@ void require_within_reach(const std::string& path, const Layer& layer,
 bool is_readable_layer_file(const std::string& path,
                             const FileAccess& access) {
   ReadLayers* const read = reader_for(path);
-  return read != nullptr && (read != read_3mf || has_slices(path, access));
+  if (read == read_3mf) return has_slices(path, access);
+  if (read == read_image_folder) return is_image_folder(path, access);
+  return read != nullptr;
 }
 
 LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
@@ -80,7 +87,8 @@ LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
   ReadLayers* const read = reader_for(path);
   if (read == nullptr) {
     fail_to_read(path,
-                 "layers are read from .slc, .cli, .svg, .layers.json and .3mf only");
+                 "layers are read from .slc, .cli, .svg, .3mf, .sl1, .zip, "
+                 ".nanodlp, .layers.json and folders of images only");
   }
   std::size_t count = 0;
   return read(

@@ -20,8 +20,8 @@ namespace lamina::slicer {
 // SLC) these run clockwise, the others counter-clockwise.
 using TakeLayer = std::function<void(Layer&)>;
 
-// Whether the file can be read: by its name .slc .cli .svg .layers.json, in any
-// letter case, or a .3mf that holds slices.
+// Whether the file can be read: by its name .slc .cli .svg .sl1 .zip .nanodlp
+// .layers.json, in any letter case, a .3mf that holds slices, or a folder .png.
 bool is_readable_layer_file(const std::string& path,
                             const FileAccess& access = kAllFiles);
 

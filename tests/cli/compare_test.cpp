@@ -249,7 +249,7 @@ TEST_F(Compare, HelpNamesEveryKindOfFileThatTheErrorNames) {
   for (std::string extension; named >> extension; ++count) {
     EXPECT_TRUE(contains(help, extension)) << extension;
   }
-  EXPECT_EQ(count, 12U) << error;
+  EXPECT_EQ(count, 14U) << error;
 }
 
 TEST_F(Compare, ChecksItsUsage) {
@@ -279,6 +279,47 @@ TEST_F(Compare, AMissingOpenscadIsAClearError) {
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(contains(result.errors, "openscad is not installed"))
       << result.errors;
+}
+
+// The middle of the box is at x = y = 0, where readers put the panel's middle;
+// turned over or round, the piece would be another one.
+TEST(Images, AreReadBackToATenthOfAPixel) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "translate([-5, -3, 0]) cube([10, 6, 2]);"
+               "translate([2, -1, 2]) cube([2.7, 3.3, 1]);"
+               "translate([-3, 1, 2]) cylinder(r = 1, h = 2, $fn = 40);");
+  struct Case {
+    const char* output;
+    const char* printer;
+  };
+  for (const Case& one :
+       {Case{"a.sl1", "prusa-sl1"}, Case{"b.sl1", "elegoo-mars-3"},
+        Case{"a.zip", "wanhao-d7"}, Case{"b.nanodlp", "concepts3d-athena-8k"},
+        Case{"a.png", "plain"}, Case{"b.png", "plain"}}) {
+    ASSERT_EQ(run(folder, {"a.scad", "-q", "-o", one.output, "--printer",
+                           one.printer})
+                  .status,
+              0);
+    // Half of a corner's pixel is rounded off.
+    const ProcessResult result = run(
+        folder, {"compare", one.output, "a.scad", "--tolerance", "0.03"});
+    EXPECT_EQ(result.status, 0) << one.output << result.output << result.errors;
+    const ProcessResult found = run(folder, {"inspect", one.output});
+    EXPECT_EQ(found.status, 0) << found.output;
+    EXPECT_TRUE(contains(found.output, "80 images of")) << found.output;
+  }
+}
+
+TEST(Images, ThatAreNoneAreErrors) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  ASSERT_EQ(run(folder, {"a.scad", "-q", "-o", "a.sl1"}).status, 0);
+  const std::string bytes = support::read_file(folder.file("a.sl1"));
+  folder.write("a.sl1", bytes.substr(0, bytes.size() / 2));
+  EXPECT_EQ(run(folder, {"inspect", "a.sl1"}).status, 1);
+  folder.write("b.zip", "PK");
+  EXPECT_EQ(run(folder, {"inspect", "b.zip"}).status, 1);
 }
 
 }  // namespace

@@ -53,15 +53,15 @@ TEST(Imported, TheMeshBesideSlicesIsNoneToCount) {
       << result.errors;
 }
 
-TEST(Imported, LayersThatAreOnlyWrittenAreRefused) {
+TEST(Imported, PicturesAreRefused) {
   const TemporaryFolder folder;
   for (const char* const command : {"inspect", "view"}) {
-    const auto result = run(folder, {command, "a.sl1", "-o", "a.png"});
+    const auto result = run(folder, {command, "b.png", "-o", "a.png"});
     EXPECT_EQ(result.status, 2) << command << ' ' << result.errors;
   }
-  const auto result = run(folder, {"inspect", "a.sl1"});
+  const auto result = run(folder, {"inspect", "b.png"});
   EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.errors.find("inspect reads .slc"), std::string::npos)
+  EXPECT_NE(result.errors.find("inspect reads files of layers"), std::string::npos)
       << result.errors;
 }
 

@@ -68,7 +68,7 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"--no-such-option", "a.scad"},
       {"a.slc"},
       {"a.cli", "-o", "b.slc"},
-      {"view", "a.sl1", "-o", "b.png"},
+      {"view", "a.png", "-o", "b.png"},
       {"a.scad", "--layer", "0"},
       {"a.scad", "--layer", "-1"},
       {"a.scad", "--layer", "thick"},

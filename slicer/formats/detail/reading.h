@@ -51,8 +51,14 @@ ReadLayers read_cli;
 ReadLayers read_layers_json;
 ReadLayers read_svg;
 ReadLayers read_3mf;
+ReadLayers read_image_archive;
+ReadLayers read_image_folder;
 
 // Whether the file is a 3MF with slices; they may also hold meshes alone.
 bool has_slices(const std::string& path, const FileAccess& access);
+
+// Whether it is a folder of images with a list of what it holds; a .png may
+// also be a picture.
+bool is_image_folder(const std::string& path, const FileAccess& access);
 
 }  // namespace lamina::slicer
