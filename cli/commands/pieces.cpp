@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
+#include "base/text.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/run_on_stack.h"
@@ -21,6 +22,7 @@
 #include "cli/report/session.h"
 #include "compiler/compile.h"
 #include "compiler/passes.h"
+#include "slicer/check/finding_table.h"
 
 namespace lamina::cli {
 namespace {
@@ -29,9 +31,7 @@ namespace {
 struct Outcome {
   bool is_done = false;
   std::string error;  // the first one
-  std::uint64_t layers = 0;
-  double volume = 0;            // [mm³]
-  double seconds = 0;           // by the clock
+  compiler::Report report;
   nlohmann::ordered_json json;  // report_json(), if a report is wanted
 };
 
@@ -122,9 +122,7 @@ class Workshop {
     });
     Outcome outcome;
     outcome.is_done = status == kDone;
-    outcome.layers = compilation.report.slice.layers;
-    outcome.volume = compilation.report.slice.volume;
-    outcome.seconds = compilation.report.wall_seconds;
+    outcome.report = compilation.report;
     if (status == kDone) {
       if (request.settings.min_feature > 0) {
         session.terminal.say(feature_lines(compilation));
@@ -181,6 +179,17 @@ std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
+// "2 warnings; 1 island": what a row says at its end.
+std::string notes_of(const compiler::Report& report) {
+  std::string text;
+  if (report.warnings > 0) text = counted(report.warnings, "warning");
+  if (report.slice.print && !report.slice.print->findings.empty()) {
+    text += (text.empty() ? "" : "; ") +
+            slicer::finding_counts(*report.slice.print);
+  }
+  return text;
+}
+
 // The closing table, without the last '\n'.
 std::string outcome_table(std::span<const Piece> pieces,
                           std::span<const Outcome> outcomes,
@@ -188,14 +197,23 @@ std::string outcome_table(std::span<const Piece> pieces,
   std::size_t width = unit.size();
   for (const Piece& piece : pieces) width = std::max(width, piece.name.size());
   std::string table =
-      fmt::format("{:<{}}   layers   volume mm3   time s\n", unit, width);
+      fmt::format("{:<{}}  {:>7}  {:>24}  {:>11}  {:>9}  {:>7}\n", unit, width,
+                  "layers", "size", "volume mm³", "weight g", "time s");
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Outcome& outcome = outcomes[i];
     table += fmt::format("{:<{}}  ", pieces[i].name, width);
-    table += outcome.is_done
-                 ? fmt::format("{:>7}  {:>11.3f}  {:>7.3f}\n", outcome.layers,
-                               outcome.volume, outcome.seconds)
-                 : fmt::format("error: {}\n", first_line(outcome.error));
+    if (!outcome.is_done) {
+      table += fmt::format("error: {}\n", first_line(outcome.error));
+      continue;
+    }
+    const compiler::Report& report = outcome.report;
+    const std::string row = fmt::format(
+        "{:>7}  {:>24}  {:>11.3f}  {:>9}  {:>7.3f}  {}", report.slice.layers,
+        size_text(report.slice.box.size()), report.slice.volume,
+        report.estimate.grams > 0 ? fmt::format("{:.3f}", report.estimate.grams)
+                                  : "-",
+        report.wall_seconds, notes_of(report));
+    table += fmt::format("{}\n", row.substr(0, row.find_last_not_of(' ') + 1));
   }
   const std::size_t done = count_done(outcomes);
   return table + fmt::format("{} of {} {} done, {} failed, in {:.3f} s", done,
@@ -205,16 +223,30 @@ std::string outcome_table(std::span<const Piece> pieces,
 
 std::string outcomes_csv(std::span<const Piece> pieces,
                          std::span<const Outcome> outcomes) {
-  std::string text = "line,name,output,layers,volume_mm3,seconds,error\r\n";
+  std::string text =
+      "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,seconds,"
+      "warnings,findings,error\r\n";
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
     const Outcome& outcome = outcomes[i];
     const std::string line =
         piece.line > 0 ? fmt::format("{}", piece.line) : "";
-    const std::string figures =
-        outcome.is_done ? fmt::format("{},{},{},", outcome.layers,
-                                      outcome.volume, outcome.seconds)
-                        : ",,," + csv_cell(outcome.error);
+    std::string figures = ",,,,,,,,,";
+    if (outcome.is_done) {
+      const compiler::Report& report = outcome.report;
+      const Vec3 size = report.slice.box.size();
+      figures = fmt::format(
+          "{},{:.6g},{:.6g},{:.6g},{},{},{},{},{},", report.slice.layers,
+          size.x, size.y, size.z, report.slice.volume,
+          report.estimate.grams > 0 ? fmt::format("{}", report.estimate.grams)
+                                    : "",
+          report.wall_seconds, report.warnings,
+          csv_cell(report.slice.print
+                       ? slicer::finding_counts(*report.slice.print)
+                       : ""));
+    } else {
+      figures += csv_cell(outcome.error);
+    }
     text += fmt::format("{},{},{},{}\r\n", line, csv_cell(piece.name),
                         csv_cell(piece.request.output), figures);
   }

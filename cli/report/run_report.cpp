@@ -113,6 +113,12 @@ Json passes_json(const compiler::Report& report) {
           {"output_seconds", number(slice.output_seconds)}};
 }
 
+Json box_json(const Box3& box) {
+  if (box.is_empty()) return nullptr;
+  return {{"low", {box.low.x, box.low.y, box.low.z}},
+          {"high", {box.high.x, box.high.y, box.high.z}}};
+}
+
 Json layers_json(const compiler::Report& report) {
   const slicer::SliceReport& slice = report.slice;
   return {{"layers", slice.layers},
@@ -121,6 +127,7 @@ Json layers_json(const compiler::Report& report) {
           {"points", slice.points},
           {"volume_mm3", number(slice.volume)},
           {"greatest_area_mm2", number(slice.greatest_area)},
+          {"box_mm", box_json(slice.box)},
           {"chains", slice.sweep.chains},
           {"chain_points", slice.sweep.points},
           {"slabs", slice.sweep.slabs},
@@ -229,7 +236,7 @@ std::string summary_line(const compiler::Compilation& compilation,
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
-      "{}: {}, {}, {}, {}{}{}{}\n"
+      "{}: {}, {}, {}, {}{}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
@@ -237,6 +244,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       counted(slice.layers, "layer"), counted(slice.loops, "loop"),
       counted(slice.points, "vertex", "vertices"),
       memory_text(report.output_bytes),
+      slice.box.is_empty() ? "" : ", " + size_text(slice.box.size()),
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
       machine_line(report), print_line(compilation),
       process_seconds() - earlier_seconds, report.load_seconds,
@@ -264,6 +272,10 @@ std::uint64_t peak_memory_bytes() {
 Json report_json(const compiler::Compilation& compilation) {
   return report_with(
       compilation, {{"wall_seconds", number(compilation.report.wall_seconds)}});
+}
+
+std::string size_text(Vec3 size) {
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size.x, size.y, size.z);
 }
 
 std::string json_text(const Json& json) {

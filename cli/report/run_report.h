@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/vec.h"
 #include "cli/report/session.h"
 
 namespace lamina::cli {
@@ -19,6 +20,9 @@ std::uint64_t peak_memory_bytes();
 // The report of one compilation among several, without what only the whole
 // program has, its total time and memory.
 nlohmann::ordered_json report_json(const compiler::Compilation& compilation);
+
+// "20.6 x 7.52 x 24 mm"
+std::string size_text(Vec3 size);
 
 // One member a line, ended by '\n'. Bytes that are no UTF-8 are replaced: names
 // of files and messages can hold any.

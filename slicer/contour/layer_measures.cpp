@@ -54,6 +54,8 @@ LayerMeasures measure(const ldni::Contours& contours) {
     const double area = signed_area(contours.loop(i));
     measures.holes += area < 0 ? 1 : 0;
     measures.area += area;
+    // Holes lie inside.
+    if (area > 0) measures.box.add(contours.loop(i));
   }
   return measures;
 }

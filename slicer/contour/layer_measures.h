@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/vec.h"
 #include "ldni/section/contours.h"
 
 namespace lamina::slicer {
@@ -16,6 +17,7 @@ struct LayerMeasures {
   std::size_t holes = 0;
   std::size_t vertices = 0;
   double area = 0;  // holes count negative [mm²]
+  Box2 box;
 };
 
 LayerMeasures measure(const ldni::Contours& contours);

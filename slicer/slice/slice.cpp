@@ -134,13 +134,15 @@ ldni::LayerGrid plan_layers(const csg::Scene& scene, const Settings& settings) {
                                   settings.layer_thickness);
 }
 
-void SliceReport::add(const LayerMeasures& layer, double thickness) {
+void SliceReport::add(const LayerMeasures& layer, double bottom, double top) {
   ++layers;
   loops += layer.loops;
   holes += layer.holes;
   points += layer.vertices;
   greatest_area = std::max(greatest_area, layer.area);
-  volume += layer.area * thickness;
+  volume += layer.area * (top - bottom);
+  if (layer.box.is_empty()) return;
+  box.add({Vec3(layer.box.low, bottom), Vec3(layer.box.high, top)});
 }
 
 SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
@@ -196,7 +198,7 @@ SliceReport slice_outline(const planar::Region& outline,
   if (!settings.written.contains(1)) {
     throw_out_of_range(report, settings.written);
   }
-  report.add(measure(layer.contours), 0);
+  report.add(measure(layer.contours), 0, 0);
   warn_of_losses(report.losses, settings.compensation, diagnostics);
   if (layer.contours.is_empty()) throw_empty(report);
   sink.begin(box_of(layer.contours));

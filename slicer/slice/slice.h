@@ -42,13 +42,14 @@ struct SliceReport {
   std::uint64_t points = 0;  // written
   double volume = 0;         // of the layers [mm³]; 0 for --heights
   double greatest_area = 0;  // of a layer [mm²]
+  Box3 box;                  // of all contours and their layers
   CompensationCounts losses;
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
   // Of the layer graph; none where makes_whole_print() is false.
   std::optional<PrintCheck> print;
 
   // Counts a layer that is written.
-  void add(const LayerMeasures& layer, double thickness);
+  void add(const LayerMeasures& layer, double bottom, double top);
 };
 
 // Where the layers of a scene stand. Throws GeometryError where the scene is

@@ -201,7 +201,7 @@ class OrderedOutput {
     layer.section_z = grid_.section_z(index);
     layer.bottom = grid_.layer_bottom(index);
     layer.top = grid_.layer_top(index);
-    report_.add(draft.measures, layer.top - layer.bottom);
+    report_.add(draft.measures, layer.bottom, layer.top);
     sink_.take(layer);
     if (checks_.features != nullptr) {
       report_.feature_seconds += measure_seconds(
