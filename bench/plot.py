@@ -7,6 +7,9 @@ LEFT, RIGHT, TOP, BOTTOM = 70, 170, 20, 50
 BAR, LABEL = 12, 18  # heights of bars
 
 
+LAMINA = "#1e8449"  # the colour of lamina's own contours in every plot
+
+
 @dataclass
 class Axis:
     """A logarithmic axis; `ticks` maps values to their labels."""
