@@ -33,7 +33,7 @@ weave = 0.42 * strand;                          // rise over and under
 sink = min(sleeve - 0.1, weave + 0.1);
 radius = diameter / 2 + sleeve + weave + strand / 2 - sink;
 width = 2 * swing + strand;
-steps = 24 * plaits;
+steps = plaits * max(24, ceil(5 / $fs));
 
 assert(sleeve >= 0.8, "the sleeve is at least 0.8 mm thick");
 // At its crests the curve's radius must exceed that of the wire.

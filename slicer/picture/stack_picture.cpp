@@ -121,7 +121,8 @@ double to_srgb(double linear) {
 
 // A studio that goes with the viewer, who looks down into it a little: a key
 // light from the upper left, a weak one from the right, and a room mirrored in
-// what shines, dark below and bright above.
+// what shines, dark below and bright above, with square lamps: their edges,
+// bent by the surface, are what looks like metal.
 class Studio {
  public:
   explicit Studio(const ColorScheme& colors)
@@ -146,7 +147,7 @@ class Studio {
     const Vec3 tint =
         glm::mix(solid_, Vec3(1), 0.7 * std::pow(1 - facing, 5.0));
     const double shade = 0.3 + 0.7 * sky;
-    const Vec3 light = solid_ * (diffuse * shade * sky * (1 - 0.6 * shine_)) +
+    const Vec3 light = solid_ * (diffuse * shade * sky * (1 - 0.7 * shine_)) +
                        tint * (room(mirrored) * sky * shine_);
     // What is too bright for its colour becomes white.
     const double excess = std::max({light.x, light.y, light.z}) - 0.9;
@@ -156,14 +157,30 @@ class Studio {
  private:
   static constexpr double kElevation = 0.62;  // of the viewer [rad]
 
-  // Returns the light from a direction: a bright ceiling over a dark floor, a
-  // large lamp and a small one.
+  // Returns the share of light from a rectangular lamp with soft edges.
+  //
+  // axis  towards its middle
+  // size  half of its sides, at the distance 1
+  static double lamp(Vec3 to, Vec3 axis, Vec2 size) {
+    constexpr double kSoftness = 0.12;
+    const Vec3 across = glm::normalize(glm::cross(Vec3(0, 0, 1), axis));
+    const double away = std::max(glm::dot(to, axis), 0.001);
+    const auto inside = [&](Vec3 side, double half) {
+      return 1 - smooth_step(half - kSoftness, half + kSoftness,
+                             std::abs(glm::dot(to, side)) / away);
+    };
+    return inside(across, size.x) * inside(glm::cross(axis, across), size.y);
+  }
+
+  // Returns the light from a direction: a bright ceiling over a dim table, a
+  // large lamp and three narrow ones.
   double room(Vec3 to) const {
-    return 0.08 + 0.44 * smooth_step(-0.35, 1.0, to.z) +
-           0.10 * smooth_step(0.2, 1.0, -to.z) +
-           0.10 * smooth_step(0.1, 0.9, -to.x) +
-           0.85 * smooth_step(0.72, 0.97, glm::dot(to, key_)) +
-           0.35 * smooth_step(0.80, 0.98, glm::dot(to, fill_));
+    return 0.06 + 0.34 * smooth_step(-0.08, 0.55, to.z) +
+           0.16 * smooth_step(0.05, 1.0, -to.z) +
+           1.05 * lamp(to, key_, Vec2(0.62, 0.45)) +
+           0.7 * lamp(to, fill_, Vec2(0.16, 0.7)) +
+           0.4 * lamp(to, side_, Vec2(0.22, 0.9)) +
+           0.35 * smooth_step(0.35, 0.9, to.y) * smooth_step(-0.1, 0.3, to.z);
   }
 
   Vec3 solid_;
@@ -173,6 +190,7 @@ class Studio {
   Vec3 to_viewer_ = Vec3(0, -std::cos(kElevation), std::sin(kElevation));
   Vec3 key_ = glm::normalize(Vec3(-0.62, -0.35, 0.75));
   Vec3 fill_ = glm::normalize(Vec3(0.85, -0.45, 0.25));
+  Vec3 side_ = glm::normalize(Vec3(-0.9539, 0.2, 0.2236));
 };
 
 // The points seen, with the light on them.
