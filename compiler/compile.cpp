@@ -146,15 +146,6 @@ std::optional<slicer::Printer> choose_printer(const Request& request,
   return printer;
 }
 
-Machine choose_machine(const Request& request, const FileAccess& access) {
-  Machine machine;
-  machine.printer = choose_printer(request, access);
-  if (!request.material.empty()) {
-    machine.material = slicer::find_material(request.material, access);
-  }
-  return machine;
-}
-
 // Prusa's printers alone read the archive as it is.
 void warn_of_archive(const Request& request, const Machine& machine,
                      Diagnostics& diagnostics) {
@@ -283,6 +274,15 @@ void make_layers(Compilation& c, const csg::Lowered& lowered,
     }
   }
   counting.finish();
+}
+
+Machine choose_machine(const Request& request, const FileAccess& access) {
+  Machine machine;
+  machine.printer = choose_printer(request, access);
+  if (!request.material.empty()) {
+    machine.material = slicer::find_material(request.material, access);
+  }
+  return machine;
 }
 
 LayerOutput::LayerOutput(Machine machine,

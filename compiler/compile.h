@@ -45,6 +45,10 @@ struct LayerList : slicer::LayerSink {
   std::vector<slicer::Layer> layers;
 };
 
+// What a request says of the print: the profiles that it names, and of images
+// the format's usual printer. Throws FileError where a profile cannot be opened.
+Machine choose_machine(const Request& request, const FileAccess& access);
+
 // The output of layers that a request asks for.
 class LayerOutput {
  public:

@@ -20,8 +20,11 @@
 #include "cli/report/session.h"
 #include "compiler/compile.h"
 #include "compiler/passes.h"
+#include "slicer/check/layer_graph.h"
+#include "slicer/contour/layer_measures.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"
+#include "slicer/machine/estimate.h"
 #include "slicer/picture/image.h"
 #include "slicer/picture/layer_picture.h"
 #include "slicer/picture/sheet_picture.h"
@@ -32,6 +35,8 @@ namespace lamina::cli {
 namespace {
 
 constexpr double kLargestPicture = 4096;  // either way [pixels]
+
+bool is_page(const std::string& output) { return output.ends_with(".html"); }
 
 slicer::Camera parse_camera(const std::string& text) {
   const std::vector<double> numbers = require_numbers("--camera", text);
@@ -118,8 +123,9 @@ constexpr std::string_view kViewHelp =
 
 Draws the layers of a file (.slc, .cli, .svg, .3mf, .sl1, .zip, .layers.json, a
 folder of images), or of a .scad or .csg design with any option of Design, Slicing and Limits (see 'lamina --help').
-A page shows all layers in any browser, to leaf through, zoom and measure; it is
-one file and needs no network.
+A page shows all layers and the solid in any browser, to leaf through, turn, zoom
+and measure, and lists what 'lamina check' finds; it is one file and needs no
+network.
 
   -o FILE           the picture or the page
   --style STYLE     sheet: single layers side by side; stack: all layers on top
@@ -130,6 +136,8 @@ one file and needs no network.
   --min-feature MM  of a layer alone or a page: marks walls and gaps thinner
                     than this
   --width PIXELS    width of a sheet [1600] or of a layer alone [1200]
+  --printer NAME, --material NAME
+                    a page then says what the print takes
 
 Of a stack, as in openscad (any of these asks for --style stack):
   --camera NUMBERS  translation, rotation and distance: x,y,z,rx,ry,rz,d, or
@@ -147,8 +155,6 @@ Of a stack, as in openscad (any of these asks for --style stack):
   -q, --quiet       say nothing but errors
   -h, --help        print this help
 )";
-
-bool is_page(const std::string& output) { return output.ends_with(".html"); }
 
 enum class Style { kSheet, kStack };
 
@@ -168,17 +174,23 @@ struct ViewOptions {
   }
 };
 
-// All layers of a file or of a design; no value where the design failed.
+// All layers of a file or of a design, and in the report what is to be said of
+// them; no value where the design failed.
 std::optional<std::vector<slicer::Layer>> layers_of(
     compiler::Compilation& compilation) {
   const compiler::Request& request = compilation.request;
   compiler::LayerList list;
   if (slicer::is_readable_layer_file(request.design,
                                      compilation.file_access())) {
+    slicer::LayerGraph graph(request.settings.self_supporting);
     slicer::read_layers(
         request.design,
-        [&](slicer::Layer& layer) { list.layers.push_back(std::move(layer)); },
+        [&](slicer::Layer& layer) {
+          if (is_page(request.output)) graph.take(layer, nullptr);
+          list.layers.push_back(std::move(layer));
+        },
         compilation.file_access());
+    compilation.report.slice.print = graph.finish();
     return std::move(list.layers);
   }
   const auto lowered = compiler::make_geometry(compilation);
@@ -228,6 +240,20 @@ slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
   return draw_sheet(layers, title, sheet);
 }
 
+// What the print takes, in words; empty where nothing is asked for.
+std::string estimate_of(const compiler::Compilation& compilation,
+                        const std::vector<slicer::Layer>& layers) {
+  const auto [printer, material] =
+      compiler::choose_machine(compilation.request, compilation.file_access());
+  double volume = 0;
+  for (const slicer::Layer& layer : layers) {
+    volume += slicer::measure(layer.contours).area * (layer.top - layer.bottom);
+  }
+  return slicer::estimate_text(
+      printer, material,
+      slicer::estimate_print(printer, material, layers.size(), volume));
+}
+
 int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   const compiler::Request& request = compilation.request;
   const auto layers = layers_of(compilation);
@@ -241,10 +267,14 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   const std::string title = std::filesystem::path(request.design).filename();
   if (is_page(request.output)) {
     slicer::ViewerOptions page;
+    const compiler::Report& report = compilation.report;
     page.title = title;
+    page.estimate = estimate_of(compilation, *layers);
     page.min_feature = options.layer.min_feature;
-    page.features = compilation.report.slice.features;
-    page.origins = compiler::origin_texts(compilation.report.origins);
+    page.features = report.slice.features;
+    page.origins = compiler::origin_texts(report.origins);
+    page.print = report.slice.print;
+    page.finding_origins = compiler::origin_texts(report.finding_origins);
     compiler::write_file(request.output, viewer_page(*layers, page),
                          compilation.temporary_files);
     return kDone;
@@ -282,6 +312,7 @@ class ViewCommand : public Command {
     app.add_option("--width", options_.width)
         ->check(CLI::Range(200U, 8000U))
         ->type_name("number");
+    add_machine_options(app, request_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
   }
@@ -303,9 +334,13 @@ class ViewCommand : public Command {
               "a stack needs --imgsize W,H, not --width");
     refuse_if(is_page(request_.output) && options_.are_for_pictures(),
               "of view's own options a page takes --min-feature only");
-    // The page shows what made the thin places of a design.
+    refuse_if(!is_page(request_.output) &&
+                  !(request_.printer.empty() && request_.material.empty()),
+              "--printer and --material need .html");
+    // The page shows what made what is found in a design.
     if (is_page(request_.output)) {
       request_.settings.min_feature = options_.layer.min_feature;
+      request_.settings.finds_makers = true;
     }
     refuse_contradictions(request_.settings);
   }

@@ -140,6 +140,11 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
   add_count(app, "--threads", 1024, settings.threads);
 }
 
+void add_machine_options(CLI::App& app, compiler::Request& request) {
+  app.add_option("--printer", request.printer)->type_name("printer");
+  app.add_option("--material", request.material)->type_name("material");
+}
+
 void add_output_options(CLI::App& app, compiler::Request& request,
                         OutputOptions& options) {
   app.add_option("--export-format", options.export_format)->type_name("format");
@@ -153,8 +158,7 @@ void add_output_options(CLI::App& app, compiler::Request& request,
   app.add_flag_callback("--no-strict",
                         [&request] { request.is_strict = false; })
       ->excludes(strict);
-  app.add_option("--printer", request.printer)->type_name("printer");
-  app.add_option("--material", request.material)->type_name("material");
+  add_machine_options(app, request);
   add_choice(app, "--mirror", {"x", "y", "xy"},
              [&request](const std::string& axes) {
                request.mirrors_x = axes != "y";

@@ -22,6 +22,9 @@ struct OutputOptions {
   std::string report;         // path; empty: none
 };
 
+// Adds --printer and --material. `request` outlives `app`.
+void add_machine_options(CLI::App& app, compiler::Request& request);
+
 // Adds the options that say what is written and how: those that --help calls
 // Output, save -o, and --report, --layers and --min-feature. `request` and
 // `options` outlive `app`.

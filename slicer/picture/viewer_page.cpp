@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include "base/check.h"
+#include "base/text.h"
 #include "slicer/check/feature_table.h"
+#include "slicer/check/finding_table.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/picture/detail/drawing.h"
@@ -118,6 +122,75 @@ std::string escape_html(std::string_view text) {
   return replaced(replaced(text, '&', "&amp;"), '<', "&lt;");
 }
 
+// The places that the page lists and marks, as JSON: a row has kind, first and
+// last layer, the layer to go to, x, y, how much around it belongs to it [mm],
+// a text, and the index of what made it, or -1.
+class PlaceList {
+ public:
+  explicit PlaceList(double step) : step_(step) {}
+
+  // Adds what matters, ordered by kind.
+  void add(const PrintCheck& print, const std::vector<std::string>& origins) {
+    const std::vector<Finding>& findings = print.findings;
+    std::vector<std::size_t> listed;
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+      if (!findings[i].is_minor) listed.push_back(i);
+    }
+    std::ranges::stable_sort(listed, {},
+                             [&](std::size_t i) { return findings[i].kind; });
+    for (const std::size_t i : listed) {
+      const Finding& finding = findings[i];
+      const double reach =
+          std::max(std::sqrt(finding.area) / 2, finding.distance);
+      rows_.push_back({name_of(finding.kind), finding.first_layer,
+                       finding.last_layer, finding.layer,
+                       rounded(finding.place.x, step_),
+                       rounded(finding.place.y, step_), rounded(reach, 1e-3),
+                       size_text(finding), index_of(origins, i)});
+    }
+  }
+
+  // Adds what feature_table() would list, in its order, the walls first; low
+  // ones are left out. Returns how many those are.
+  std::size_t add(const std::vector<ThinFeature>& features, double width,
+                  const std::vector<std::string>& origins) {
+    std::vector<std::size_t> listed;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (!is_low(features[i], width)) listed.push_back(i);
+    }
+    std::ranges::stable_sort(listed, {}, [&](std::size_t i) {
+      return std::pair(features[i].kind, rank_of(features[i]));
+    });
+    for (const std::size_t i : listed) {
+      const ThinFeature& feature = features[i];
+      rows_.push_back(
+          {name_of(feature.kind), feature.first_layer, feature.last_layer,
+           feature.layer, rounded(feature.place.x, step_),
+           rounded(feature.place.y, step_), rounded(feature.width, 1e-3),
+           is_edge(feature) ? "edge" : fmt::format("{:.3f} mm", feature.width),
+           index_of(origins, i)});
+    }
+    return features.size() - listed.size();
+  }
+
+  Json rows() const { return rows_; }
+  Json origins() const { return origins_; }
+
+ private:
+  int index_of(const std::vector<std::string>& origins, std::size_t i) {
+    if (i >= origins.size() || origins[i].empty()) return -1;
+    const auto [at, is_new] =
+        known_.try_emplace(origins[i], static_cast<int>(origins_.size()));
+    if (is_new) origins_.push_back(origins[i]);
+    return at->second;
+  }
+
+  double step_;
+  Json rows_ = Json::array();
+  std::vector<std::string> origins_;
+  std::map<std::string_view, int> known_;
+};
+
 class PageMaker {
  public:
   PageMaker(const std::vector<Layer>& layers, const ViewerOptions& options)
@@ -131,8 +204,11 @@ class PageMaker {
   std::string make() {
     Json facts = describe();
     facts["title"] = options_.title;
+    facts["estimate"] = options_.estimate;
     for (const Layer& layer : layers_) add_contours(layer);
-    if (options_.min_feature > 0) facts["thin"] = find_thin_places();
+    if (options_.print || options_.min_feature > 0) {
+      facts["found"] = find_places();
+    }
     // Copy the template, with a text in the place of each mark.
     std::string page;
     std::string_view rest = kViewerPage;
@@ -185,9 +261,43 @@ class PageMaker {
     }
   }
 
+  // What is to be said of the print, and where.
+  Json find_places() {
+    PlaceList places(step_);
+    Json notes = Json::array();
+    if (options_.print) {
+      const PrintCheck& print = *options_.print;
+      places.add(print, options_.finding_origins);
+      if (const std::size_t minor = print.count_minor()) {
+        notes.push_back(
+            fmt::format("{} too small to matter.",
+                        counted(minor, "more place is", "more places are")));
+      }
+      if (const Peel& peel = print.peel; peel.layer > 0) {
+        notes.push_back(fmt::format("Peel: {:.4g} mm² at most, in layer {}.",
+                                    peel.greatest_area, peel.layer));
+      }
+    }
+    if (options_.min_feature > 0) {
+      const std::vector<ThinFeature> features = find_thin_places();
+      const std::size_t low =
+          places.add(options_.features.empty() ? features : options_.features,
+                     options_.min_feature, options_.origins);
+      if (low > 0) {
+        notes.push_back(
+            fmt::format("{} lower than it should be wide.",
+                        counted(low, "thin place is", "thin places are")));
+      }
+    }
+    return {{"places", places.rows()},
+            {"origins", places.origins()},
+            {"notes", std::move(notes)},
+            {"hasPrint", options_.print.has_value()}};
+  }
+
   // Adds the middle lines of each layer behind all contours. Returns the
   // features that they make.
-  Json find_thin_places() {
+  std::vector<ThinFeature> find_thin_places() {
     ThinFinder finder(options_.min_feature);
     FeatureCollector collector(options_.min_feature, {});
     std::vector<ThinStretch> stretches;
@@ -201,33 +311,7 @@ class PageMaker {
         marks_.add(numbers_, stretch.to);
       }
     }
-    return list(options_.features.empty() ? collector.finish()
-                                          : options_.features);
-  }
-
-  // Returns what feature_table() would list, in its order; low ones are
-  // counted.
-  Json list(const std::vector<ThinFeature>& features) const {
-    std::vector<std::size_t> listed;
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      if (!is_low(features[i], options_.min_feature)) listed.push_back(i);
-    }
-    std::ranges::stable_sort(
-        listed, {}, [&](std::size_t i) { return rank_of(features[i]); });
-    Json rows = Json::array();
-    for (const std::size_t i : listed) {
-      const ThinFeature& feature = features[i];
-      rows.push_back({feature.kind == ThinKind::kGap ? 1 : 0,
-                      feature.first_layer, feature.last_layer, feature.layer,
-                      is_edge(feature) ? 0 : rounded(feature.width, 1e-6),
-                      rounded(feature.place.x, step_),
-                      rounded(feature.place.y, step_)});
-      if (i < options_.origins.size()) {
-        rows.back().push_back(options_.origins[i]);
-      }
-    }
-    return {{"low", features.size() - listed.size()},
-            {"features", std::move(rows)}};
+    return collector.finish();
   }
 
   const std::vector<Layer>& layers_;

@@ -3,14 +3,16 @@
 // other file.
 //
 // The page is a template (slicer/picture/viewer) with two things put in: the
-// measures that `lamina inspect` shows, as JSON, and the contours as a stream
+// measures and findings that `lamina inspect` shows, as JSON, and the contours as a stream
 // of integers: steps from one corner to the next in units of 1e-4 mm, in zigzag
 // form and 7 bits a byte; deflated and in base64. That is some 3 bytes a
 // corner, and every browser since 2023 inflates it by itself.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/layer.h"
 
@@ -18,11 +20,16 @@ namespace lamina::slicer {
 
 struct ViewerOptions {
   std::string title;       // the part's name
+  std::string estimate;    // what the print takes, in words; may be empty
   double min_feature = 0;  // marks walls and gaps that are thinner [mm]
   // Thin features that were found before, and what made each. Without them,
   // thin features are searched for in the layers.
   std::vector<ThinFeature> features;
   std::vector<std::string> origins;
+  // What the layer graph found, and what made each finding. No value where
+  // nobody looked; no text where that is not known.
+  std::optional<PrintCheck> print;
+  std::vector<std::string> finding_origins;
 };
 
 // layers  ascending; at least one of them with a contour

@@ -28,6 +28,17 @@ difference() {
 translate([11, 21, 1]) cube([0.25, 4, 2]);
 """
 
+# A post, a ball in the air beside it, and a closed hollow.
+FIGURE = """
+$fn = 32;
+difference() {
+  cylinder(r = 4, h = 8);
+  translate([0, 0, 4]) sphere(2);
+}
+for (x = [7, 10])
+  translate([x, 0, 5]) sphere(1);
+"""
+
 
 def lamina(*arguments, status=0):
     result = subprocess.run([LAMINA, *arguments], capture_output=True,
@@ -74,8 +85,12 @@ class ViewerTest(unittest.TestCase):
     def path(cls, name):
         return os.path.join(cls.folder.name, name)
 
-    def open(self, name, state="theme=light&layer=1"):
+    def open(self, name, state="theme=light&layer=1&view=layer"):
         self.browser.open(f"file://{self.path(name)}#{state}")
+
+    def is_hidden(self, element):
+        return self.browser.evaluate(
+            f"document.getElementById('{element}').hidden")
 
     def tearDown(self):
         self.assertEqual(self.browser.faults, [])
@@ -139,17 +154,17 @@ class ViewerTest(unittest.TestCase):
 
     def test_the_section_is_drawn_where_it_is(self):
         for theme, colors in ("light", LIGHT), ("dark", DARK):
-            self.open("plate.html", f"theme={theme}&layer=5")
+            self.open("plate.html", f"theme={theme}&layer=5&view=layer")
             picture = self.browser.screenshot()
-            for place, name in [((12, 28), "solid"), ((19.8, 20.2), "solid"),
-                                ((17, 27), "field"), ((18.2, 26), "field"),
-                                ((20.3, 25), "field"), ((9.7, 25), "field")]:
+            for place, name in [((12.3, 28.3), "solid"), ((19.8, 20.2), "solid"),
+                                ((17.3, 27.3), "field"), ((18.2, 26.3), "field"),
+                                ((20.3, 25.3), "field"), ((9.7, 25.3), "field")]:
                 self.assertEqual(picture.at(*self.on_page(*place)),
                                  colors[name], (theme, place))
         # Above the plate only the pin is left.
-        self.open("plate.html", "theme=light&layer=15")
+        self.open("plate.html", "theme=light&layer=15&view=layer")
         picture = self.browser.screenshot()
-        self.assertEqual(picture.at(*self.on_page(12, 28)), LIGHT["field"])
+        self.assertEqual(picture.at(*self.on_page(12.3, 28.3)), LIGHT["field"])
 
     def test_keys_wheel_and_slider_choose_layers(self):
         self.open("plate.html")
@@ -220,12 +235,12 @@ class ViewerTest(unittest.TestCase):
         table = lamina("inspect", self.path("plate.slc"), "--min-feature",
                        "0.4").split("thinner than")[1]
         self.assertIn("1 wall", table)
-        listed = self.browser.text("thin-list")
-        self.assertIn("1 place thinner than 0.4 mm", listed)
-        self.assertIn("wall 0.250 mm", listed)
+        listed = self.browser.text("findings")
+        self.assertIn("1 wall thinner than 0.4 mm", listed)
+        self.assertIn("0.250 mm", listed)
         self.assertIn("11–20", listed)
         self.browser.evaluate(
-            "document.querySelector('#thin-list button').click()")
+            "[...document.querySelectorAll('#findings button')].at(-1).click()")
         number = int(self.browser.text("number").split()[0])
         self.assertGreaterEqual(number, 11)
         picture = self.browser.screenshot()
@@ -238,9 +253,93 @@ class ViewerTest(unittest.TestCase):
         lamina("view", self.path("plate.scad"), "--layer", "0.1", "-o",
                self.path("design.html"), "--min-feature", "0.4")
         self.open("design.html")
-        self.assertIn("wall 0.250 mm", self.browser.text("thin-list"))
+        self.assertIn("0.250 mm", self.browser.text("findings"))
         # The pin's line.
-        self.assertIn("plate.scad:7:", self.browser.text("thin-list"))
+        self.assertIn("plate.scad:7:", self.browser.text("findings"))
+
+    def make_figure(self):
+        with open(self.path("figure.scad"), "w", encoding="utf-8") as file:
+            file.write(FIGURE)
+        lamina("view", self.path("figure.scad"), "--layer", "0.1", "-o",
+               self.path("figure.html"))
+
+    def test_findings_are_those_of_check_by_kind_and_line(self):
+        self.make_figure()
+        checked = lamina("check", self.path("figure.scad"), "--layer", "0.1",
+                         status=1)
+        counts = re.search("print: (.*)", checked)[1].split(" (")[0]
+        self.assertIn("2 islands", counts)
+        self.assertIn("1 resin trap", counts)
+        self.open("figure.html")
+        headings = self.browser.evaluate(
+            "[...document.querySelectorAll('#findings h3')]"
+            ".map((heading) => heading.textContent)")
+        self.assertEqual(headings, counts.split(", "))
+        # One line made both balls.
+        self.assertEqual(self.browser.text("findings").count("figure.scad:8:"),
+                         len([h for h in headings if "trap" not in h]))
+        # A place leads to its layer, and is marked there.
+        self.browser.evaluate(
+            "[...document.querySelectorAll('#findings button')].at(-1).click()")
+        found = self.browser.evaluate("viewer.part.found.places.at(-1)")
+        self.assertEqual(found["kind"], "resin trap")
+        self.assertEqual(
+            int(self.browser.text("number").split()[0]), found["layer"])
+        x, y = self.on_page(0, 0)
+        at = self.browser.evaluate(
+            "viewer.view.toPage(viewer.part.found.places.at(-1).place)")
+        left, top, _, _ = self.browser.place_of("drawing")
+        picture = self.browser.screenshot()
+        self.assertEqual(picture.at(left + at[0], top + at[1]),
+                         (107, 74, 43))
+        self.assertLess(abs(left + at[0] - x) + abs(top + at[1] - y), 600)
+        # The slider shows where it begins and ends.
+        self.assertTrue(self.browser.evaluate("""(() => {
+          const {first, last} = viewer.part.found.places.at(-1);
+          return first >= 20 && last <= 60;
+        })()"""))
+
+    def test_a_part_with_nothing_wrong_says_so(self):
+        with open(self.path("cube.scad"), "w", encoding="utf-8") as file:
+            file.write("cube(2);")
+        lamina("view", self.path("cube.scad"), "-o", self.path("cube.html"))
+        self.open("cube.html")
+        self.assertIn("Nothing found", self.browser.text("findings"))
+
+    def test_it_says_what_the_print_takes(self):
+        lamina("view", self.path("plate.slc"), "-o", self.path("takes.html"),
+               "--printer", "prusa-sl1", "--material", "bluecast-x10")
+        self.open("takes.html")
+        self.assertIn("0.0", self.browser.text("summary"))
+        self.assertIn("ml of BlueCast X10", self.browser.text("summary"))
+        self.assertIn("min on", self.browser.text("summary"))
+
+    def test_it_opens_on_the_whole_solid_beside_the_layer(self):
+        self.open("plate.html", "theme=light")
+        self.assertFalse(self.is_hidden("solid-pane"))
+        self.assertFalse(self.is_hidden("drawing-pane"))
+        self.assertTrue(self.browser.evaluate("viewer.isWhole"))
+        solid = self.browser.place_of("solid")
+        drawing = self.browser.place_of("drawing")
+        self.assertLessEqual(solid[0] + solid[2], drawing[0] + 1)
+        # The first layer chosen cuts it; each pane may go, but not both.
+        self.browser.press("ArrowUp")
+        self.assertFalse(self.browser.evaluate("viewer.isWhole"))
+        self.browser.press("s")
+        self.assertTrue(self.is_hidden("solid-pane"))
+        self.browser.press("l")
+        self.assertTrue(self.is_hidden("drawing-pane"))
+        self.assertFalse(self.is_hidden("solid-pane"))
+
+    def test_without_webgl_it_says_why_there_is_no_solid(self):
+        with open(self.path("plate.html"), encoding="utf-8") as file:
+            page = file.read()
+        with open(self.path("no3d.html"), "w", encoding="utf-8") as file:
+            file.write(page.replace('getContext("webgl2"', 'getContext("none"'))
+        self.open("no3d.html", "theme=light")
+        self.assertFalse(self.is_hidden("no-solid"))
+        self.assertIn("no WebGL", self.browser.text("no-solid"))
+        self.assertTrue(self.is_hidden("solid"))
 
     def test_the_solid_is_cut_at_the_layer_and_turns(self):
         self.open("plate.html", "theme=light&layer=5&view=3d")
@@ -264,8 +363,7 @@ class ViewerTest(unittest.TestCase):
         self.browser.settle()
         self.assertEqual(golden_pixels().count(section), 0)
         self.browser.press("s")
-        self.assertTrue(self.browser.evaluate(
-            "document.getElementById('solid').hidden"))
+        self.assertTrue(self.is_hidden("solid-pane"))
 
     def test_the_page_asks_for_nothing(self):
         self.open("plate.html")
@@ -286,12 +384,27 @@ class ViewerTest(unittest.TestCase):
         phone = Browser(360, 740, is_phone=True)
         try:
             phone.open(f"file://{self.path('plate.html')}#layer=1")
+            # The solid is above the layer; the list is a drawer, shut at first.
+            solid = phone.place_of("solid")
+            drawing = phone.place_of("drawing")
+            self.assertEqual(solid[2], 360)
+            self.assertLessEqual(solid[1] + solid[3], drawing[1] + 1)
+            drawer = "document.getElementById('findings')"
+            self.assertTrue(phone.evaluate(f"{drawer}.hidden"))
+            phone.evaluate("document.getElementById('marks').click()")
+            x, y, width, height = phone.place_of("findings")
+            self.assertEqual((x, width), (0, 360))
+            self.assertGreater(y, solid[1] + 60)
+            phone.evaluate(f"{drawer}.querySelector('button').click()")
+            self.assertTrue(phone.evaluate(f"{drawer}.hidden"))
+            phone.press("s")
             self.assertLessEqual(
                 phone.evaluate("document.documentElement.scrollWidth"), 360)
             _, top, width, height = phone.place_of("drawing")
             self.assertEqual(width, 360)
             self.assertGreater(height, 400)
-            for element in ("fit", "measure", "below", "theme", "play"):
+            for element in ("fit", "measure", "below", "section", "orbit",
+                            "marks", "theme", "play"):
                 x, y, w, h = phone.place_of(element)
                 self.assertGreaterEqual(min(x, y), 0)
                 self.assertLessEqual(x + w, 360)

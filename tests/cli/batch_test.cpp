@@ -295,7 +295,10 @@ TEST(Batch, ReportsEveryPieceAsATable) {
   const Csv csv = read_csv(source);
   ASSERT_EQ(csv.rows.size(), 3U);
   EXPECT_EQ(csv.rows[1].cells.at(3), "40");
-  EXPECT_TRUE(has(csv.rows[2].cells.at(6), "large, too"));
+  EXPECT_EQ(csv.rows[1].cells.at(6), "2");   // z
+  EXPECT_EQ(csv.rows[1].cells.at(7), "8");   // volume
+  EXPECT_EQ(csv.rows[1].cells.at(10), "0");  // warnings
+  EXPECT_TRUE(has(csv.rows[2].cells.at(12), "large, too"));
 }
 
 TEST(Batch, AnInterruptLeavesWhatIsDoneAndNothingElse) {

@@ -3,7 +3,8 @@
 const kPlaySpeed = 30;       // layers per second, at most 20 s for all
 const kSnapReach = 9;        // of measuring [pixels]
 const kClickReach = 5;       // what moves farther is no click [pixels]
-const kListedFeatures = 200;
+const kListedPlaces = 200;   // of a kind
+const kPhone = "(max-width: 760px)";  // as in style.css
 
 const kIcons = {
   play: '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M5 2.5v15l12-7.5z"/></svg>',
@@ -15,6 +16,31 @@ const byId = (id) => document.getElementById(id);
 const placeOf = (event) => [event.offsetX, event.offsetY];
 const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
+// "1 island", "3 loose parts".
+const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+
+// In mm. Files of layers keep seven digits of a height.
+const heightText = (z) => `${+(+z.toPrecision(7)).toFixed(5)}`;
+
+const rangeText = ({first, last}) => first === last ? `${first}` : `${first}–${last}`;
+
+// Items by what keyOf() says of them, in the order of the first ones.
+function groupBy(items, keyOf) {
+  const groups = new Map();
+  for (const item of items) {
+    const key = keyOf(item);
+    if (!groups.has(key)) groups.set(key, []);
+    groups.get(key).push(item);
+  }
+  return groups;
+}
+
+function make(name, text = "") {
+  const element = document.createElement(name);
+  element.textContent = text;
+  return element;
+}
+
 class Viewer {
   constructor(part) {
     this.part = part;
@@ -23,20 +49,35 @@ class Viewer {
     this.plot = new Plot(byId("plot"), part);
     this.solid = new Solid(byId("solid"), part);
     this.state = {
-      index: 0, below: false, thin: part.minFeature > 0, pointer: null, ends: [],
+      index: 0, below: false, marks: part.found !== null, pointer: null, ends: [],
     };
     this.describePart();
-    this.listFeatures();
+    this.listPlaces();
     this.bindSlider();
     this.bindButtons();
     this.bindKeys();
     this.bindPointers();
     this.bindOrbit();
-    new ResizeObserver(() => this.resize()).observe(document.querySelector("main"));
+    const resizes = new ResizeObserver(() => this.resize());
+    for (const pane of document.querySelectorAll(".pane")) resizes.observe(pane);
     const asked = /layer=(\d+)/.exec(location.hash);
     this.choose(asked ? +asked[1] - 1 : this.fullestLayer());
+    this.isWhole = !asked;
+    const view = /view=(3d|layer)/.exec(location.hash);
+    if (view) this.togglePane(view[1] === "3d" ? "section" : "orbit");
     this.fit();
-    if (/view=3d/.test(location.hash)) this.toggleSolid();
+  }
+
+  // Makes the solid, which takes a while, or says why there is none.
+  async openSolid() {
+    try {
+      await this.solid.open();
+      this.draw();
+    } catch (error) {
+      byId("solid").hidden = true;
+      byId("no-solid").hidden = false;
+      byId("no-solid").textContent = error.message;
+    }
   }
 
   fullestLayer() {
@@ -45,70 +86,96 @@ class Viewer {
   }
 
   describePart() {
-    const {title, layers, size, volume} = this.part;
+    const {title, estimate, layers, size, volume} = this.part;
     const [x, y, z] = size.map((length) => length.toFixed(2));
     byId("title").textContent = title;
-    byId("summary").textContent =
-        `${layers.length} layers · ${x} × ${y} × ${z} mm · ${volume.toFixed(2)} mm³`;
+    byId("summary").textContent = [
+      counted(layers.length, "layer"), `${x} × ${y} × ${z} mm`,
+      `${volume.toFixed(2)} mm³`, ...estimate ? [estimate] : [],
+    ].join(" · ");
     byId("theme").innerHTML = kIcons.theme;
     byId("play").innerHTML = kIcons.play;
     byId("slider").max = layers.length;
   }
 
-  listFeatures() {
-    const {minFeature, features, lowFeatures} = this.part;
-    if (!minFeature) return;
-    byId("thin").hidden = false;
-    byId("thin-list").hidden = false;
-    byId("thin-list").querySelector("h2").textContent =
-        `${features.length} ${features.length === 1 ? "place" : "places"} ` +
-        `thinner than ${minFeature} mm`;
-    byId("thin-list").querySelector("ol").append(
-        ...features.slice(0, kListedFeatures).map((feature) => {
-          const item = document.createElement("li");
-          const button = document.createElement("button");
-          const range = feature.first === feature.last ? `${feature.first}` :
-            `${feature.first}–${feature.last}`;
-          button.innerHTML = `<span class="${feature.kind}">${feature.kind} ` +
-            `${feature.width ? `${feature.width.toFixed(3)} mm` : "edge"}</span><small>layer ${range}</small>`;
-          if (feature.origin) {
-            const origin = document.createElement("em");
-            origin.textContent = feature.origin;
-            button.append(origin);
-          }
-          button.onclick = () => this.visit(feature);
-          item.append(button);
-          return item;
-        }));
-    byId("thin-list").querySelector("p").textContent = [
-      features.length > kListedFeatures ?
-        `The ${kListedFeatures} thinnest are listed.` : "",
-      lowFeatures ? `${lowFeatures} more are lower than they should be wide.` : "",
-    ].join(" ");
+  // Lists what was found by kind, and what one line of the design made as one.
+  listPlaces() {
+    const {found} = this.part;
+    if (!found) return;
+    byId("marks").hidden = false;
+    const list = byId("findings");
+    const kinds = groupBy(found.places, ({kind}) => kind);
+    const heading = make("h2", found.places.length > 0 ? "Findings" :
+      found.hasPrint ? "Nothing found" : `Nothing thinner than ${this.part.minFeature} mm`);
+    list.append(heading);
+    for (const [kind, places] of kinds) list.append(...this.listKind(kind, places));
+    list.append(...found.notes.map((note) => make("p", note)));
+    list.hidden = matchMedia(kPhone).matches;
+    byId("marks").setAttribute("aria-pressed", !list.hidden);
   }
 
-  // Goes where the feature is thinnest.
-  visit(feature) {
-    if (this.isSolid) this.toggleSolid();
-    this.choose(feature.layer - 1);
-    const reach = Math.max(1, 6 * feature.width);
-    const [x, y] = feature.place;
+  listKind(kind, places) {
+    const isThin = kind === "wall" || kind === "gap";
+    const heading = make("h3");
+    const dot = make("i");
+    dot.style.background = `var(--${kind.replace(" ", "-")})`;
+    heading.append(dot, counted(places.length, kind) +
+        (isThin ? ` thinner than ${this.part.minFeature} mm` : ""));
+    const parts = [heading];
+    const listed = places.slice(0, kListedPlaces);
+    for (const [origin, ofOrigin] of groupBy(listed, (place) => place.origin)) {
+      const rows = make("ol");
+      rows.append(...ofOrigin.map((place) => this.listPlace(place)));
+      if (origin && ofOrigin.length > 1) {
+        const group = make("details");
+        group.append(make("summary", `${counted(ofOrigin.length, "place")}, ` +
+            (isThin ? ofOrigin[0].text : `layer ${rangeText(ofOrigin[0])}`)), rows);
+        parts.push(group);
+      } else {
+        parts.push(rows);
+      }
+      if (origin) parts.push(make("em", origin));
+    }
+    if (listed.length < places.length) {
+      parts.push(make("p", `The first ${kListedPlaces} are listed.`));
+    }
+    return parts;
+  }
+
+  listPlace(place) {
+    const item = make("li");
+    const button = make("button");
+    button.append(make("span", place.text), make("small", `layer ${rangeText(place)}`));
+    button.onclick = () => this.visit(place);
+    item.append(button);
+    return item;
+  }
+
+  // Goes to a place.
+  visit(place) {
+    if (byId("drawing-pane").hidden) this.togglePane("section");
+    if (matchMedia(kPhone).matches) this.toggleMarks();
+    this.choose(place.layer - 1);
+    const reach = Math.max(1, 6 * place.reach);
+    const [x, y] = place.place;
     this.view.show([x - reach, y - reach], [x + reach, y + reach], ...this.room());
+    this.isFitted = false;
     this.draw();
   }
 
   choose(index) {
     const {layers} = this.part;
+    this.isWhole = false;
     this.state.index = Math.min(layers.length - 1, Math.max(0, Math.round(index)));
     const layer = layers[this.state.index];
     const number = this.state.index + 1;
     byId("number").textContent = `${number} of ${layers.length}`;
-    byId("height").textContent = `${+layer.z.toFixed(6)} mm`;
+    byId("height").textContent = `${heightText(layer.z)} mm`;
     byId("area").textContent = `${layer.area.toFixed(4)} mm²`;
     byId("loops").textContent = layer.holes === 0 ? `${layer.loops}` :
       `${layer.loops}, ${layer.holes} of them ${layer.holes === 1 ? "a hole" : "holes"}`;
     byId("perimeter").textContent = `${layer.perimeter.toFixed(3)} mm`;
-    const words = `Layer ${number} of ${layers.length}, z ${+layer.z.toFixed(6)} mm, ` +
+    const words = `Layer ${number} of ${layers.length}, z ${heightText(layer.z)} mm, ` +
       `area ${layer.area.toFixed(2)} mm²`;
     byId("slider").value = number;
     byId("slider").setAttribute("aria-valuetext", words);
@@ -121,28 +188,28 @@ class Viewer {
     if (this.frame) return;
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
-      if (this.isSolid) this.solid.draw(this.state.index);
-      else this.drawing.draw(this.state);
+      if (!byId("drawing-pane").hidden) this.drawing.draw(this.state);
+      if (!byId("solid-pane").hidden) {
+        this.solid.draw(this.state.index, this.isWhole, this.state.marks);
+      }
       this.plot.draw(this.state.index);
     });
   }
 
-  // Width and height of what is drawn, be it hidden.
+  // Width and height of the layer's drawing.
   room() {
-    const {clientWidth, clientHeight} = this.drawing.canvas.parentElement;
+    const {clientWidth, clientHeight} = byId("drawing-pane");
     return [clientWidth, clientHeight];
   }
 
   fit() {
-    const {size} = this.part;
     this.solid.reset();
-    this.view.show([0, 0], size, ...this.room());
     this.isFitted = true;
-    this.draw();
+    this.resize();
   }
 
   resize() {
-    if (this.isFitted) this.fit();
+    if (this.isFitted) this.view.show([0, 0], this.part.size, ...this.room());
     this.draw();
   }
 
@@ -157,7 +224,7 @@ class Viewer {
       byId("hint").style.left = `${Math.min(slider.clientWidth - 70,
           Math.max(70, event.offsetX))}px`;
       byId("hint").textContent =
-          `${index + 1}: z ${+layers[index].z.toFixed(4)}, ${layers[index].area.toFixed(2)} mm²`;
+          `${index + 1}: z ${heightText(layers[index].z)}, ${layers[index].area.toFixed(2)} mm²`;
     };
     slider.onpointerleave = () => { byId("hint").hidden = true; };
     byId("profile").onwheel = (event) => {
@@ -174,7 +241,15 @@ class Viewer {
   toggle(name) {
     this.state[name] = !this.state[name];
     byId(name).setAttribute("aria-pressed", this.state[name]);
-    if (name === "thin") byId("thin-list").hidden = !this.state.thin;
+    this.draw();
+  }
+
+  // On a phone the list is a drawer over the part, which has its marks anyhow.
+  toggleMarks() {
+    const list = byId("findings");
+    list.hidden = !list.hidden;
+    this.state.marks = matchMedia(kPhone).matches || !list.hidden;
+    byId("marks").setAttribute("aria-pressed", !list.hidden);
     this.draw();
   }
 
@@ -187,23 +262,18 @@ class Viewer {
     this.draw();
   }
 
-  toggleSolid() {
-    try {
-      this.solid.open();
-    } catch (error) {
-      byId("orbit").disabled = true;
-      byId("orbit").title = error.message;
-      return;
+  // Shows the layer ("section") or the solid ("orbit"), or not; one of them stays.
+  togglePane(name) {
+    const panes = {section: byId("drawing-pane"), orbit: byId("solid-pane")};
+    const other = name === "section" ? "orbit" : "section";
+    panes[name].hidden = !panes[name].hidden;
+    if (panes[name].hidden) panes[other].hidden = false;
+    for (const [button, pane] of Object.entries(panes)) {
+      byId(button).setAttribute("aria-pressed", !pane.hidden);
     }
-    this.isSolid = !this.isSolid;
-    byId("orbit").setAttribute("aria-pressed", this.isSolid);
-    byId("solid").hidden = !this.isSolid;
-    byId("drawing").hidden = this.isSolid;
-    byId("pointer").textContent = "";
-    if (this.isMeasuring) this.toggleMeasure();
-    byId("measure").disabled = this.isSolid;
-    byId("below").disabled = this.isSolid;
-    this.draw();
+    if (panes.section.hidden && this.isMeasuring) this.toggleMeasure();
+    byId("measure").disabled = byId("below").disabled = panes.section.hidden;
+    this.resize();
   }
 
   toggleTheme() {
@@ -234,16 +304,20 @@ class Viewer {
     byId("fit").onclick = () => this.fit();
     byId("measure").onclick = () => this.toggleMeasure();
     byId("below").onclick = () => this.toggle("below");
-    byId("thin").onclick = () => this.toggle("thin");
-    byId("orbit").onclick = () => this.toggleSolid();
+    byId("marks").onclick = () => this.toggleMarks();
+    byId("section").onclick = () => this.togglePane("section");
+    byId("orbit").onclick = () => this.togglePane("orbit");
     byId("theme").onclick = () => this.toggleTheme();
     byId("play").onclick = () => this.play();
   }
 
   bindKeys() {
     const zoom = (factor) => {
-      if (this.isSolid) this.zoomSolid(factor);
-      else this.zoomDrawing(factor, this.room().map((length) => length / 2));
+      if (byId("drawing-pane").hidden || document.activeElement === this.solid.canvas) {
+        this.zoomSolid(factor);
+      } else {
+        this.zoomDrawing(factor, this.room().map((length) => length / 2));
+      }
     };
     const move = (layers) => this.choose(this.state.index + layers);
     const keys = {
@@ -253,9 +327,10 @@ class Viewer {
       Home: () => this.choose(0), End: () => this.choose(Infinity),
       "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(.8),
       f: () => this.fit(), 0: () => this.fit(),
-      m: () => this.isSolid || this.toggleMeasure(), b: () => this.toggle("below"),
-      t: () => this.part.minFeature && this.toggle("thin"),
-      s: () => this.toggleSolid(),
+      m: () => byId("drawing-pane").hidden || this.toggleMeasure(),
+      b: () => this.toggle("below"),
+      t: () => this.part.found && this.toggleMarks(),
+      l: () => this.togglePane("section"), s: () => this.togglePane("orbit"),
       d: () => this.toggleTheme(), " ": () => this.play(),
       Escape: () => this.isMeasuring && this.toggleMeasure(),
     };
@@ -400,6 +475,7 @@ async function start() {
     matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   try {
     window.viewer = new Viewer(await readPart());
+    await window.viewer.openSolid();
     document.documentElement.dataset.ready = "true";
   } catch (error) {
     byId("fault").hidden = false;

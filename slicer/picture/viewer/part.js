@@ -48,9 +48,11 @@ class Places {
   }
 }
 
-// {title, low, size, volume, minFeature, layers: [{z, bottom, top, loops, holes,
-// vertices, area, perimeter, contours, marks}], features, lowFeatures}; contours
-// are lists of flat arrays x, y, x, y, …
+// {title, estimate, low, size, volume, minFeature, layers: [{z, bottom, top,
+// loops, holes, vertices, area, perimeter, contours, marks}], found};
+// contours are lists of flat arrays x, y, x, y, …; found has what was looked for,
+// else it is null: {places: [{kind, first, last, layer, place, reach, text,
+// origin}], notes, hasPrint}.
 async function readPart() {
   const text = (id) => document.getElementById(id).textContent;
   const facts = JSON.parse(text("facts"));
@@ -67,7 +69,7 @@ async function readPart() {
       return loop;
     });
   }
-  if (facts.thin) {
+  if (facts.minFeature) {
     places = new Places(numbers, facts.step);
     for (const layer of layers) {
       layer.marks = Array.from({length: numbers.count()}, () => ({
@@ -78,20 +80,23 @@ async function readPart() {
     }
   }
   const [x, y] = facts.low;
+  const found = facts.found && {
+    ...facts.found,
+    places: facts.found.places.map(
+        ([kind, first, last, layer, px, py, reach, text, origin]) =>
+          ({kind, first, last, layer, place: [px - x, py - y], reach, text,
+            origin: facts.found.origins[origin] || ""})),
+  };
   return {
     title: facts.title,
+    estimate: facts.estimate,
     low: facts.low,
     size: [facts.high[0] - x, facts.high[1] - y,
       layers[layers.length - 1].top - layers[0].bottom],
     volume: facts.volume,
     minFeature: facts.minFeature,
     layers,
-    lowFeatures: facts.thin ? facts.thin.low : 0,
-    features: (facts.thin ? facts.thin.features : []).map(
-        ([kind, first, last, layer, width, px, py, origin]) => ({
-          kind: kind ? "gap" : "wall", first, last, layer, width,
-          place: [px - x, py - y], origin,
-        })),
+    found,
   };
 }
 

@@ -1,11 +1,14 @@
-// The part as a solid up to the layer in hand, on WebGL. Layers are drawn as the
-// plates that they are, but lit by the slope from layer to layer, so that steps
-// do not show.
+// The part as a solid, whole or up to the layer in hand, on WebGL. Layers are
+// drawn as the plates that they are, but lit by the slope from layer to layer, so
+// that steps do not show.
 
-const kMostCorners = 60000;  // of all layers drawn: of more, some are left out
-const kSlopeReach = 12;      // layers; tops that are level so far are level
-const kSmoothCosine = .8;    // of the angle between edges that make a curve
-const kPieces = 40;          // across the part: larger ones are divided
+const kMostCorners = 150000;  // of all layers drawn: of more, some are left out
+const kFinest = 1 / 4000;     // of the part's size: smaller bends are not drawn
+const kSlopeLength = .0018;   // of the part's size: slopes are taken over this
+const kSlopeReach = 20;       // such lengths: tops that are level so far are level
+const kSmoothCosine = .8;     // of the angle between edges that make a curve
+const kPieces = 40;           // across the part: larger ones are divided
+const kPatience = 25;         // of the page, while the solid is made [ms]
 
 // How deep places lie in a layer, as far as `reach`; less than 0 outside.
 class Depths {
@@ -126,6 +129,35 @@ function divideEdges(contours, longest) {
   });
 }
 
+// A loop without the corners that are nearer than `finest` to the line past them
+// (Douglas and Peucker).
+function simplify(loop, finest) {
+  const count = loop.length / 2;
+  const isKept = new Uint8Array(count);
+  const farthest = (from, to) => {
+    const [ax, ay] = [loop[2 * from], loop[2 * from + 1]];
+    const [bx, by] = [loop[2 * (to % count)] - ax, loop[2 * (to % count) + 1] - ay];
+    const length = Math.hypot(bx, by);
+    let best = [0, from];
+    for (let i = from + 1; i < to; ++i) {
+      const [x, y] = [loop[2 * i] - ax, loop[2 * i + 1] - ay];
+      const away = length > 0 ? Math.abs(x * by - y * bx) / length : Math.hypot(x, y);
+      if (away > best[0]) best = [away, i];
+    }
+    return best;
+  };
+  isKept[0] = 1;
+  const spans = [[0, farthest(0, count)[1]]];
+  if (spans[0][1] > 0) spans.push([spans[0][1], count]);
+  while (spans.length) {
+    const [from, to] = spans.pop();
+    isKept[from] = 1;
+    const [away, middle] = farthest(from, to);
+    if (away > finest) spans.push([from, middle], [middle, to]);
+  }
+  return Array.from(loop).filter((_, i) => isKept[i >> 1]);
+}
+
 // Corners of all plates: place, and direction of the surface; ordered by layer:
 // sides, then what is seen of the bottom, then of the top. The section, all of
 // it, is apart: it is drawn of the last layer only.
@@ -137,40 +169,62 @@ class PlateMesh {
     this.indices = [];
     this.sections = [];
     this.ends = [];  // of a layer: {bottoms, tops, section}, in indices
-    const corners = part.layers.reduce((sum, layer) => sum + layer.vertices, 0);
-    this.stride = Math.max(1, Math.ceil(corners / kMostCorners));
-    const chosen = part.layers.filter((_, i) => i % this.stride === 0);
-    this.thickness = part.size[2] / chosen.length || 1;
+    const length = Math.hypot(...part.size);
     this.piece = Math.max(...part.size) / kPieces;
-    const reach = kSlopeReach * this.thickness;
-    const depths = [new Depths([], reach)];
-    chosen.forEach((layer, i) => {
-      const next = chosen[i + 1];
-      if (i === 0) depths.push(new Depths(layer.contours, reach));
-      depths.push(new Depths(next ? next.contours : [], reach));
-      this.add(layer, next ? next.bottom : layer.top, depths[0], depths[2]);
-      depths.shift();
-    });
+    let layers = part.layers.map((layer) => ({...layer,
+      drawn: layer.contours.map((loop) => simplify(loop, kFinest * length))
+          .filter((loop) => loop.length > 4)}));
+    const corners = layers.reduce((sum, {drawn}) =>
+      drawn.reduce((ofLayer, loop) => ofLayer + loop.length / 2, sum), 0);
+    this.stride = Math.max(1, Math.ceil(corners / kMostCorners));
+    this.layers = layers.filter((_, i) => i % this.stride === 0);
+    this.thickness = part.size[2] / this.layers.length || 1;
+    const slope = Math.max(this.thickness, kSlopeLength * length);
+    this.half = Math.max(1, Math.round(slope / this.thickness / 2));
+    this.reach = kSlopeReach * slope;
+    this.depths = [];
+  }
+
+  // Adds all layers, and gives the page its turn now and then.
+  async build() {
+    let begin = performance.now();
+    for (let i = 0; i < this.layers.length; ++i) {
+      this.add(i);
+      delete this.depths[i - this.half - 1];
+      if (performance.now() - begin < kPatience) continue;
+      await new Promise((resolve) => setTimeout(resolve));
+      begin = performance.now();
+    }
     this.places = new Float32Array(this.places);
     this.normals = new Float32Array(this.normals);
     this.sectionBegin = this.indices.length;
     this.indices = new Uint32Array([this.indices, this.sections].flat());
   }
 
-  add(layer, top, below, above) {
+  // Of a layer; those beyond the stack are empty.
+  depthsOf(i) {
+    this.depths[i] ||= new Depths(i in this.layers ? this.layers[i].contours : [], this.reach);
+    return this.depths[i];
+  }
+
+  add(i) {
     const base = this.part.layers[0].bottom;
+    const layer = this.layers[i];
+    const next = this.layers[i + 1];
     const low = layer.bottom - base;
-    const high = top - base;
+    const high = (next ? next.bottom : layer.top) - base;
+    const [below, above] = [this.depthsOf(i - 1), this.depthsOf(i + 1)];
+    const [from, to] = [this.depthsOf(i - this.half), this.depthsOf(i + this.half)];
     const slopeAt = (x, y) =>
-      (below.at(x, y) - above.at(x, y)) / (2 * this.thickness);
+      (from.at(x, y) - to.at(x, y)) / (2 * this.half * this.thickness);
     const edges = [];
     const heights = [];
-    for (const loop of divideEdges(layer.contours, this.piece)) {
+    for (const loop of divideEdges(layer.drawn, this.piece)) {
       const slopes = Array.from({length: loop.length / 2},
-          (_, i) => slopeAt(loop[2 * i], loop[2 * i + 1]));
-      forEdges([loop], (ax, ay, bx, by, _, i) => {
-        const a = this.direction(loop, i, i, slopes);
-        const b = this.direction(loop, i, (i + 1) % slopes.length, slopes);
+          (_, k) => slopeAt(loop[2 * k], loop[2 * k + 1]));
+      forEdges([loop], (ax, ay, bx, by, _, k) => {
+        const a = this.direction(loop, k, k, slopes);
+        const b = this.direction(loop, k, (k + 1) % slopes.length, slopes);
         this.quad(this.indices, [ax, ay, low], a, [bx, by, low], b,
             [bx, by, high], b, [ax, ay, high], a);
         heights.push(ay);
@@ -250,6 +304,7 @@ in vec3 normal;
 uniform mat3 turn;
 uniform vec3 center;
 uniform vec4 lens;  // distance, focal length, aspect, radius
+uniform float dotSize;
 out vec3 direction;
 void main() {
   vec3 at = turn * (place - center);
@@ -259,40 +314,66 @@ void main() {
   float far = lens.x + lens.w;
   gl_Position = vec4(lens.y * at.x / lens.z, lens.y * at.y,
       (depth * (far + near) - 2. * far * near) / (far - near), depth);
+  gl_PointSize = dotSize;
 }`;
 
-// The studio of lamina's pictures.
+// The studio of lamina's pictures (stack_picture.cpp).
 const kFragmentShader = `#version 300 es
 precision highp float;
 in vec3 direction;
 uniform vec3 solid;
-uniform bool isSection;
 out vec4 color;
+const float s = .581, c = .8139;  // of the viewer's elevation
 const vec3 key = vec3(-.5994, -.3384, .7251);
 const vec3 fill = vec3(.8552, -.4528, .2515);
+float lamp(vec3 to, vec3 axis, vec2 size) {
+  vec3 across = normalize(cross(vec3(0, 0, 1), axis));
+  vec2 p = vec2(dot(to, across), dot(to, cross(axis, across))) / max(dot(to, axis), .001);
+  vec2 inside = 1. - smoothstep(size - .12, size + .12, abs(p));
+  return inside.x * inside.y;
+}
+float room(vec3 to) {
+  return .06 + .34 * smoothstep(-.08, .55, to.z) + .16 * smoothstep(.05, 1., -to.z) +
+      1.05 * lamp(to, key, vec2(.62, .45)) + .7 * lamp(to, fill, vec2(.16, .7)) +
+      .4 * lamp(to, vec3(-.9539, .2, .2236), vec2(.22, .9)) +
+      .35 * smoothstep(.35, .9, to.y) * smoothstep(-.1, .3, to.z);
+}
 void main() {
-  if (isSection) {
-    color = vec4(mix(pow(solid, vec3(1. / 2.2)), vec3(1), .25), 1);
-    return;
-  }
   vec3 n = normalize(direction);
   if (n.z < 0.) n.z = -n.z;
-  const float s = .581, c = .8139;
   vec3 inRoom = vec3(n.x, s * n.y - c * n.z, c * n.y + s * n.z);
   vec3 viewer = vec3(0, -c, s);
   float facing = max(0., dot(inRoom, viewer));
   vec3 to = 2. * facing * inRoom - viewer;
-  float room = .08 + .44 * smoothstep(-.35, 1., to.z) +
-      .10 * smoothstep(.2, 1., -to.z) + .10 * smoothstep(.1, .9, -to.x) +
-      .85 * smoothstep(.72, .97, dot(to, key)) +
-      .35 * smoothstep(.80, .98, dot(to, fill));
   float diffuse = .75 * max(0., dot(inRoom, key)) +
       .15 * max(0., dot(inRoom, fill)) + .14 + .14 * inRoom.z;
-  vec3 light = solid * diffuse * .4 +
-      mix(solid, vec3(1), .7 * pow(1. - facing, 5.)) * room;
+  vec3 light = solid * diffuse * .3 +
+      mix(solid, vec3(1), .7 * pow(1. - facing, 5.)) * room(to);
   light += .7 * max(0., max(light.r, max(light.g, light.b)) - .9);
   color = vec4(pow(light, vec3(1. / 2.2)), 1);
 }`;
+
+// One colour: the section, the layer's outline, and the marks, which are round.
+const kFlatShader = `#version 300 es
+precision highp float;
+uniform vec4 flatColor;
+uniform float dotSize;
+out vec4 color;
+void main() {
+  color = flatColor;
+  if (dotSize == 0.) return;
+  float away = dotSize * length(gl_PointCoord - .5);
+  if (away > .5 * dotSize) discard;
+  if (away > .36 * dotSize) color.rgb = vec3(1);
+}`;
+
+const kGold = [.92, .58, .16];  // linear light
+
+// "#rrggbb" as numbers from 0 to 1.
+function rgbOf(name) {
+  const digits = parseInt(name.trim().slice(1), 16);
+  return [digits >> 16 & 255, digits >> 8 & 255, digits & 255].map((value) => value / 255);
+}
 
 class Solid {
   constructor(canvas, part) {
@@ -307,34 +388,59 @@ class Solid {
     this.zoomed = 1;
   }
 
-  // Makes the mesh when it is first shown. Throws where there is no WebGL.
-  open() {
-    if (this.gl) return;
+  // Makes what is drawn. Throws where there is no WebGL.
+  async open() {
     const gl = this.canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
-    if (!gl) throw new Error("This browser has no WebGL.");
-    this.mesh = new PlateMesh(this.part);
-    this.program = gl.createProgram();
+    if (!gl) throw new Error("This browser has no WebGL 2, or has it turned off: no solid.");
+    const mesh = new PlateMesh(this.part);
+    await mesh.build();
+    this.mesh = mesh;
+    this.lit = this.program(gl, kFragmentShader);
+    this.flat = this.program(gl, kFlatShader);
+    this.surface = this.corners(gl, mesh.places, mesh.normals);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.indices, gl.STATIC_DRAW);
+    this.marks = this.corners(gl, this.markPlaces());
+    this.outline = this.corners(gl, new Float32Array());
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    this.gl = gl;
+  }
+
+  program(gl, fragmentShader) {
+    const program = gl.createProgram();
     for (const [kind, text] of [[gl.VERTEX_SHADER, kVertexShader],
-      [gl.FRAGMENT_SHADER, kFragmentShader]]) {
+      [gl.FRAGMENT_SHADER, fragmentShader]]) {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, text);
       gl.compileShader(shader);
-      gl.attachShader(this.program, shader);
+      gl.attachShader(program, shader);
     }
-    gl.linkProgram(this.program);
-    gl.useProgram(this.program);
-    for (const [name, data] of [["place", this.mesh.places], ["normal", this.mesh.normals]]) {
-      const at = gl.getAttribLocation(this.program, name);
-      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bindAttribLocation(program, 0, "place");
+    gl.bindAttribLocation(program, 1, "normal");
+    gl.linkProgram(program);
+    return program;
+  }
+
+  // A vertex array of places, and of normals where there are any.
+  corners(gl, ...arrays) {
+    const corners = gl.createVertexArray();
+    gl.bindVertexArray(corners);
+    arrays.forEach((data, at) => {
+      corners.buffer = gl.createBuffer();
+      gl.bindBuffer(gl.ARRAY_BUFFER, corners.buffer);
       gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
       gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 0, 0);
       gl.enableVertexAttribArray(at);
-    }
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, this.mesh.indices, gl.STATIC_DRAW);
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.LEQUAL);
-    this.gl = gl;
+    });
+    return corners;
+  }
+
+  markPlaces() {
+    const {found, layers} = this.part;
+    return new Float32Array((found ? found.places : []).flatMap(
+        ({place, layer}) => [...place, layers[layer - 1].z - layers[0].bottom]));
   }
 
   turn(dx, dy) {
@@ -342,36 +448,101 @@ class Solid {
     this.pitch = Math.min(1.57, Math.max(-1.57, this.pitch + dy * .008));
   }
 
-  draw(index) {
+  // How far the eye must be for the part to fit, whichever way it is turned
+  // around z.
+  distance(focal, aspect) {
+    const [radius, half] = [Math.hypot(this.part.size[0], this.part.size[1]) / 2,
+      this.part.size[2] / 2];
+    const [e, f] = [Math.cos(.6), Math.sin(.6)];
+    let distance = 0;
+    for (let i = 0; i < 32; ++i) {
+      const angle = Math.PI * i / 16;
+      for (const z of [-half, half]) {
+        const [x, y] = [radius * Math.cos(angle), radius * Math.sin(angle)];
+        distance = Math.max(distance, z * f - y * e +
+            1.12 * focal * Math.max(Math.abs(x) / aspect, Math.abs(y * f + z * e)));
+      }
+    }
+    return distance;
+  }
+
+  // Draws the part up to a layer, or all of it with that layer's outline.
+  draw(index, isWhole, hasMarks) {
     const {gl, canvas, part, mesh} = this;
+    if (!mesh) return;
     const ratio = window.devicePixelRatio || 1;
     canvas.width = Math.round(canvas.clientWidth * ratio);
     canvas.height = Math.round(canvas.clientHeight * ratio);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    const uniform = (name) => gl.getUniformLocation(this.program, name);
     const [c, s] = [Math.cos(this.yaw), Math.sin(this.yaw)];
     const [e, f] = [Math.cos(this.pitch), Math.sin(this.pitch)];
-    // Columns: where x, y and z go; right, up, towards the viewer.
-    gl.uniformMatrix3fv(uniform("turn"), false,
-        [c, s * f, -s * e, -s, c * f, -c * e, 0, e, f]);
-    gl.uniform3fv(uniform("center"), part.size.map((length) => length / 2));
-    const radius = Math.hypot(...part.size) / 2;
     const aspect = canvas.width / canvas.height;
     const focal = 4;
-    const distance = radius * focal / this.zoomed / Math.min(1, aspect) * 1.02;
-    gl.uniform4f(uniform("lens"), distance, focal, aspect, radius * 1.01);
-    gl.uniform3fv(uniform("solid"), [.92, .58, .16]);
-    gl.uniform1i(uniform("isSection"), 0);
-    const at = Math.min(mesh.ends.length - 1, Math.floor(index / mesh.stride));
+    const use = (program, dotSize) => {
+      const uniform = (name) => gl.getUniformLocation(program, name);
+      gl.useProgram(program);
+      // Columns: where x, y and z go; right, up, towards the viewer.
+      gl.uniformMatrix3fv(uniform("turn"), false,
+          [c, s * f, -s * e, -s, c * f, -c * e, 0, e, f]);
+      gl.uniform3fv(uniform("center"), part.size.map((length) => length / 2));
+      gl.uniform4f(uniform("lens"), this.distance(focal, aspect) / this.zoomed, focal,
+          aspect, Math.hypot(...part.size) / 2 * 1.01);
+      gl.uniform3fv(uniform("solid"), kGold);
+      gl.uniform1f(uniform("dotSize"), dotSize);
+      return (rgb, alpha) => gl.uniform4f(uniform("flatColor"), ...rgb, alpha);
+    };
+    use(this.lit, 0);
+    gl.bindVertexArray(this.surface);
+    const at = isWhole ? mesh.ends.length - 1 :
+      Math.min(mesh.ends.length - 1, Math.floor(index / mesh.stride));
     const end = mesh.ends[at];
     const isCut = at + 1 < mesh.ends.length;
     gl.drawElements(gl.TRIANGLES, isCut ? end.bottoms : end.tops, gl.UNSIGNED_INT, 0);
-    if (!isCut) return;
-    const begin = at > 0 ? mesh.ends[at - 1].section : 0;
-    gl.uniform1i(uniform("isSection"), 1);
-    gl.drawElements(gl.TRIANGLES, end.section - begin, gl.UNSIGNED_INT,
-        4 * (mesh.sectionBegin + begin));
+    const paint = use(this.flat, 0);
+    if (isCut) {
+      const begin = at > 0 ? mesh.ends[at - 1].section : 0;
+      paint(kGold.map((value) => .25 + .75 * value ** (1 / 2.2)), 1);
+      gl.drawElements(gl.TRIANGLES, end.section - begin, gl.UNSIGNED_INT,
+          4 * (mesh.sectionBegin + begin));
+    }
+    paint(rgbOf(color("outline")), 1);
+    this.drawOutline(index);
+    if (hasMarks) this.drawMarks(ratio, use, isWhole ? Infinity : index);
+  }
+
+  drawOutline(index) {
+    const {gl, part} = this;
+    const layer = part.layers[index];
+    const z = layer.top - part.layers[0].bottom;
+    const lines = [];
+    forEdges(layer.contours, (ax, ay, bx, by) => lines.push(ax, ay, z, bx, by, z));
+    gl.bindVertexArray(this.outline);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.outline.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(lines), gl.DYNAMIC_DRAW);
+    gl.drawArrays(gl.LINES, 0, lines.length / 3);
+  }
+
+  // Marks the places up to a layer. Those behind the part shine through; many are
+  // drawn smaller.
+  drawMarks(ratio, use, last) {
+    const {gl} = this;
+    const places = this.part.found ? this.part.found.places : [];
+    const size = ratio * Math.min(15, Math.max(5, 15 * Math.sqrt(40 / places.length)));
+    const paint = use(this.flat, size);
+    gl.bindVertexArray(this.marks);
+    gl.enable(gl.BLEND);
+    gl.depthMask(false);
+    for (const [depthFunc, alpha] of [[gl.GREATER, .35], [gl.LEQUAL, 1]]) {
+      gl.depthFunc(depthFunc);
+      places.forEach(({kind, layer}, i) => {
+        if (i === 0 || kind !== places[i - 1].kind) paint(rgbOf(colorOf(kind)), alpha);
+        if (layer <= last + 1) gl.drawArrays(gl.POINTS, i, 1);
+      });
+    }
+    gl.depthFunc(gl.LEQUAL);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
   }
 }

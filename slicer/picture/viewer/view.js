@@ -19,6 +19,11 @@ function color(name) {
   return getComputedStyle(document.documentElement).getPropertyValue("--" + name);
 }
 
+// Of a kind of place: "loose part".
+function colorOf(kind) {
+  return color(kind.replace(" ", "-"));
+}
+
 // Gives a canvas the pixels of its place on the page; returns its context, in
 // the page's pixels, and its size.
 function prepare(canvas) {
@@ -70,6 +75,11 @@ class View {
   }
 }
 
+// What was found in the print: all places but thin ones, which have lines.
+function findingsOf(part) {
+  return part.found ? part.found.places.filter(({kind}) => kind !== "wall" && kind !== "gap") : [];
+}
+
 class Drawing {
   constructor(canvas, part, view) {
     this.canvas = canvas;
@@ -77,7 +87,7 @@ class Drawing {
     this.view = view;
   }
 
-  // state: {index, below, thin, pointer, ends: [{place, index}]}
+  // state: {index, below, marks, pointer, ends: [{place, index}]}
   draw(state) {
     const sheet = prepare(this.canvas);
     const layer = this.part.layers[state.index];
@@ -89,7 +99,7 @@ class Drawing {
     }
     this.fillPath(sheet, layer);
     this.strokePath(sheet, layer, "outline", []);
-    if (state.thin) this.drawMarks(sheet, layer);
+    if (state.marks) this.drawMarks(sheet, state.index);
     this.drawMeasure(sheet, state);
     this.drawRulers(sheet, state.pointer);
     this.drawScale(sheet);
@@ -156,10 +166,12 @@ class Drawing {
     context.stroke();
   }
 
-  drawMarks({context}, layer) {
+  // Thin places as lines; what was found in the print as rings, in the layer
+  // where it begins as a disk.
+  drawMarks({context}, index) {
     context.lineWidth = 4;
     context.lineCap = "round";
-    for (const mark of layer.marks) {
+    for (const mark of this.part.layers[index].marks) {
       context.strokeStyle = color(mark.kind);
       context.beginPath();
       context.moveTo(...this.view.toPage(mark.from));
@@ -167,6 +179,18 @@ class Drawing {
       context.stroke();
     }
     context.lineCap = "butt";
+    for (const {kind, first, last, layer, place} of findingsOf(this.part)) {
+      if (index + 1 < first || index + 1 > last) continue;
+      context.strokeStyle = context.fillStyle = colorOf(kind);
+      context.lineWidth = 2.5;
+      context.beginPath();
+      context.arc(...this.view.toPage(place), 8, 0, 2 * Math.PI);
+      context.stroke();
+      if (index + 1 !== layer) continue;
+      context.beginPath();
+      context.arc(...this.view.toPage(place), 4, 0, 2 * Math.PI);
+      context.fill();
+    }
   }
 
   drawMeasure({context}, state) {
@@ -245,7 +269,8 @@ class Drawing {
   }
 }
 
-// Areas of all layers from the bottom (left) to the top, over the slider.
+// Areas of all layers from the bottom (left) to the top, over the slider; below,
+// what was found from which layer to which, and the layers with thin places.
 class Plot {
   constructor(canvas, part) {
     this.canvas = canvas;
@@ -256,7 +281,7 @@ class Plot {
   draw(index) {
     const {context, width, height} = prepare(this.canvas);
     const {layers} = this.part;
-    const foot = height - 7;
+    const foot = height - (this.part.found ? 13 : 3);
     const xOf = (i) => layers.length === 1 ? width / 2 :
       i / (layers.length - 1) * (width - 2) + 1;
     const yOf = (layer) => foot - layer.area / this.greatest * (foot - 4);
@@ -270,11 +295,15 @@ class Plot {
     context.globalAlpha = .28;
     context.fill();
     context.globalAlpha = 1;
+    const bar = (kind, first, last, row) => {
+      context.fillStyle = colorOf(kind);
+      context.fillRect(xOf(first) - .8, foot + 2 + 5 * row,
+          xOf(last) - xOf(first) + 1.6, 4);
+    };
+    for (const {kind, first, last} of findingsOf(this.part)) bar(kind, first - 1, last - 1, 0);
     layers.forEach((layer, i) => {
       for (const kind of ["gap", "wall"]) {
-        if (!layer.marks.some((mark) => mark.kind === kind)) continue;
-        context.fillStyle = color(kind);
-        context.fillRect(xOf(i) - .8, foot + 2, 1.6, 4);
+        if (layer.marks.some((mark) => mark.kind === kind)) bar(kind, i, i, 1);
       }
     });
     const x = xOf(index);
