@@ -29,6 +29,8 @@ PIECES = {
     "cone": "rotate([0, 0, 20]) cylinder(r1=12, r2=1, h=8, $fn=60);",
 }
 
+# PrusaSlicer draws these in its window only, not from the command line.
+THUMBNAILS = {"thumbnail/thumbnail400x400.png", "thumbnail/thumbnail800x480.png"}
 # Whose program it was, when, and what it was called.
 OWN_FIELDS = {"fileCreationTimestamp", "jobDir", "materialName",
               "printerProfile", "prusaSlicerVersion", "printer_settings_id",
@@ -121,7 +123,8 @@ def compare(ours, theirs, row):
                    for entry in archive.infolist())
         members.append(sorted(name.replace(job, "", 1) if
                               name.startswith(job) else name
-                              for name in archive.namelist()))
+                              for name in archive.namelist()
+                              if name not in THUMBNAILS))
     row["members"] = len(members[0])
     if members[0] != members[1]:
         faults.append("members differ")
@@ -139,7 +142,8 @@ def compare(ours, theirs, row):
             elif a != b and abs(float(a) - float(b)) > 1e-4:
                 faults.append(f"{key} is {a}, not {b}")
     row["fields"] = compared
-    images = [name for name in sorted(ours.namelist()) if name.endswith("png")]
+    images = [name for name in sorted(ours.namelist())
+              if name.endswith("png") and name not in THUMBNAILS]
     row["layers"] = len(images)
     edge = greatest = whole = 0
     chosen = {0, len(images) // 3, 2 * len(images) // 3, len(images) - 1}

@@ -19,8 +19,9 @@
 #include "base/file/output_folder.h"
 #include "base/file/zip_output.h"
 #include "slicer/contour/layer_measures.h"
-#include "slicer/formats/detail/grey_png.h"
 #include "slicer/formats/detail/image_stack.h"
+#include "slicer/formats/detail/png_encoder.h"
+#include "slicer/formats/detail/preview.h"
 #include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {
@@ -55,6 +56,7 @@ class ImageStackWriter : public LayerWriter {
 
   void begin(const Box3& box) override {
     map_ = map_around((Vec2(box.low) + Vec2(box.high)) / 2.0);
+    if (stack_.format == OutputFormat::kSl1) preview_ = Preview(box);
   }
 
   // Returns the layer's image.
@@ -72,6 +74,7 @@ class ImageStackWriter : public LayerWriter {
     ImageLayer measures = measure(layer);
     const std::string name = image_name(stack_, stack_.layers.size());
     add_image(name, layer.encoded.empty() ? encode(layer) : layer.encoded);
+    preview_.take(layer);
     note_thickness(measures.thickness);
     stack_.volume +=
         std::accumulate(measures.regions.begin(), measures.regions.end(), 0.0) *
@@ -82,6 +85,12 @@ class ImageStackWriter : public LayerWriter {
   void finish(Diagnostics& /*diagnostics*/) override {
     for (const StackText& text : stack_texts(stack_)) {
       add_text(text.name, text.text);
+    }
+    if (stack_.format != OutputFormat::kSl1) return;
+    // The sizes that Prusa's printers and PrusaSlicer's window have.
+    for (const auto& [width, height] : {std::pair(400U, 400U), {800U, 480U}}) {
+      add_text(fmt::format("thumbnail/thumbnail{}x{}.png", width, height),
+               encode_rgb_png(width, height, preview_.draw(width, height)));
     }
   }
 
@@ -142,6 +151,7 @@ class ImageStackWriter : public LayerWriter {
 
   ImageStack stack_;
   PixelMap map_;
+  Preview preview_;
 };
 
 class FolderWriter : public ImageStackWriter {

@@ -212,7 +212,10 @@ TEST(ImageStackWriter, NamesInArchivesAreUtf8) {
       {"/usr/bin/python3", "-c",
        "import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).namelist())",
        path});
-  EXPECT_EQ(listing.output, "['Rîng00000.png', 'config.ini', 'prusaslicer.ini']\n")
+  EXPECT_EQ(listing.output,
+            "['Rîng00000.png', 'config.ini', 'prusaslicer.ini', "
+            "'thumbnail/thumbnail400x400.png', "
+            "'thumbnail/thumbnail800x480.png']\n")
       << listing.errors;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
-// A layer as the grey PNG image that a printer's panel shows.
+// PNG files: layers as the grey images that a printer's panel shows, and
+// previews in colour.
 
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "ldni/section/contours.h"
@@ -17,5 +20,9 @@ namespace lamina::slicer {
 std::string draw_grey_png(const ldni::Contours& contours, unsigned width,
                           unsigned height, const PixelMap& map,
                           PixelLayout layout = PixelLayout::kGrey);
+
+// pixels  rows from the top, of red, green and blue
+std::string encode_rgb_png(unsigned width, unsigned height,
+                           std::span<const std::uint8_t> pixels);
 
 }  // namespace lamina::slicer

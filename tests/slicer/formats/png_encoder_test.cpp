@@ -1,4 +1,4 @@
-#include "slicer/formats/detail/grey_png.h"
+#include "slicer/formats/detail/png_encoder.h"
 
 #include <cmath>
 #include <cstddef>
