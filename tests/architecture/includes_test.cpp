@@ -194,7 +194,7 @@ TEST(Includes, PackagesKeepToTheirHomes) {
       {"gtest/", {}},
       {"tbb/", {"base/parallel", "slicer/slice/"}},
       {"oneapi/tbb", {"base/parallel", "slicer/slice/"}},
-      {"png", {"slicer/formats/", "slicer/picture/", "csg/import/"}},
+      {"png", {"base/file/", "slicer/picture/"}},
       {"pugixml", {"base/file/", "csg/import/", "slicer/formats/"}},
       {"minizip/", {"base/file/"}},
       {"CLI/", {"cli/"}},

@@ -316,7 +316,8 @@ def read_sl1(path):
     config = dict(line.split(" = ") for line in
                   archive.read("config.ini").decode().splitlines())
     thickness = float(config["layerHeight"])
-    images = sorted(n for n in archive.namelist() if n.endswith(".png"))
+    images = sorted(n for n in archive.namelist()
+                    if n.endswith(".png") and not n.startswith("thumbnail/"))
     demand(images == [f"{config['jobDir']}{i:05}.png"
                       for i in range(len(images))], "images do not count up")
     return [((i + 1) * thickness,
