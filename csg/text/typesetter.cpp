@@ -39,6 +39,12 @@ MakeEngine* open_module(const std::vector<std::string>& folders,
     }
     return reinterpret_cast<MakeEngine*>(symbol);
   }
+  if (folders.empty()) {
+    fail(diagnostics,
+         fmt::format("Can't find the module for text(), {}: /proc is not "
+                     "mounted, and nothing else tells where lamina lies",
+                     kModuleName));
+  }
   fail(diagnostics, fmt::format("Can't find the module for text(), {}, in {}",
                                 kModuleName, fmt::join(folders, " or ")));
 }
