@@ -13,6 +13,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include "base/memory_end.h"
@@ -68,6 +69,7 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
     app.parse(argc, argv);
     command.check();
     access = make_file_access(access_limits);
+    access.report_to(std::make_shared<RunFiles>());
   } catch (const CLI::CallForHelp&) {
     print_out(command.help());
     return kDone;
@@ -84,8 +86,16 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
   return std::nullopt;
 }
 
-// Catches what global objects of libraries throw before main() begins.
+// Catches what global objects of libraries throw before main() begins, and
+// signals that come before run_on_stack() takes them.
 [[gnu::constructor(101)]] void expect_the_worst() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    ::sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_DFL) continue;  // nohup
+    action.sa_handler = [](int) { ::_exit(kInterrupted); };
+    ::sigaction(signal, &action, nullptr);
+  }
   std::set_terminate([] {
     print_error("lamina: out of memory\n");
     ::_exit(kFault);

@@ -15,7 +15,7 @@ endfunction()
 install(TARGETS lamina
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 lamina_compress(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog.gz)
-install(FILES README.md ${PROJECT_BINARY_DIR}/changelog.gz
+install(FILES README.md SECURITY.md ${PROJECT_BINARY_DIR}/changelog.gz
               cmake/debian/copyright
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 lamina_compress(${PROJECT_BINARY_DIR}/cli/lamina.1 lamina.1.gz)

@@ -15,8 +15,10 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/fs.h>
 #include <linux/magic.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
@@ -83,6 +85,22 @@ std::string follow_links(const std::string& path) {
       ::realpath(path.c_str(), nullptr), ::free);
   if (!resolved && errno == ENOMEM) throw std::bad_alloc();
   return resolved ? resolved.get() : path;  // not there yet
+}
+
+// Whether another user has left a link in a folder where all may leave some,
+// such as /tmp: the kernel does not follow these either
+// (fs.protected_symlinks), but realpath() reads them.
+bool is_of_stranger(const std::string& path) {
+  struct stat link {};
+  if (::lstat(path.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return false;
+  const std::string::size_type slash = path.rfind('/');
+  const std::string folder =
+      slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  struct stat around {};
+  constexpr mode_t kForAll = S_ISVTX | S_IWOTH;
+  return ::stat(folder.c_str(), &around) == 0 &&
+         (around.st_mode & kForAll) == kForAll && link.st_uid != ::geteuid() &&
+         link.st_uid != around.st_uid;
 }
 
 bool begins_with(const std::vector<std::string>& parts,
@@ -244,6 +262,26 @@ std::optional<std::vector<std::string>> FileAccess::list(
   return names;
 }
 
+bool FileAccess::folds_case(const std::string& folder) const {
+  constexpr int kFlags = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+  constexpr auto kExfat = 0x2011BAB0;
+  OpenFile file;
+  if (!is_confined()) {
+    file = OpenFile(::open(folder.c_str(), kFlags));
+  } else if (const Destination found = find(folder);
+             found.state == State::kThere) {
+    file = OpenFile(::openat(found.file.descriptor(), ".", kFlags));
+  }
+  if (!file) return false;
+  struct statfs system {};
+  const bool is_fat =
+      ::fstatfs(file.descriptor(), &system) == 0 &&
+      (system.f_type == MSDOS_SUPER_MAGIC || system.f_type == kExfat);
+  int flags = 0;
+  return is_fat || (::ioctl(file.descriptor(), FS_IOC_GETFLAGS, &flags) == 0 &&
+                    (flags & FS_CASEFOLD_FL) != 0);
+}
+
 std::vector<std::string> FileAccess::readable_parts(
     const std::string& folder) const {
   if (allows(folder)) return {folder};
@@ -279,14 +317,27 @@ OpenFile FileAccess::open(const std::string& path) const {
     return {};
   }
   const bool is_refused = is_confined() && is_of_kernel(file);
-  if (S_ISREG(status.st_mode) && !is_refused) return file;
+  if (S_ISREG(status.st_mode) && !is_refused) {
+    if (run_) run_->note_input(path, status);
+    return file;
+  }
   errno = 0;
   return {};
 }
 
 std::optional<std::string> FileAccess::read(const std::string& path) const {
   if (is_confined()) return read_regular(path);
-  return read_open(OpenFile(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), path);
+  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status {};
+  if (file && ::fstat(file.descriptor(), &status) == 0) {
+    // Devices may never end.
+    if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) {
+      errno = 0;
+      return std::nullopt;
+    }
+    if (run_ && S_ISREG(status.st_mode)) run_->note_input(path, status);
+  }
+  return read_open(file, path);
 }
 
 std::optional<std::string> FileAccess::read_regular(
@@ -298,6 +349,7 @@ std::optional<std::string> FileAccess::read_regular(
 
 OutputPlace FileAccess::find_output(const std::string& path) const {
   if (is_confined()) return find_confined_output(path);
+  if (is_of_stranger(path)) return {"", {}, EACCES, {}};
   return {follow_links(path), {}, 0, look_at(path)};
 }
 

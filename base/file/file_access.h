@@ -16,12 +16,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <sys/stat.h>
 
 #include "base/diagnostic.h"
 #include "base/file/open_file.h"
+#include "base/file/run_files.h"
 #include "base/source.h"
 
 namespace lamina {
@@ -69,6 +71,11 @@ class FileAccess {
   // Throws AccessError for what is no folder.
   static FileAccess within(const Limits& limits);
 
+  // Lets a run know of all files that are opened to be read.
+  void report_to(std::shared_ptr<RunFiles> run) { run_ = std::move(run); }
+  // Null: nobody wants to know.
+  RunFiles* run_files() const { return run_.get(); }
+
   bool is_confined() const { return folders_ != nullptr; }
   // The descriptors of the folders, the root first; none where nothing is
   // confined. They stay open as long as this.
@@ -104,6 +111,9 @@ class FileAccess {
   // Names of what stands in a folder, in no order, without "." and ".."; no
   // value where it cannot be read (errno tells why).
   std::optional<std::vector<std::string>> list(const std::string& folder) const;
+
+  // Whether names that differ in the case of letters are one in that folder.
+  bool folds_case(const std::string& folder) const;
 
   // The parts of a folder that may be read: itself, folders in it, or none.
   std::vector<std::string> readable_parts(const std::string& folder) const;
@@ -143,6 +153,7 @@ class FileAccess {
 
   std::shared_ptr<const Folders> folders_;  // the root first; null: all
   bool refuses_data_ = false;
+  std::shared_ptr<RunFiles> run_;
 };
 
 // The default where no other is given.

@@ -166,6 +166,17 @@ bool link_file(int file, const std::string& path) {
                   AT_SYMLINK_FOLLOW) == 0;
 }
 
+// Gives a file owner and mode of another one. Who may not give it to the owner
+// keeps it, with the same mode.
+void take_after(int file, const struct stat& other) {
+  constexpr mode_t kPermissions = 0777;
+  const bool is_given = ::fchown(file, other.st_uid, other.st_gid) == 0 ||
+                        ::fchown(file, uid_t(-1), other.st_gid) == 0;
+  // A group that could not be given its file must not get that of another one.
+  const mode_t mask = is_given ? kPermissions : kPermissions & ~mode_t{070};
+  ::fchmod(file, other.st_mode & mask);
+}
+
 // Network file systems tell at the end of the writing that there is no room.
 // Returns 0 or the error number.
 int end_writing(int file) {
@@ -230,13 +241,6 @@ TemporaryFiles::File TemporaryFiles::open_file(const std::string& target) {
   return file;
 }
 
-bool TemporaryFiles::rename_to(File& file, const std::string& target) {
-  if (::rename(file.name.c_str(), target.c_str()) != 0) return false;
-  forget(file.name);
-  file.name.clear();
-  return true;
-}
-
 // Gives a file that has no name a hidden one.
 bool TemporaryFiles::give_name(File& file, const std::string& target) {
   lock(file.file);
@@ -262,16 +266,29 @@ bool TemporaryFiles::give_name(File& file, const std::string& target) {
   return error == 0;
 }
 
-bool TemporaryFiles::commit_file(File& file, const std::string& target) {
-  const Lock lock(mutex_);
-  errno = end_writing(file.file);
-  if (errno != 0) return false;
+bool TemporaryFiles::put_at(File& file, const std::string& target) {
   if (file.name.empty()) {
     // A name that is free is taken in one step.
     if (link_file(file.file, target)) return true;
     if (!give_name(file, target)) return false;
   }
-  return rename_to(file, target);
+  if (::rename(file.name.c_str(), target.c_str()) != 0) return false;
+  forget(file.name);
+  file.name.clear();
+  return true;
+}
+
+bool TemporaryFiles::commit_file(File& file, const OutputPlace& target) {
+  const Lock lock(mutex_);
+  if (target.there) take_after(file.file, *target.there);
+  errno = end_writing(file.file);
+  if (errno != 0 || !put_at(file, target.path)) return false;
+  struct stat now {};
+  if (access_.run_files() != nullptr && ::fstat(file.file, &now) == 0) {
+    access_.run_files()->note_written(target.there ? &*target.there : nullptr,
+                                      now);
+  }
+  return true;
 }
 
 void TemporaryFiles::discard_file(File& file) {

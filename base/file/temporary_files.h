@@ -45,9 +45,10 @@ class TemporaryFiles {
 
   // `target` is the path of an OutputPlace.
   File open_file(const std::string& target);
-  // Puts the file in the place of `target`. False if it cannot (errno). Either
-  // way the file stays open.
-  bool commit_file(File& file, const std::string& target);
+  // Puts the file in the place of `target`, with mode and owner of what stands
+  // there as far as that may be. False if it cannot (errno). Either way the
+  // file stays open.
+  bool commit_file(File& file, const OutputPlace& target);
   // Closes the file and removes it if it was not committed.
   void discard_file(File& file);
 
@@ -69,7 +70,7 @@ class TemporaryFiles {
 
  private:
   bool give_name(File& file, const std::string& target);
-  bool rename_to(File& file, const std::string& target);
+  bool put_at(File& file, const std::string& target);
   void forget(const std::string& path);
 
   const FileAccess& access_;

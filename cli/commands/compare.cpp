@@ -14,10 +14,10 @@
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
+#include "cli/process/openscad.h"
 #include "cli/process/streams.h"
 #include "cli/report/compared.h"
 #include "cli/report/comparison.h"
-#include "cli/process/openscad.h"
 #include "cli/report/comparison_text.h"
 #include "cli/report/session.h"
 #include "compiler/passes.h"
@@ -106,10 +106,11 @@ class CompareCommand : public Command {
     refuse_if(!b_.empty() && is_against_openscad_,
               "--against openscad stands for the second file");
     for (const std::string& path : {a_, b_}) {
-      refuse_if(!path.empty() && !can_compare(path),
-                "'{}' is no file that compare reads (.slc .cli .svg "
-                ".sl1 .zip .layers.json .scad .csg .stl .off .obj .amf .3mf .dxf)",
-                path);
+      refuse_if(
+          !path.empty() && !can_compare(path),
+          "'{}' is no file that compare reads (.slc .cli .svg "
+          ".sl1 .zip .layers.json .scad .csg .stl .off .obj .amf .3mf .dxf)",
+          path);
     }
     if (is_against_openscad_) check_openscad();
     refuse_if(request_.settings.paper.sampler != ldni::SamplerKind::kScanline,
@@ -123,6 +124,7 @@ class CompareCommand : public Command {
     Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {
       try {
+        context.expect_outputs({report_, picture_});
         std::string version;
         if (is_against_openscad_) {
           version = openscad_version(context.temporary_files);

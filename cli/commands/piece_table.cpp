@@ -264,12 +264,12 @@ std::vector<Piece> read_sets(const TableOptions& options,
 }
 
 void refuse_equal_outputs(const std::vector<Piece>& pieces,
-                          Diagnostics& diagnostics) {
+                          const FileAccess& access, Diagnostics& diagnostics) {
   std::map<std::string, const Piece*> outputs;
   for (const Piece& piece : pieces) {
     if (!piece.fault.empty()) continue;
-    const auto [first, is_new] =
-        outputs.try_emplace(normal_path(piece.request.output), &piece);
+    const auto [first, is_new] = outputs.try_emplace(
+        access.run_files()->place_of(piece.request.output, access), &piece);
     if (is_new) continue;
     diagnostics.error(
         {}, fmt::format("{}and {}have one output, '{}'", first->second->prefix,
@@ -288,7 +288,7 @@ std::vector<Piece> read_pieces(const TableOptions& options,
   } else {
     pieces = TableReader(options, access, sources, diagnostics).read();
   }
-  refuse_equal_outputs(pieces, diagnostics);
+  refuse_equal_outputs(pieces, access, diagnostics);
   return pieces;
 }
 

@@ -282,6 +282,10 @@ int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
                 const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   context.watch.time_parts();
+  for (const Piece& piece : pieces) {
+    if (piece.fault.empty()) context.expect_outputs({piece.request.output});
+  }
+  context.expect_outputs({options.report});
   const std::vector<Outcome> outcomes =
       Workshop(pieces, options, context).run();
   const std::chrono::duration<double> seconds =

@@ -1,7 +1,6 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
 #include <filesystem>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -202,6 +201,8 @@ class SliceCommand : public Command {
     if (designs_.size() > 1) return run_several(context);
     Session session(request_, is_quiet_, context);
     return session.run([&] {
+      context.expect_outputs(
+          {request_.output, request_.dependencies, output_.report});
       if (makes_folder_) make_folder_of(request_.output, context.file_access());
       if (watches_) {
         compile_and_watch(request_, output_.report, is_quiet_, context);
@@ -246,12 +247,6 @@ class SliceCommand : public Command {
         "'out/', or a pattern, such as 'out/{{name}}.slc'");
     refuse_if(!request_.dependencies.empty(), "-d needs one design");
     choose_format(request_, output_, output_of(designs_.front()));
-    std::set<std::string> outputs;
-    for (const std::string& design : designs_) {
-      const std::string output = output_of(design);
-      refuse_if(!outputs.insert(normal_path(output)).second,
-                "two designs have the output '{}'", output);
-    }
   }
 
   int run_several(const Context& context) {

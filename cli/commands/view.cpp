@@ -347,7 +347,10 @@ class ViewCommand : public Command {
 
   int run(const Context& context) override {
     Session session(request_, is_quiet_, context);
-    return session.run([&] { return draw(session.compilation, options_); });
+    return session.run([&] {
+      context.expect_outputs({request_.output});
+      return draw(session.compilation, options_);
+    });
   }
 
  private:

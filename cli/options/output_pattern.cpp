@@ -65,10 +65,6 @@ void make_folder_of(const std::string& output, const FileAccess& access) {
   if (!folder.empty()) access.make_folders(folder);
 }
 
-std::string normal_path(const std::string& path) {
-  return fs::path(path).lexically_normal().string();
-}
-
 std::string stem(const std::string& path) { return fs::path(path).stem(); }
 
 }  // namespace lamina::cli

@@ -27,9 +27,6 @@ std::string require_part_of_name(const std::string& text);
 // the output reports why.
 void make_folder_of(const std::string& output, const FileAccess& access);
 
-// The path without "." and "..", so that two ways to write one path are equal.
-std::string normal_path(const std::string& path);
-
 // The last part of a path without its extension: "ring" of "in/ring.scad".
 std::string stem(const std::string& path);
 

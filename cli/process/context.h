@@ -2,6 +2,8 @@
 // What a command gets from its process.
 
 #include <cstddef>
+#include <initializer_list>
+#include <string>
 
 #include "base/file/output_file.h"
 #include "cli/process/process_watch.h"
@@ -15,6 +17,14 @@ struct Context {
 
   const FileAccess& file_access() const {
     return temporary_files.file_access();
+  }
+
+  // Says what the command will write, before it does anything else. Throws as
+  // RunFiles::expect_output() does; what is empty is no output.
+  void expect_outputs(std::initializer_list<std::string> paths) const {
+    for (const std::string& path : paths) {
+      file_access().run_files()->expect_output(path, file_access());
+    }
   }
 };
 

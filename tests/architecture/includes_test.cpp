@@ -225,14 +225,28 @@ TEST(Includes, CgalStaysInTheOracle) {
 }
 
 TEST(TopLevel, HoldsWhatTheMapNames) {
-  const std::vector<std::string> known = {
-      "CMakeLists.txt", "base",      "compiler",
-      "parser",         "csg",       "ldni",
-      "slicer",         "tests",     "examples",
-      "grammar",        "README.md", "cli",
-      "bench",          "scripts",   "docs",
-      "cmake",          "LICENSE",   "CMakePresets.json",
-      "CHANGELOG.md",   "build",     "api"};
+  const std::vector<std::string> known = {"CMakeLists.txt",
+                                          "base",
+                                          "compiler",
+                                          "parser",
+                                          "csg",
+                                          "ldni",
+                                          "slicer",
+                                          "tests",
+                                          "examples",
+                                          "grammar",
+                                          "README.md",
+                                          "cli",
+                                          "bench",
+                                          "scripts",
+                                          "docs",
+                                          "cmake",
+                                          "LICENSE",
+                                          "CMakePresets.json",
+                                          "CHANGELOG.md",
+                                          "SECURITY.md",
+                                          "build",
+                                          "api"};
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     const std::string name = entry.path().filename();
     if (name.front() == '.') continue;

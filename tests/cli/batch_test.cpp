@@ -375,7 +375,6 @@ TEST(SeveralDesigns, RefuseWhatIsForOne) {
   const std::vector<std::vector<std::string>> mistakes = {
       {"-o", "x.slc"},
       {"-o", "-", "--export-format", "slc"},
-      {"-o", "out/"},
       {"-d", "rule"},
   };
   for (const auto& mistake : mistakes) {
@@ -383,6 +382,8 @@ TEST(SeveralDesigns, RefuseWhatIsForOne) {
     words.insert(words.end(), mistake.begin(), mistake.end());
     EXPECT_EQ(run(folder, words).status, 2) << mistake.back();
   }
+  // Both would be out/a.slc.
+  EXPECT_EQ(run(folder, {"a.scad", "in/a.scad", "-o", "out/"}).status, 1);
   EXPECT_EQ(folder.entry_count(), 2U);
 }
 

@@ -1,0 +1,222 @@
+// No output takes the place of an input or of another output, whatever names
+// lead there; and what stands in an output's place stays what it was.
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFont =
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf";
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A folder with one of each thing that a run can read.
+class Outputs : public testing::Test {
+ protected:
+  Outputs() {
+    folder_.write("ring.scad",
+                  "size = 1; use <part.scad>\ninclude <sizes.scad>\n"
+                  "use <font.ttf>\nimport(\"plan.svg\");\n"
+                  "text(\"A\", font = \"Liberation Sans\");\n");
+    folder_.write("part.scad", "module part() {}\n");
+    folder_.write("sizes.scad", "x = 1;\n");
+    folder_.write("plan.svg",
+                  "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9mm\" "
+                  "height=\"9mm\" viewBox=\"0 0 9 9\"><rect width=\"5\" "
+                  "height=\"5\"/></svg>");
+    folder_.write("sets.json",
+                  R"({"parameterSets": {"large": {"size": "2"}}})");
+    folder_.write("cube.scad", "size = 1; cube(1);");
+    folder_.write("ball.scad", "sphere(1);");
+    folder_.write("table.csv", "name,size\ncube,1\nball,2\n");
+    folder_.write("links.csv", "name,size\np,1\nq,2\n");
+    fs::copy_file(kFont, folder_.file("font.ttf"));
+    EXPECT_EQ(run(folder_, {"cube.scad", "-o", "a.svg"}).status, 0);
+    EXPECT_EQ(run(folder_, {"ball.scad", "-o", "b.svg"}).status, 0);
+    fs::create_directory(folder_.file("q"));
+    fs::create_symlink("q", folder_.file("p"));
+    fs::create_symlink("ball.scad", folder_.file("link.slc"));
+    before_ = contents();
+  }
+
+  // All files and what is in them.
+  std::map<std::string, std::string> contents() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+      if (entry.is_regular_file()) {
+        all[entry.path()] = support::read_file(entry.path());
+      }
+    }
+    return all;
+  }
+
+  void expect_refused(const std::vector<std::string>& arguments,
+                      const std::string& words) const {
+    const auto result = run(folder_, arguments);
+    const std::string all = fmt::format("{}", fmt::join(arguments, " "));
+    EXPECT_EQ(result.status, 1) << all;
+    EXPECT_TRUE(has(result.errors, words)) << all << "\n" << result.errors;
+    EXPECT_TRUE(contents() == before_) << all;
+  }
+
+  const support::TemporaryFolder folder_;
+  std::map<std::string, std::string> before_;
+};
+
+TEST_F(Outputs, AreNoInputs) {
+  const std::vector<std::vector<std::string>> cases = {
+      {"ring.scad", "-o", "ring.scad", "--export-format", "svg"},
+      {"ring.scad", "-o", "./part.scad", "--export-format", "svg"},
+      {"ring.scad", "-o", "p/../sizes.scad", "--export-format", "svg"},
+      {"ring.scad", "-o", "plan.svg"},
+      {"ring.scad", "-o", "font.ttf", "--export-format", "svg"},
+      {"ring.scad", "-o", "new.svg", "-d", "sizes.scad"},
+      {"ring.scad", "-o", "new.svg", "--report", "plan.svg"},
+      {"ball.scad", "-o", "link.slc"},
+      {"cube.scad", "-o", "new.slc", "-p", "sets.json", "-P", "large",
+       "--report", "sets.json"},
+      {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.slc",
+       "--report", "table.csv"},
+      {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.scad",
+       "--export-format", "slc"},
+      {"compare", "a.svg", "a.svg", "--report", "a.svg"},
+      {"compare", "a.svg", "b.svg", "--report", "b.svg"},
+  };
+  for (const auto& arguments : cases) {
+    expect_refused(arguments, "this run reads it, too");
+  }
+}
+
+TEST_F(Outputs, AreDifferentFiles) {
+  const std::vector<std::vector<std::string>> cases = {
+      {"cube.scad", "-o", "new.slc", "--report", "new.slc"},
+      {"cube.scad", "-o", "new.slc", "-d", "./new.slc"},
+      {"cube.scad", "-o", "new.slc", "-d", "new.d", "--report", "q/../new.d"},
+      {"cube.scad", "-o", "p/new.slc", "--report", "q/new.slc"},
+      {"cube.scad", "ball.scad", "-o", "q/{name}.slc", "--report",
+       "p/cube.slc"},
+      {"compare", "a.svg", "b.svg", "--report", "new.png", "--png", "new.png"},
+  };
+  for (const auto& arguments : cases) {
+    expect_refused(arguments, "another output of this run, is the same file");
+  }
+  expect_refused({"batch", "cube.scad", "--table", "links.csv", "--skip",
+                  "size", "-o", "{name}/x.slc"},
+                 "have one output");
+  expect_refused({"batch", "cube.scad", "--table", "table.csv", "-o",
+                  "{name}.slc", "--report", "cube.slc"},
+                 "another output of this run, is the same file");
+}
+
+// What a piece has written is no input of the next one.
+TEST_F(Outputs, OfAPieceAreReadByNoOther) {
+  folder_.write("first.scad", "square(1);");
+  folder_.write("second.scad", "import(\"out/first.svg\");");
+  const auto result =
+      run(folder_, {"first.scad", "second.scad", "-o", "out/{name}.svg",
+                    "--export-format", "svg", "--threads", "1"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "this run reads it, too")) << result.errors;
+}
+
+TEST_F(Outputs, ThatMayNotBeWrittenStopTheOthersToo) {
+  fs::create_directory(folder_.file("root"));
+  folder_.write("root/cube.scad", "cube(1);");
+  const auto result =
+      support::run_process(command({"cube.scad", "-o", "new.slc", "--report",
+                                    "../report.json", "--root", "."}),
+                           folder_.file("root"));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "is outside of --root")) << result.errors;
+  EXPECT_FALSE(fs::exists(folder_.file("root/new.slc")));
+}
+
+TEST_F(Outputs, AreWrittenAgain) {
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(run(folder_, {"cube.scad", "-o", "new.slc", "-d", "new.d",
+                            "--report", "new.json"})
+                  .status,
+              0);
+    EXPECT_EQ(run(folder_, {"cube.scad", "-o", "new.png"}).status, 0);
+  }
+}
+
+struct stat status_of(const std::string& path) {
+  struct stat status {};
+  EXPECT_EQ(::stat(path.c_str(), &status), 0);
+  return status;
+}
+
+TEST_F(Outputs, KeepModeAndOwner) {
+  const std::string output = folder_.file("kept.slc");
+  folder_.write("kept.slc", "");
+  constexpr mode_t kMode = 0640;
+  ASSERT_EQ(::chmod(output.c_str(), kMode), 0);
+  constexpr uid_t kOther = 1234;
+  if (::geteuid() == 0) {
+    ASSERT_EQ(::chown(output.c_str(), kOther, kOther), 0);
+  }
+  const struct stat before = status_of(output);
+  ASSERT_EQ(run(folder_, {"cube.scad", "-o", "kept.slc"}).status, 0);
+  const struct stat after = status_of(output);
+  EXPECT_EQ(after.st_mode, before.st_mode);
+  EXPECT_EQ(after.st_uid, before.st_uid);
+  EXPECT_EQ(after.st_gid, before.st_gid);
+  EXPECT_GT(after.st_size, 0);
+}
+
+// As the kernel has it with fs.protected_symlinks.
+TEST_F(Outputs, FollowNoLinksOfStrangersWhereAllMayLeaveThem) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs links of another user";
+  fs::create_directory(folder_.file("shared"));
+  ASSERT_EQ(::chmod(folder_.file("shared").c_str(), 01777), 0);
+  const std::string link = folder_.file("shared/out.slc");
+  fs::create_symlink(folder_.file("ball.scad"), link);
+  constexpr uid_t kOther = 1234;
+  ASSERT_EQ(::lchown(link.c_str(), kOther, kOther), 0);
+  const auto result = run(folder_, {"cube.scad", "-o", "shared/out.slc"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors,
+            "error: Can't write 'shared/out.slc': Permission denied\n");
+  EXPECT_EQ(support::read_file(folder_.file("ball.scad")), "sphere(1);");
+  ASSERT_EQ(::lchown(link.c_str(), ::geteuid(), ::getegid()), 0);
+  EXPECT_EQ(run(folder_, {"cube.scad", "-o", "shared/out.slc"}).status, 0);
+}
+
+TEST_F(Outputs, AndInputsAreNoDevices) {
+  expect_refused(
+      {"batch", "cube.scad", "--table", "/dev/zero", "-o", "{row}.slc"},
+      "Can't open table '/dev/zero'");
+  expect_refused({"cube.scad", "-o", "new.slc", "-p", "/dev/zero", "-P", "a"},
+                 "cannot open file");
+}
+
+TEST_F(Outputs, NeedADescriptor) {
+  const auto result = support::run_process(
+      {"/bin/sh", "-c",
+       "exec 3>&-; ulimit -n 4; exec \"$0\" cube.scad -o new.slc",
+       LAMINA_PROGRAM},
+      folder_.path());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors,
+            "error: Can't write 'new.slc': Too many open files\n");
+}
+
+}  // namespace
+}  // namespace lamina::cli
