@@ -169,4 +169,11 @@ std::string csv_cell(const std::string& text) {
   return cell + '"';
 }
 
+std::string csv_words(const std::string& text) {
+  constexpr std::string_view kFormula = "=+-@\t\r";
+  const bool is_formula =
+      !text.empty() && kFormula.find(text.front()) != std::string_view::npos;
+  return csv_cell(is_formula ? "'" + text : text);
+}
+
 }  // namespace lamina

@@ -36,4 +36,8 @@ Csv read_csv(const Source& source);
 // A cell as it stands in CSV with commas, in quotes where it needs them.
 std::string csv_cell(const std::string& text);
 
+// A cell of words, which a spreadsheet must not take for a formula: what begins
+// like one gets an apostrophe in front.
+std::string csv_words(const std::string& text);
+
 }  // namespace lamina

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/paths.h"
+#include "base/text.h"
 #include "base/utf8.h"
 
 namespace lamina {
@@ -48,10 +49,9 @@ std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const std::size_t length = character_length(text);
-    const auto first = static_cast<unsigned char>(text[0]);
     if (length == 0) {
       result += '?';
-    } else if (first < 0x20 || first == 0x7f) {
+    } else if (is_control(first_code_point(text))) {
       result += ' ';
     } else {
       result += text.substr(0, length);
@@ -59,6 +59,16 @@ std::string printable(std::string_view text) {
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return result;
+}
+
+// A message whose further lines cannot be taken for messages of their own.
+std::string message_text(std::string_view message) {
+  std::string text = without_controls(message);
+  for (std::size_t at = text.find('\n'); at != std::string::npos;
+       at = text.find('\n', at + 1)) {
+    text.insert(at + 1, "| ");
+  }
+  return text;
 }
 
 // Columns that UTF-8 text takes, double width neglected.
@@ -92,15 +102,17 @@ void append_terminal_text(std::string& text, SourceRange range,
     const LineColumn place = range.source->line_column(range.begin);
     std::string_view line = range.source->line_text(place.line);
     if (line.ends_with(';')) line.remove_suffix(1);
-    text += fmt::format("-D {}: {}{}\n", printable(line), prefix, message);
+    text += fmt::format("-D {}: {}{}\n", printable(line), prefix,
+                        message_text(message));
     return;
   }
   if (range.is_known()) {
     const LineColumn place = range.source->line_column(range.begin);
-    text += fmt::format("{}:{}:{}: ", shown_path(range.source->path()),
-                        place.line, place.column);
+    text +=
+        fmt::format("{}:{}:{}: ", on_one_line(shown_path(range.source->path())),
+                    place.line, place.column);
   }
-  text += fmt::format("{}{}\n", prefix, message);
+  text += fmt::format("{}{}\n", prefix, message_text(message));
   if (range.is_known()) append_carets(text, range);
 }
 

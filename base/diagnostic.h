@@ -120,6 +120,8 @@ std::string openscad_line(const Diagnostic& diagnostic,
 std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
                           const std::string& base_folder);
 
+// As a terminal shows it, with nothing in it that would steer one; further lines
+// of a message begin with "| ".
 // "file:line:column: warning: …", the line of text, carets below it, and the
 // notes; ends with '\n'. Empty for a message that is not for the terminal.
 std::string caret_text(const Diagnostic& diagnostic);

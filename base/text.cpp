@@ -1,11 +1,14 @@
 #include "base/text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 #include <double-conversion/double-conversion.h>
 #include <fmt/format.h>
+
+#include "base/utf8.h"
 
 namespace lamina {
 
@@ -76,6 +79,50 @@ void append_stream_number(double number, std::string& text) {
                                  std::chars_format::general, kDigits)
                        .ptr;
   text.append(digits.begin(), end);
+}
+
+bool is_control(std::uint32_t code_point) {
+  return code_point < 0x20 || (code_point >= 0x7F && code_point < 0xA0) ||
+         code_point == 0x061C ||                            // direction
+         (code_point >= 0x200E && code_point <= 0x200F) ||  // the same
+         (code_point >= 0x2028 && code_point <= 0x202E) ||  // and separators
+         (code_point >= 0x2066 && code_point <= 0x2069);
+}
+
+namespace {
+
+// is_kept  controls that stay
+template <typename IsKept>
+std::string visible(std::string_view text, const IsKept& is_kept) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const std::uint32_t code = length == 0 ? 0 : first_code_point(text);
+    if (length == 0) {
+      result += "\uFFFD";
+    } else if (is_control(code) && !is_kept(code)) {
+      result += fmt::format("\\u{:04X}", code);
+    } else {
+      result += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string without_controls(std::string_view text) {
+  return visible(
+      text, [](std::uint32_t code) { return code == '\n' || code == '\t'; });
+}
+
+std::string on_one_line(std::string_view text) {
+  std::string line =
+      visible(text, [](std::uint32_t code) { return code == '\t'; });
+  std::replace(line.begin(), line.end(), '\t', ' ');
+  return line;
 }
 
 std::string in_quotes(std::string_view content) {

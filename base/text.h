@@ -23,6 +23,17 @@ void append_stream_number(double number, std::string& text);
 // "…" with \t \n \r \" \\ escaped.
 std::string in_quotes(std::string_view content);
 
+// Whether a character steers a terminal or turns the order of letters around:
+// C0 and C1 controls, marks of direction (UAX 9), separators of lines.
+bool is_control(std::uint32_t code_point);
+
+// A stranger's text as messages show it: controls stand as "\u001B", and bytes
+// that are no UTF-8 as U+FFFD. Tabs and newlines stay.
+std::string without_controls(std::string_view text);
+
+// The same on one line: a newline stands as "\u000A", a tab as a blank.
+std::string on_one_line(std::string_view text);
+
 // Blanks of ASCII: of plain text, not of Unicode.
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' ||

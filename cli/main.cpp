@@ -18,6 +18,7 @@
 
 #include "base/memory_end.h"
 #include "base/similar.h"
+#include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/options/common_options.h"
 #include "cli/process/exit_status.h"
@@ -30,7 +31,7 @@ namespace lamina::cli {
 namespace {
 
 int show_usage_fault(std::string_view message, int status = kUsageFault) {
-  print_error(fmt::format("lamina: {}\n", message));
+  print_error(fmt::format("lamina: {}\n", without_controls(message)));
   if (status == kUsageFault) {
     print_error("Run 'lamina --help' for the options.\n");
   }

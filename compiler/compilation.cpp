@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "base/paths.h"
+#include "base/text.h"
+
 namespace lamina::compiler {
 namespace {
 
@@ -19,7 +22,8 @@ std::vector<std::string> module_folders_of(const Request& request) {
 std::string place_of(const SourceRange& range) {
   if (!range.is_known()) return {};
   const LineColumn at = range.source->line_column(range.begin);
-  return fmt::format("{}:{}:{}", range.source->path(), at.line, at.column);
+  return fmt::format("{}:{}:{}", on_one_line(shown_path(range.source->path())),
+                     at.line, at.column);
 }
 
 FeatureOrigin origin_of(const csg::Instance& instance) {

@@ -214,7 +214,8 @@ bool compile(Compilation& c) {
   if (c.has_failed) return false;
 
   // The output is opened first: nothing is computed for a file that cannot be.
-  LayerOutput output = LayerOutput::open(c.request, c.temporary_files, c.diagnostics);
+  LayerOutput output =
+      LayerOutput::open(c.request, c.temporary_files, c.diagnostics);
 
   // Lower: transforms, 2D parts and hulls need the whole tree, layers only the
   // leaves. The scene is turned and placed here, while it is still one thing.
@@ -292,8 +293,8 @@ LayerOutput::LayerOutput(Machine machine,
       deviation_(std::move(deviation)),
       writer_(std::move(writer)) {
   if (machine_->printer) {
-    build_volume_ = std::make_unique<slicer::BuildVolumeSink>(
-        *machine_->printer, *writer_);
+    build_volume_ =
+        std::make_unique<slicer::BuildVolumeSink>(*machine_->printer, *writer_);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "compiler/passes.h"
 
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -92,8 +94,10 @@ void place(Compilation& c, csg::Scene& scene) {
         slicer::choose_orientation(scene, request.settings.layer_thickness);
     csg::move_scene(scene, slicer::turn_to_axis(choice.all[choice.best].axis),
                     Vec3(0));
-    c.diagnostics.report(
-        {Severity::kPlain, {}, slicer::orientation_table(choice)});
+    std::istringstream table(slicer::orientation_table(choice));
+    for (std::string line; std::getline(table, line);) {
+      c.diagnostics.report({Severity::kPlain, {}, line});
+    }
   }
   if (request.is_placed_on_bed) slicer::place_on_bed(scene);
 }

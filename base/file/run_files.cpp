@@ -4,6 +4,7 @@
 
 #include "base/file/file_access.h"
 #include "base/letter_case.h"
+#include "base/paths.h"
 
 namespace lamina {
 namespace {
@@ -15,7 +16,7 @@ std::pair<dev_t, ino_t> identity_of(const struct stat& status) {
 [[noreturn]] void refuse_input(const std::string& path) {
   throw FileError(fmt::format(
       "Can't write '{}': this run reads it, too; give the output another name",
-      path));
+      shown_path(path)));
 }
 
 }  // namespace

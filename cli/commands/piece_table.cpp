@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/csv.h"
+#include "base/text.h"
 #include "cli/options/output_pattern.h"
 #include "parser/cell.h"
 #include "parser/loader.h"
@@ -164,7 +165,7 @@ class TableReader {
     if (piece.name.empty()) {
       piece.name = fmt::format("{}", number);
     } else {
-      piece.prefix += piece.name + ": ";
+      piece.prefix += on_one_line(piece.name) + ": ";
     }
     complete(piece, [&] {
       check_width(row);
@@ -248,7 +249,7 @@ std::vector<Piece> read_sets(const TableOptions& options,
     piece.request.parameter_file = options.table;
     piece.request.parameter_set = name;
     piece.name = name;
-    piece.prefix = fmt::format("{}: {}: ", options.table, name);
+    piece.prefix = fmt::format("{}: {}: ", options.table, on_one_line(name));
     complete(piece, [&] {
       piece.request.output =
           fill_pattern(options.request.output, [&](const std::string& word) {

@@ -195,13 +195,16 @@ std::string outcome_table(std::span<const Piece> pieces,
                           std::span<const Outcome> outcomes,
                           std::string_view unit, double seconds) {
   std::size_t width = unit.size();
-  for (const Piece& piece : pieces) width = std::max(width, piece.name.size());
+  std::vector<std::string> names;
+  for (const Piece& piece : pieces) {
+    width = std::max(width, names.emplace_back(on_one_line(piece.name)).size());
+  }
   std::string table =
       fmt::format("{:<{}}  {:>7}  {:>24}  {:>11}  {:>9}  {:>7}\n", unit, width,
                   "layers", "size", "volume mm³", "weight g", "time s");
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Outcome& outcome = outcomes[i];
-    table += fmt::format("{:<{}}  ", pieces[i].name, width);
+    table += fmt::format("{:<{}}  ", names[i], width);
     if (!outcome.is_done) {
       table += fmt::format("error: {}\n", first_line(outcome.error));
       continue;
@@ -241,14 +244,14 @@ std::string outcomes_csv(std::span<const Piece> pieces,
           report.estimate.grams > 0 ? fmt::format("{}", report.estimate.grams)
                                     : "",
           report.wall_seconds, report.warnings,
-          csv_cell(report.slice.print
-                       ? slicer::finding_counts(*report.slice.print)
-                       : ""));
+          csv_words(report.slice.print
+                        ? slicer::finding_counts(*report.slice.print)
+                        : ""));
     } else {
-      figures += csv_cell(outcome.error);
+      figures += csv_words(outcome.error);
     }
-    text += fmt::format("{},{},{},{}\r\n", line, csv_cell(piece.name),
-                        csv_cell(piece.request.output), figures);
+    text += fmt::format("{},{},{},{}\r\n", line, csv_words(piece.name),
+                        csv_words(piece.request.output), figures);
   }
   return text;
 }

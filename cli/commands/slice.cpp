@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/similar.h"
+#include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
@@ -257,7 +258,7 @@ class SliceCommand : public Command {
       piece.request.design = design;
       piece.request.output = output_of(design);
       piece.name = design;
-      piece.prefix = fmt::format("{}: ", design);
+      piece.prefix = fmt::format("{}: ", on_one_line(design));
     }
     Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {

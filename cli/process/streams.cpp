@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.h"
 #include "base/file/write_all.h"
+#include "base/text.h"
 
 namespace lamina::cli {
 
@@ -20,7 +21,7 @@ void open_missing_streams() {
 }
 
 void print_out(std::string_view text) {
-  const int error = write_all(STDOUT_FILENO, text);
+  const int error = write_all(STDOUT_FILENO, without_controls(text));
   if (error == 0) return;
   throw FileError(
       fmt::format("Can't write 'standard output': {}", std::strerror(error)));

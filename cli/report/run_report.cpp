@@ -218,8 +218,8 @@ std::string print_line(const compiler::Compilation& compilation) {
   const bool is_any = std::ranges::any_of(
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
-  return is_any ? fmt::format("\nprint: {}; 'lamina check {}' says where", counts,
-                              compilation.request.design)
+  return is_any ? fmt::format("\nprint: {}; 'lamina check {}' says where",
+                              counts, compilation.request.design)
                 : fmt::format("\nprint: {}", counts);
 }
 
@@ -240,7 +240,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
-      output == "-" ? "standard output" : output,
+      output == "-" ? "standard output" : on_one_line(output),
       counted(slice.layers, "layer"), counted(slice.loops, "loop"),
       counted(slice.points, "vertex", "vertices"),
       memory_text(report.output_bytes),

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/process_watch.h"
 
@@ -156,7 +157,9 @@ void Terminal::end_echoes() {
   echo_count_ = 0;
 }
 
-void Terminal::write(std::string_view text) {
+void Terminal::write(std::string_view words) {
+  const std::string clean = without_controls(words);
+  const std::string_view text = clean;
   if (inbox_ != nullptr) {
     // Where the message itself begins with the place in the prefix, that is
     // enough.

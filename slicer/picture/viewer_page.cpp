@@ -218,7 +218,7 @@ class PageMaker {
       page.append(rest.substr(0, place)).append(text);
       rest.remove_prefix(place + mark.size());
     };
-    put("{{title}}", escape_html(options_.title));
+    put("{{title}}", escape_html(without_controls(options_.title)));
     put("{{style}}", kViewerStyle);
     put("{{facts}}", script_text(facts));
     put("{{contours}}", base64(deflate(numbers_.bytes())));

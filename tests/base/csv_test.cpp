@@ -97,5 +97,14 @@ TEST(Csv, WrittenCellsAreReadBack) {
   EXPECT_EQ(read(line).at(1), cells);
 }
 
+TEST(Csv, WordsAreNoFormulas) {
+  EXPECT_EQ(csv_words("=cmd()"), "'=cmd()");
+  EXPECT_EQ(csv_words("+1,2"), "\"'+1,2\"");
+  EXPECT_EQ(csv_words("-a"), "'-a");
+  EXPECT_EQ(csv_words("@x"), "'@x");
+  EXPECT_EQ(csv_words("a=b"), "a=b");
+  EXPECT_EQ(csv_words(""), "");
+}
+
 }  // namespace
 }  // namespace lamina

@@ -223,5 +223,28 @@ TEST(CaretText, ShowsNoLineThatIsTooLong) {
             "a.scad:1:501: warning: no\n");
 }
 
+// A design chooses the words of its messages, and a file its name.
+TEST(CaretText, CannotSteerATerminalNorForgeALine) {
+  const Source source("a\x1b[2J\nb.scad", "cube();");
+  EXPECT_EQ(caret_text({Severity::kEcho,
+                        {},
+                        "\"\x1b[31m\x07\r\xc2\x9b \xe2\x80\xae\xff\n"
+                        "error: forged\n\tx\""}),
+            "ECHO: \"\\u001B[31m\\u0007\\u000D\\u009B \\u202E\uFFFD\n"
+            "| error: forged\n"
+            "| \tx\"\n");
+  EXPECT_EQ(caret_text({Severity::kError, {&source, 0, 4}, "no"}),
+            "a\\u001B[2J\\u000Ab.scad:1:1: error: no\n"
+            "    1 | cube();\n"
+            "      | ^~~~\n");
+  const Source turned("a.scad",
+                      "a\xe2\x80\xae"
+                      "b();");
+  EXPECT_EQ(caret_text({Severity::kError, {&turned, 0, 1}, "no"}),
+            "a.scad:1:1: error: no\n"
+            "    1 | a b();\n"
+            "      | ^\n");
+}
+
 }  // namespace
 }  // namespace lamina

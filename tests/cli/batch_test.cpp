@@ -242,7 +242,7 @@ TEST(Batch, RefusesRowsThatItCannotFollow) {
         "t.csv:3: b: error: the row has 1 cells, the header has 2\n",
         "t.csv:4: error: name: '' is empty and can be no part",
         "t.csv:5: c..d: error: name: 'c..d' has '..' in it",
-        "error: name: 'e\nf' has a line break", "1 of 6 pieces done"}) {
+        "error: name: 'e\n| f' has a line break", "1 of 6 pieces done"}) {
     EXPECT_TRUE(has(result.errors, message)) << message << result.errors;
   }
   EXPECT_EQ(count_files(folder.file("o")), 1U);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/utf8.h"
 #include "base/version.h"
 #include "tests/cli/lamina.h"
 
@@ -160,6 +161,41 @@ TEST(Usage, KnownFormatsThatAreNotWrittenSaySo) {
     EXPECT_TRUE(has(result.errors, "layers, not meshes")) << result.errors;
   }
   EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+// In what commands print, in reports and on pages.
+TEST(Usage, NamesAreData) {
+  const TemporaryFolder folder;
+  const std::string name = "n\x1b[2J\xff\nerror: forged.scad";
+  folder.write(name, "cube(1);");
+  folder.write("table.csv", "name,size\n=1+1,1\n");
+  folder.write("size.scad", "size = 1; cube(size);");
+  const auto is_clean = [](const std::string& text) {
+    return text.find('\x1b') == std::string::npos &&
+           text.find('\xff') == std::string::npos && !has(text, "\nerror: f");
+  };
+  const auto sliced = run(folder, {name, "-o", "x\x1b.slc"});
+  EXPECT_EQ(sliced.status, 0);
+  EXPECT_TRUE(is_clean(sliced.errors)) << sliced.errors;
+  const auto both = run(folder, {name, "size.scad", "-o", "out/"});
+  EXPECT_EQ(both.status, 0);
+  EXPECT_TRUE(is_clean(both.errors)) << both.errors;
+  EXPECT_TRUE(is_clean(run(folder, {"--no\x1b[2J"}).errors));
+  EXPECT_EQ(run(folder, {"view", name, "-o", "page.html"}).status, 0);
+  EXPECT_TRUE(is_valid_utf8(support::read_file(folder.file("page.html"))));
+  EXPECT_EQ(run(folder, {"batch", "size.scad", "--table", "table.csv", "-o",
+                         "{row}.slc", "--report", "r.csv"})
+                .status,
+            0);
+  EXPECT_TRUE(has(support::read_file(folder.file("r.csv")), "2,'=1+1,1.slc,"));
+  // The header of a file of layers names the program that made it.
+  std::string layers = support::read_file(folder.file("1.slc"));
+  const std::size_t at = layers.find("lamina");
+  ASSERT_NE(at, std::string::npos);
+  folder.write("other.slc", layers.replace(at, 2, "\x1b["));
+  const auto inspected = run(folder, {"inspect", "other.slc"});
+  EXPECT_EQ(inspected.status, 0);
+  EXPECT_TRUE(is_clean(inspected.output)) << inspected.output;
 }
 
 }  // namespace
