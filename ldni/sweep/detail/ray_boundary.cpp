@@ -206,21 +206,30 @@ bool RayBoundary::meets_boundary(std::uint32_t number, double y) {
 }
 
 // Splits all arcs through a point of the cluster. `number` is an entry there;
-// others may lie between it and the arcs.
+// others may lie between it and the arcs. Many entries may ask for the same
+// point, each with its own rounding: what the last one split is passed over.
 void RayBoundary::split_all_near(std::uint32_t number, double y) {
+  const bool goes_on = near_.cluster == cluster_.number &&
+                       status_[number].near_cluster == cluster_.number &&
+                       status_[number].near_y == near_.y;
+  if (!goes_on) {
+    near_ = {cluster_.number, y, status_[number].above, number};
+  }
   const auto split = [&](std::uint32_t e) {
+    if (e == status_.sentinel()) return false;
     Entry& entry = status_[e];
     if (std::abs(y_after(entry) - y) >= kClusterWidth) return false;
     entry.near_cluster = cluster_.number;
-    entry.near_y = y;
+    entry.near_y = near_.y;
     if (entry.side != 0) split_arc(entry);
     return true;
   };
-  const std::uint32_t sentinel = status_.sentinel();
-  std::uint32_t e = number;
-  while (e != sentinel && split(e)) e = status_[e].below;
-  e = status_[number].above;
-  while (e != sentinel && split(e)) e = status_[e].above;
+  while (split(status_[near_.first].below)) {
+    near_.first = status_[near_.first].below;
+  }
+  while (split(status_[near_.last].above)) {
+    near_.last = status_[near_.last].above;
+  }
 }
 
 void RayBoundary::split_arc(Entry& entry) {

@@ -111,6 +111,13 @@ class RayBoundary {
   const double tie_distance_;
   Stitcher stitcher_;
   EventCluster cluster_;
+  // The entries that split_all_near() has split around a point.
+  struct {
+    std::uint32_t cluster = 0;  // 0: none yet
+    double y = 0;
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+  } near_;
   std::vector<std::pair<double, std::uint32_t>> stale_by_y_;
   std::uint64_t unbalanced_clusters_ = 0;
 };
