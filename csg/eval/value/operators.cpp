@@ -1,9 +1,13 @@
 #include "csg/eval/value/operators.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include "csg/eval/value/object.h"
 #include "parser/ast_printer.h"
@@ -36,8 +40,100 @@ Value map_elements(Value&& vector, std::size_t count,
   return result.finish();
 }
 
-Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
-                              Reason& reason);
+// Vectors of vectors that several values hold, and what an operator has made of
+// them: where operands share, results share too. Otherwise [v, v], doubled 30
+// times, would cost a billion vectors. Operands are kept, so that no other
+// vector gets their place.
+class SharedResults {
+ public:
+  // Whether it pays to ask for them.
+  static bool may_recur(const Value& operand) {
+    return operand.is_shared_vector() && !operand.as_vector().empty() &&
+           operand.as_vector().front().is_vector();
+  }
+
+  // of    one operand or two: undef where there is one only
+  // make  the result, where it is not known
+  template <typename Make>
+  Value get(const Value& a, const Value& b, const Make& make) {
+    const Key key = {key_of(a), key_of(b)};
+    if (const auto known = results_.find(key); known != results_.end()) {
+      return known->second.result;
+    }
+    Known fresh{a, b, Value()};
+    fresh.result = make();
+    return results_.emplace(key, std::move(fresh)).first->second.result;
+  }
+
+ private:
+  using VectorKey = std::pair<const Value*, std::size_t>;
+  using Key = std::pair<VectorKey, VectorKey>;
+  struct Known {
+    Value a;
+    Value b;
+    Value result;
+  };
+
+  static VectorKey key_of(const Value& value) {
+    const std::span<const Value> elements = value.elements();
+    return {elements.data(), elements.size()};
+  }
+
+  std::map<Key, Known> results_;
+};
+
+// `of` of each number in a vector of vectors of numbers; undef for all else in
+// it.
+template <typename Of>
+Value map_numbers(Value&& value, const Of& of, SharedResults& shared) {
+  if (value.is_number()) return Value(of(value.as_number()));
+  if (!value.is_vector()) return Value();
+  const auto map = [&](Value&& vector) {
+    const std::size_t count = vector.as_vector().size();
+    return map_elements(std::move(vector), count,
+                        [&](std::size_t, Value&& element) {
+                          return map_numbers(std::move(element), of, shared);
+                        });
+  };
+  if (!SharedResults::may_recur(value)) return map(std::move(value));
+  return shared.get(value, Value(), [&] { return map(Value(value)); });
+}
+
+template <typename Of>
+Value map_numbers(Value&& vector, const Of& of) {
+  SharedResults shared;
+  return map_numbers(std::move(vector), of, shared);
+}
+
+// The same of two vectors, number by number, as far as the shorter one goes.
+template <typename Of>
+Value zip_numbers(Value&& left, Value&& right, const Of& of,
+                  SharedResults& shared) {
+  if (left.is_number() && right.is_number()) {
+    return Value(of(left.as_number(), right.as_number()));
+  }
+  if (!left.is_vector() || !right.is_vector()) return Value();
+  const auto zip = [&](Value&& x, Value&& y) {
+    const std::span<const Value> a = x.as_vector();
+    const std::span<const Value> b = y.as_vector();
+    const std::size_t count = std::min(a.size(), b.size());
+    if (y.own_elements().size() == count) {
+      return map_elements(
+          std::move(y), count, [&](std::size_t i, Value&& element) {
+            return zip_numbers(Value(a[i]), std::move(element), of, shared);
+          });
+    }
+    return map_elements(
+        std::move(x), count, [&](std::size_t i, Value&& element) {
+          return zip_numbers(std::move(element), Value(b[i]), of, shared);
+        });
+  };
+  if (!SharedResults::may_recur(left) || !SharedResults::may_recur(right)) {
+    return zip(std::move(left), std::move(right));
+  }
+  return shared.get(left, right,
+                    [&] { return zip(Value(left), Value(right)); });
+}
 
 // Inlined for the sake of numbers, the elements of most vectors.
 [[gnu::always_inline]] inline Value add_or_subtract(BinaryOp op, Value&& left,
@@ -47,28 +143,14 @@ Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
     return Value(op == BinaryOp::kAdd ? left.as_number() + right.as_number()
                                       : left.as_number() - right.as_number());
   }
-  return add_or_subtract_vectors(op, std::move(left), std::move(right), reason);
-}
-
-Value add_or_subtract_vectors(BinaryOp op, Value&& left, Value&& right,
-                              Reason& reason) {
   if (!left.is_vector() || !right.is_vector()) {
     return undefined(op, left, right, reason);
   }
-  const std::span<const Value> a = left.as_vector();
-  const std::span<const Value> b = right.as_vector();
-  const std::size_t count = std::min(a.size(), b.size());
-  Reason unused;
-  if (right.own_elements().size() == count) {
-    return map_elements(
-        std::move(right), count, [&](std::size_t i, Value&& element) {
-          return add_or_subtract(op, Value(a[i]), std::move(element), unused);
-        });
-  }
-  return map_elements(
-      std::move(left), count, [&](std::size_t i, Value&& element) {
-        return add_or_subtract(op, std::move(element), Value(b[i]), unused);
-      });
+  SharedResults shared;
+  return op == BinaryOp::kAdd ? zip_numbers(std::move(left), std::move(right),
+                                            std::plus<double>(), shared)
+                              : zip_numbers(std::move(left), std::move(right),
+                                            std::minus<double>(), shared);
 }
 
 Value multiply_any(Value&& left, Value&& right, Reason& reason);
@@ -81,21 +163,16 @@ Value multiply_any(Value&& left, Value&& right, Reason& reason);
   return multiply_any(std::move(left), std::move(right), reason);
 }
 
-Value multiply_elements(Value&& vector, const Value& factor) {
-  const std::size_t count = vector.as_vector().size();
-  Reason unused;
-  return map_elements(
-      std::move(vector), count, [&](std::size_t, Value&& element) {
-        return multiply(std::move(element), Value(factor), unused);
-      });
-}
-
 Value multiply_any(Value&& left, Value&& right, Reason& reason) {
   if (left.is_vector() && right.is_number()) {
-    return multiply_elements(std::move(left), right);
+    return map_numbers(std::move(left), [factor = right.as_number()](double x) {
+      return x * factor;
+    });
   }
   if (left.is_number() && right.is_vector()) {
-    return multiply_elements(std::move(right), left);
+    return map_numbers(std::move(right), [factor = left.as_number()](double x) {
+      return x * factor;
+    });
   }
   if (left.is_vector() && right.is_vector()) {
     return multiply_vectors(left.as_vector(), right.as_vector(), reason);
@@ -107,20 +184,14 @@ Value divide(Value&& left, Value&& right, Reason& reason) {
   if (left.is_number() && right.is_number()) {
     return Value(left.as_number() / right.as_number());
   }
-  Reason unused;
   if (left.is_vector() && right.is_number()) {
-    const std::size_t count = left.as_vector().size();
-    return map_elements(
-        std::move(left), count, [&](std::size_t, Value&& element) {
-          return divide(std::move(element), Value(right), unused);
-        });
+    return map_numbers(std::move(left), [divisor = right.as_number()](
+                                            double x) { return x / divisor; });
   }
   if (left.is_number() && right.is_vector()) {
-    const std::size_t count = right.as_vector().size();
-    return map_elements(
-        std::move(right), count, [&](std::size_t, Value&& element) {
-          return divide(Value(left), std::move(element), unused);
-        });
+    return map_numbers(
+        std::move(right),
+        [dividend = left.as_number()](double x) { return dividend / x; });
   }
   return undefined(BinaryOp::kDivide, left, right, reason);
 }
@@ -213,12 +284,7 @@ Value apply_unary(ast::UnaryOp op, Value value, Reason& reason) {
 Value negate(Value value, Reason& reason) {
   if (value.is_number()) return Value(-value.as_number());
   if (value.is_vector()) {
-    const std::size_t count = value.as_vector().size();
-    Reason unused;
-    return map_elements(std::move(value), count,
-                        [&](std::size_t, Value&& element) {
-                          return negate(std::move(element), unused);
-                        });
+    return map_numbers(std::move(value), std::negate<double>());
   }
   return undefined_because(reason, "undefined operation (-{})",
                            type_name(value.type()));

@@ -195,6 +195,10 @@ class Value {
     if (!is_vector() || payload_.counted->references != 1) return {};
     return {vector_buffer().data(), length_};
   }
+  // Whether it is a vector that another value holds, too.
+  bool is_shared_vector() const {
+    return is_vector() && payload_.counted->references > 1;
+  }
   // Elements of a vector; none for any other type.
   std::span<const Value> elements() const {
     return is_vector() ? as_vector() : std::span<const Value>();

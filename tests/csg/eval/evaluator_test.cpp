@@ -75,6 +75,19 @@ TEST(Evaluate, FreesVectorsNestedAMillionDeep) {
 
 // --- Cost -------------------------------------------------------------------
 
+// Without that, each of these lines would take 2⁴⁰ vectors.
+TEST(Evaluate, ResultsShareWhatOperandsShare) {
+  EXPECT_EQ(evaluate_text(
+                "function twice(v, n) = n == 0 ? v : twice([v, v], n - 1);\n"
+                "function reach(v, n) = n == 0 ? v : reach(v[n % 2], n - 1);\n"
+                "a = twice([[1, 2, \"x\"], 6], 40);\n"
+                "b = -a; c = a + b * 2; d = (12 / a - c) / 3;\n"
+                "echo(reach(b, 40), reach(c, 40), reach(d, 40));\n")
+                .echo,
+            "ECHO: [[-1, -2, undef], -6], [[-1, -2, undef], -6], "
+            "[[4.33333, 2.66667, undef], 2.66667]\n");
+}
+
 TEST(Evaluate, BuildsListsAndStringsInLinearTime) {
   const std::string list =
       "function f(n, v = []) = n == 0 ? v : f(n - 1, concat(v, [n]));\n";
