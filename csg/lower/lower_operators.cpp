@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +30,19 @@ Affine compose(const Affine& outer, const Mat4& inner) {
   const Affine m(inner);
   return {apply_linear(outer, m[0]), apply_linear(outer, m[1]),
           apply_linear(outer, m[2]), apply_linear(outer, m[3]) + outer[3]};
+}
+
+// Whether it makes all that is solid flat. The columns are scaled by powers of
+// two first, which rounds nothing: a matrix of small numbers is no zero.
+bool is_singular(Affine m) {
+  for (int column = 0; column < 3; ++column) {
+    Vec3& v = m[column];
+    const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (size == 0) return true;
+    const int exponent = std::ilogb(size);
+    for (int row = 0; row < 3; ++row) v[row] = std::ldexp(v[row], -exponent);
+  }
+  return glm::dot(m[0], glm::cross(m[1], m[2])) == 0;
 }
 
 planar::Region combine_regions(BooleanOp op,
@@ -83,9 +97,7 @@ Shape Lowerer::lower_op(const Transform& op, const Place& at) {
             transform_region(std::move(shape.region), *op.matrix, at.node.range,
                              diagnostics_)};
   }
-  const Affine m(*op.matrix);
-  const bool is_singular = glm::dot(m[0], glm::cross(m[1], m[2])) == 0;
-  if (is_singular) flatten(mark, shape, at.node.range);
+  if (is_singular(Affine(*op.matrix))) flatten(mark, shape, at.node.range);
   return shape;
 }
 

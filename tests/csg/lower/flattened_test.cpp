@@ -34,6 +34,14 @@ TEST_F(Flattened, HaveNoVolume) {
   EXPECT_TRUE(messages().empty());
 }
 
+// The determinant of the inner matrix is 1e-900.
+TEST_F(Flattened, SmallMatricesAreNotFlat) {
+  const Node* cube = b.scale(Vec3(1e-300), {b.cube(Vec3(2))});
+  EXPECT_NEAR(run_volume({b.scale(Vec3(1e300), {cube})}), 8, kRounding);
+  const Node* bar = b.scale({1e-300, 1, 1e200}, {b.cube(Vec3(1))});
+  EXPECT_NEAR(run_volume({b.scale({1e300, 1, 1e-200}, {bar})}), 1, kRounding);
+}
+
 TEST_F(Flattened, ResultsOfBooleansAreRemoved) {
   const std::vector<std::string> warning{
       "Scaling a 3D object with 0 - removing object"};
