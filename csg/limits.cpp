@@ -29,6 +29,13 @@ void require_heights(std::size_t columns, std::size_t rows) {
       rows, kMostHeights));
 }
 
+void require_corners(std::size_t count) {
+  if (static_cast<double>(count) <= kMostCorners) return;
+  throw LimitExceeded(fmt::format(
+      "Too many corners: {} of an outline, at most {:.7g} can be", count,
+      kMostCorners));
+}
+
 void fail_too_far() {
   throw LimitExceeded("Coordinates beyond 1e9 mm: too large for exact layers");
 }

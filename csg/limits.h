@@ -24,6 +24,10 @@ constexpr double kMostTriangles = 1e8;
 // one long row of numbers makes all rows long; each makes four triangles.
 constexpr double kMostHeights = 1 << 23;
 
+// Of a region of the plane. A star of 3,001 points crosses itself 4.5 million
+// times.
+constexpr double kMostCorners = 1 << 22;
+
 // Up to here doubles are ten times finer than the distance at which faces tie,
 // and here ends the grid of offsets [mm]. Layers of what lies beyond
 // would be wrong, so it is refused.
@@ -38,6 +42,7 @@ struct LimitExceeded : GeometryError {
 void require_fragments(double count);
 void require_triangles(double count);
 void require_heights(std::size_t columns, std::size_t rows);
+void require_corners(std::size_t count);
 
 [[noreturn]] void fail_too_far();
 

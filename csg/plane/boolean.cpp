@@ -31,6 +31,11 @@ ldni::SweepOptions options(double reach) {
   return {.tie_distance = distance, .least_area = distance * distance};
 }
 
+Region region_of(const ldni::Contours& contours) {
+  csg::require_corners(contours.points.size());
+  return to_region(contours);
+}
+
 // The greatest coordinate of contours.
 double reach_of(std::span<const Contour> contours) {
   double reach = 0;
@@ -74,7 +79,7 @@ class Operands {
     builder_.finish(block_);
     ldni::Contours contours;
     ldni::KineticRay(scene_, options(reach_)).sweep(block_, 0, contours);
-    return to_region(contours);
+    return region_of(contours);
   }
 
  private:
@@ -119,7 +124,7 @@ Region from_contours(std::span<const Contour> contours, FillRule rule) {
   ldni::Contours loops;
   for (const Contour& contour : contours) loops.add_loop(contour);
   ldni::LoopResolver(options(reach_of(contours)), rule).resolve(loops);
-  return to_region(loops);
+  return region_of(loops);
 }
 
 }  // namespace lamina::planar

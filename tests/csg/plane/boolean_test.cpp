@@ -101,5 +101,11 @@ TEST(PlaneBoolean, RefusesCoordinatesBeyondItsRange) {
   EXPECT_THROW(from_contours(contour), csg::LimitExceeded);
 }
 
+TEST(PlaneBoolean, RefusesMoreCornersThanMemoryHolds) {
+  constexpr auto kMost = static_cast<std::size_t>(csg::kMostCorners);
+  EXPECT_NO_THROW(csg::require_corners(kMost));
+  EXPECT_THROW(csg::require_corners(kMost + 1), csg::LimitExceeded);
+}
+
 }  // namespace
 }  // namespace lamina::planar
