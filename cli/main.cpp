@@ -87,9 +87,18 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
   return std::nullopt;
 }
 
-// Catches what global objects of libraries throw before main() begins, and
-// signals that come before run_on_stack() takes them.
+// Catches what global objects of libraries throw before main() begins.
 [[gnu::constructor(101)]] void expect_the_worst() {
+  std::set_terminate([] {
+    print_error("lamina: out of memory\n");
+    ::_exit(kFault);
+  });
+}
+
+// From the first moment on a signal ends the program as an interrupt does later
+// (cli/process/run_on_stack.h); until then it has made nothing that would have
+// to be removed. Runs before libraries begin, which takes a millisecond.
+void expect_signals(int /*argc*/, char** /*argv*/, char** /*environment*/) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
     ::sigaction(signal, nullptr, &action);
@@ -97,11 +106,9 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
     action.sa_handler = [](int) { ::_exit(kInterrupted); };
     ::sigaction(signal, &action, nullptr);
   }
-  std::set_terminate([] {
-    print_error("lamina: out of memory\n");
-    ::_exit(kFault);
-  });
 }
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const first_of_all)(int, char**, char**) = expect_signals;
 
 // Returns the exit status.
 int run_program(int argc, char** argv) {

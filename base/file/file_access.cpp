@@ -115,6 +115,9 @@ FileAccess FileAccess::within(const Limits& limits) {
   FileAccess access;
   access.refuses_data_ = limits.refuses_data;
   if (limits.root.empty()) return access;
+  if (::access("/proc/self/fd", F_OK) != 0) {
+    throw AccessError("--root needs /proc, which is not there");
+  }
   Folders folders;
   folders.push_back(open_folder(limits.root));
   for (const std::string& folder : limits.readable) {

@@ -10,6 +10,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/auxv.h>
 
 #include "csg/text/detail/engine.h"
 
@@ -38,12 +39,6 @@ MakeEngine* open_module(const std::vector<std::string>& folders,
            fmt::format("Can't open the module for text(): {}", dlerror()));
     }
     return reinterpret_cast<MakeEngine*>(symbol);
-  }
-  if (folders.empty()) {
-    fail(diagnostics,
-         fmt::format("Can't find the module for text(), {}: /proc is not "
-                     "mounted, and nothing else tells where lamina lies",
-                     kModuleName));
   }
   fail(diagnostics, fmt::format("Can't find the module for text(), {}, in {}",
                                 kModuleName, fmt::join(folders, " or ")));
@@ -131,7 +126,12 @@ class ReadableFonts : public FontFiles {
 
 std::vector<std::string> module_folders() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) {
+    // Where /proc is not mounted, the kernel has left the path that was run.
+    const auto* run = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
+    if (run != nullptr) program = fs::canonical(run, error);
+  }
   if (error) return {};
   const fs::path folder = program.parent_path();
   return {folder.string(), (folder.parent_path() / LAMINA_MODULES).string()};

@@ -99,6 +99,24 @@ TEST(Text, AProgramWithoutItsModuleSaysSo) {
   }
 }
 
+TEST(Text, NeedsNoProc) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "linear_extrude(1) text(\"A\");");
+  const auto run_without_proc = [&](const std::string& words) {
+    return support::run_process(
+        {"unshare", "-m", "sh", "-c",
+         "umount -l /proc || exit 99; exec " LAMINA_PROGRAM " -q " + words},
+        folder.path());
+  };
+  const auto result = run_without_proc("a.scad -o a.slc");
+  if (result.status == 99 || has(result.errors, "unshare")) return;  // not root
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("a.slc")));
+  EXPECT_EQ(run_without_proc("a.scad -o b.slc --root . 2>&1").output,
+            "lamina: --root needs /proc, which is not there\n"
+            "Run 'lamina --help' for the options.\n");
+}
+
 TEST(Text, UnderHardWarningsAMissingFontEndsTheRun) {
   const TemporaryFolder folder;
   folder.write("a.scad", "linear_extrude(1) text(\"A\", font = \"Nought\");");
