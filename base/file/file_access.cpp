@@ -23,6 +23,7 @@
 #include <unistd.h>
 
 #include "base/file/detail/confined_walk.h"
+#include "base/file/detail/planted_link.h"
 
 namespace lamina {
 
@@ -85,22 +86,6 @@ std::string follow_links(const std::string& path) {
       ::realpath(path.c_str(), nullptr), ::free);
   if (!resolved && errno == ENOMEM) throw std::bad_alloc();
   return resolved ? resolved.get() : path;  // not there yet
-}
-
-// Whether another user has left a link in a folder where all may leave some,
-// such as /tmp: the kernel does not follow these either
-// (fs.protected_symlinks), but realpath() reads them.
-bool is_of_stranger(const std::string& path) {
-  struct stat link {};
-  if (::lstat(path.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return false;
-  const std::string::size_type slash = path.rfind('/');
-  const std::string folder =
-      slash == std::string::npos ? "." : path.substr(0, slash + 1);
-  struct stat around {};
-  constexpr mode_t kForAll = S_ISVTX | S_IWOTH;
-  return ::stat(folder.c_str(), &around) == 0 &&
-         (around.st_mode & kForAll) == kForAll && link.st_uid != ::geteuid() &&
-         link.st_uid != around.st_uid;
 }
 
 bool begins_with(const std::vector<std::string>& parts,
@@ -352,7 +337,7 @@ std::optional<std::string> FileAccess::read_regular(
 
 OutputPlace FileAccess::find_output(const std::string& path) const {
   if (is_confined()) return find_confined_output(path);
-  if (is_of_stranger(path)) return {"", {}, EACCES, {}};
+  if (find_planted_link(path)) return {"", {}, EACCES, {}};
   return {follow_links(path), {}, 0, look_at(path)};
 }
 

@@ -47,27 +47,32 @@ void RunFiles::expect_file(const std::string& path, const struct stat& status) {
 }
 
 void RunFiles::expect_output(std::string path, const FileAccess& access) {
-  if (path.empty() || path == "-") return;
+  if (path.empty()) return;
+  if (path == "-") return expect_place(path, path);
   while (path.size() > 1 && path.ends_with('/')) path.pop_back();
   const OutputPlace output = access.find_output(path);
   if (output.there && !S_ISREG(output.there->st_mode) &&
       !S_ISDIR(output.there->st_mode)) {
     return;  // a device or a pipe, which takes what comes
   }
-  const std::string place = place_of(path, access);
+  expect_place(place_of(path, access), path);
+  if (!output.there) return;
+  const std::lock_guard lock(mutex_);
+  if (S_ISREG(output.there->st_mode)) return expect_file(path, *output.there);
+  for (const std::string& name :
+       access.list(path).value_or(std::vector<std::string>())) {
+    const auto file = access.look_at(path + "/" + name);
+    if (file && S_ISREG(file->st_mode)) expect_file(path, *file);
+  }
+}
+
+void RunFiles::expect_place(const std::string& place, const std::string& path) {
   const std::lock_guard lock(mutex_);
   const auto [known, is_new] = places_.try_emplace(place, path);
   if (!is_new) {
     throw FileError(fmt::format(
         "Can't write '{}': '{}', another output of this run, is the same file",
         path, known->second));
-  }
-  if (!output.there) return;
-  if (S_ISREG(output.there->st_mode)) return expect_file(path, *output.there);
-  for (const std::string& name :
-       access.list(path).value_or(std::vector<std::string>())) {
-    const auto file = access.look_at(path + "/" + name);
-    if (file && S_ISREG(file->st_mode)) expect_file(path, *file);
   }
 }
 

@@ -49,6 +49,7 @@ class RunFiles {
     bool folds_case = false;
   };
 
+  void expect_place(const std::string& place, const std::string& path);
   void expect_file(const std::string& path, const struct stat& status);
 
   std::mutex mutex_;

@@ -166,15 +166,18 @@ bool link_file(int file, const std::string& path) {
                   AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Gives a file owner and mode of another one. Who may not give it to the owner
-// keeps it, with the same mode.
-void take_after(int file, const struct stat& other) {
-  constexpr mode_t kPermissions = 0777;
-  const bool is_given = ::fchown(file, other.st_uid, other.st_gid) == 0 ||
-                        ::fchown(file, uid_t(-1), other.st_gid) == 0;
-  // A group that could not be given its file must not get that of another one.
-  const mode_t mask = is_given ? kPermissions : kPermissions & ~mode_t{070};
-  ::fchmod(file, other.st_mode & mask);
+// Gives a new file or folder owner, group and permissions of the one that it
+// replaces, as far as the system allows. Where the group cannot be kept, the
+// new one gets the permissions of all others: it must not see what it did not
+// before.
+void take_after(int file, const struct stat& replaced) {
+  constexpr auto kSame = static_cast<uid_t>(-1);
+  const bool has_group =
+      ::fchown(file, replaced.st_uid, replaced.st_gid) == 0 ||
+      ::fchown(file, kSame, replaced.st_gid) == 0;
+  mode_t mode = replaced.st_mode & 0777;
+  if (!has_group) mode = (mode & 0707) | (mode & 0007) << 3;
+  ::fchmod(file, mode);
 }
 
 // Network file systems tell at the end of the writing that there is no room.
@@ -330,6 +333,7 @@ bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
   const OutputPlace target = access_.find_output(path);
   errno = target.error;
   if (errno != 0) return false;
+  if (target.there) take_after(folder.lock, *target.there);
   // A name that is free, or an empty folder, is taken by a rename. Else the
   // two change places at once, where the file system can do that.
   if (::rename(folder.path.c_str(), target.path.c_str()) != 0) {

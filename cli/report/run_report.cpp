@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "base/file/output_file.h"
 #include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "compiler/compile.h"
@@ -315,11 +317,18 @@ int compile_and_report(Session& session, const std::string& report,
                        double earlier_seconds) {
   compiler::Compilation& compilation = session.compilation;
   const compiler::Request& request = compilation.request;
+  // The report is opened first: no layers are written beside one that cannot be
+  // made.
+  std::unique_ptr<OutputFile> file;
+  if (!report.empty()) {
+    file.reset(
+        new OutputFile(OutputFile::open(report, compilation.temporary_files)));
+  }
   if (!compiler::compile(compilation)) return kFault;
   if (!slicer::is_of_layers(request.format)) return kDone;
-  if (!report.empty()) {
-    compiler::write_file(report, report_text(compilation, earlier_seconds),
-                         compilation.temporary_files);
+  if (file != nullptr) {
+    file->write(report_text(compilation, earlier_seconds));
+    file->commit();
   }
   if (request.settings.min_feature > 0) {
     session.terminal.say(feature_lines(compilation));

@@ -112,6 +112,7 @@ TEST_F(Outputs, AreDifferentFiles) {
       {"cube.scad", "ball.scad", "-o", "q/{name}.slc", "--report",
        "p/cube.slc"},
       {"compare", "a.svg", "b.svg", "--report", "new.png", "--png", "new.png"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "-d", "-"},
   };
   for (const auto& arguments : cases) {
     expect_refused(arguments, "another output of this run, is the same file");
@@ -145,6 +146,11 @@ TEST_F(Outputs, ThatMayNotBeWrittenStopTheOthersToo) {
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(has(result.errors, "is outside of --root")) << result.errors;
   EXPECT_FALSE(fs::exists(folder_.file("root/new.slc")));
+  EXPECT_EQ(run(folder_,
+                {"cube.scad", "-o", "new.slc", "--report", "none/report.json"})
+                .status,
+            1);
+  EXPECT_FALSE(fs::exists(folder_.file("new.slc")));
 }
 
 TEST_F(Outputs, AreWrittenAgain) {
@@ -195,6 +201,16 @@ TEST_F(Outputs, FollowNoLinksOfStrangersWhereAllMayLeaveThem) {
   EXPECT_EQ(result.errors,
             "error: Can't write 'shared/out.slc': Permission denied\n");
   EXPECT_EQ(support::read_file(folder_.file("ball.scad")), "sphere(1);");
+  // Nor to a folder on the way.
+  const std::string folder = folder_.file("shared/way");
+  fs::create_symlink(folder_.file("q"), folder);
+  ASSERT_EQ(::lchown(folder.c_str(), kOther, kOther), 0);
+  for (const char* const root : {"", "."}) {
+    std::vector<std::string> words = {"cube.scad", "-o", "shared/way/x.slc"};
+    if (*root != '\0') words.insert(words.end(), {"--root", root});
+    EXPECT_EQ(run(folder_, words).status, 1);
+  }
+  EXPECT_FALSE(fs::exists(folder_.file("q/x.slc")));
   ASSERT_EQ(::lchown(link.c_str(), ::geteuid(), ::getegid()), 0);
   EXPECT_EQ(run(folder_, {"cube.scad", "-o", "shared/out.slc"}).status, 0);
 }

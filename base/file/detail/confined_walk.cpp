@@ -11,6 +11,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "base/file/detail/planted_link.h"
+
 namespace lamina {
 namespace {
 
@@ -104,7 +106,7 @@ class Walker {
       result_ = miss(part, errno);
       return false;
     }
-    if (S_ISLNK(status.st_mode)) return follow(file, part);
+    if (S_ISLNK(status.st_mode)) return follow(file, status, part);
     if (S_ISDIR(status.st_mode)) {
       names_.push_back(part);
       files_.push_back(std::move(file));
@@ -116,11 +118,17 @@ class Walker {
     return false;
   }
 
-  bool follow(const OpenFile& link, const std::string& part) {
+  bool follow(const OpenFile& link, const struct stat& link_status,
+              const std::string& part) {
     std::array<char, PATH_MAX> target{};
     const ssize_t size =
         ::readlinkat(link.descriptor(), "", target.data(), target.size());
     const int error = size < 0 ? errno : ENOENT;
+    struct stat folder {};
+    if (::fstat(place(), &folder) != 0 || is_planted(link_status, folder)) {
+      result_ = miss(part, EACCES);
+      return false;
+    }
     if (++links_ > kMostLinks || size <= 0) {
       result_ = miss(part, links_ > kMostLinks ? ELOOP : error);
       return false;
