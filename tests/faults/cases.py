@@ -1,6 +1,8 @@
 """The faults, one function for each kind; each runs the cases that it names."""
 
+import ctypes
 import errno
+import itertools
 import os
 import resource
 import shutil
@@ -179,7 +181,7 @@ def _strike(harness, words, number, statuses):
         return during
 
     runs = []
-    for i in range(6 * harness.times if harness.is_quick else 200):
+    for i in range(6 * harness.times if harness.is_quick else 300):
         job = jobs.SLOW[(i if not harness.is_quick
                          else harness.random.randrange(99)) % len(jobs.SLOW)]
         if job.name not in seconds:
@@ -377,6 +379,127 @@ def _sound_output(harness, job):
     return after
 
 
+# --- Others write meanwhile ------------------------------------------------------
+
+RENAME_EXCHANGE = 2
+AT_FDCWD = -100
+_libc = ctypes.CDLL(None, use_errno=True)
+
+
+def _exchange(one, other):
+    """Swaps two names at once, so that none is ever missing."""
+    if _libc.renameat2(AT_FDCWD, one.encode(), AT_FDCWD, other.encode(),
+                       RENAME_EXCHANGE) != 0:
+        raise OSError(ctypes.get_errno(), one)
+
+
+def _swapping(name, has_link_first, fill):
+    """While a run goes on, `name` is in turn what stood there and a link to its
+    likeness outside the root, which `fill` makes. It must stay as it was made."""
+    def outside(place):
+        return place.path + "-outside"
+
+    def paths(place):
+        return place.file(name), place.file("tmp.link")
+
+    def before(place):
+        os.mkdir(outside(place))
+        fill(outside(place))
+        os.symlink(os.path.join(outside(place), name), place.file("tmp.link"))
+        if has_link_first:
+            _exchange(*paths(place))
+
+    def during(process, place):
+        while process.poll() is None:
+            _exchange(*paths(place))
+
+    def after(place):
+        if os.path.islink(place.file(name)):
+            _exchange(*paths(place))
+        os.unlink(place.file("tmp.link"))
+        made = contents(outside(place))
+        shutil.rmtree(outside(place))
+        os.mkdir(outside(place))
+        fill(outside(place))
+        if made != contents(outside(place)):
+            write(place.file("changed outside"), b"")
+        shutil.rmtree(outside(place))
+
+    return dict(before=before, during=during, after=after)
+
+
+def swaps(harness):
+    """Names become links out of the root and back, under --root."""
+    job = jobs.named("deep, confined")
+
+    def fill_inputs(folder):
+        os.makedirs(os.path.join(folder, "d/e"))
+        for name in job.inputs:
+            write(os.path.join(folder, name),
+                  jobs.OUTSIDE[os.path.basename(name)])
+
+    places = ["d", "d/e"] + job.inputs
+    count = 8 * harness.times if harness.is_quick else 2100
+    harness.case("inputs become links out of the root and back", [
+        (f"{i}: {name}", dict(job=job, **_swapping(name, i % 2, fill_inputs)))
+        for i, name in zip(range(count), itertools.cycle(places))])
+
+    def fill_outputs(folder):
+        os.mkdir(os.path.join(folder, "out"))
+        write(os.path.join(folder, "out/a.slc"), b"mine")
+
+    writing = [jobs.Job(f"{job.name}, confined",
+                        " ".join(job.words) + " --root .",
+                        " ".join(job.inputs), job.outputs)
+               for job in jobs.QUICK  # of .sl1 we warn, and under --root that ends
+               if job.outputs and not job.may_warn
+               and "--root" not in job.words and job.name != "sl1"]
+    count = 16 * harness.times if harness.is_quick else 1400
+    harness.case("the output's folder becomes a link out of the root and back", [
+        (f"{i}: {job.name}", dict(
+            job=job, has_old=i % 4 > 1, leaves=job.hidden(),
+            **_swapping("out", i % 2, fill_outputs)))
+        for i, job in zip(range(count), itertools.cycle(writing))])
+
+
+def writers(harness):
+    """Two runs make one output at once: it is one's or the other's."""
+    pairs = []
+    for job in jobs.SLOW:
+        other = jobs.Job(job.name + ", other layers",
+                         " ".join(job.words) + " --scale 0.9",
+                         " ".join(job.inputs), job.outputs)
+        harness.learn(other)
+        pairs.append((job, other))
+
+    def beside(other, delay):
+        def during(_, place):
+            time.sleep(delay)
+            with open(place.file("tmp.err"), "ab") as errors:
+                if subprocess.run(harness.command(other), cwd=place.path,
+                                  env=harness.environment(place), stderr=errors,
+                                  stdin=subprocess.DEVNULL).returncode != 0:
+                    write(place.file("the other one failed"), b"")
+        return during
+
+    def either(job, other):
+        def after(place):
+            for name in job.outputs:
+                if contents(place.file(name)) == harness.wanted[other.name][name]:
+                    shutil.rmtree(place.file(name), ignore_errors=True)
+                    place.write(name, harness.wanted[job.name][name])
+        return after
+
+    count = 7 * harness.times if harness.is_quick else 120
+    runs = []
+    for i, (job, other) in zip(range(count), itertools.cycle(pairs)):
+        delay = harness.random.uniform(0, 0.1)
+        runs.append((f"{job.name}, after {delay:.3f} s", dict(
+            job=job, has_old=i % 2 == 1, during=beside(other, delay),
+            after=either(job, other))))
+    harness.case("two runs write one output at once", runs)
+
+
 # --- Streams, surroundings, other programs ---------------------------------------
 
 
@@ -455,6 +578,8 @@ ALL = {
     "limits": limits,
     "memory": failing_memory,
     "inputs": inputs,
+    "swaps": swaps,
+    "writers": writers,
     "kills": kills,
     "signals": signals,
     "streams": streams,

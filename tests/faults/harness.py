@@ -51,17 +51,18 @@ class Place:
             os.mkdir(self.file(folder))
             os.chmod(self.file(folder), 0o777)
         for name in job.inputs:
-            write(self.file(name), jobs.INPUTS[name])
+            os.makedirs(os.path.dirname(self.file(name)), exist_ok=True)
+            write(self.file(name), jobs.INPUTS[os.path.basename(name)])
         for name in job.outputs if has_old else ():
-            self.write_old(name)
+            self.write(name, old_of(name))
 
-    def write_old(self, name):
-        old = old_of(name)
-        if isinstance(old, bytes):
-            write(self.file(name), old)
+    def write(self, name, wanted):
+        """A file of these bytes, or a folder of such files."""
+        if isinstance(wanted, bytes):
+            write(self.file(name), wanted)
             return
         os.mkdir(self.file(name))
-        for part, bytes_ in old.items():
+        for part, bytes_ in wanted.items():
             write(self.file(name + part), bytes_)
 
     def file(self, name):
@@ -226,7 +227,8 @@ class Harness:
 
     def strays(self, job, place):
         """What is neither input nor output."""
-        known = set(job.inputs) | {"tmp", "out", "tmp.err", "tmp.out"}
+        known = {name.split("/")[0] for name in job.inputs}
+        known |= {"tmp", "out", "tmp.err", "tmp.out"}
         known |= {name.rstrip("/") for name in job.outputs}
         found = set(os.listdir(place.path))
         for folder in ("out", "tmp"):

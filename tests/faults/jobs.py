@@ -49,6 +49,8 @@ INPUTS = {
                    b" linear_extrude(1) offset(1) projection() part();\n",
     "part.scad": b"module part() { rotate_extrude($fn = 9) translate([2, 0])"
                  b" circle(1, $fn = 7); }\n",
+    "deep.scad": b'include <d/e/part.scad>\npart(); import("d/e/t.stl");\n'
+                 b'surface("d/e/t.dat");\n',
     "files.scad": b'import("t.stl"); import("t.off");\n'
                   b'linear_extrude(1) import("t.svg");\n'
                   b'linear_extrude(1) import("t.dxf");\n'
@@ -68,6 +70,14 @@ INPUTS = {
              b"0\nENDSEC\n0\nEOF\n",
     "t.dat": b"0 1\n1 2\n",
     "t.png": _grey_png(),
+}
+
+# What stands under such a name where a run must not read it.
+OUTSIDE = {
+    "deep.scad": b"cube(50);\n",
+    "part.scad": b"module part() { cube(50); }\n",
+    "t.stl": INPUTS["t.stl"].replace(struct.pack("<f", 3), struct.pack("<f", 5)),
+    "t.dat": b"5 7\n9 8\n",
 }
 
 # One that is installed, as a customer's.
@@ -149,6 +159,8 @@ ALL = [
         "files.scad t.stl t.off t.svg t.dxf t.dat t.png", ["out/a.slc"]),
     Job("solids, confined", "solids.scad --layer 0.2 -o out/a.slc --root .",
         "solids.scad part.scad b.scad", ["out/a.slc"]),
+    Job("deep, confined", "deep.scad --layer 0.2 -o out/a.slc --root .",
+        "deep.scad d/e/part.scad d/e/t.stl d/e/t.dat", ["out/a.slc"]),
     Job("text", "text.scad --layer 0.2 -o out/a.slc", "text.scad",
         ["out/a.slc"], may_warn=True),
     Job("font", "font.scad --layer 0.2 -o out/a.slc", "font.scad t.ttf",
