@@ -178,8 +178,10 @@ FileAccess to_access(const DesignOptions& options) {
           "readable needs root");
   Messages messages(nullptr);
   return messages.run([&](Diagnostics&) {
-    return FileAccess::within(
+    FileAccess access = FileAccess::within(
         {options.root, options.readable, options.no_import});
+    access.report_to(std::make_shared<RunFiles>());
+    return access;
   });
 }
 
@@ -295,6 +297,7 @@ void Design::write(const std::string& path, const SliceOptions& options,
           fmt::format("'{}' asks for no format of layers", path));
   Messages messages(state_->show);
   messages.run([&](Diagnostics& diagnostics) {
+    state_->access.run_files()->require_unread(path, state_->access);
     TemporaryFiles temporary_files(state_->access);
     compiler::LayerOutput output =
         compiler::LayerOutput::open(request, temporary_files, diagnostics);

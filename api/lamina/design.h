@@ -147,7 +147,7 @@ class Design {
 
   // To the output whose format its extension says: contours as in ring.slc,
   // images as in ring.sl1 or ring.png, a folder. It appears whole or not at
-  // all.
+  // all, and never in the place of a file that the design was read from.
   void write(const std::string& path, const SliceOptions& options = {},
              const ImageOptions& images = {}) const;
 

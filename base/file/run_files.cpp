@@ -1,5 +1,8 @@
 #include "base/file/run_files.h"
 
+#include <optional>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "base/file/file_access.h"
@@ -9,8 +12,29 @@
 namespace lamina {
 namespace {
 
-std::pair<dev_t, ino_t> identity_of(const struct stat& status) {
+using Identity = std::pair<dev_t, ino_t>;
+
+Identity identity_of(const struct stat& status) {
   return {status.st_dev, status.st_ino};
+}
+
+// The regular file that an output would replace; of a folder those in it.
+std::vector<Identity> files_at(const std::string& path,
+                               const FileAccess& access) {
+  std::vector<Identity> files;
+  const auto add = [&](const std::optional<struct stat>& status) {
+    if (status && S_ISREG(status->st_mode)) {
+      files.push_back(identity_of(*status));
+    }
+  };
+  const auto there = access.look_at(path);
+  add(there);
+  if (!there || !S_ISDIR(there->st_mode)) return files;
+  for (const std::string& name :
+       access.list(path).value_or(std::vector<std::string>())) {
+    add(access.look_at(path + "/" + name));
+  }
+  return files;
 }
 
 [[noreturn]] void refuse_input(const std::string& path) {
@@ -41,11 +65,6 @@ std::string RunFiles::place_of(const std::string& path,
          (known->second.folds_case ? lower_case(name) : name);
 }
 
-void RunFiles::expect_file(const std::string& path, const struct stat& status) {
-  if (inputs_.contains(identity_of(status))) refuse_input(path);
-  outputs_.insert(identity_of(status));
-}
-
 void RunFiles::expect_output(std::string path, const FileAccess& access) {
   if (path.empty()) return;
   if (path == "-") return expect_place(path, path);
@@ -56,13 +75,20 @@ void RunFiles::expect_output(std::string path, const FileAccess& access) {
     return;  // a device or a pipe, which takes what comes
   }
   expect_place(place_of(path, access), path);
-  if (!output.there) return;
+  const std::vector<Identity> files = files_at(path, access);
   const std::lock_guard lock(mutex_);
-  if (S_ISREG(output.there->st_mode)) return expect_file(path, *output.there);
-  for (const std::string& name :
-       access.list(path).value_or(std::vector<std::string>())) {
-    const auto file = access.look_at(path + "/" + name);
-    if (file && S_ISREG(file->st_mode)) expect_file(path, *file);
+  for (const Identity& file : files) {
+    if (inputs_.contains(file)) refuse_input(path);
+    outputs_.insert(file);
+  }
+}
+
+void RunFiles::require_unread(const std::string& path,
+                              const FileAccess& access) {
+  const std::vector<Identity> files = files_at(path, access);
+  const std::lock_guard lock(mutex_);
+  for (const Identity& file : files) {
+    if (inputs_.contains(file)) refuse_input(path);
   }
 }
 

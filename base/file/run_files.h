@@ -31,6 +31,10 @@ class RunFiles {
   // output; AccessError where it may not be written.
   void expect_output(std::string path, const FileAccess& access);
 
+  // Throws FileError where the run has read `path`, or a file in that folder:
+  // for a run without an end, whose outputs may be made again.
+  void require_unread(const std::string& path, const FileAccess& access);
+
   // Says that the run has opened `path` for reading. Throws FileError where
   // that is one of its outputs.
   void note_input(const std::string& path, const struct stat& status);
@@ -50,7 +54,6 @@ class RunFiles {
   };
 
   void expect_place(const std::string& place, const std::string& path);
-  void expect_file(const std::string& path, const struct stat& status);
 
   std::mutex mutex_;
   std::set<Identity> inputs_;

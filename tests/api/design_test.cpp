@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <locale>
 #include <numbers>
 #include <stdexcept>
@@ -160,6 +161,25 @@ TEST(Design, WritesTheBytesOfTheProgram) {
               lamina::support::read_file(folder.file("program." + extension)))
         << extension;
   }
+}
+
+TEST(Design, IsNotReplacedByItsLayers) {
+  const lamina::support::TemporaryFolder folder;
+  const std::string part = folder.write("part.svg", R"(<svg
+    xmlns="http://www.w3.org/2000/svg"><path d="M0 0H9V9H0Z"/></svg>)");
+  const std::string text = "linear_extrude(1) import(\"part.svg\");";
+  const Design solid = Design::from_file(folder.write("a.scad", text));
+  std::filesystem::create_symlink("a.scad", folder.file("a.slc"));
+  for (const std::string name : {"a.slc", "part.svg"}) {
+    EXPECT_NE(fault_of([&] { solid.write(folder.file(name)); })
+                  .find("this run reads it, too"),
+              std::string::npos)
+        << name;
+  }
+  EXPECT_EQ(lamina::support::read_file(folder.file("a.scad")), text);
+  // What was written may be written again.
+  solid.write(folder.file("b.slc"));
+  solid.write(folder.file("b.slc"));
 }
 
 std::string reason_of(const DesignOptions& options) {
