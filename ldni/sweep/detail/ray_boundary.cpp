@@ -12,6 +12,7 @@ void RayBoundary::begin_layer(ProgramStates& states) {
   states_ = &states;
   states.begin_layer();
   stitcher_.begin();
+  steps_ = 0;
 }
 
 // Keeps the states of the entries on the ray, where thousands of leaves
@@ -92,14 +93,16 @@ void RayBoundary::update_states_from(std::uint32_t entry,
     entry = status[entry].below;
   }
   ProgramStates::State state = status[status[entry].below].state;
-  for (; entry != status.sentinel(); entry = status[entry].above) {
+  std::uint64_t steps = 0;
+  for (; entry != status.sentinel(); entry = status[entry].above, ++steps) {
     Entry& e = status[entry];
     state = states_->state_above(state, e.crossing);
-    if (!e.is_stale && e.state == state) return;
+    if (!e.is_stale && e.state == state) break;
     e.is_stale = false;
     e.state = state;
     changes.unsure.push_back(entry);
   }
+  if (steps > kShortWalk) steps_ += steps;
 }
 
 void RayBoundary::update_sides(const OrderChanges& changes) {
@@ -140,11 +143,13 @@ void RayBoundary::update_group(std::uint32_t member) {
       if (e == last) break;
     }
   }
-  for (std::uint32_t e = first;; e = status[e].above) {
+  std::uint64_t steps = 0;
+  for (std::uint32_t e = first;; e = status[e].above, ++steps) {
     status[e].side_cluster = cluster_.number;
     change_side(status[e], e == chosen ? side : std::int8_t{0});
     if (e == last) break;
   }
+  if (steps > kShortWalk) steps_ += steps;
 }
 
 void RayBoundary::change_side(Entry& entry, std::int8_t side) {

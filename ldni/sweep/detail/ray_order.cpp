@@ -19,6 +19,7 @@ void RayOrder::begin_layer(std::size_t chain_count, double low, double high,
   queue_.begin(low, high, slab_count);
   cluster_ = {};
   swaps_ = 0;
+  steps_ = 0;
   to_check_.clear();
 }
 
@@ -87,14 +88,17 @@ std::uint32_t RayOrder::find_place(const Vec2& point,
   const double y = cursor.y_at(cluster_.right);
   const std::uint32_t sentinel = status_.sentinel();
   std::uint32_t below = status_.find_near(point.y, cluster_.right);
-  while (below != sentinel && is_above(below, y, cursor)) {
+  std::uint64_t steps = 0;
+  for (; below != sentinel && is_above(below, y, cursor); ++steps) {
     below = status_[below].below;
   }
-  for (;;) {
+  for (;; ++steps) {
     const std::uint32_t above = status_[below].above;
-    if (above == sentinel || is_above(above, y, cursor)) return below;
+    if (above == sentinel || is_above(above, y, cursor)) break;
     below = above;
   }
+  if (steps > kShortWalk) steps_ += steps;
+  return below;
 }
 
 // Whether the entry lies above a chain that starts with `cursor` at y; where y

@@ -16,12 +16,21 @@ constexpr double kMostSlabsOfPitch = 1 << 16;
 }  // namespace
 
 bool RaySweep::resume(Contours& contours, const Patience& patience) {
-  while (next_endpoint_ < endpoints_.size()) {
-    process_cluster(order_.next_event_point(endpoints_[next_endpoint_].x));
-    if (static_cast<double>(order_.swaps()) >
-        patience.swaps_per_chain * chains_met() + patience.first_swaps) {
-      return false;
+  const auto is_too_much = [&] {
+    return swaps() >
+           patience.swaps_per_chain * chains_met() + patience.first_swaps;
+  };
+  while (is_in_cluster_ || next_endpoint_ < endpoints_.size()) {
+    if (!is_in_cluster_) {
+      begin_cluster(order_.next_event_point(endpoints_[next_endpoint_].x));
     }
+    // Thousands of chains that coincide begin at once.
+    for (; next_begun_ < begun_.size(); ++next_begun_) {
+      if (is_too_much()) return false;
+      insert(begun_[next_begun_]);
+    }
+    finish_cluster();
+    if (is_too_much()) return false;
   }
   boundary_.write_loops(contours);
   return true;
@@ -42,6 +51,7 @@ void RaySweep::begin(const LayerChains& layer, ProgramStates& states) {
   lone_loops_.find(layer, states);
   endpoints_ = sorter_.sort(chains_, points_, lone_loops_);
   next_endpoint_ = 0;
+  is_in_cluster_ = false;
   boundary_.begin_layer(states);
   std::size_t point_count = 0;
   for (const Chain& chain : chains_) point_count += chain.point_count;
@@ -62,7 +72,9 @@ std::uint32_t RaySweep::slab_count(double width,
   return static_cast<std::uint32_t>(std::ceil(count));
 }
 
-void RaySweep::process_cluster(double x) {
+// All but the chains that begin.
+void RaySweep::begin_cluster(double x) {
+  is_in_cluster_ = true;
   ++counts_.event_points;
   order_.begin_cluster(x);
   boundary_.begin_cluster(order_.cluster());
@@ -73,8 +85,12 @@ void RaySweep::process_cluster(double x) {
     if (lone_loops_.is_lone(endpoint.chain())) pass_lone_loop(endpoint.chain());
   }
   take(endpoints);
+}
+
+void RaySweep::finish_cluster() {
   order_.settle();
   boundary_.update(order_.cluster(), order_.changes());
+  is_in_cluster_ = false;
 }
 
 // Those inside the cluster.
@@ -94,10 +110,12 @@ void RaySweep::pass_lone_loop(std::uint32_t chain) {
   boundary_.add_lone_loop(chains_[lower], chains_[upper], points_);
 }
 
-// Chains that begin and end inside the cluster are passed over.
+// Removes the chains that end and lists those that begin. Chains that begin and
+// end inside the cluster are passed over.
 void RaySweep::take(std::span<const ChainEndpoint> endpoints) {
   const double end = order_.cluster().end();
   begun_.clear();
+  next_begun_ = 0;
   for (const ChainEndpoint& endpoint : endpoints) {
     const std::uint32_t chain = endpoint.chain();
     if (lone_loops_.is_lone(chain)) continue;
@@ -109,11 +127,12 @@ void RaySweep::take(std::span<const ChainEndpoint> endpoints) {
       order_.remove(chain);
     }
   }
-  for (const std::uint32_t chain : begun_) {
-    order_.insert(
-        chain, points_of(chain),
-        states_->crossing_of(chains_[chain].instance, chains_[chain].winding));
-  }
+}
+
+void RaySweep::insert(std::uint32_t chain) {
+  order_.insert(
+      chain, points_of(chain),
+      states_->crossing_of(chains_[chain].instance, chains_[chain].winding));
 }
 
 }  // namespace lamina::ldni::detail

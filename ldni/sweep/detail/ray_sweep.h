@@ -59,11 +59,13 @@
 namespace lamina::ldni::detail {
 
 // Swaps of neighbours that a sweep bears: so many for each chain met so far,
-// and some at the beginning.
+// and some at the beginning. Long walks along the ray, as among thousands of
+// faces that coincide, count as swaps: so many steps as one.
 struct Patience {
   double swaps_per_chain = kNever;
   double first_swaps = 0;
 };
+inline constexpr double kStepsPerSwap = 4;
 
 class RaySweep {
  public:
@@ -79,7 +81,7 @@ class RaySweep {
   void begin(const LayerChains& layer, ProgramStates& states);
 
   // Replaces `contours` by the loops of the layer. Gives up where neighbours
-  // have swapped more often than `patience` says: false, and `contours` is as
+  // have swapped more often than `patience` bears: false, and `contours` is as
   // before; the next call, with more patience, goes on from there.
   bool resume(Contours& contours, const Patience& patience);
 
@@ -92,17 +94,25 @@ class RaySweep {
 
   // Of the layer, as far as it was swept.
   double swaps_per_chain() const {
-    return static_cast<double>(order_.swaps()) / chains_met();
+    return swaps() / chains_met();
   }
 
  private:
   std::uint32_t slab_count(double width, std::size_t point_count) const;
-  void process_cluster(double x);
+  void begin_cluster(double x);
+  void finish_cluster();
+  // Of the layer, and what walks cost.
+  double swaps() const {
+    return static_cast<double>(order_.swaps()) +
+           static_cast<double>(order_.steps() + boundary_.steps()) /
+               kStepsPerSwap;
+  }
   // Chains that began, and half of them end too.
   double chains_met() const { return static_cast<double>(next_endpoint_) / 2; }
   std::span<const ChainEndpoint> next_endpoints();
   void pass_lone_loop(std::uint32_t chain);
   void take(std::span<const ChainEndpoint> endpoints);
+  void insert(std::uint32_t chain);
   std::span<const Vec2> points_of(std::uint32_t chain) const {
     return chains_[chain].points_in(points_);
   }
@@ -120,7 +130,10 @@ class RaySweep {
   std::span<const Chain> chains_;
   std::span<const ChainEndpoint> endpoints_;
   std::size_t next_endpoint_ = 0;
-  std::vector<std::uint32_t> begun_;  // chains, in the present cluster
+  // The present cluster; where a sweep was given up within it, it goes on.
+  bool is_in_cluster_ = false;
+  std::vector<std::uint32_t> begun_;  // chains
+  std::size_t next_begun_ = 0;
 };
 
 }  // namespace lamina::ldni::detail

@@ -20,6 +20,9 @@ namespace lamina::ldni::detail {
 
 inline constexpr std::uint32_t kNone = 0xffffffff;
 
+// A walk along the ray that visits no more entries costs nothing worth counting.
+inline constexpr std::uint64_t kShortWalk = 16;
+
 // Where a chain crosses the ray. Entries have the numbers of the layer's
 // chains. An entry also stands for the gap above it, up to the next entry.
 //
