@@ -178,8 +178,8 @@ FileAccess to_access(const DesignOptions& options) {
           "readable needs root");
   Messages messages(nullptr);
   return messages.run([&](Diagnostics&) {
-    FileAccess access = FileAccess::within(
-        {options.root, options.readable, options.no_import});
+    FileAccess access =
+        FileAccess::within({options.root, options.readable, options.no_import});
     access.report_to(std::make_shared<RunFiles>());
     return access;
   });

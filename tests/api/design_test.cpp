@@ -171,8 +171,9 @@ TEST(Design, IsNotReplacedByItsLayers) {
   const Design solid = Design::from_file(folder.write("a.scad", text));
   std::filesystem::create_symlink("a.scad", folder.file("a.slc"));
   for (const std::string name : {"a.slc", "part.svg"}) {
-    EXPECT_NE(fault_of([&] { solid.write(folder.file(name)); })
-                  .find("this run reads it, too"),
+    EXPECT_NE(fault_of([&] {
+                solid.write(folder.file(name));
+              }).find("this run reads it, too"),
               std::string::npos)
         << name;
   }

@@ -93,9 +93,7 @@ class RaySweep {
   SweepCounts counts() const;
 
   // Of the layer, as far as it was swept.
-  double swaps_per_chain() const {
-    return swaps() / chains_met();
-  }
+  double swaps_per_chain() const { return swaps() / chains_met(); }
 
  private:
   std::uint32_t slab_count(double width, std::size_t point_count) const;
