@@ -112,6 +112,21 @@ TEST(Cascade, LeavesOutWhatIsHidden) {
   EXPECT_LT(10 * events(frames(150), 1), events(frames(150), kPatient));
 }
 
+// Chains that coincide begin and end at once, and none swaps.
+TEST(Cascade, PartsThousandsThatCoincide) {
+  SceneBuilder builder;
+  for (int i = 0; i < 2000; ++i) {
+    builder.add(testing::cube_leaf({3, 2, 1}), testing::rotated(30, {0, 0, 1}));
+  }
+  const csg::Scene scene = builder.finish();
+  const Swept parted = sweep(scene, 1);
+  EXPECT_GT(parted.counts.event_points,
+            sweep(scene, kPatient).counts.event_points);
+  expect_no_defect(parted.layers[0]);
+  EXPECT_EQ(support::count_loops(parted.layers[0]), (LoopCounts{1, 0}));
+  EXPECT_NEAR(support::total_area(parted.layers[0]), 6, 1e-12);
+}
+
 // The same star as one leaf that overlaps itself: there is nothing to part, so
 // nothing is swept in vain.
 TEST(Cascade, TriesNothingOnASingleLeaf) {
