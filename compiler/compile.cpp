@@ -160,7 +160,8 @@ void warn_of_archive(const Request& request, const Machine& machine,
 // Exposures hold for a printer and a thickness.
 void warn_of_exposure(const Request& request, const Machine& machine,
                       Diagnostics& diagnostics) {
-  const auto& [printer, material] = machine;
+  const auto& printer = machine.printer;
+  const auto& material = machine.material;
   if (!printer || !material || !slicer::is_of_images(request.format)) return;
   const auto warn = [&](const std::string& what) {
     diagnostics.own_warning(

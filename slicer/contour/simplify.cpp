@@ -23,6 +23,10 @@ constexpr double kEndMargin = 1e-9;
 // Loops change their area by at most this factor, or its inverse.
 constexpr double kAreaFactor = 2;
 
+// Rounds of repair before no vertex is left out but one by one. Usual are one
+// or two.
+constexpr std::uint32_t kMostRounds = 32;
+
 bool keeps_area(double before, double after) {
   return after / before >= 1 / kAreaFactor && after / before <= kAreaFactor;
 }
@@ -59,7 +63,9 @@ void Simplifier::simplify(ldni::Contours& contours) {
   for (const std::uint32_t i : vertices_) kept_[i] = 1;
   find_neighbours();
   // A vertex that a repair brings back can lie in another strip: look again.
-  while (repair()) {
+  // A wall can hand that on to the next, and so on through thousands of walls.
+  for (std::uint32_t round = 1; repair(); ++round) {
+    if (round == kMostRounds) keep_all();
     list_kept();
     find_neighbours();
   }
@@ -116,6 +122,11 @@ void Simplifier::choose(Loop& loop) {
     }
   }
   ends_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+}
+
+void Simplifier::keep_all() {
+  kept_.assign(points_.size(), 1);
+  for (Loop& loop : loops_) loop.has_spare = true;
 }
 
 // Lists the vertices that are kept.

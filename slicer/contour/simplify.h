@@ -16,7 +16,8 @@
 //    straight down to the shortcut sweeps the strip between them; no vertex
 //    that stays may lie in a strip. A tree of boxes separates nearly all strips
 //    at once (loop_tree.h); the others are looked at one by one.
-// 3. Repair. A run that fails is split at its farthest vertex until none does.
+// 3. Repair. A run that fails is split at its farthest vertex until none does;
+//    where that goes on for many rounds, all vertices stay for now.
 // 4. Thin out. A vertex is left out where the runs before and behind it pass
 //    the proof as one: a split, or a choice within less than the tolerance,
 //    kept it.
@@ -71,6 +72,7 @@ class Simplifier {
 
   void copy_loops(const ldni::Contours& contours);
   void choose(Loop& loop);
+  void keep_all();
   void list_kept();
   void find_neighbours();
   bool has_meetings() const;

@@ -13,6 +13,7 @@
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
 #include "tests/ldni/support/scene_builder.h"
+#include "tests/ldni/sweep/swept.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::ldni {
@@ -287,14 +288,16 @@ TEST(KineticRay, HundredsOfLeavesWithCommonFacesMeetAStateEach) {
     const LeafSectioner sectioner(scene, grid);
     ChainBlock block;
     sectioner.cut(0, 1, block);
-    KineticRay ray(scene);
-    Contours contours;
-    ray.sweep(block, 0, contours);
+    // In one go: a cascade has the states of its groups.
+    const LayerChains layer = block.chains_of(0);
+    const testing::Swept swept =
+        testing::sweep(scene, {&layer, 1}, testing::kPatient);
+    const Contours& contours = swept.layers[0];
     ASSERT_EQ(contours.loop_count(), 1U);
     const double overhang = (kCount - 1) * 1e-4;
     EXPECT_NEAR(signed_area(contours.loop(0)),
                 op == BooleanOp::kUnion ? 1 + overhang : 1 - overhang, 1e-9);
-    EXPECT_LE(ray.counts().states, kCount + 1);
+    EXPECT_LE(swept.counts.states, kCount + 1);
   }
 }
 

@@ -315,6 +315,21 @@ TEST(Simplify, HundredsOfRingsInRingsKeepTheirPlaces) {
   expect_lawful(contours, 0.002, "rings in rings");
 }
 
+// Out in a thousand rounds a micrometre apart, and back between them: what one
+// round keeps makes the next keep it, too.
+TEST(Simplify, ASpiralOfThousandsOfWallsStaysOpen) {
+  constexpr int kPoints = 20000;
+  std::vector<Vec2> spiral;
+  const auto at = [](double i) {
+    return (1 + i / 10000) * Vec2(std::cos(i * kPi / 5), std::sin(i * kPi / 5));
+  };
+  for (int i = 0; i < kPoints; ++i) spiral.push_back(at(i));
+  for (int i = kPoints - 1; i >= 0; --i) spiral.push_back(at(i) * (1 - 1e-4));
+  Contours contours;
+  add_loop(contours, spiral);
+  expect_lawful(contours, 0.001, "spiral");
+}
+
 TEST(Simplify, LoopsThatTouchInAPointStillTouchOrPart) {
   Contours contours;  // fine-sided squares, corner to corner
   for (const double shift : {0.0, 1.0}) {
