@@ -206,7 +206,10 @@ class OverhangSearch {
                  double reach, std::vector<Overhang>& found)
       : tree_(below),
         reach_(reach),
-        pitch_(std::max({reach, kPitch, extent(above) / kMostColumns})),
+        box_(box_of(above)),
+        pitch_(std::max(
+            {reach, kPitch,
+             std::max(box_.size().x, box_.size().y) / kMostColumns})),
         found_(found) {}
 
   void search(const Ledge& ledge) {
@@ -236,10 +239,10 @@ class OverhangSearch {
   }
 
  private:
-  static double extent(const ldni::Contours& contours) {
+  static Box2 box_of(const ldni::Contours& contours) {
     Box2 box;
     box.add(std::span<const Vec2>(contours.points));
-    return std::max(box.size().x, box.size().y);
+    return box;
   }
 
   // Between two successive vertices of either chain.
@@ -248,8 +251,13 @@ class OverhangSearch {
     for (double column = std::ceil(left / pitch_); column * pitch_ < right;
          ++column) {
       const double x = column * pitch_;
-      const double low = lower.y_at(x) + (ledge.is_lower_held ? reach_ : 0);
-      const double high = upper.y_at(x) - (ledge.is_upper_held ? reach_ : 0);
+      // Where loops of a file cross, a ledge may reach beyond its layer.
+      const double low =
+          std::max(lower.y_at(x) + (ledge.is_lower_held ? reach_ : 0),
+                   box_.low.y);
+      const double high =
+          std::min(upper.y_at(x) - (ledge.is_upper_held ? reach_ : 0),
+                   box_.high.y);
       const double last_row = std::floor(high / pitch_);
       for (double row = std::ceil(low / pitch_); row <= last_row;) {
         const Vec2 place(x, row * pitch_);
@@ -343,6 +351,7 @@ class OverhangSearch {
 
   const EdgeTree tree_;
   const double reach_;
+  const Box2 box_;  // of the layer above
   const double pitch_;
   std::vector<Overhang>& found_;
   std::size_t guess_ = 0;
