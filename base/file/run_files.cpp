@@ -1,7 +1,6 @@
 #include "base/file/run_files.h"
 
 #include <optional>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,14 +11,17 @@
 namespace lamina {
 namespace {
 
-using Identity = std::pair<dev_t, ino_t>;
+using Identity = RunFiles::Identity;
 
 Identity identity_of(const struct stat& status) {
   return {status.st_dev, status.st_ino};
 }
 
 // The regular file that an output would replace; of a folder those in it.
+//
+// there  what stands at `path`
 std::vector<Identity> files_at(const std::string& path,
+                               const std::optional<struct stat>& there,
                                const FileAccess& access) {
   std::vector<Identity> files;
   const auto add = [&](const std::optional<struct stat>& status) {
@@ -27,7 +29,6 @@ std::vector<Identity> files_at(const std::string& path,
       files.push_back(identity_of(*status));
     }
   };
-  const auto there = access.look_at(path);
   add(there);
   if (!there || !S_ISDIR(there->st_mode)) return files;
   for (const std::string& name :
@@ -75,18 +76,22 @@ void RunFiles::expect_output(std::string path, const FileAccess& access) {
     return;  // a device or a pipe, which takes what comes
   }
   expect_place(place_of(path, access), path);
-  const std::vector<Identity> files = files_at(path, access);
+  const std::vector<Identity> files = files_at(path, output.there, access);
   const std::lock_guard lock(mutex_);
-  for (const Identity& file : files) {
-    if (inputs_.contains(file)) refuse_input(path);
-    outputs_.insert(file);
-  }
+  check_unread(path, files);
+  outputs_.insert(files.begin(), files.end());
 }
 
 void RunFiles::require_unread(const std::string& path,
                               const FileAccess& access) {
-  const std::vector<Identity> files = files_at(path, access);
+  const std::vector<Identity> files =
+      files_at(path, access.look_at(path), access);
   const std::lock_guard lock(mutex_);
+  check_unread(path, files);
+}
+
+void RunFiles::check_unread(const std::string& path,
+                            const std::vector<Identity>& files) const {
   for (const Identity& file : files) {
     if (inputs_.contains(file)) refuse_input(path);
   }

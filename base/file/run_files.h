@@ -12,6 +12,7 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <sys/stat.h>
 
@@ -24,6 +25,9 @@ class FileAccess;
 // Safe to use from several threads.
 class RunFiles {
  public:
+  // Device and inode: what a file is, whatever it is called.
+  using Identity = std::pair<dev_t, ino_t>;
+
   // Says that the run will write `path`, a file or a folder of files of its
   // own.
   //
@@ -47,13 +51,15 @@ class RunFiles {
   std::string place_of(const std::string& path, const FileAccess& access);
 
  private:
-  using Identity = std::pair<dev_t, ino_t>;
   struct Folder {
     std::string path;  // without links; ends with '/'
     bool folds_case = false;
   };
 
   void expect_place(const std::string& place, const std::string& path);
+  // With the mutex held.
+  void check_unread(const std::string& path,
+                    const std::vector<Identity>& files) const;
 
   std::mutex mutex_;
   std::set<Identity> inputs_;
