@@ -12,7 +12,6 @@ void RayBoundary::begin_layer(ProgramStates& states) {
   states_ = &states;
   states.begin_layer();
   stitcher_.begin();
-  steps_ = 0;
 }
 
 // Keeps the states of the entries on the ray, where thousands of leaves
@@ -102,7 +101,7 @@ void RayBoundary::update_states_from(std::uint32_t entry,
     e.state = state;
     changes.unsure.push_back(entry);
   }
-  if (steps > kShortWalk) steps_ += steps;
+  status.note_walk(steps);
 }
 
 void RayBoundary::update_sides(const OrderChanges& changes) {
@@ -149,7 +148,7 @@ void RayBoundary::update_group(std::uint32_t member) {
     change_side(status[e], e == chosen ? side : std::int8_t{0});
     if (e == last) break;
   }
-  if (steps > kShortWalk) steps_ += steps;
+  status.note_walk(steps);
 }
 
 void RayBoundary::change_side(Entry& entry, std::int8_t side) {

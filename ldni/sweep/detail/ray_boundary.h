@@ -64,10 +64,6 @@ class RayBoundary {
   std::uint64_t unbalanced_clusters() const { return unbalanced_clusters_; }
   std::uint64_t unlinked_ends() const { return stitcher_.unlinked_ends(); }
 
-  // Entries of the layer that were visited because others changed, where these
-  // were many: ties, or states that went on to change upwards.
-  std::uint64_t steps() const { return steps_; }
-
  private:
   void forget_unused_states();
   void update_states(OrderChanges& changes);
@@ -123,7 +119,6 @@ class RayBoundary {
     std::uint32_t last = 0;
   } near_;
   std::vector<std::pair<double, std::uint32_t>> stale_by_y_;
-  std::uint64_t steps_ = 0;
   std::uint64_t unbalanced_clusters_ = 0;
 };
 

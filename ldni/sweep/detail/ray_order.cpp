@@ -19,7 +19,6 @@ void RayOrder::begin_layer(std::size_t chain_count, double low, double high,
   queue_.begin(low, high, slab_count);
   cluster_ = {};
   swaps_ = 0;
-  steps_ = 0;
   to_check_.clear();
 }
 
@@ -97,7 +96,7 @@ std::uint32_t RayOrder::find_place(const Vec2& point,
     if (above == sentinel || is_above(above, y, cursor)) break;
     below = above;
   }
-  if (steps > kShortWalk) steps_ += steps;
+  status_.note_walk(steps);
   return below;
 }
 

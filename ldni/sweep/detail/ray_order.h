@@ -56,6 +56,7 @@ class RayOrder {
                    std::uint32_t slab_count);
 
   Status& status() { return status_; }
+  const Status& status() const { return status_; }
   const EventCluster& cluster() const { return cluster_; }
   // Of the present cluster. Whoever reads them may use them up.
   OrderChanges& changes() { return changes_; }
@@ -89,9 +90,6 @@ class RayOrder {
 
   // Swaps of neighbours in the layer so far.
   std::uint64_t swaps() const { return swaps_; }
-  // Entries that were passed on the way to the places of new ones, where these
-  // were many.
-  std::uint64_t steps() const { return steps_; }
   // Clusters in which swaps reached their cap, since construction: always 0.
   std::uint64_t capped_clusters() const { return capped_clusters_; }
 
@@ -123,7 +121,6 @@ class RayOrder {
   OrderChanges changes_;
   std::vector<std::uint32_t> to_check_;  // lower entries of new pairs
   std::uint64_t swaps_ = 0;              // in the layer
-  std::uint64_t steps_ = 0;              // likewise
   std::uint64_t swaps_before_ = 0;       // the cluster
   std::uint64_t capped_clusters_ = 0;
 };

@@ -102,8 +102,7 @@ class RaySweep {
   // Of the layer, and what walks cost.
   double swaps() const {
     return static_cast<double>(order_.swaps()) +
-           static_cast<double>(order_.steps() + boundary_.steps()) /
-               kStepsPerSwap;
+           static_cast<double>(order_.status().long_walks()) / kStepsPerSwap;
   }
   // Chains that began, and half of them end too.
   double chains_met() const { return static_cast<double>(next_endpoint_) / 2; }

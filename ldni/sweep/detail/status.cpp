@@ -12,6 +12,7 @@ void Status::begin(std::size_t chain_count) {
   size_ = 0;
   order_.clear();
   changes_ = 0;
+  long_walks_ = 0;
 }
 
 void Status::insert_above(std::uint32_t below, std::uint32_t entry) {

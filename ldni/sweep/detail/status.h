@@ -20,9 +20,6 @@ namespace lamina::ldni::detail {
 
 inline constexpr std::uint32_t kNone = 0xffffffff;
 
-// A walk along the ray that visits no more entries costs nothing worth counting.
-inline constexpr std::uint64_t kShortWalk = 16;
-
 // Where a chain crosses the ray. Entries have the numbers of the layer's
 // chains. An entry also stands for the gap above it, up to the next entry.
 //
@@ -79,12 +76,22 @@ class Status {
   // above it.
   std::uint32_t find_below(double y, double x);
 
+  // A walk along the ray has visited so many entries.
+  void note_walk(std::uint64_t steps) {
+    if (steps > kShortWalk) long_walks_ += steps;
+  }
+  // Steps of the layer's walks, but for short ones, which cost nothing worth
+  // counting.
+  std::uint64_t long_walks() const { return long_walks_; }
+
   double y_at(std::uint32_t entry, double x) {
     entries_[entry].cursor.advance(x);
     return entries_[entry].cursor.y_at(x);
   }
 
  private:
+  static constexpr std::uint64_t kShortWalk = 16;
+
   void renew_order();
 
   std::vector<Entry> entries_;
@@ -93,6 +100,7 @@ class Status {
   std::size_t size_ = 0;
   std::vector<std::uint32_t> order_;
   std::size_t changes_ = 0;  // since order_ was renewed
+  std::uint64_t long_walks_ = 0;
 };
 
 }  // namespace lamina::ldni::detail

@@ -288,16 +288,19 @@ TEST(KineticRay, HundredsOfLeavesWithCommonFacesMeetAStateEach) {
     const LeafSectioner sectioner(scene, grid);
     ChainBlock block;
     sectioner.cut(0, 1, block);
-    // In one go: a cascade has the states of its groups.
-    const LayerChains layer = block.chains_of(0);
-    const testing::Swept swept =
-        testing::sweep(scene, {&layer, 1}, testing::kPatient);
-    const Contours& contours = swept.layers[0];
+    KineticRay ray(scene);
+    Contours contours;
+    ray.sweep(block, 0, contours);
     ASSERT_EQ(contours.loop_count(), 1U);
     const double overhang = (kCount - 1) * 1e-4;
     EXPECT_NEAR(signed_area(contours.loop(0)),
                 op == BooleanOp::kUnion ? 1 + overhang : 1 - overhang, 1e-9);
+    // In one go. The ray parts the scene, and has the states of each group.
+    const LayerChains layer = block.chains_of(0);
+    const testing::Swept swept =
+        testing::sweep(scene, {&layer, 1}, testing::kPatient);
     EXPECT_LE(swept.counts.states, kCount + 1);
+    EXPECT_LE(ray.counts().states, 2 * kCount);
   }
 }
 
