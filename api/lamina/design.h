@@ -78,7 +78,7 @@ struct DesignOptions {
   // What OpenSCAD the design is written for: "2021", "2026", or "auto": 2026 if
   // 2021.01 cannot parse it.
   std::string language = "auto";
-  unsigned seed = 0;          // of rands() where the design gives none
+  unsigned seed = 0;  // of rands() where the design gives none
   // Limits: nested calls, and parts of the design. More is an error.
   unsigned max_depth = 300000;
   unsigned max_leaves = 10000000;

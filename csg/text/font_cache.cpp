@@ -345,9 +345,9 @@ Font FontCache::load(const std::string& name) const {
   font.complaint = describe_substitution(*asked, *pattern, *matching);
   if (!select_best_charmap(*face)) {
     const auto words = [](const char* text) { return text ? text : ""; };
-    font.complaint = fmt::format("Could not select a char map for font {}/{}'",
-                                 words(face->family_name),
-                                 words(face->style_name));
+    font.complaint =
+        fmt::format("Could not select a char map for font {}/{}'",
+                    words(face->family_name), words(face->style_name));
   }
   if (FT_Set_Char_Size(face, 0, Font::kSize, kDotsPerInch, kDotsPerInch) != 0) {
     font.complaint = fmt::format("Can't set font size for font {}", name);

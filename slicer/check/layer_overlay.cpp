@@ -74,7 +74,7 @@ struct Gap {
   std::array<Label, 2> labels;  // of the layers
   double begin = 0;             // x from where on it has been the same
   bool is_wide = false;         // its certificate has seen more than the reach
-  int segments = 0;  // that the next look along its chains takes in
+  int segments = 0;             // that the next look along its chains takes in
   const Vec2* lower_at = nullptr;
   const Vec2* upper_at = nullptr;
 
@@ -118,7 +118,7 @@ struct Outlook {
   double crossing = kNever;
   double contact = kNever;  // from where on they are kContactWidth apart
   double valid_until = kNever;
-  bool is_wide = false;     // farther apart than the reach somewhere on the way
+  bool is_wide = false;  // farther apart than the reach somewhere on the way
 };
 
 // A place on a chain that moves on from segment to segment.
@@ -207,9 +207,9 @@ class OverhangSearch {
       : tree_(below),
         reach_(reach),
         box_(box_of(above)),
-        pitch_(std::max(
-            {reach, kPitch,
-             std::max(box_.size().x, box_.size().y) / kMostColumns})),
+        pitch_(
+            std::max({reach, kPitch,
+                      std::max(box_.size().x, box_.size().y) / kMostColumns})),
         found_(found) {}
 
   void search(const Ledge& ledge) {
@@ -220,8 +220,7 @@ class OverhangSearch {
     double left = ledge.begin;
     double width = upper.y_at(left) - lower.y_at(left);
     for (;;) {
-      const double right =
-          std::min({lower.right(), upper.right(), ledge.end});
+      const double right = std::min({lower.right(), upper.right(), ledge.end});
       const double next = upper.y_at(right) - lower.y_at(right);
       if (std::max(width, next) > reach_) {
         search_part(ledge, lower, upper, left, right);
@@ -246,18 +245,16 @@ class OverhangSearch {
   }
 
   // Between two successive vertices of either chain.
-  void search_part(const Ledge& ledge, const Cursor& lower,
-                   const Cursor& upper, double left, double right) {
+  void search_part(const Ledge& ledge, const Cursor& lower, const Cursor& upper,
+                   double left, double right) {
     for (double column = std::ceil(left / pitch_); column * pitch_ < right;
          ++column) {
       const double x = column * pitch_;
       // Where loops of a file cross, a ledge may reach beyond its layer.
-      const double low =
-          std::max(lower.y_at(x) + (ledge.is_lower_held ? reach_ : 0),
-                   box_.low.y);
-      const double high =
-          std::min(upper.y_at(x) - (ledge.is_upper_held ? reach_ : 0),
-                   box_.high.y);
+      const double low = std::max(
+          lower.y_at(x) + (ledge.is_lower_held ? reach_ : 0), box_.low.y);
+      const double high = std::min(
+          upper.y_at(x) - (ledge.is_upper_held ? reach_ : 0), box_.high.y);
       const double last_row = std::floor(high / pitch_);
       for (double row = std::ceil(low / pitch_); row <= last_row;) {
         const Vec2 place(x, row * pitch_);
@@ -288,7 +285,8 @@ class OverhangSearch {
   }
 
   // The distance from those parts of the two chains near the place that hold
-  // it. Where chains are steep they are within reach, though not above or below.
+  // it. Where chains are steep they are within reach, though not above or
+  // below.
   double distance_to_chains(const Ledge& ledge, const Cursor& lower,
                             const Cursor& upper, Vec2 place) const {
     double least = kNever;
@@ -304,8 +302,8 @@ class OverhangSearch {
   void look_around(const Vec2* at, const Vec2* first, const Vec2* last,
                    Vec2 place, double& least) const {
     const auto look = [&](const Vec2* segment) {
-      least = std::min(least,
-                       distance_to_segment(place, segment[0], segment[1]));
+      least =
+          std::min(least, distance_to_segment(place, segment[0], segment[1]));
     };
     const Vec2* left = at;
     const Vec2* right = at + 1;
@@ -584,9 +582,8 @@ bool OverlaySweep::State::is_below(const Sample& sample, const Sample& other,
 void OverlaySweep::State::insert(std::uint32_t sample, double x) {
   const Sample& begun = samples_[sample];
   const auto place = std::partition_point(
-      order_.begin(), order_.end(), [&](std::uint32_t other) {
-        return is_below(samples_[other], begun, x);
-      });
+      order_.begin(), order_.end(),
+      [&](std::uint32_t other) { return is_below(samples_[other], begun, x); });
   const auto at = static_cast<std::size_t>(place - order_.begin());
   order_.insert(place, sample);
   for (std::size_t i = at; i < order_.size(); ++i) {
@@ -683,8 +680,8 @@ void OverlaySweep::State::watch(std::uint32_t lower, double x) {
   a.advance(x);
   b.advance(x);
   const bool may_cross = a.layer != b.layer;
-  const bool waits = gap.labels[0].is_solid == gap.labels[1].is_solid &&
-                     !is_linked(gap);
+  const bool waits =
+      gap.labels[0].is_solid == gap.labels[1].is_solid && !is_linked(gap);
   if (!may_cross && !waits) return;
   const Outlook outlook = look_along(a, b, x, may_cross, reach_, gap.segments);
   gap.segments *= 2;
@@ -714,8 +711,8 @@ void OverlaySweep::State::close(std::uint32_t lower, double x) {
 
 bool OverlaySweep::State::is_linked(const Gap& gap) const {
   const auto& linked = last_linked_[gap.labels[1].is_solid ? 1 : 0];
-  const std::size_t above = std::min<std::size_t>(gap.labels[1].region,
-                                                  linked.size() - 1);
+  const std::size_t above =
+      std::min<std::size_t>(gap.labels[1].region, linked.size() - 1);
   return linked[above] == gap.labels[0].region;
 }
 
@@ -723,12 +720,12 @@ void OverlaySweep::State::link(const Gap& gap) {
   const auto& [below, above] = gap.labels;
   if (below.is_solid != above.is_solid || is_linked(gap)) return;
   // Loops that cross may leave a solid that no loop goes around.
-  if (above.is_solid && (below.region == kOutside || above.region == kOutside)) {
+  if (above.is_solid &&
+      (below.region == kOutside || above.region == kOutside)) {
     return;
   }
   auto& linked = last_linked_[above.is_solid ? 1 : 0];
-  linked[std::min<std::size_t>(above.region, linked.size() - 1)] =
-      below.region;
+  linked[std::min<std::size_t>(above.region, linked.size() - 1)] = below.region;
   (above.is_solid ? overlay_->solids : overlay_->voids)
       .push_back({below.region, above.region});
 }

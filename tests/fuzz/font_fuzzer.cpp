@@ -12,7 +12,6 @@
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
-#include "csg/limits.h"
 #include "csg/text/typesetter.h"
 #include "tests/fuzz/input.h"
 
