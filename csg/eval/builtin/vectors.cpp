@@ -1,6 +1,7 @@
 // Built-in functions of vectors (see functions.h).
 
 #include <cmath>
+#include <optional>
 
 #include "csg/eval/builtin/call.h"
 #include "csg/eval/builtin/functions.h"
@@ -83,16 +84,6 @@ Value builtin_cross(const CallCode& code, Frame& frame) {
   return Value::numbers(product);
 }
 
-bool is_pair(const Value& value, double& key, double& result) {
-  const std::span<const Value> pair = value.elements();
-  if (pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number()) {
-    return false;
-  }
-  key = pair[0].as_number();
-  result = pair[1].as_number();
-  return true;
-}
-
 // Linear interpolation in a table of pairs, which need not be sorted.
 Value builtin_lookup(const CallCode& code, Frame& frame) {
   if (code.arguments.size() != 2) return wrong_count(code, frame, "2");
@@ -104,34 +95,13 @@ Value builtin_lookup(const CallCode& code, Frame& frame) {
     return warn(code, frame, "lookup({}, ...) first argument is not a number",
                 to_echo(argument(code, 0, frame)));
   }
-  const double p = key.as_number();
   const Value table = argument(code, 1, frame);
   if (!table.is_vector()) {
     return newly_wrong_type(code, frame, 1, Type::kVector, table);
   }
-  const std::span<const Value> rows = table.elements();
-  double low = 0;
-  double low_value = 0;
-  if (rows.empty() || !is_pair(rows[0], low, low_value)) return Value();
-  double high = low;
-  double high_value = low_value;
-  for (const Value& row : rows.subspan(1)) {
-    double at = 0;
-    double value = 0;
-    if (!is_pair(row, at, value)) continue;
-    if (at <= p && (at > low || low > p)) {
-      low = at;
-      low_value = value;
-    }
-    if (at >= p && (at < high || high < p)) {
-      high = at;
-      high_value = value;
-    }
-  }
-  if (p <= low) return Value(high_value);
-  if (p >= high) return Value(low_value);
-  const double f = (p - low) / (high - low);
-  return Value(high_value * f + low_value * (1 - f));
+  const std::optional<double> found =
+      frame.in.lookup_tables().find(table, key.as_number());
+  return found ? Value(*found) : Value();
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "csg/eval/code/lazy_resolver.h"
 #include "csg/eval/run/evaluate_options.h"
 #include "csg/eval/run/random.h"
+#include "csg/eval/value/lookup_tables.h"
 #include "csg/eval/value/value.h"
 #include "csg/tree.h"
 
@@ -201,8 +202,9 @@ class Interpreter {
   const CallSite* current_call = nullptr;
   const CallSite* keep_call(const CallSite& call) { return calls_.make(call); }
 
-  // For rands().
+  // For rands() and lookup().
   MersenneTwister random;
+  LookupTables& lookup_tables() { return lookup_tables_; }
   std::uint64_t& effects() { return effects_; }
   const EvaluateOptions& options() const { return options_; }
   Language language() const { return options_.language; }
@@ -280,6 +282,7 @@ class Interpreter {
   };
   std::vector<LastPlan> last_plans_;
   std::vector<Value> tail_values_;
+  LookupTables lookup_tables_;
 };
 
 // A call while it runs. A failure that passes by is given a note of it, as in
