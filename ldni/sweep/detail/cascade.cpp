@@ -30,6 +30,10 @@ constexpr double kFirstSwaps = 256;
 constexpr Patience kBeforeClipping = {1, 32};
 constexpr double kMostWithin = 0.7;
 
+// Where more of the chains than this share belong to leaves that others do not
+// cover, all leaves stay.
+constexpr double kMostUncovered = 0.8;
+
 // Whether half of the chains belong to one leaf, which cannot be parted.
 bool is_mostly_one_leaf(std::span<const Chain> chains) {
   std::size_t longest = 0;
@@ -292,7 +296,8 @@ Cascade::Cascade(const csg::Scene& scene, const SweepOptions& options,
       ray_(options),
       root_(std::make_unique<Group>(scene)),
       clips_(has_active_zones(scene)),
-      clipper_(scene) {
+      clipper_(scene),
+      covered_(scene) {
   block_.layer_count = 1;
 }
 
@@ -305,8 +310,9 @@ void Cascade::sweep(const LayerChains& layer, Contours& contours) {
   is_resolved_ = false;
   if (clips_) {
     clip_and_sweep(layer, contours);
-  } else {
-    sweep(*root_, layer, 0, contours);
+  } else if (!sweep_at_once(root_->states(), layer, contours,
+                            patience_for(*root_, layer))) {
+    uncover_and_sweep(layer, contours);
   }
   if (is_resolved_) ++counts_.resolved_layers;
 }
@@ -318,11 +324,27 @@ void Cascade::clip_and_sweep(const LayerChains& layer, Contours& contours) {
   if (sweep_at_once(root_->states(), layer, contours, first)) return;
   clipper_.begin(layer);
   if (clipper_.share_within() < kMostWithin) {
-    sweep(*root_, clipper_.clip(), 0, contours);
+    const LayerChains clipped = clipper_.clip();
+    if (!sweep_at_once(root_->states(), clipped, contours,
+                       patience_for(*root_, clipped))) {
+      uncover_and_sweep(clipped, contours);
+    }
     return;
   }
   if (resume(contours, patience_for(*root_, layer))) return;
-  sweep_halves(*root_, layer, ray_.swaps_per_chain(), contours);
+  uncover_and_sweep(layer, contours);
+}
+
+// Sweeps a layer whose sweep was given up: at once if few leaves show.
+void Cascade::uncover_and_sweep(const LayerChains& layer, Contours& contours) {
+  const double swaps = ray_.swaps_per_chain();
+  const LayerChains shown = covered_.leave_out(layer);
+  if (static_cast<double>(shown.chains.size()) <
+      kMostUncovered * static_cast<double>(layer.chains.size())) {
+    sweep(*root_, shown, 0, contours);
+  } else {
+    sweep_halves(*root_, layer, swaps, contours);
+  }
 }
 
 // `expected_swaps`: for each chain.

@@ -9,8 +9,9 @@
 // groups meet, and the cost falls from n·k towards n·log n.
 //
 // Where leaves reach far beyond the places where they can matter, they are
-// clipped first (chain_clipper.h): crossings there are hidden as well, and a
-// layer that has few others is swept at once.
+// clipped first (chain_clipper.h): crossings there are hidden as well. Leaves
+// that lie within others are left out (covered_leaves.h). A layer that has few
+// other crossings is swept at once.
 //
 // Whether a sweep is given up or clipped depends on the layer alone, so
 // contours do not depend on threads; layers with few crossings are swept as
@@ -29,6 +30,7 @@
 #include "ldni/section/chains.h"
 #include "ldni/section/contours.h"
 #include "ldni/sweep/detail/chain_clipper.h"
+#include "ldni/sweep/detail/covered_leaves.h"
 #include "ldni/sweep/detail/program_states.h"
 #include "ldni/sweep/detail/ray_sweep.h"
 #include "ldni/sweep/loop_resolver.h"
@@ -56,6 +58,7 @@ class Cascade {
   class Group;
 
   void clip_and_sweep(const LayerChains& layer, Contours& contours);
+  void uncover_and_sweep(const LayerChains& layer, Contours& contours);
   void sweep(Group& group, const LayerChains& layer, double expected_swaps,
              Contours& contours);
   Patience patience_for(Group& group, const LayerChains& layer) const;
@@ -75,6 +78,7 @@ class Cascade {
   std::unique_ptr<Group> root_;
   const bool clips_;  // where a sweep is given up
   ChainClipper clipper_;
+  CoveredLeaves covered_;
   // Of two contours, an operator; made when they are needed.
   std::array<std::optional<ProgramStates>, 3> merges_;
   ChainBuilder builder_;

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <iterator>
 
-#include "base/lanes.h"
-
 namespace lamina::ldni::detail {
 namespace {
 
@@ -33,19 +31,6 @@ Box2 rectangle_around(const Box2& zone) {
     rectangle.high[axis] = (std::ceil(high / step - kSkew) + kSkew) * step;
   }
   return rectangle;
-}
-
-Box2 box_of(std::span<const Chain> chains, std::span<const Vec2> points) {
-  Box2 box;
-  Lanes low = lanes_of(box.low);
-  Lanes high = lanes_of(box.high);
-  for (const Chain& chain : chains) {
-    for (const Vec2& point : chain.points_in(points)) {
-      low = least(low, lanes_of(point));
-      high = greatest(high, lanes_of(point));
-    }
-  }
-  return {point_of(low), point_of(high)};
 }
 
 double width_of(std::span<const Chain> chains, std::span<const Vec2> points) {
@@ -80,7 +65,9 @@ Vec2 point_at(double x, const Vec2& from, const Vec2& to) {
 
 void ChainClipper::begin(const LayerChains& layer) {
   old_points_ = layer.points;
-  find_sections(layer);
+  sections_.clear();
+  for (const LeafPart& part : leaf_parts(layer))
+    sections_.push_back({part, {}});
   std::vector<Box2> boxes(scene_.instances.size());
   for (const Section& section : sections_) {
     boxes[section.instance] = section.box;
@@ -111,25 +98,6 @@ LayerChains ChainClipper::clip() {
     }
   }
   return {points_, chains_, loops_};
-}
-
-void ChainClipper::find_sections(const LayerChains& layer) {
-  sections_.clear();
-  std::size_t chain = 0;
-  std::size_t loop = 0;
-  while (loop < layer.loops.size()) {
-    const std::size_t first_chain = chain;
-    const std::size_t first_loop = loop;
-    Section& section = sections_.emplace_back();
-    section.instance = layer.chains[chain].instance;
-    while (loop < layer.loops.size() &&
-           layer.chains[chain].instance == section.instance) {
-      chain += layer.loops[loop++].chain_count;
-    }
-    section.chains = layer.chains.subspan(first_chain, chain - first_chain);
-    section.loops = layer.loops.subspan(first_loop, loop - first_loop);
-    section.box = box_of(section.chains, layer.points);
-  }
 }
 
 void ChainClipper::clip_section(const Section& section) {

@@ -37,6 +37,7 @@
 #include "csg/scene.h"
 #include "ldni/section/chains.h"
 #include "ldni/sweep/detail/active_zones.h"
+#include "ldni/sweep/detail/leaf_parts.h"
 
 namespace lamina::ldni::detail {
 
@@ -59,12 +60,7 @@ class ChainClipper {
   LayerChains clip();
 
  private:
-  // The loops of one leaf, one after another.
-  struct Section {
-    std::uint32_t instance = 0;
-    std::span<const Chain> chains;
-    std::span<const ChainLoop> loops;
-    Box2 box;
+  struct Section : LeafPart {
     Box2 rectangle;  // to be clipped to
   };
   // Chains along the lower or upper side, `winding` of them.
@@ -78,7 +74,6 @@ class ChainClipper {
     std::int32_t change = 0;  // of the winding number above the side
   };
 
-  void find_sections(const LayerChains& layer);
   void clip_section(const Section& section);
   bool cut_chain(std::span<const Vec2> chain, const Box2& rectangle);
   void straighten_beyond(double limit, double direction);
