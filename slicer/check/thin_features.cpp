@@ -27,7 +27,10 @@ constexpr double kLeastCell = 0.125;
 
 // Lines reach over so many cells at most, on the average: in a file a line may
 // be of any length.
-constexpr double kMostCellsPerLine = 1024;
+constexpr double kMostCellsPerLine = 64;
+
+// A look into a cell costs as much as one at so many stretches.
+constexpr double kCellCost = 8;
 
 // Disks that miss each other by less overlap: rounding may part them [mm].
 constexpr double kOverlapSlack = 1e-7;
@@ -83,12 +86,17 @@ void extend(ThinFeature& feature, const ThinFeature& by) {
 // --- Stretches by place ------------------------------------------------------
 // A line is listed in the cells of points on it, a cell apart at most.
 
-void FeatureCollector::StretchGrid::clear(double cell, std::size_t count) {
+void FeatureCollector::StretchGrid::clear(double cell, std::size_t count,
+                                          double length) {
   cell_ = cell;
   greatest_reach_ = 0;
   members_.clear();
   items_.clear();
-  heads_.assign(std::bit_ceil(2 * count + 1), kNone);
+  last_visits_.clear();
+  visit_ = 0;
+  const std::size_t listings =
+      2 * count + static_cast<std::size_t>(length / cell);
+  heads_.assign(std::bit_ceil(2 * listings + 1), kNone);
 }
 
 std::size_t FeatureCollector::StretchGrid::bucket_of(std::int64_t column,
@@ -129,7 +137,7 @@ void FeatureCollector::StretchGrid::add(const Member& member) {
 template <typename Visit>
 void FeatureCollector::StretchGrid::visit_near(Vec2 from, Vec2 to,
                                                double distance,
-                                               const Visit& visit) const {
+                                               const Visit& visit) {
   if (members_.empty()) return;
   // Listed points of lines within the distance are at most a cell farther
   // apart.
@@ -137,16 +145,22 @@ void FeatureCollector::StretchGrid::visit_near(Vec2 from, Vec2 to,
                              std::ceil((distance + greatest_reach_) / cell_));
   const double samples = 1 + glm::distance(from, to) / cell_;
   const auto side = static_cast<double>(2 * cells + 1);
-  if (samples * side * side >= static_cast<double>(members_.size())) {
+  if (kCellCost * samples * side * side >=
+      static_cast<double>(members_.size())) {
     for (const Member& member : members_) visit(member);
     return;
   }
+  last_visits_.resize(members_.size(), 0);
+  ++visit_;
   visit_samples(from, to, [&](std::int64_t column, std::int64_t row) {
     for (std::int64_t i = column - cells; i <= column + cells; ++i) {
       for (std::int64_t k = row - cells; k <= row + cells; ++k) {
         for (std::uint32_t item = heads_[bucket_of(i, k)]; item != kNone;
              item = items_[item].next) {
-          visit(members_[items_[item].member]);
+          const std::uint32_t member = items_[item].member;
+          if (last_visits_[member] == visit_) continue;
+          last_visits_[member] = visit_;
+          visit(members_[member]);
         }
       }
     }
@@ -213,7 +227,7 @@ FeatureCollector::Member FeatureCollector::member_of(
 //
 // gap  by which its disks may miss those of the layer below [mm]
 void FeatureCollector::join_neighbours(Member& stretch, double gap) {
-  const auto look = [&](const StretchGrid& grid, double slack) {
+  const auto look = [&](StretchGrid& grid, double slack) {
     const double distance = stretch.reach + slack;
     grid.visit_near(
         stretch.from, stretch.to, distance, [&](const Member& other) {
@@ -262,13 +276,25 @@ void FeatureCollector::count(const ThinFeature& one, Member& member) {
   }
 }
 
-void FeatureCollector::take(const Layer& layer,
-                            std::span<const ThinStretch> stretches) {
-  ++layers_;
-  const double gap =
-      std::clamp(layer.section_z - last_z_, kOverlapSlack, width_);
-  last_z_ = layer.section_z;
-  std::swap(here_, below_);
+ThinFeature FeatureCollector::feature_of(const ThinStretch& stretch,
+                                         const Layer& layer) const {
+  return {stretch.kind,
+          layers_,
+          layers_,
+          layer.bottom,
+          layer.top,
+          glm::min(stretch.from, stretch.to),
+          glm::max(stretch.from, stretch.to),
+          stretch.width,
+          glm::distance(stretch.from, stretch.to),
+          layers_,
+          layer.section_z,
+          stretch.place,
+          stretch.instances,
+          0};
+}
+
+void FeatureCollector::clear_here(std::span<const ThinStretch> stretches) {
   double reach = 0;
   double length = 0;
   for (const ThinStretch& stretch : stretches) {
@@ -278,26 +304,40 @@ void FeatureCollector::take(const Layer& layer,
   const double most_cells =
       kMostCellsPerLine * static_cast<double>(stretches.size() + 1);
   here_.clear(std::max({2 * reach, kLeastCell * width_, length / most_cells}),
-              stretches.size());
+              stretches.size(), length);
+}
+
+void FeatureCollector::take(const Layer& layer,
+                            std::span<const ThinStretch> stretches) {
+  ++layers_;
+  const double gap =
+      std::clamp(layer.section_z - last_z_, kOverlapSlack, width_);
+  last_z_ = layer.section_z;
+  const bool repeats = std::ranges::equal(stretches, last_stretches_);
+  if (repeats && gap <= joined_gap_) {
+    take_again(layer);
+    return;
+  }
+  joined_gap_ = repeats ? gap : -1;
+  last_stretches_.assign(stretches.begin(), stretches.end());
+  std::swap(here_, below_);
+  clear_here(stretches);
   for (const ThinStretch& stretch : stretches) {
-    const ThinFeature one{stretch.kind,
-                          layers_,
-                          layers_,
-                          layer.bottom,
-                          layer.top,
-                          glm::min(stretch.from, stretch.to),
-                          glm::max(stretch.from, stretch.to),
-                          stretch.width,
-                          glm::distance(stretch.from, stretch.to),
-                          layers_,
-                          layer.section_z,
-                          stretch.place,
-                          stretch.instances,
-                          0};
     Member member = member_of(stretch);
     join_neighbours(member, gap);
-    count(one, member);
+    count(feature_of(stretch, layer), member);
     here_.add(member);
+  }
+}
+
+// Takes the stretches of the last two layers once more. Each overlaps itself
+// below, and all that can be joined has been.
+void FeatureCollector::take_again(const Layer& layer) {
+  for (std::size_t i = 0; i < last_stretches_.size(); ++i) {
+    Member& member = here_.members()[i];
+    member.thin_place = thin_place_union_.root_of(member.thin_place);
+    member.feature = feature_union_.root_of(member.feature);
+    count(feature_of(last_stretches_[i], layer), member);
   }
 }
 

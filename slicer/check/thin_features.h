@@ -94,15 +94,16 @@ class FeatureCollector {
   // The stretches of a layer by place.
   class StretchGrid {
    public:
-    // cell   size of the grid's cells: about the distance of the queries [mm]
-    // count  stretches to come
-    void clear(double cell, std::size_t count);
+    // cell    size of the grid's cells: about the distance of the queries [mm]
+    // count   stretches to come
+    // length  of all of them [mm]
+    void clear(double cell, std::size_t count, double length);
     void add(const Member& member);
+    std::span<Member> members() { return members_; }
     // Calls visit(member) for all whose disks are within the distance of the
-    // line, and for some beyond; for some more than once.
+    // line, and for some beyond.
     template <typename Visit>
-    void visit_near(Vec2 from, Vec2 to, double distance,
-                    const Visit& visit) const;
+    void visit_near(Vec2 from, Vec2 to, double distance, const Visit& visit);
 
    private:
     struct Item {
@@ -118,13 +119,18 @@ class FeatureCollector {
     std::vector<Member> members_;
     std::vector<std::uint32_t> heads_;
     std::vector<Item> items_;
+    std::vector<std::uint32_t> last_visits_;  // that each member was in
+    std::uint32_t visit_ = 0;
   };
   struct Span {
     double bottom = 0;
     double top = 0;
   };
 
+  ThinFeature feature_of(const ThinStretch& stretch, const Layer& layer) const;
   Member member_of(const ThinStretch& stretch) const;
+  void clear_here(std::span<const ThinStretch> stretches);
+  void take_again(const Layer& layer);
   void join_neighbours(Member& member, double gap);
   std::uint32_t join_features(std::uint32_t a, std::uint32_t b);
   std::uint32_t join_thin_places(std::uint32_t a, std::uint32_t b);
@@ -134,6 +140,10 @@ class FeatureCollector {
   const std::vector<std::uint32_t> source_ids_;
   std::uint32_t layers_ = 0;
   double last_z_ = 0;
+  std::vector<ThinStretch> last_stretches_;
+  // Where the last two layers had the same stretches: by how much disks of the
+  // two may miss each other and have been joined [mm].
+  double joined_gap_ = -1;
   StretchGrid here_;
   StretchGrid below_;
   Union feature_union_;

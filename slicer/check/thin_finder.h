@@ -55,6 +55,8 @@ struct ThinStretch {
   // The leaves whose surfaces the sides are, where they are known
   // (LeafSearch): indices into Scene::instances, or kNoInstance.
   std::array<std::uint32_t, 2> instances = {kNoInstance, kNoInstance};
+
+  bool operator==(const ThinStretch&) const = default;
 };
 
 // Least and greatest width of a search [mm]: no printer knows finer ones, and
