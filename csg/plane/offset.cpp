@@ -101,6 +101,69 @@ void drop_straight(Contour& contour) {
   contour = std::move(kept);
 }
 
+// Whether the contour runs once around a convex region on its left.
+bool is_convex(const Contour& contour) {
+  int turns = 0;  // from right to left and back
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Vec2 corner = contour[(i + 1) % contour.size()];
+    const Vec2 along = corner - contour[i];
+    const Vec2 next = contour[(i + 2) % contour.size()] - corner;
+    if (cross(along, next) < 0) return false;
+    if ((along.x < 0) != (next.x < 0)) ++turns;
+  }
+  return turns == 2;
+}
+
+// A line with an inside on its left.
+struct Side {
+  Vec2 at;
+  Vec2 along;  // of length 1
+
+  bool has_inside(Vec2 point) const { return cross(along, point - at) > 0; }
+  Vec2 meet(const Side& other) const {
+    const double t =
+        cross(other.at - at, other.along) / cross(along, other.along);
+    return at + along * t;
+  }
+};
+
+bool are_in_line(const Side& a, const Side& b) {
+  return std::abs(cross(a.along, b.along)) * kGridPerMm < 1 &&
+         glm::dot(a.along, b.along) > 0;
+}
+
+// What lies inside of all sides, which turn once around to the left; nothing if
+// there is no such region.
+Contour enclosed(std::span<const Side> sides) {
+  std::vector<Side> ring;  // those that bound it, so far
+  std::size_t first = 0;
+  for (const Side& side : sides) {
+    while (ring.size() - first >= 2 &&
+           !side.has_inside(ring.back().meet(*(ring.end() - 2)))) {
+      ring.pop_back();
+    }
+    while (ring.size() - first >= 2 &&
+           !side.has_inside(ring[first].meet(ring[first + 1]))) {
+      ++first;
+    }
+    if (ring.size() > first && cross(ring.back().along, side.along) <= 0) {
+      return {};
+    }
+    ring.push_back(side);
+  }
+  while (ring.size() - first >= 3 &&
+         !ring[first].has_inside(ring.back().meet(*(ring.end() - 2)))) {
+    ring.pop_back();
+  }
+  if (ring.size() - first < 3) return {};
+  Contour contour;
+  for (std::size_t i = first; i < ring.size(); ++i) {
+    contour.push_back(
+        ring[i].meet(i + 1 < ring.size() ? ring[i + 1] : ring[first]));
+  }
+  return contour;
+}
+
 // Moves contours, the inside on their left, to their right.
 class Mover {
  public:
@@ -117,6 +180,15 @@ class Mover {
   }
 
   Contour move(const Contour& contour) const {
+    // The strips of a convex region's edges would all overlap.
+    if (amount_ < 0 && is_convex(contour)) return shrink(contour);
+    if (amount_ > 0) {
+      Contour hole(contour.rbegin(), contour.rend());
+      if (is_convex(hole)) {
+        hole = shrink(hole);
+        return {hole.rbegin(), hole.rend()};
+      }
+    }
     Contour curve;
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const Vec2 before = contour[(i + contour.size() - 1) % contour.size()];
@@ -132,6 +204,25 @@ class Mover {
  private:
   static Vec2 outwards(Vec2 begin, Vec2 end) {
     return -left_of(glm::normalize(end - begin));
+  }
+
+  // A convex region keeps what its moved edges enclose.
+  Contour shrink(const Contour& contour) const {
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 along =
+          glm::normalize(contour[(i + 1) % contour.size()] - contour[i]);
+      const Side side{contour[i] + left_of(along) * std::abs(amount_), along};
+      if (sides.empty() || !are_in_line(sides.back(), side)) {
+        sides.push_back(side);
+      }
+    }
+    while (sides.size() > 1 && are_in_line(sides.back(), sides.front())) {
+      sides.pop_back();
+    }
+    Contour curve;
+    for (const Vec2 point : enclosed(sides)) add(point, curve);
+    return curve;
   }
 
   // before, after  normals of its edges
@@ -203,7 +294,8 @@ Region offset(const Region& region, double amount, Join join,
   const Mover mover(amount, join, arc_tolerance, steps);
   std::vector<Contour> curves;
   for (const Contour& contour : region.contours) {
-    curves.push_back(mover.move(contour));
+    Contour curve = mover.move(contour);
+    if (!curve.empty()) curves.push_back(std::move(curve));
   }
   Region result = from_contours(curves, FillRule::kPositive);
   for (Contour& contour : result.contours) drop_straight(contour);
