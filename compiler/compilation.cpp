@@ -105,4 +105,20 @@ std::vector<std::string> origin_texts(std::span<const FeatureOrigins> all) {
   return texts;
 }
 
+std::vector<std::string> files_read(const Compilation& c) {
+  std::vector<std::string> files = c.loader.files();
+  const auto add = [&](const std::vector<std::string>& more) {
+    files.insert(files.end(), more.begin(), more.end());
+  };
+  add(c.tree.files);
+  add(c.typesetter.files_read());
+  // Printers and materials can be names too, which are no files then.
+  const Request& request = c.request;
+  for (const std::string& file :
+       {request.parameter_file, request.printer, request.material}) {
+    if (!file.empty()) files.push_back(file);
+  }
+  return files;
+}
+
 }  // namespace lamina::compiler

@@ -125,4 +125,9 @@ struct Compilation {
       std::chrono::steady_clock::now();
 };
 
+// The files on which the output depends, as far as the passes have come: what
+// the design includes, uses, imports, whether it is there or not; fonts,
+// parameters, profiles. Some may be there twice.
+std::vector<std::string> files_read(const Compilation& compilation);
+
 }  // namespace lamina::compiler

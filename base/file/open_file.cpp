@@ -62,4 +62,20 @@ std::optional<std::string> OpenFile::read_all(std::size_t spare) const {
   return bytes;
 }
 
+std::optional<std::string> OpenFile::read_at(std::uint64_t offset,
+                                             std::size_t size) const {
+  std::string bytes(size, '\0');
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t count = ::pread(descriptor_, bytes.data() + done, size - done,
+                                  static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return std::nullopt;
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
 }  // namespace lamina

@@ -2,6 +2,7 @@
 // An open file that closes itself.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,6 +36,11 @@ class OpenFile {
   //
   // spare  bytes that the caller will append: there is room for them
   std::optional<std::string> read_all(std::size_t spare = 0) const;
+
+  // At most `size` bytes from `offset` on, fewer at the end; no value where
+  // reading fails (errno tells why).
+  std::optional<std::string> read_at(std::uint64_t offset,
+                                     std::size_t size) const;
 
  private:
   int descriptor_ = -1;

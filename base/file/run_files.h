@@ -8,15 +8,15 @@
 
 #include <cstdint>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <string>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include <sys/stat.h>
 
 #include "base/diagnostic.h"
+#include "base/fingerprint.h"
 
 namespace lamina {
 
@@ -25,15 +25,23 @@ class FileAccess;
 // Safe to use from several threads.
 class RunFiles {
  public:
-  // Device and inode: what a file is, whatever it is called.
-  using Identity = std::pair<dev_t, ino_t>;
-
   // Says that the run will write `path`, a file or a folder of files of its
   // own.
   //
   // Throws FileError where that is a file that the run has read, or another
   // output; AccessError where it may not be written.
   void expect_output(std::string path, const FileAccess& access);
+
+  // The same for one of so many outputs that only a fingerprint of each is
+  // kept. Returns false where another of them has the same one: it is the same
+  // file, or, once in many runs, it is not.
+  bool expect_one_of_many(const std::string& path, const FileAccess& access);
+  // The same for one that another run makes beside this one: only its name
+  // counts.
+  bool expect_of_another_run(const std::string& path, const FileAccess& access);
+
+  // Says that all of these have been told: their names are compared no more.
+  void end_of_many();
 
   // Throws FileError where the run has read `path`, or a file in that folder:
   // for a run without an end, whose outputs may be made again.
@@ -56,15 +64,23 @@ class RunFiles {
     bool folds_case = false;
   };
 
+  std::string place_of(const std::string& path, bool is_there,
+                       const FileAccess& access);
+  void expect_files(const std::string& path,
+                    const std::optional<struct stat>& there,
+                    const FileAccess& access);
   void expect_place(const std::string& place, const std::string& path);
   // With the mutex held.
   void check_unread(const std::string& path,
-                    const std::vector<Identity>& files) const;
+                    const std::vector<std::uint64_t>& files) const;
+  void check_place(const std::string& place, const std::string& path) const;
 
   std::mutex mutex_;
-  std::set<Identity> inputs_;
-  std::set<Identity> outputs_;  // of those that are there
+  // Fingerprints of device and inode: of what a file is, whatever it is called.
+  FingerprintSet inputs_;
+  FingerprintSet outputs_;  // of those that are there
   std::unordered_map<std::string, std::string> places_;  // outputs by place
+  FingerprintSet many_places_;                           // of the many
   std::unordered_map<std::string, Folder> folders_;      // that hold them
 };
 

@@ -1,19 +1,28 @@
 // lamina batch: one design, a piece for every row of a table.
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/source.h"
+#include "cli/commands/collect.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/ledger.h"
 #include "cli/commands/piece_table.h"
 #include "cli/commands/pieces.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
+#include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
+#include "parser/loader.h"
 
 namespace lamina::cli {
 namespace {
@@ -28,9 +37,16 @@ the rest. A piece with a warning is not written, unless --no-strict.
 
   --table TABLE   the table: .csv (with commas, semicolons or tabs) or .json
   -o PATTERN      the outputs: {name} or any other column, {row} the number of
-                  the row, as in out/{name}.slc
+                  the row, {row:/1000} that divided and rounded down, as in
+                  out/{row:/1000}/{name}.slc
   --skip COLUMN   pass over a column; may be repeated
   --report FILE   what came of every piece: as JSON or, named .csv, as a table
+  --shard K/N     make the K-th of N equal shares of the table alone
+  --ledger FILE   append what came of every piece, a line each, as it is done
+  --resume        pass over pieces that by the ledger were made from the same
+                  design, row and options, and whose outputs are unchanged
+  --collect LEDGER...
+                  make nothing: say what by these ledgers is missing or failed
   -q, --quiet     say nothing but errors
   -h, --help      print this help
 
@@ -41,6 +57,41 @@ All other options of Output, Design, Slicing and Limits are those of
 Exit status: 0 all pieces are done, 1 a piece or the table is at fault, 2 usage,
 130 interrupted.
 )";
+
+// Options that leave the bytes of an output as they are, or show in its name.
+constexpr std::array<std::string_view, 12> kNeutralOptions = {
+    "--table",   "-o",       "--skip",     "--shard",
+    "--ledger",  "--resume", "--collect",  "--report",
+    "--threads", "--quiet",  "--max-time", "--max-memory"};
+
+// What is asked of all pieces, as text: all options that were given but the
+// neutral ones, so that one that is new counts by itself.
+std::string given_options(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    const bool is_neutral =
+        std::find(kNeutralOptions.begin(), kNeutralOptions.end(), name) !=
+        kNeutralOptions.end();
+    if (option->count() == 0 || is_neutral) continue;
+    text += name;
+    for (const std::string& word : option->results()) text += "\n " + word;
+    text += '\n';
+  }
+  return text;
+}
+
+Share parse_share(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto index = whole_number(std::string_view(text).substr(0, slash));
+  const auto count =
+      slash == std::string::npos
+          ? std::nullopt
+          : whole_number(std::string_view(text).substr(slash + 1));
+  require(index && count && *index >= 1 && *index <= *count, "--shard",
+          "a share was expected, such as 3/20, not '{}'", text);
+  return {*index, *count};
+}
 
 class BatchCommand : public Command {
  public:
@@ -53,9 +104,19 @@ class BatchCommand : public Command {
         ->type_name("pattern")
         ->required();
     make_repeatable(app.add_option("--skip", skipped_)->type_name("column"));
+    add_text(app, "--shard", "share", [this](const std::string& text) {
+      table_.share = parse_share(text);
+    });
+    CLI::Option* ledger = app.add_option("--ledger", ledger_.path);
+    ledger->type_name("file");
+    app.add_flag("--resume", ledger_.resumes)->needs(ledger);
+    app.add_option("--collect", ledgers_)
+        ->type_name("ledger")
+        ->excludes(ledger);
     add_output_options(app, table_.request, output_options_);
     add_design_options(app, table_.request, is_quiet_);
     add_slicing_options(app, table_.request);
+    app_ = &app;
   }
 
   void check() override {
@@ -64,9 +125,18 @@ class BatchCommand : public Command {
     refuse_if(table_.request.output.find('{') == std::string::npos,
               "-o needs a pattern, such as 'out/{{name}}.slc' or "
               "'out/{{row}}.slc'");
-    choose_format(table_.request, output_options_, table_.request.output);
+    try {
+      words_of_pattern(table_.request.output);
+    } catch (const FileError& error) {
+      throw UsageError(error.what());
+    }
+    OutputOptions output = output_options_;
+    // A report of ledgers is none of layers.
+    if (!ledgers_.empty()) output.report.clear();
+    choose_format(table_.request, output, table_.request.output);
     table_.request.is_strict = table_.request.is_strict.value_or(true);
     table_.skipped.insert(skipped_.begin(), skipped_.end());
+    ledger_.asked = given_options(*app_);
   }
 
   int run(const Context& context) override {
@@ -74,19 +144,42 @@ class BatchCommand : public Command {
     SourceStore sources;
     Diagnostics diagnostics([&](const Diagnostic& d) { terminal.show(d); });
     return run_caught(terminal, diagnostics, [&] {
-      const std::vector<Piece> pieces =
-          read_pieces(table_, context.file_access(), sources, diagnostics);
+      const FileAccess& access = context.file_access();
+      for (const std::string& folder : library_folders(access)) {
+        ledger_.asked += fmt::format("library {}\n", folder);
+      }
+      context.expect_outputs({output_options_.report, ledger_.path});
+      const auto pieces = open_table(table_, access, sources, diagnostics);
       if (diagnostics.has_errors()) return kFault;
-      return make_pieces(pieces,
-                         {"pieces", output_options_.report,
-                          table_.request.settings.threads, is_quiet_},
-                         context);
+      if (!ledgers_.empty()) {
+        return collect_pieces(
+            *pieces,
+            {ledgers_, ledger_.asked, output_options_.report, is_quiet_},
+            context);
+      }
+      return make(*pieces, context);
     });
   }
 
  private:
+  int make(PieceSource& pieces, const Context& context) const {
+    std::optional<Ledger> ledger;
+    if (!ledger_.path.empty()) {
+      make_folder_of(ledger_.path, context.file_access());
+      ledger.emplace(ledger_, context.file_access());
+    }
+    return make_pieces(
+        pieces,
+        {"pieces", output_options_.report, table_.request.settings.threads,
+         is_quiet_, ledger ? &*ledger : nullptr},
+        context);
+  }
+
   TableOptions table_;
   std::vector<std::string> skipped_;
+  LedgerOptions ledger_;
+  std::vector<std::string> ledgers_;  // to collect
+  const CLI::App* app_ = nullptr;     // until check() is done
   OutputOptions output_options_;
   bool is_quiet_ = false;
 };

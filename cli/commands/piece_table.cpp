@@ -1,11 +1,14 @@
 #include "cli/commands/piece_table.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include "base/csv.h"
 #include "base/text.h"
@@ -21,26 +24,83 @@ namespace {
 constexpr const char* kNameColumn = "name";
 constexpr const char* kRowWord = "row";
 
-const Source& read_table(const std::string& path, const FileAccess& access,
-                         SourceStore& sources) {
-  access.require(path);
-  std::optional<std::string> text = access.read(path);
-  if (!text) {
-    throw FileError(fmt::format("Can't open table '{}'", path));
-  }
-  return sources.add(path, std::move(*text));
-}
+// What a row says of its piece.
+struct Row {
+  std::uint64_t number = 0;  // from 1
+  std::uint32_t line = 0;    // 0: none
+  std::string name;          // empty: it has none
+  std::string definitions;
+  std::string parameter_set;
+  std::string output;
+  std::string fault;
+};
 
-// Runs `work`, which completes the piece. What it throws is the piece's fault.
+class Rows {
+ public:
+  virtual ~Rows() = default;
+  // False behind the last one.
+  virtual bool next(Row& row) = 0;
+  // Begins again with the first one.
+  virtual void rewind() = 0;
+};
+
+// Runs `work`, which completes the row. What it throws is the row's fault.
 template <typename Work>
-void complete(Piece& piece, const Work& work) {
+void complete(Row& row, const Work& work) {
   try {
     work();
   } catch (const Error& error) {
-    piece.fault = error.what();
-    piece.request.output.clear();
+    row.fault = error.what();
+    row.output.clear();
   }
 }
+
+// The bytes of a table, which can be read again. What comes through a pipe is
+// kept; a file must not change meanwhile.
+class TableFile {
+ public:
+  // Throws FileError where it cannot be read, AccessError where it may not be.
+  TableFile(const std::string& path, const FileAccess& access) : path_(path) {
+    access.require(path);
+    if (access.is_regular_file(path)) {
+      file_ = access.open(path);
+    } else {
+      bytes_ = access.read(path);
+    }
+    if ((!file_ && !bytes_) ||
+        (file_ && ::fstat(file_.descriptor(), &status_) != 0)) {
+      throw FileError(fmt::format("Can't open table '{}'", path));
+    }
+  }
+
+  // As CsvReader::Read, from the begin on. Outlived by the file.
+  CsvReader::Read from_begin() {
+    return [this, offset = std::uint64_t{0}]() mutable {
+      std::string block = block_at(offset);
+      offset += block.size();
+      return block;
+    };
+  }
+
+ private:
+  std::string block_at(std::uint64_t offset) const {
+    constexpr std::size_t kBlock = std::size_t{1} << 20;
+    if (bytes_) {
+      return bytes_->substr(std::min<std::size_t>(offset, bytes_->size()),
+                            kBlock);
+    }
+    if (offset >= static_cast<std::uint64_t>(status_.st_size)) return {};
+    const auto block = file_.read_at(offset, kBlock);
+    check_machine(path_, block ? 0 : EIO);
+    if (!file_.is_unchanged_since(status_)) check_machine(path_, ESTALE);
+    return *block;
+  }
+
+  const std::string path_;
+  OpenFile file_;
+  struct stat status_ {};
+  std::optional<std::string> bytes_;
+};
 
 // The variables that the design lets others set. Its warnings come with its
 // pieces.
@@ -71,41 +131,54 @@ std::string name_fault(const std::string& column, const Work& work) {
   }
 }
 
-class TableReader {
+class CsvRows : public Rows {
  public:
-  TableReader(const TableOptions& options, const FileAccess& access,
-              SourceStore& sources, Diagnostics& diagnostics)
+  CsvRows(const TableOptions& options, const FileAccess& access,
+          SourceStore& sources, Diagnostics& diagnostics)
       : options_(options),
         file_access_(access),
         sources_(sources),
-        csv_(read_csv(read_table(options.table, access, sources))),
-        decimal_(csv_.separator == ',' ? DecimalSign::kPoint
-                                       : DecimalSign::kPointOrComma),
+        file_(options.table, access),
         diagnostics_(diagnostics) {
     for (std::string& word : words_of_pattern(options.request.output)) {
       words_.insert(std::move(word));
     }
   }
 
-  std::vector<Piece> read() {
-    if (csv_.rows.size() < 2) {
-      diagnostics_.error(
-          {}, fmt::format("'{}' has no rows below its header", options_.table));
-      return {};
-    }
+  // Reads the header; of a table without one nothing.
+  void begin() {
+    rewind();
+    if (cells_.cells.empty()) return;
     read_header(
         variables_of(options_.request, file_access_, sources_, diagnostics_));
-    std::vector<Piece> pieces;
-    for (std::size_t i = 1; i < csv_.rows.size(); ++i) {
-      pieces.push_back(read_piece(csv_.rows[i], i));
-    }
-    return pieces;
+  }
+
+  bool next(Row& row) override {
+    if (!reader_->next(cells_)) return false;
+    row = {};
+    row.number = ++number_;
+    row.line = cells_.line;
+    row.name = cell_of(kNameColumn);
+    complete(row, [&] {
+      check_width();
+      row.definitions = definitions();
+      row.output = output();
+    });
+    return true;
+  }
+
+  void rewind() override {
+    reader_.emplace(options_.table, file_.from_begin(), sources_);
+    reader_->next(cells_);
+    number_ = 0;
   }
 
  private:
   void read_header(const Variables& variables) {
-    const CsvRow& header = csv_.rows.front();
-    for (const std::string& name : header.cells) {
+    decimal_ = reader_->separator() == ',' ? DecimalSign::kPoint
+                                           : DecimalSign::kPointOrComma;
+    const SourceRange header = reader_->range_of_row();
+    for (const std::string& name : cells_.cells) {
       check_repeated(header, name);
       columns_.push_back({name, kind_of(name, variables)});
       const bool is_of_use = columns_.back().variable || name == kNameColumn ||
@@ -131,20 +204,20 @@ class TableReader {
     return std::nullopt;
   }
 
-  void refuse_column(const CsvRow& header, const std::string& name) {
+  void refuse_column(SourceRange header, const std::string& name) {
     if (name.empty()) {
-      diagnostics_.error(header.range, "a column has no name");
+      diagnostics_.error(header, "a column has no name");
       return;
     }
     diagnostics_.error(
-        header.range,
+        header,
         fmt::format("'{0}' is no variable of '{1}' (--skip {0} passes over it)",
                     name, options_.request.design));
   }
 
-  void check_repeated(const CsvRow& header, const std::string& name) {
+  void check_repeated(SourceRange header, const std::string& name) {
     if (find_column(name) == nullptr) return;
-    diagnostics_.error(header.range,
+    diagnostics_.error(header,
                        fmt::format("two columns are called '{}'", name));
   }
 
@@ -155,27 +228,8 @@ class TableReader {
     return found == columns_.end() ? nullptr : &*found;
   }
 
-  // number  of the row, from 1
-  Piece read_piece(const CsvRow& row, std::size_t number) {
-    Piece piece;
-    piece.request = options_.request;
-    piece.line = row.line;
-    piece.name = cell_of(row, kNameColumn);
-    piece.prefix = fmt::format("{}:{}: ", options_.table, row.line);
-    if (piece.name.empty()) {
-      piece.name = fmt::format("{}", number);
-    } else {
-      piece.prefix += on_one_line(piece.name) + ": ";
-    }
-    complete(piece, [&] {
-      check_width(row);
-      piece.request.definitions += definitions_of(row);
-      piece.request.output = output_of(row, number);
-    });
-    return piece;
-  }
-
-  void check_width(const CsvRow& row) const {
+  void check_width() const {
+    const CsvRow& row = cells_;
     const std::size_t wanted = columns_.size();
     const bool has_more =
         row.cells.size() > wanted &&
@@ -188,109 +242,205 @@ class TableReader {
   }
 
   // Empty where the row has no such cell.
-  std::string cell_of(const CsvRow& row, const std::string& name) const {
+  std::string cell_of(const std::string& name) const {
     const Column* column = find_column(name);
     if (column == nullptr) return "";
     const auto index = static_cast<std::size_t>(column - columns_.data());
-    return index < row.cells.size() ? row.cells[index] : "";
+    return index < cells_.cells.size() ? cells_.cells[index] : "";
   }
 
-  std::string definitions_of(const CsvRow& row) const {
+  std::string definitions() const {
     std::string text;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Column& column = columns_[i];
-      if (!column.variable || row.cells[i].empty()) continue;
+      const std::string& cell = cells_.cells[i];
+      if (!column.variable || cell.empty()) continue;
       const std::string value = name_fault(column.name, [&] {
-        return value_of_cell(row.cells[i], *column.variable, decimal_);
+        return value_of_cell(cell, *column.variable, decimal_);
       });
       text += fmt::format("{}={};\n", column.name, value);
     }
     return text;
   }
 
-  std::string output_of(const CsvRow& row, std::size_t number) const {
+  std::string output() const {
     return fill_pattern(
         options_.request.output, [&](const std::string& word) -> std::string {
           if (word == kRowWord && find_column(word) == nullptr) {
-            return fmt::format("{}", number);
+            return fmt::format("{}", number_);
           }
           return name_fault(
-              word, [&] { return require_part_of_name(cell_of(row, word)); });
+              word, [&] { return require_part_of_name(cell_of(word)); });
         });
   }
 
   const TableOptions& options_;
   const FileAccess& file_access_;
   SourceStore& sources_;
-  const Csv csv_;
-  const DecimalSign decimal_;
+  TableFile file_;
   Diagnostics& diagnostics_;
   std::set<std::string> words_;  // of the pattern
+  std::optional<CsvReader> reader_;
+  DecimalSign decimal_ = DecimalSign::kPoint;
   std::vector<Column> columns_;
+  CsvRow cells_;  // read last
+  std::uint64_t number_ = 0;
 };
 
-// The pieces of a file of parameter sets. Words of the pattern can only be
-// {name} and {row}.
-std::vector<Piece> read_sets(const TableOptions& options,
-                             const FileAccess& access,
-                             Diagnostics& diagnostics) {
-  for (const std::string& word : words_of_pattern(options.request.output)) {
-    if (word == kRowWord || word == kNameColumn) continue;
-    diagnostics.error(
-        {},
-        fmt::format("'{}' in '{}' means nothing for parameter sets; {{name}} "
-                    "is that of the set",
-                    word, options.request.output));
+// Words of the pattern can only be {name} and {row}.
+class SetRows : public Rows {
+ public:
+  SetRows(const TableOptions& options, const FileAccess& access,
+          Diagnostics& diagnostics)
+      : options_(options), names_(parameter_set_names(options.table, access)) {
+    for (const std::string& word : words_of_pattern(options.request.output)) {
+      if (word == kRowWord || word == kNameColumn) continue;
+      diagnostics.error(
+          {}, fmt::format("'{}' in '{}' means nothing for parameter sets; "
+                          "{{name}} is that of the set",
+                          word, options.request.output));
+    }
   }
-  std::vector<Piece> pieces;
-  for (const std::string& name : parameter_set_names(options.table, access)) {
-    Piece& piece = pieces.emplace_back();
-    piece.request = options.request;
-    piece.request.parameter_file = options.table;
-    piece.request.parameter_set = name;
-    piece.name = name;
-    piece.prefix = fmt::format("{}: {}: ", options.table, on_one_line(name));
-    complete(piece, [&] {
-      piece.request.output =
-          fill_pattern(options.request.output, [&](const std::string& word) {
-            return word == kRowWord ? fmt::format("{}", pieces.size())
-                                    : require_part_of_name(name);
+
+  bool next(Row& row) override {
+    if (number_ == names_.size()) return false;
+    row = {};
+    row.name = row.parameter_set = names_[number_];
+    row.number = ++number_;
+    complete(row, [&] {
+      row.output =
+          fill_pattern(options_.request.output, [&](const std::string& word) {
+            return word == kRowWord ? fmt::format("{}", row.number)
+                                    : require_part_of_name(row.name);
           });
     });
+    return true;
   }
-  if (pieces.empty()) {
-    diagnostics.error({}, fmt::format("'{}' has no sets", options.table));
-  }
-  return pieces;
-}
 
-void refuse_equal_outputs(const std::vector<Piece>& pieces,
-                          const FileAccess& access, Diagnostics& diagnostics) {
-  std::map<std::string, const Piece*> outputs;
-  for (const Piece& piece : pieces) {
-    if (!piece.fault.empty()) continue;
-    const auto [first, is_new] = outputs.try_emplace(
-        access.run_files()->place_of(piece.request.output, access), &piece);
-    if (is_new) continue;
-    diagnostics.error(
-        {}, fmt::format("{}and {}have one output, '{}'", first->second->prefix,
-                        piece.prefix, piece.request.output));
+  void rewind() override { number_ = 0; }
+
+ private:
+  const TableOptions& options_;
+  const std::vector<std::string> names_;
+  std::uint64_t number_ = 0;
+};
+
+class PieceTable : public PieceSource {
+ public:
+  PieceTable(const TableOptions& options, std::unique_ptr<Rows> rows)
+      : options_(options), rows_(std::move(rows)) {}
+
+  std::uint64_t count() const override { return count_; }
+
+  std::optional<Piece> next() override {
+    while (rows_->next(row_)) {
+      if (options_.share.has(row_.number)) return piece_of(row_);
+    }
+    return std::nullopt;
   }
+
+  // Counts the pieces, tells their outputs to RunFiles, and begins again.
+  void check(const FileAccess& access, Diagnostics& diagnostics) {
+    RunFiles& files = *access.run_files();
+    // Outputs that may not be the only ones of their name, by their places.
+    std::set<std::string> doubtful;
+    constexpr std::size_t kMostTold = 100;
+    std::uint64_t all = 0;
+    for (; rows_->next(row_); ++all) {
+      const bool is_own = options_.share.has(row_.number);
+      if (is_own) ++count_;
+      if (!row_.fault.empty()) continue;
+      const bool is_new =
+          is_own ? files.expect_one_of_many(row_.output, access)
+                 : files.expect_of_another_run(row_.output, access);
+      if (is_new || doubtful.size() >= kMostTold) continue;
+      doubtful.insert(files.place_of(row_.output, access));
+    }
+    if (all == 0) {
+      diagnostics.error({},
+                        options_.table.ends_with(".json")
+                            ? fmt::format("'{}' has no sets", options_.table)
+                            : fmt::format("'{}' has no rows below its header",
+                                          options_.table));
+    }
+    files.end_of_many();
+    rows_->rewind();
+    if (doubtful.empty()) return;
+    refuse_equal_outputs(doubtful, access, diagnostics);
+    rows_->rewind();
+  }
+
+ private:
+  // "orders.csv:17: ring-17: "
+  std::string prefix_of(const Row& row) const {
+    std::string prefix = options_.table;
+    if (row.line > 0) prefix += fmt::format(":{}", row.line);
+    prefix += ": ";
+    if (!row.name.empty()) prefix += on_one_line(row.name) + ": ";
+    return prefix;
+  }
+
+  Piece piece_of(const Row& row) const {
+    Piece piece;
+    piece.request = options_.request;
+    piece.request.definitions += row.definitions;
+    piece.request.output = row.output;
+    if (!row.parameter_set.empty()) {
+      piece.request.parameter_file = options_.table;
+      piece.request.parameter_set = row.parameter_set;
+    }
+    piece.name = row.name.empty() ? fmt::format("{}", row.number) : row.name;
+    piece.prefix = prefix_of(row);
+    piece.number = row.number;
+    piece.line = row.line;
+    piece.fault = row.fault;
+    return piece;
+  }
+
+  void refuse_equal_outputs(const std::set<std::string>& doubtful,
+                            const FileAccess& access,
+                            Diagnostics& diagnostics) {
+    std::map<std::string, std::string> firsts;  // prefixes, by places
+    while (rows_->next(row_)) {
+      if (!row_.fault.empty()) continue;
+      const std::string place =
+          access.run_files()->place_of(row_.output, access);
+      if (!doubtful.contains(place)) continue;
+      const auto [first, is_new] = firsts.try_emplace(place, prefix_of(row_));
+      if (is_new) continue;
+      diagnostics.error(
+          {}, fmt::format("{}and {}have one output, '{}'", first->second,
+                          prefix_of(row_), row_.output));
+    }
+  }
+
+  const TableOptions& options_;
+  std::unique_ptr<Rows> rows_;
+  Row row_;
+  std::uint64_t count_ = 0;
+};
+
+std::unique_ptr<Rows> open_rows(const TableOptions& options,
+                                const FileAccess& access, SourceStore& sources,
+                                Diagnostics& diagnostics) {
+  if (options.table.ends_with(".json")) {
+    return std::make_unique<SetRows>(options, access, diagnostics);
+  }
+  auto rows = std::make_unique<CsvRows>(options, access, sources, diagnostics);
+  rows->begin();
+  return rows;
 }
 
 }  // namespace
 
-std::vector<Piece> read_pieces(const TableOptions& options,
-                               const FileAccess& access, SourceStore& sources,
-                               Diagnostics& diagnostics) {
-  std::vector<Piece> pieces;
-  if (options.table.ends_with(".json")) {
-    pieces = read_sets(options, access, diagnostics);
-  } else {
-    pieces = TableReader(options, access, sources, diagnostics).read();
-  }
-  refuse_equal_outputs(pieces, access, diagnostics);
-  return pieces;
+std::unique_ptr<PieceSource> open_table(const TableOptions& options,
+                                        const FileAccess& access,
+                                        SourceStore& sources,
+                                        Diagnostics& diagnostics) {
+  auto table = std::make_unique<PieceTable>(
+      options, open_rows(options, access, sources, diagnostics));
+  if (!diagnostics.has_errors()) table->check(access, diagnostics);
+  return table;
 }
 
 }  // namespace lamina::cli

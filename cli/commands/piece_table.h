@@ -7,10 +7,16 @@
 //
 // Each column is a variable of the design, or a word of the pattern that names
 // the outputs, or both. An empty cell leaves the design's own value.
+//
+// The table is read twice. First as a whole, for what must be known before
+// anything is made: how many rows it has, and that no two have one output. Then
+// row by row, as pieces are wanted. So memory holds a block of the table, and
+// of each row no more than a fingerprint of its output.
 
+#include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
@@ -20,20 +26,36 @@
 
 namespace lamina::cli {
 
+// One of several equal shares of a table. Rows are dealt like cards: what
+// makes them slow or wrong often comes in runs, and a row keeps its share when
+// others are appended to the table.
+struct Share {
+  std::uint64_t index = 1;  // from 1 to `count`
+  std::uint64_t count = 1;
+
+  // row  its number, from 1
+  bool has(std::uint64_t row) const { return (row - 1) % count == index - 1; }
+};
+
 struct TableOptions {
   std::string table;              // path; .json: parameter sets
   std::set<std::string> skipped;  // columns that are passed over
-  compiler::Request request;      // of all pieces; `output` is the pattern
+  Share share;
+  compiler::Request request;  // of all pieces; `output` is the pattern
 };
 
-// The pieces, in the order of the table. What is wrong with a row is the fault
-// of its piece; what is wrong with more than that, such as a column that is no
-// variable, is an error in `diagnostics`, and nothing can be made then.
+// The pieces of the share, in the order of the table, whose outputs have been
+// told to RunFiles. What is wrong with a row is the fault of its piece; what is
+// wrong with more than that, such as a column that is no variable, is an error
+// in `diagnostics`, and nothing can be made then.
 //
-// sources  keeps the table's text, in which errors have their places
-// throws   Error where the table or the design cannot be read
-std::vector<Piece> read_pieces(const TableOptions& options,
-                               const FileAccess& access, SourceStore& sources,
-                               Diagnostics& diagnostics);
+// options  outlives the result, as do the others
+// sources  keeps the places of errors
+// throws   Error where the table or the design cannot be read; so does next(),
+//          where the table has changed
+std::unique_ptr<PieceSource> open_table(const TableOptions& options,
+                                        const FileAccess& access,
+                                        SourceStore& sources,
+                                        Diagnostics& diagnostics);
 
 }  // namespace lamina::cli

@@ -2,60 +2,53 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "base/csv.h"
-#include "base/text.h"
+#include "cli/commands/ledger.h"
+#include "cli/commands/outcomes.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/run_on_stack.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
-#include "compiler/passes.h"
-#include "slicer/check/finding_table.h"
 
 namespace lamina::cli {
 namespace {
 
-// What came of a piece. Lists of outcomes are in the order of the pieces.
-struct Outcome {
-  bool is_done = false;
-  std::string error;  // the first one
-  compiler::Report report;
-  nlohmann::ordered_json json;  // report_json(), if a report is wanted
-};
+// How far a piece may be ahead of the one whose turn it is. It bounds what
+// waits to be shown, some 2 KiB each, and is far more than one slow piece is
+// worth.
+constexpr std::uint64_t kFarthestAhead = 4096;
 
 class Workshop {
  public:
-  Workshop(std::span<const Piece> pieces, const PiecesOptions& options,
-           const Context& context)
+  Workshop(PieceSource& pieces, const PiecesOptions& options,
+           const Context& context, Outcomes& outcomes)
       : pieces_(pieces),
         options_(options),
         context_(context),
-        outcomes_(pieces.size()) {
+        outcomes_(outcomes) {
     const unsigned threads =
         options.threads != 0
             ? options.threads
             : std::max(1U, std::thread::hardware_concurrency());
-    worker_count_ = pieces.size() < threads ? 1 : threads;
+    worker_count_ = pieces.count() < threads ? 1 : threads;
     threads_per_piece_ = worker_count_ == 1 ? threads : 1;
     line_ =
         std::make_unique<ProgressLine>(!options.is_quiet && worker_count_ > 1);
-    line_->begin(pieces.size(), options.unit);
+    line_->begin(pieces.count(), options.unit);
   }
 
   // The calling thread works too.
-  std::vector<Outcome> run() {
+  void run() {
     const std::size_t others = worker_count_ - 1;
     context_.watch.reserve(std::uint64_t{others} * LargeStack::kLargestSize);
     std::vector<Worker> workers(others);
@@ -74,7 +67,6 @@ class Workshop {
     }
     line_->erase();
     if (fault) std::rethrow_exception(fault);
-    return std::move(outcomes_);
   }
 
  private:
@@ -83,30 +75,61 @@ class Workshop {
     std::exception_ptr fault;  // what ended its work
   };
 
-  // What is thrown here is no fault of a piece: memory lacks to begin one.
+  struct Numbered {
+    std::uint64_t turn = 0;  // from 0, in the order of the pieces
+    Piece piece;
+  };
+
+  // What waits for its turn to be shown.
+  struct Finished {
+    Outcomes::Entry entry;
+    std::string messages;
+  };
+
+  // What is thrown here is no fault of a piece: memory lacks to begin one, the
+  // table has changed, the ledger cannot be written.
   std::exception_ptr work_caught(std::size_t stack) noexcept {
     try {
       work(stack);
       return nullptr;
     } catch (...) {
+      const std::lock_guard lock(mutex_);
+      // Nobody may wait for the piece that has no end now.
+      has_lost_a_worker_ = true;
+      has_shown_.notify_all();
       return std::current_exception();
     }
   }
 
   void work(std::size_t stack) {
-    while (const Piece* piece = next()) {
+    while (const std::optional<Numbered> next = next_piece()) {
+      const Piece& piece = next->piece;
       // Its time includes that of its messages, which may find no reader.
-      const ProcessWatch::Part timed(context_.watch, piece->prefix);
-      const auto index = static_cast<std::size_t>(piece - pieces_.data());
-      Inbox inbox{piece->prefix, worker_count_ == 1, "", ""};
-      Outcome outcome = make(*piece, stack, inbox);
-      take(index, std::move(outcome), std::move(inbox.text));
+      const ProcessWatch::Part timed(context_.watch, piece.prefix);
+      Inbox inbox{piece.prefix, worker_count_ == 1, "", ""};
+      const Outcome outcome = outcome_of(piece, stack, inbox);
+      take(next->turn,
+           {outcomes_.describe(piece, outcome), std::move(inbox.text)});
     }
   }
 
-  const Piece* next() {
-    const std::lock_guard lock(mutex_);
-    return next_ < pieces_.size() ? &pieces_[next_++] : nullptr;
+  std::optional<Numbered> next_piece() {
+    std::unique_lock lock(mutex_);
+    const auto is_near = [&] { return begun_ < shown_ + kFarthestAhead; };
+    has_shown_.wait(lock, [&] { return is_near() || has_lost_a_worker_; });
+    if (!is_near()) return std::nullopt;
+    std::optional<Piece> piece = pieces_.next();
+    if (!piece) return std::nullopt;
+    return Numbered{begun_++, std::move(*piece)};
+  }
+
+  Outcome outcome_of(const Piece& piece, std::size_t stack, Inbox& inbox) {
+    if (options_.ledger != nullptr && options_.ledger->stands(piece)) {
+      Outcome outcome;
+      outcome.status = Outcome::Status::kStood;
+      return outcome;
+    }
+    return make(piece, stack, inbox);
   }
 
   Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
@@ -121,9 +144,9 @@ class Workshop {
       return compiler::compile(compilation) ? kDone : kFault;
     });
     Outcome outcome;
-    outcome.is_done = status == kDone;
     outcome.report = compilation.report;
     if (status == kDone) {
+      outcome.status = Outcome::Status::kDone;
       if (request.settings.min_feature > 0) {
         session.terminal.say(feature_lines(compilation));
       }
@@ -134,176 +157,69 @@ class Workshop {
     if (status != kDone && outcome.error.empty()) {
       outcome.error = compilation.diagnostics.all().back().message;
     }
+    if (options_.ledger != nullptr) {
+      session.terminal.finish();
+      options_.ledger->note(piece, outcome, inbox.text, compilation);
+    }
     return outcome;
   }
 
-  // Shows the messages of all pieces that no unfinished one precedes.
-  void take(std::size_t index, Outcome outcome, std::string text) {
+  // Shows all that no unfinished piece precedes.
+  void take(std::uint64_t turn, Finished finished) {
     const std::lock_guard lock(mutex_);
-    outcomes_[index] = std::move(outcome);
-    held_back_.resize(pieces_.size());
-    held_back_[index] = std::make_unique<std::string>(std::move(text));
-    for (; shown_ < pieces_.size() && held_back_[shown_]; ++shown_) {
-      const std::string& next_text = *held_back_[shown_];
-      if (!next_text.empty()) {
+    waiting_.emplace(turn, std::move(finished));
+    for (auto next = waiting_.begin();
+         next != waiting_.end() && next->first == shown_;
+         next = waiting_.erase(next), ++shown_) {
+      const std::string& messages = next->second.messages;
+      if (!messages.empty()) {
         line_->erase();
-        std::fwrite(next_text.data(), 1, next_text.size(), stderr);
+        std::fwrite(messages.data(), 1, messages.size(), stderr);
       }
-      held_back_[shown_].reset();
+      outcomes_.add(next->second.entry);
     }
     line_->show(++done_);
+    has_shown_.notify_all();
   }
 
-  std::span<const Piece> pieces_;
+  PieceSource& pieces_;
   const PiecesOptions& options_;
   const Context& context_;
   unsigned worker_count_ = 1;
   unsigned threads_per_piece_ = 1;
 
   std::mutex mutex_;  // for all below
+  std::condition_variable has_shown_;
+  bool has_lost_a_worker_ = false;
+  Outcomes& outcomes_;
   std::unique_ptr<ProgressLine> line_;
-  std::size_t next_ = 0;
-  std::size_t done_ = 0;
-  std::size_t shown_ = 0;
-  std::vector<Outcome> outcomes_;
-  std::vector<std::unique_ptr<std::string>> held_back_;
+  std::uint64_t begun_ = 0;
+  std::uint64_t done_ = 0;
+  std::uint64_t shown_ = 0;
+  std::map<std::uint64_t, Finished> waiting_;
 };
-
-std::size_t count_done(std::span<const Outcome> outcomes) {
-  return static_cast<std::size_t>(
-      std::count_if(outcomes.begin(), outcomes.end(),
-                    [](const Outcome& outcome) { return outcome.is_done; }));
-}
-
-std::string first_line(const std::string& text) {
-  return text.substr(0, text.find('\n'));
-}
-
-// "2 warnings; 1 island": what a row says at its end.
-std::string notes_of(const compiler::Report& report) {
-  std::string text;
-  if (report.warnings > 0) text = counted(report.warnings, "warning");
-  if (report.slice.print && !report.slice.print->findings.empty()) {
-    text += (text.empty() ? "" : "; ") +
-            slicer::finding_counts(*report.slice.print);
-  }
-  return text;
-}
-
-// The closing table, without the last '\n'.
-std::string outcome_table(std::span<const Piece> pieces,
-                          std::span<const Outcome> outcomes,
-                          std::string_view unit, double seconds) {
-  std::size_t width = unit.size();
-  std::vector<std::string> names;
-  for (const Piece& piece : pieces) {
-    width = std::max(width, names.emplace_back(on_one_line(piece.name)).size());
-  }
-  std::string table =
-      fmt::format("{:<{}}  {:>7}  {:>24}  {:>11}  {:>9}  {:>7}\n", unit, width,
-                  "layers", "size", "volume mm³", "weight g", "time s");
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Outcome& outcome = outcomes[i];
-    table += fmt::format("{:<{}}  ", names[i], width);
-    if (!outcome.is_done) {
-      table += fmt::format("error: {}\n", first_line(outcome.error));
-      continue;
-    }
-    const compiler::Report& report = outcome.report;
-    const std::string row = fmt::format(
-        "{:>7}  {:>24}  {:>11.3f}  {:>9}  {:>7.3f}  {}", report.slice.layers,
-        size_text(report.slice.box.size()), report.slice.volume,
-        report.estimate.grams > 0 ? fmt::format("{:.3f}", report.estimate.grams)
-                                  : "-",
-        report.wall_seconds, notes_of(report));
-    table += fmt::format("{}\n", row.substr(0, row.find_last_not_of(' ') + 1));
-  }
-  const std::size_t done = count_done(outcomes);
-  return table + fmt::format("{} of {} {} done, {} failed, in {:.3f} s", done,
-                             pieces.size(), unit, pieces.size() - done,
-                             seconds);
-}
-
-std::string outcomes_csv(std::span<const Piece> pieces,
-                         std::span<const Outcome> outcomes) {
-  std::string text =
-      "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,seconds,"
-      "warnings,findings,error\r\n";
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Piece& piece = pieces[i];
-    const Outcome& outcome = outcomes[i];
-    const std::string line =
-        piece.line > 0 ? fmt::format("{}", piece.line) : "";
-    std::string figures = ",,,,,,,,,";
-    if (outcome.is_done) {
-      const compiler::Report& report = outcome.report;
-      const Vec3 size = report.slice.box.size();
-      figures = fmt::format(
-          "{},{:.6g},{:.6g},{:.6g},{},{},{},{},{},", report.slice.layers,
-          size.x, size.y, size.z, report.slice.volume,
-          report.estimate.grams > 0 ? fmt::format("{}", report.estimate.grams)
-                                    : "",
-          report.wall_seconds, report.warnings,
-          csv_words(report.slice.print
-                        ? slicer::finding_counts(*report.slice.print)
-                        : ""));
-    } else {
-      figures += csv_words(outcome.error);
-    }
-    text += fmt::format("{},{},{},{}\r\n", line, csv_words(piece.name),
-                        csv_words(piece.request.output), figures);
-  }
-  return text;
-}
-
-std::string outcomes_json(std::span<const Piece> pieces,
-                          std::span<const Outcome> outcomes, double seconds) {
-  using Json = nlohmann::ordered_json;
-  const std::size_t done = count_done(outcomes);
-  Json json = {{"done", done},
-               {"failed", pieces.size() - done},
-               {"total_seconds", process_seconds()},
-               {"wall_seconds", seconds},
-               {"peak_memory_bytes", peak_memory_bytes()},
-               {"pieces", Json::array()}};
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Piece& piece = pieces[i];
-    const Outcome& outcome = outcomes[i];
-    json["pieces"].push_back(
-        {{"line", piece.line > 0 ? Json(piece.line) : Json()},
-         {"name", piece.name},
-         {"output", piece.request.output},
-         {"error", outcome.is_done ? Json() : Json(outcome.error)},
-         {"report", outcome.json}});
-  }
-  return json_text(json);
-}
 
 }  // namespace
 
-int make_pieces(std::span<const Piece> pieces, const PiecesOptions& options,
+std::optional<Piece> PieceList::next() {
+  if (next_ == pieces_.size()) return std::nullopt;
+  return std::move(pieces_[next_++]);
+}
+
+int make_pieces(PieceSource& pieces, const PiecesOptions& options,
                 const Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   context.watch.time_parts();
-  for (const Piece& piece : pieces) {
-    if (piece.fault.empty()) context.expect_outputs({piece.request.output});
-  }
-  context.expect_outputs({options.report});
-  const std::vector<Outcome> outcomes =
-      Workshop(pieces, options, context).run();
+  Outcomes outcomes(options, pieces.count(), context.temporary_files);
+  Workshop(pieces, options, context, outcomes).run();
+  if (options.ledger != nullptr) options.ledger->finish();
   const std::chrono::duration<double> seconds =
       std::chrono::steady_clock::now() - begin;
   const ProcessWatch::Part timed(context.watch, "");
   Terminal terminal(options.is_quiet);
-  terminal.say(outcome_table(pieces, outcomes, options.unit, seconds.count()));
-  if (!options.report.empty()) {
-    compiler::write_file(options.report,
-                         options.report.ends_with(".csv")
-                             ? outcomes_csv(pieces, outcomes)
-                             : outcomes_json(pieces, outcomes, seconds.count()),
-                         context.temporary_files);
-  }
-  return count_done(outcomes) == pieces.size() ? kDone : kFault;
+  terminal.say(outcomes.table(seconds.count()));
+  outcomes.commit_report(seconds.count());
+  return outcomes.are_all_done() ? kDone : kFault;
 }
 
 }  // namespace lamina::cli

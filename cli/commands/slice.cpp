@@ -259,11 +259,17 @@ class SliceCommand : public Command {
       piece.request.output = output_of(design);
       piece.name = design;
       piece.prefix = fmt::format("{}: ", on_one_line(design));
+      piece.number = pieces.size();
     }
     Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {
+      for (const Piece& piece : pieces) {
+        context.expect_outputs({piece.request.output});
+      }
+      context.expect_outputs({output_.report});
+      PieceList list(std::move(pieces));
       return make_pieces(
-          pieces,
+          list,
           {"designs", output_.report, request_.settings.threads, is_quiet_},
           context);
     });

@@ -114,4 +114,12 @@ void add_layer_range(CLI::App& app, slicer::LayerNumbers& range) {
            [&range](const std::string& text) { range = parse_layers(text); });
 }
 
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || last != end) return std::nullopt;
+  return number;
+}
+
 }  // namespace lamina::cli

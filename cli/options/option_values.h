@@ -2,7 +2,9 @@
 // Options of the command line whose values are checked as they are read. A
 // faulty value throws CLI::ValidationError, which names the option.
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,6 +34,9 @@ double require_number(const std::string& option, std::string_view text);
 // Numbers with commas between them.
 std::vector<double> require_numbers(const std::string& option,
                                     std::string_view text);
+
+// A whole number and nothing else, without a sign; no value for other texts.
+std::optional<std::uint64_t> whole_number(std::string_view text);
 
 // A length of more than 0 mm.
 double require_positive(const std::string& option, std::string_view text);

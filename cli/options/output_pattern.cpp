@@ -1,11 +1,13 @@
 #include "cli/options/output_pattern.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
+#include "cli/options/option_values.h"
 
 namespace lamina::cli {
 namespace {
@@ -27,6 +29,29 @@ std::string fault_of_part(std::string_view text) {
   return "";
 }
 
+// What stands behind the ":/" of a word.
+constexpr std::string_view kDivision = ":/";
+
+// The value of what stands between braces.
+std::string value_of_braces(
+    std::string_view braces,
+    const std::function<std::string(const std::string& word)>& value_of) {
+  const std::size_t mark = braces.find(kDivision);
+  std::string value = value_of(std::string(braces.substr(0, mark)));
+  if (mark == std::string_view::npos) return value;
+  const auto divisor = whole_number(braces.substr(mark + kDivision.size()));
+  if (!divisor || *divisor == 0) {
+    throw FileError(fmt::format(
+        "'{{{}}}': a number from 1 was expected behind ':/'", braces));
+  }
+  const auto number = whole_number(value);
+  if (!number) {
+    throw FileError(
+        fmt::format("'{{{}}}' divides whole numbers, not '{}'", braces, value));
+  }
+  return fmt::format("{}", *number / *divisor);
+}
+
 }  // namespace
 
 std::string fill_pattern(
@@ -38,7 +63,8 @@ std::string fill_pattern(
     const std::size_t end = pattern.find('}', std::min(begin, pattern.size()));
     if (end == std::string_view::npos) break;
     text += pattern.substr(0, begin);
-    text += value_of(std::string(pattern.substr(begin + 1, end - begin - 1)));
+    text +=
+        value_of_braces(pattern.substr(begin + 1, end - begin - 1), value_of);
     pattern.remove_prefix(end + 1);
   }
   return text += pattern;
@@ -48,7 +74,7 @@ std::vector<std::string> words_of_pattern(std::string_view pattern) {
   std::vector<std::string> words;
   fill_pattern(pattern, [&](const std::string& word) {
     words.push_back(word);
-    return word;
+    return "0";
   });
   return words;
 }

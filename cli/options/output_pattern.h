@@ -1,6 +1,10 @@
 #pragma once
 // Names of outputs where there are several: patterns with words in braces,
 // such as "out/{name}.slc".
+//
+// A word can have a divisor, "out/{row:/1000}/{name}.slc": a whole number is
+// divided by it and the rest dropped, so that no folder gets more than 1,000
+// files.
 
 #include <functional>
 #include <string>
@@ -11,11 +15,12 @@
 
 namespace lamina::cli {
 
-// The words in braces, in the order in which they stand there. A brace that is
-// not closed is text.
+// The words in braces, without divisors, in the order in which they stand
+// there. A brace that is not closed is text.
 std::vector<std::string> words_of_pattern(std::string_view pattern);
 
-// The pattern with its words, and the braces around them, replaced.
+// The pattern with its words, and the braces around them, replaced. Throws
+// FileError where a word has a divisor and its value is no whole number.
 std::string fill_pattern(
     std::string_view pattern,
     const std::function<std::string(const std::string& word)>& value_of);

@@ -82,9 +82,12 @@ class ReadableFonts : public FontFiles {
       const OpenFile file = file_access_.open(path);
       auto bytes = file ? file.read_all() : std::nullopt;
       if (!bytes) check_machine(path, errno);
+      files_read_.push_back(path);
       return bytes.value_or("");
     });
   }
+
+  const std::vector<std::string>& files_read() const { return files_read_; }
 
   // Throws what was thrown while the module called.
   void rethrow_fault() const {
@@ -122,6 +125,7 @@ class ReadableFonts : public FontFiles {
 
   const FileAccess& file_access_;
   mutable std::exception_ptr fault_;
+  mutable std::vector<std::string> files_read_;
 };
 
 std::vector<std::string> module_folders() {
@@ -147,6 +151,10 @@ Typesetter::~Typesetter() = default;
 
 void Typesetter::add_fonts(const std::vector<std::string>& files) {
   font_files_.insert(font_files_.end(), files.begin(), files.end());
+}
+
+const std::vector<std::string>& Typesetter::files_read() const {
+  return readable_fonts_->files_read();
 }
 
 Engine& Typesetter::engine() {

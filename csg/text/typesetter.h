@@ -51,6 +51,9 @@ class Typesetter : public csg::TextMeasurer {
   // before the first text.
   void add_fonts(const std::vector<std::string>& files);
 
+  // The files of fonts that were read so far.
+  const std::vector<std::string>& files_read() const;
+
   // The polygons of a text; inside is where they wind other than 0 times.
   //
   // diagnostics  gets unknown alignments, fonts that are missing or broken

@@ -1,5 +1,7 @@
 #include "base/csv.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,24 +14,37 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-Rows read(const std::string& text) {
-  const Source source("t.csv", text);
+// Gives `text` in blocks of `size` bytes.
+CsvReader::Read in_blocks(const std::string& text, std::size_t size) {
+  return [text, size, place = std::size_t{0}]() mutable {
+    std::string block = text.substr(std::min(place, text.size()), size);
+    place += size;
+    return block;
+  };
+}
+
+Rows read(const std::string& text, std::size_t block = 1 << 20) {
+  SourceStore sources;
+  CsvReader reader("t.csv", in_blocks(text, block), sources);
   Rows rows;
-  for (const CsvRow& row : read_csv(source).rows) rows.push_back(row.cells);
+  for (CsvRow row; reader.next(row);) rows.push_back(row.cells);
   return rows;
 }
 
 std::vector<std::uint32_t> lines(const std::string& text) {
-  const Source source("t.csv", text);
+  SourceStore sources;
+  CsvReader reader("t.csv", in_blocks(text, 3), sources);
   std::vector<std::uint32_t> lines;
-  for (const CsvRow& row : read_csv(source).rows) lines.push_back(row.line);
+  for (CsvRow row; reader.next(row);) lines.push_back(row.line);
   return lines;
 }
 
-std::string complaint(const std::string& text) {
-  const Source source("t.csv", text);
+std::string complaint(const std::string& text, std::size_t block = 1 << 20) {
+  SourceStore sources;
+  CsvReader reader("t.csv", in_blocks(text, block), sources);
   try {
-    read_csv(source);
+    for (CsvRow row; reader.next(row);) {
+    }
   } catch (const FileError& error) {
     return caret_text(error.diagnostic());
   }
@@ -85,6 +100,34 @@ TEST(Csv, TellsWhatIsWrongAndWhere) {
                                   4)),
             "");
   EXPECT_NE(complaint(std::string("a\n\0", 3)), "");
+}
+
+TEST(Csv, IsTheSameInBlocksOfAnySize) {
+  const std::string table =
+      "\xef\xbb\xbfname;\"a; b\"\r\nJ\xc3\xbcrgen; \"x\"\"\r\ny\" \r\n\n\n1;2";
+  const std::string fault = "a\nb\n\"x\" y\n";
+  for (std::size_t block = 1; block < table.size(); ++block) {
+    EXPECT_EQ(read(table, block), read(table)) << block;
+    EXPECT_EQ(complaint(fault, block).substr(0, 18), "t.csv:3:1: error: ");
+    EXPECT_EQ(complaint("a\nJ\xc3", block).substr(0, 39),
+              "t.csv:2:2: error: this is no UTF-8 text");
+  }
+}
+
+TEST(Csv, KnowsPlacesFarIntoALongTable) {
+  std::string table = "a,b\n";
+  for (int i = 2; i < 100'000; ++i) table += "x,y\n";
+  EXPECT_EQ(complaint(table + "x,\"y\n"),
+            "t.csv:100000:3: error: this quote has no end\n"
+            "100000 | x,\"y\n"
+            "      |   ^\n");
+}
+
+TEST(Csv, AQuoteWithoutAnEndTakesNoMoreThanARow) {
+  std::string table = "a\n\"b\n";
+  for (int i = 0; i < 1'000'000; ++i) table += "row\n";
+  EXPECT_EQ(complaint(table).substr(0, 41),
+            "t.csv:2:1: error: this row has more than ");
 }
 
 TEST(Csv, WrittenCellsAreReadBack) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "base/csv.h"
 #include "base/diagnostic.h"
@@ -31,9 +32,15 @@ void take(const std::string& cell) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
-  const Source source("x.csv", std::string(fuzz::as_text(data, size)));
+  const std::string text(fuzz::as_text(data, size));
+  SourceStore sources;
+  bool is_read = false;
+  CsvReader reader(
+      "x.csv",
+      [&] { return std::exchange(is_read, true) ? std::string() : text; },
+      sources);
   try {
-    for (const CsvRow& row : read_csv(source).rows) {
+    for (CsvRow row; reader.next(row);) {
       for (const std::string& cell : row.cells) take(cell);
     }
   } catch (const FileError&) {

@@ -1,0 +1,158 @@
+#include "cli/commands/outcomes.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/csv.h"
+#include "base/text.h"
+#include "cli/report/run_report.h"
+#include "slicer/check/finding_table.h"
+
+namespace lamina::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Status = Outcome::Status;
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+// "2 warnings; 1 island": what a row says at its end.
+std::string notes_of(const compiler::Report& report) {
+  std::string text;
+  if (report.warnings > 0) text = counted(report.warnings, "warning");
+  if (report.slice.print && !report.slice.print->findings.empty()) {
+    text += (text.empty() ? "" : "; ") +
+            slicer::finding_counts(*report.slice.print);
+  }
+  return text;
+}
+
+std::string row_of(const Outcome& outcome) {
+  if (!outcome.is_done()) {
+    return fmt::format("error: {}", first_line(outcome.error));
+  }
+  const compiler::Report& report = outcome.report;
+  const std::string row = fmt::format(
+      "{:>7}  {:>24}  {:>11.3f}  {:>9}  {:>7.3f}  {}", report.slice.layers,
+      size_text(report.slice.box.size()), report.slice.volume,
+      report.estimate.grams > 0 ? fmt::format("{:.3f}", report.estimate.grams)
+                                : "-",
+      report.wall_seconds, notes_of(report));
+  return row.substr(0, row.find_last_not_of(' ') + 1);
+}
+
+constexpr std::string_view kCsvHeader =
+    "line,name,output,layers,x_mm,y_mm,z_mm,volume_mm3,grams,seconds,warnings,"
+    "findings,error\r\n";
+
+std::string csv_of(const Piece& piece, const Outcome& outcome) {
+  const std::string line = piece.line > 0 ? fmt::format("{}", piece.line) : "";
+  std::string figures = ",,,,,,,,,";
+  if (outcome.is_done()) {
+    const compiler::Report& report = outcome.report;
+    const Vec3 size = report.slice.box.size();
+    figures = fmt::format(
+        "{},{:.6g},{:.6g},{:.6g},{},{},{},{},{},", report.slice.layers, size.x,
+        size.y, size.z, report.slice.volume,
+        report.estimate.grams > 0 ? fmt::format("{}", report.estimate.grams)
+                                  : "",
+        report.wall_seconds, report.warnings,
+        csv_words(report.slice.print
+                      ? slicer::finding_counts(*report.slice.print)
+                      : ""));
+  } else {
+    figures += csv_words(outcome.error);
+  }
+  return fmt::format("{},{},{},{}\r\n", line, csv_words(piece.name),
+                     csv_words(piece.request.output), figures);
+}
+
+std::string json_of(const Piece& piece, const Outcome& outcome) {
+  return list_element(
+      {{"line", piece.line > 0 ? Json(piece.line) : Json()},
+       {"name", piece.name},
+       {"output", piece.request.output},
+       {"error", outcome.is_done() ? Json() : Json(outcome.error)},
+       {"report", outcome.json}});
+}
+
+}  // namespace
+
+Outcomes::Outcomes(const PiecesOptions& options, std::uint64_t count,
+                   TemporaryFiles& temporary_files)
+    : options_(options), count_(count) {
+  const std::string& path = options.report;
+  if (path.empty()) return;
+  if (path.ends_with(".csv")) {
+    csv_.reset(new OutputFile(OutputFile::open(path, temporary_files)));
+    csv_->write(kCsvHeader);
+  } else {
+    json_ = std::make_unique<JsonList>(path, temporary_files);
+  }
+}
+
+Outcomes::Entry Outcomes::describe(const Piece& piece,
+                                   const Outcome& outcome) const {
+  if (outcome.status == Status::kStood) return {outcome.status, "", "", ""};
+  Entry entry{outcome.status, "", "", ""};
+  if (count_ <= kMostRows || !outcome.is_done()) {
+    entry.name = on_one_line(piece.name);
+    entry.row = row_of(outcome);
+  }
+  if (csv_) entry.report = csv_of(piece, outcome);
+  if (json_) entry.report = json_of(piece, outcome);
+  return entry;
+}
+
+void Outcomes::add(const Entry& entry) {
+  ++(entry.status == Status::kDone     ? done_
+     : entry.status == Status::kFailed ? failed_
+                                       : stood_);
+  if (entry.status == Status::kStood) return;
+  if (!entry.row.empty()) {
+    if (rows_.size() < kMostRows) {
+      rows_.emplace_back(entry.name, entry.row);
+    } else {
+      ++untold_;
+    }
+  }
+  if (csv_) csv_->write(entry.report);
+  if (json_) json_->add(entry.report);
+}
+
+std::string Outcomes::table(double seconds) const {
+  std::size_t width = options_.unit.size();
+  for (const auto& [name, row] : rows_) width = std::max(width, name.size());
+  std::string table;
+  if (count_ <= kMostRows) {
+    table = fmt::format("{:<{}}  {:>7}  {:>24}  {:>11}  {:>9}  {:>7}\n",
+                        options_.unit, width, "layers", "size", "volume mm³",
+                        "weight g", "time s");
+  }
+  for (const auto& [name, row] : rows_) {
+    table += fmt::format("{:<{}}  {}\n", name, width, row);
+  }
+  if (untold_ > 0) table += fmt::format("... and {} more failed\n", untold_);
+  const std::string stood =
+      stood_ > 0 ? fmt::format(" ({} of them before)", stood_) : "";
+  return table + fmt::format("{} of {} {} done{}, {} failed, in {:.3f} s",
+                             done_ + stood_, count_, options_.unit, stood,
+                             failed_, seconds);
+}
+
+void Outcomes::commit_report(double seconds) {
+  if (csv_) csv_->commit();
+  if (!json_) return;
+  Json members = {{"done", done_},
+                  {"failed", failed_},
+                  {"total_seconds", process_seconds()},
+                  {"wall_seconds", seconds},
+                  {"peak_memory_bytes", peak_memory_bytes()}};
+  if (stood_ > 0) members["done_before"] = stood_;
+  json_->commit(std::move(members), "pieces");
+}
+
+}  // namespace lamina::cli
