@@ -184,7 +184,8 @@ enum class ImportFormat : std::uint8_t {
   kAmf,
   k3mf,
   kDxf,
-  kSvg
+  kSvg,
+  kFcstd
 };
 struct ImportParams {
   std::string_view path;  // to open
@@ -192,6 +193,7 @@ struct ImportParams {
   Language rules = Language::k2021;  // by which the file is read
   std::optional<std::string_view> id = std::nullopt;
   std::optional<std::string_view> layer = std::nullopt;
+  std::string_view part;  // the name of an object of a FreeCAD file
   Vec2 origin = Vec2(0);
   bool center = false;
   double dpi = 72;

@@ -288,6 +288,9 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kSvg:
       return {Dimension::kFlat,
               read_svg(params, fine, access, range, diagnostics_)};
+    case ImportFormat::kFcstd:
+      diagnostics_.error(range, "boundaries of FreeCAD files are not read yet");
+      return {Dimension::kSolid};
     case ImportFormat::kStl:
     case ImportFormat::kOff:
     case ImportFormat::kObj:
