@@ -41,7 +41,7 @@ struct CurvePoint {
 // Appends the chords from `a` to `b`, without the corner at `a`.
 void append_chords(const Curve& curve, CurvePoint a, CurvePoint b, double error,
                    int depth, Polyline& chords) {
-  constexpr int kDeepest = 16;
+  constexpr int kDeepest = 14;
   const auto at = [&](double share) {
     const double t = a.at + share * (b.at - a.at);
     return CurvePoint{t, curve(t)};

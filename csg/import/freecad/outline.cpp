@@ -126,6 +126,7 @@ std::optional<std::vector<Polyline>> read_curves(const Object& sketch,
                                                  double error,
                                                  std::string& why) {
   std::vector<Polyline> curves;
+  std::size_t corners = 0;
   for (const pugi::xml_node geometry :
        sketch.value("Geometry").children("Geometry")) {
     const std::string_view type = geometry.attribute("type").value();
@@ -135,6 +136,8 @@ std::optional<std::vector<Polyline>> read_curves(const Object& sketch,
       why = fmt::format("{} in '{}' is not known", type, sketch.label());
       return std::nullopt;
     }
+    corners += curve->size();
+    require_corners(corners);
     curves.push_back(std::move(*curve));
   }
   return curves;

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "csg/import/freecad/detail/primitives.h"
 #include "csg/import/freecad/detail/reader.h"
@@ -43,8 +44,12 @@ Reader::Made Reader::make_body(const Object& object, std::string& why) {
 }
 
 Reader::Made Reader::make_base(const Object& object, std::string& why) {
-  const auto base = make_operands({object.link("BaseFeature")}, why);
-  return base ? Made(base->front()) : std::nullopt;
+  const std::string_view name = object.link("BaseFeature");
+  const auto base = make_operands({name}, why);
+  if (!base) return std::nullopt;
+  // The body takes the base as it is before its own placement.
+  const Mat4 base_from_holder = glm::inverse(document_.find(name)->placement());
+  return maker_.place(object.placement() * base_from_holder, base->front());
 }
 
 Reader::Made Reader::make_body_boolean(const Object& object, std::string& why) {

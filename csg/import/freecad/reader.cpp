@@ -88,7 +88,9 @@ FreecadModel Reader::read() {
     solids.push_back(*solid);
   } else {
     std::vector<const Object*> top;
-    for (const Object& object : document_.objects()) top.push_back(&object);
+    for (const Object& object : document_.objects()) {
+      if (!members_.contains(object.name())) top.push_back(&object);
+    }
     make_shown(top, solids);
   }
   for (const Solid& solid : solids) {
@@ -102,15 +104,17 @@ FreecadModel Reader::read() {
 
 void Reader::find_operands() {
   for (const Object& object : document_.objects()) {
-    const auto use = [&](std::string_view name) {
-      if (name != object.name()) operands_.try_emplace(name, &object);
-    };
     for (const std::string_view property : kOperandProperties) {
-      use(object.link(property));
-      for (const std::string_view name : object.links(property)) use(name);
+      operands_.insert(object.link(property));
+      for (const std::string_view name : object.links(property)) {
+        operands_.insert(name);
+      }
     }
-    for (const std::string_view name : object.links("Group")) use(name);
-    for (const std::string_view name : object.links("ElementList")) use(name);
+    for (const char* const holding : {"Group", "ElementList"}) {
+      for (const std::string_view name : object.links(holding)) {
+        members_.insert(name);
+      }
+    }
   }
 }
 
@@ -120,21 +124,15 @@ std::vector<const Object*> Reader::objects_of(const Object& group) const {
       group.is_a("App::LinkGroup") ? "ElementList" : "Group";
   for (const std::string_view name : group.links(property)) {
     const Object* const object = document_.find(name);
-    if (object == nullptr) continue;
-    // What a group holds may be an operand of another of its objects.
-    const auto user = operands_.find(name);
-    if (user != operands_.end() && !is_group(*user->second)) continue;
-    objects.push_back(object);
+    if (object != nullptr) objects.push_back(object);
   }
   return objects;
 }
 
 void Reader::make_shown(const std::vector<const Object*>& objects,
                         std::vector<Solid>& solids) {
-  const bool is_top = depth_ == 0;
-  std::vector<std::string> flat;
   for (const Object* const object : objects) {
-    if (is_top && operands_.contains(object->name())) continue;
+    if (operands_.contains(object->name())) continue;
     if (!has_geometry(*object) && maker_of(*object) == nullptr) continue;
     if (!object->is_visible()) {
       if (!is_flat(*object)) {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -111,7 +112,8 @@ class Reader {
   SolidMaker maker_;
   FreecadModel model_;
   std::map<const Object*, Entry> entries_;
-  std::map<std::string_view, const Object*> operands_;  // and who uses them
+  std::set<std::string_view> operands_;  // of other objects
+  std::set<std::string_view> members_;   // of groups and bodies
   int depth_ = 0;
 };
 
