@@ -184,7 +184,10 @@ enum class ImportFormat : std::uint8_t {
   kAmf,
   k3mf,
   kDxf,
-  kSvg
+  kSvg,
+  kStep,
+  kIges,
+  kBrep
 };
 struct ImportParams {
   std::string_view path;  // to open
