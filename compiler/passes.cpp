@@ -84,6 +84,7 @@ csg::LowerOptions lower_options(Compilation& c) {
   }
   options.chordal_error = request.chordal_error;
   options.typesetter = &c.typesetter;
+  options.cad_reader = &c.cad_reader;
   options.file_access = &c.file_access();
   options.scale = request.scale;
   return options;

@@ -110,10 +110,13 @@ ImportFormat import_format(std::string_view module, const std::string& path) {
   if (extension.starts_with('.')) extension.erase(0, 1);
   extension = lower_case(extension);
   static const std::map<std::string_view, ImportFormat> kFormats = {
-      {"stl", ImportFormat::kStl}, {"off", ImportFormat::kOff},
-      {"obj", ImportFormat::kObj}, {"amf", ImportFormat::kAmf},
-      {"3mf", ImportFormat::k3mf}, {"dxf", ImportFormat::kDxf},
-      {"svg", ImportFormat::kSvg}, {"fcstd", ImportFormat::kFcstd}};
+      {"stl", ImportFormat::kStl},   {"off", ImportFormat::kOff},
+      {"obj", ImportFormat::kObj},   {"amf", ImportFormat::kAmf},
+      {"3mf", ImportFormat::k3mf},   {"dxf", ImportFormat::kDxf},
+      {"svg", ImportFormat::kSvg},   {"fcstd", ImportFormat::kFcstd},
+      {"step", ImportFormat::kStep}, {"stp", ImportFormat::kStep},
+      {"iges", ImportFormat::kIges}, {"igs", ImportFormat::kIges},
+      {"brep", ImportFormat::kBrep}, {"brp", ImportFormat::kBrep}};
   const auto found = kFormats.find(extension);
   return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
 }

@@ -223,26 +223,12 @@ const Object* Document::find_part(std::string_view name_or_label) const {
   return found == objects_.end() ? nullptr : &*found;
 }
 
-bool Document::has_shape(const Object& object) const {
-  const std::string_view file = object.file("Shape");
-  if (file.empty()) return false;
-  return !entry(file).empty();
-}
-
-std::optional<std::string> Document::shape(const Object& object) const {
-  const std::string_view file = object.file("Shape");
-  if (file.empty()) return std::nullopt;
-  std::string bytes = entry(file);
-  if (bytes.empty()) return std::nullopt;
-  return bytes;
-}
-
-std::string Document::entry(std::string_view name) const {
-  auto bytes = archive_.read(std::string(name));
-  if (!bytes) {
-    throw FormatError(fmt::format("FCStd holds no '{}'", name));
-  }
-  return std::move(*bytes);
+std::string_view Document::boundary_entry(const Object& object) const {
+  const std::string_view entry = object.file("Shape");
+  if (entry.empty()) return {};
+  const auto bytes = archive_.read(std::string(entry));
+  if (!bytes) throw FormatError(fmt::format("FCStd holds no '{}'", entry));
+  return bytes->empty() ? std::string_view() : entry;
 }
 
 }  // namespace lamina::csg::freecad

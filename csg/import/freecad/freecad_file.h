@@ -56,10 +56,4 @@ struct FreecadModel {
 FreecadModel read_freecad(std::string_view bytes, const FreecadOptions& options,
                           Arena& arena);
 
-// The stored boundary representation of an object, as OpenCASCADE writes it, in
-// the frame of what holds the object.
-//
-// throws  FormatError where there is none
-std::string read_freecad_shape(std::string_view bytes, std::string_view name);
-
 }  // namespace lamina::csg

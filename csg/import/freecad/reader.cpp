@@ -245,7 +245,8 @@ Reader::Make Reader::maker_of(const Object& object) {
 }
 
 Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
-  if (is_flat(object) || !document_.has_shape(object)) return std::nullopt;
+  if (is_flat(object) || document_.boundary_entry(object).empty())
+    return std::nullopt;
   // A feature that was told to make a surface is none whose boundary counts.
   if (object.value("Solid") && !object.flag("Solid")) return std::nullopt;
   model_.notes.push_back(fmt::format("{} is taken by its boundary{}{}",
@@ -254,7 +255,7 @@ Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
   ImportParams params;
   params.path = options_.path;
   params.format = ImportFormat::kFcstd;
-  params.part = maker_.keep_text(object.name());
+  params.entry = maker_.keep_text(document_.boundary_entry(object));
   params.csg_text = maker_.keep_text(options_.boundary_text(object.name()));
   return maker_.leaf(Import{maker_.keep(params)});
 }
@@ -310,17 +311,6 @@ FreecadModel read_freecad(std::string_view bytes, const FreecadOptions& options,
                           Arena& arena) {
   const freecad::Document document(bytes);
   return freecad::Reader(document, options, arena).read();
-}
-
-std::string read_freecad_shape(std::string_view bytes, std::string_view name) {
-  const freecad::Document document(bytes);
-  const freecad::Object* const object = document.find(name);
-  auto shape = object == nullptr ? std::nullopt : document.shape(*object);
-  if (!shape) {
-    throw FormatError(
-        fmt::format("FCStd stores no boundary of an object '{}'", name));
-  }
-  return std::move(*shape);
 }
 
 }  // namespace lamina::csg

@@ -92,14 +92,10 @@ class Document {
   // By its name or, where none has that name, the first of that label.
   const Object* find_part(std::string_view name_or_label) const;
 
-  // The boundary representation that the file stores for the object, in the
-  // frame of what holds it. Nothing where it has none, FormatError where its
-  // entry is missing.
-  std::optional<std::string> shape(const Object& object) const;
-  bool has_shape(const Object& object) const;
-  // The contents of an entry that a property names. Throws FormatError where
-  // there is none.
-  std::string entry(std::string_view name) const;
+  // The entry with the boundary that the file stores for the object, in the
+  // frame of what holds it; empty where it has none. Throws FormatError where
+  // the archive lacks it.
+  std::string_view boundary_entry(const Object& object) const;
 
  private:
   void read_objects();
