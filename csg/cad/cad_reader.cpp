@@ -33,8 +33,7 @@ std::string_view name_of(Format format) {
   return "";
 }
 
-// --- The child
-// ----------------------------------------------------------------
+// --- The child ---------------------------------------------------------------
 
 // Writes numbers and rows of them as they stand in memory.
 class Writer {
@@ -80,8 +79,7 @@ void work(Engine& engine, std::string_view bytes, Format format,
   write_part(result.part, writer);
 }
 
-// --- What comes from it
-// -------------------------------------------------------
+// --- What comes from it ------------------------------------------------------
 
 // The child ended too early, or says what makes no sense.
 struct ChildFailed {};

@@ -1,5 +1,6 @@
 #include "csg/cad/detail/shape_file.h"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <string>
@@ -7,6 +8,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
+#include <BinTools_ShapeSet.hxx>
 #include <IGESControl_Reader.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <STEPControl_Reader.hxx>
@@ -40,8 +42,7 @@ std::istringstream stream_of(std::string_view bytes) {
   return std::istringstream(std::string(bytes));
 }
 
-// --- Names in STEP
-// ------------------------------------------------------------
+// --- Names in STEP -----------------------------------------------------------
 
 using Names = std::map<const Standard_Transient*, std::string>;
 
@@ -125,8 +126,7 @@ void name_solids(XSControl_WorkSession& session, ShapeFile& file) {
   });
 }
 
-// --- Readers
-// ------------------------------------------------------------------
+// --- Readers -----------------------------------------------------------------
 
 ShapeFile read_step(std::string_view bytes) {
   STEPControl_Reader reader;
@@ -166,22 +166,53 @@ ShapeFile read_iges(std::string_view bytes) {
   return {reader.OneShape(), {}, {}};
 }
 
+// Which of the shapes of a binary file is meant stands at its end: as
+// OpenCASCADE writes it, or, in three numbers, as FreeCAD does.
+TopoDS_Shape read_binary(std::string_view bytes) {
+  constexpr std::size_t kFreeCadEnd = 12;
+  std::istringstream stream = stream_of(bytes);
+  BinTools_ShapeSet shapes;
+  shapes.Read(stream);
+  TopoDS_Shape shape;
+  const auto at = static_cast<std::size_t>(std::max<long>(stream.tellg(), 0));
+  if (at + kFreeCadEnd != bytes.size()) {
+    shapes.ReadSubs(shape, stream, shapes.NbShapes());
+    return shape;
+  }
+  int number = 0;
+  int place = 0;
+  int orientation = 0;
+  BinTools::GetInteger(stream, number);
+  BinTools::GetInteger(stream, place);
+  BinTools::GetInteger(stream, orientation);
+  if (number < 1 || number > shapes.NbShapes()) return shape;
+  shape = shapes.Shape(number);
+  shape.Location(shapes.Locations().Location(place));
+  shape.Orientation(orientation == TopAbs_REVERSED ? TopAbs_REVERSED
+                                                   : TopAbs_FORWARD);
+  return shape;
+}
+
+TopoDS_Shape read_text(std::string_view bytes) {
+  std::istringstream stream = stream_of(bytes);
+  TopoDS_Shape shape;
+  BRepTools::Read(shape, stream, BRep_Builder());
+  return shape;
+}
+
 // Both begin with words of their own, the text behind others of a drawing.
 ShapeFile read_brep(std::string_view bytes) {
   constexpr std::string_view kText = "CASCADE Topology V";
   constexpr std::string_view kBinary = "Open CASCADE Topology V";
   constexpr std::size_t kHead = 200;
   const std::string_view head = bytes.substr(0, kHead);
-  ShapeFile file;
-  std::istringstream stream = stream_of(bytes);
   if (head.find(kBinary) != std::string_view::npos) {
-    BinTools::Read(file.shape, stream);
-  } else if (head.find(kText) != std::string_view::npos) {
-    BRepTools::Read(file.shape, stream, BRep_Builder());
-  } else {
-    throw Unreadable{"BREP that does not begin with 'CASCADE Topology'"};
+    return {read_binary(bytes), {}, {}};
   }
-  return file;
+  if (head.find(kText) != std::string_view::npos) {
+    return {read_text(bytes), {}, {}};
+  }
+  throw Unreadable{"BREP that does not begin with 'CASCADE Topology'"};
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "csg/cad/detail/tessellation.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
@@ -19,20 +21,23 @@
 #include <fmt/format.h>
 
 #include "csg/cad/detail/deviation.h"
+#include "csg/cad/detail/face_mesh.h"
 #include "csg/limits.h"
 
 namespace lamina::cad {
 namespace {
 
-// --- Vertices
-// -----------------------------------------------------------------
+using Index = std::uint32_t;
 
 template <typename Value>
 using ByShape =
     NCollection_DataMap<TopoDS_Shape, Value, TopTools_ShapeMapHasher>;
 
+// Puts the triangles of faces together.
 class MeshBuilder {
  public:
+  explicit MeshBuilder(double chordal_error) : chordal_error_(chordal_error) {}
+
   // Returns whether the face has triangles.
   bool add(const TopoDS_Face& face) {
     TopLoc_Location place;
@@ -40,29 +45,33 @@ class MeshBuilder {
     if (triangulation.IsNull() || triangulation->NbTriangles() == 0) {
       return false;
     }
-    join_edges(face, triangulation, place);
-    add_inner(*triangulation, place);
-    add_triangles(*triangulation, (face.Orientation() == TopAbs_REVERSED) !=
-                                      place.Transformation().IsNegative());
+    FaceMesh of_face = face_mesh(face, *triangulation, place);
+    deviation_ = std::max(deviation_, refine(face, chordal_error_, of_face));
+    vertices_.assign(of_face.points.size(), kNone);
+    join_edges(face, triangulation, place, of_face);
+    add_inner(of_face);
+    add_triangles(of_face);
     return true;
   }
 
   csg::Mesh take() { return std::move(mesh_); }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  // The greatest of all faces, or any that is at most the chordal error.
+  double deviation() const { return deviation_; }
 
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr Index kNone = ~Index{0};
 
-  std::uint32_t add_vertex(const gp_Pnt& p) {
+  Index add_vertex(const gp_Pnt& p) {
     mesh_.vertices.emplace_back(p.X(), p.Y(), p.Z());
-    return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
+    return static_cast<Index>(mesh_.vertices.size() - 1);
   }
 
   // The mesh's vertex for an end of edges, which `p` is where it is new.
-  std::uint32_t at_end(const TopoDS_Vertex& end, const gp_Pnt& p) {
+  Index at_end(const TopoDS_Vertex& end, const gp_Pnt& p) {
     if (end.IsNull()) return add_vertex(p);
-    if (const std::uint32_t* known = ends_.Seek(end)) return *known;
-    const std::uint32_t vertex = add_vertex(p);
+    if (const Index* known = ends_.Seek(end)) return *known;
+    const Index vertex = add_vertex(p);
     ends_.Bind(end, vertex);
     return vertex;
   }
@@ -70,105 +79,85 @@ class MeshBuilder {
   // Gives the nodes of the face that lie on its edges their vertices.
   void join_edges(const TopoDS_Face& face,
                   const Handle(Poly_Triangulation) & triangulation,
-                  const TopLoc_Location& place) {
-    vertices_.assign(static_cast<std::size_t>(triangulation->NbNodes()), kNone);
+                  const TopLoc_Location& place, const FaceMesh& of_face) {
     for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
       const auto polygon =
           BRep_Tool::PolygonOnTriangulation(edge, triangulation, place);
       if (polygon.IsNull()) continue;
-      const auto point = [&](int i) {
-        return triangulation->Node(polygon->Node(i)).Transformed(place);
-      };
-      const std::vector<std::uint32_t>& along =
-          vertices_along(edge, polygon->NbNodes(), point);
-      if (along.size() != static_cast<std::size_t>(polygon->NbNodes())) {
-        continue;  // the file's own: it stays open there
-      }
+      std::vector<std::size_t> nodes;
       for (int i = 1; i <= polygon->NbNodes(); ++i) {
-        vertices_[static_cast<std::size_t>(polygon->Node(i) - 1)] =
-            along[static_cast<std::size_t>(i - 1)];
+        nodes.push_back(static_cast<std::size_t>(polygon->Node(i) - 1));
+      }
+      const std::vector<Index>& along = vertices_along(edge, nodes, of_face);
+      // Else the edge is cut otherwise here than in another face.
+      if (along.size() != nodes.size()) continue;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        vertices_[nodes[i]] = along[i];
       }
     }
   }
 
-  template <typename Point>
-  const std::vector<std::uint32_t>& vertices_along(const TopoDS_Edge& edge,
-                                                   int count,
-                                                   const Point& point) {
-    if (const std::vector<std::uint32_t>* known = along_.Seek(edge)) {
-      return *known;
-    }
-    std::vector<std::uint32_t> along;
-    const TopoDS_Vertex first = TopExp::FirstVertex(edge);
-    const TopoDS_Vertex last = TopExp::LastVertex(edge);
+  const std::vector<Index>& vertices_along(
+      const TopoDS_Edge& edge, const std::vector<std::size_t>& nodes,
+      const FaceMesh& of_face) {
+    if (const std::vector<Index>* known = along_.Seek(edge)) return *known;
+    const auto point = [&](std::size_t i) { return of_face.points[nodes[i]]; };
+    const std::size_t last = nodes.size() - 1;
+    std::vector<Index> along(nodes.size(), kNone);
+    along.front() = at_end(TopExp::FirstVertex(edge), point(0));
     if (BRep_Tool::Degenerated(edge)) {
       // A pole: the whole edge is a point.
-      along.assign(static_cast<std::size_t>(count), at_end(first, point(1)));
+      std::fill(along.begin(), along.end(), along.front());
     } else {
-      along.push_back(at_end(first, point(1)));
-      for (int i = 2; i < count; ++i) along.push_back(add_vertex(point(i)));
-      along.push_back(at_end(last, point(count)));
+      for (std::size_t i = 1; i < last; ++i) along[i] = add_vertex(point(i));
+      along.back() = at_end(TopExp::LastVertex(edge), point(last));
     }
-    return *along_.Bound(edge, std::move(along));
+    return *along_.Bound(edge, along);
   }
 
-  void add_inner(const Poly_Triangulation& triangulation,
-                 const TopLoc_Location& place) {
+  void add_inner(const FaceMesh& of_face) {
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      if (vertices_[i] != kNone) continue;
-      vertices_[i] = add_vertex(
-          triangulation.Node(static_cast<int>(i + 1)).Transformed(place));
+      if (vertices_[i] == kNone) vertices_[i] = add_vertex(of_face.points[i]);
     }
   }
 
   // A triangle at a pole may have lost a side.
-  void add_triangles(const Poly_Triangulation& triangulation, bool is_turned) {
-    for (int i = 1; i <= triangulation.NbTriangles(); ++i) {
-      std::array<int, 3> nodes{};
-      triangulation.Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-      if (is_turned) std::swap(nodes[1], nodes[2]);
-      std::array<std::uint32_t, 3> corners{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        corners[k] = vertices_[static_cast<std::size_t>(nodes[k] - 1)];
+  void add_triangles(const FaceMesh& of_face) {
+    for (const auto& nodes : of_face.triangles) {
+      const std::array<Index, 3> corners = {
+          vertices_[nodes[0]], vertices_[nodes[1]], vertices_[nodes[2]]};
+      if (corners[0] != corners[1] && corners[1] != corners[2] &&
+          corners[2] != corners[0]) {
+        mesh_.triangles.push_back(corners);
       }
-      if (corners[0] == corners[1] || corners[1] == corners[2] ||
-          corners[2] == corners[0]) {
-        continue;
-      }
-      mesh_.triangles.push_back(corners);
     }
   }
 
+  const double chordal_error_;
+  double deviation_ = 0;
   csg::Mesh mesh_;
-  ByShape<std::uint32_t> ends_;
-  ByShape<std::vector<std::uint32_t>> along_;
-  std::vector<std::uint32_t> vertices_;  // of the nodes of one face
+  ByShape<Index> ends_;
+  ByShape<std::vector<Index>> along_;
+  std::vector<Index> vertices_;  // of the nodes of one face
 };
 
-// --- Deviation
-// ----------------------------------------------------------------
-
-void mesh(const TopoDS_Shape& shape, double deflection, double angle) {
+// Meshes until the chords of edges are as near as they have to be; returns how
+// far they are.
+double mesh_edges_within(const TopoDS_Shape& shape, const Fineness& fineness) {
+  // Each is half of the one before.
+  constexpr int kMostTrials = 6;
   IMeshTools_Parameters parameters;
-  parameters.Deflection = deflection;
-  parameters.Angle = angle;
-  BRepMesh_IncrementalMesh(shape, parameters);
-}
-
-// Meshes as finely as it takes; returns how far the result deviates.
-double mesh_within(const TopoDS_Shape& shape, const Fineness& fineness) {
-  // Each is half of the one before: the last is 1/64 of what was asked for.
-  constexpr int kMostTrials = 7;
-  double deflection = fineness.chordal_error;
+  parameters.Deflection = fineness.chordal_error;
+  parameters.Angle = fineness.angle;
   double deviation = 0;
   for (int i = 0; i < kMostTrials; ++i) {
     // The file may bring triangles along.
     BRepTools::Clean(shape);
-    mesh(shape, deflection, fineness.angle);
-    deviation = find_deviation(shape, fineness.chordal_error);
+    BRepMesh_IncrementalMesh(shape, parameters);
+    deviation = deviation_of_edges(shape);
     if (deviation <= fineness.chordal_error) break;
-    deflection /= 2;
+    parameters.Deflection /= 2;
   }
   return deviation;
 }
@@ -177,24 +166,24 @@ double mesh_within(const TopoDS_Shape& shape, const Fineness& fineness) {
 
 csg::Mesh tessellate(const Solid& solid, const Fineness& fineness,
                      std::vector<std::string>& warnings) {
-  const double deviation = mesh_within(solid.shape, fineness);
-  if (deviation > fineness.chordal_error) {
-    warnings.push_back(fmt::format(
-        "{}a face deviates by {:.3g} mm, more than the {:.3g} mm of "
-        "--chordal-error",
-        prefix_of(solid.name), deviation, fineness.chordal_error));
-  }
-  MeshBuilder builder;
+  const double of_edges = mesh_edges_within(solid.shape, fineness);
+  MeshBuilder builder(fineness.chordal_error);
   std::size_t without = 0;
   for (TopExp_Explorer at(solid.shape, TopAbs_FACE); at.More(); at.Next()) {
     if (!builder.add(TopoDS::Face(at.Current()))) ++without;
-    if (static_cast<double>(builder.triangle_count()) > csg::kMostTriangles) {
-      throw TooManyTriangles{static_cast<double>(builder.triangle_count())};
-    }
+    const auto triangles = static_cast<double>(builder.triangle_count());
+    if (triangles > csg::kMostTriangles) throw TooManyTriangles{triangles};
   }
   if (without > 0) {
     warnings.push_back(fmt::format("{}{} faces could not be meshed",
                                    prefix_of(solid.name), without));
+  }
+  const double deviation = std::max(of_edges, builder.deviation());
+  if (deviation > fineness.chordal_error) {
+    warnings.push_back(fmt::format(
+        "{}a face deviates by {:.3g} mm, more than the chordal error of "
+        "{:.3g} mm",
+        prefix_of(solid.name), deviation, fineness.chordal_error));
   }
   return builder.take();
 }

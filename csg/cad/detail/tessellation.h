@@ -1,11 +1,10 @@
 #pragma once
 // From a solid to a mesh that keeps its chordal error.
 //
-// BRepMesh cuts edges into chords and faces into triangles, by a deflection
-// that it takes for a wish: what it makes may deviate by a multiple of it. So
-// the result is measured, at the chords of edges and within triangles, against
-// the curves and surfaces themselves; where it deviates by more than was
-// promised, the solid is meshed again, twice as finely.
+// BRepMesh cuts edges into chords and faces into triangles. What it makes is
+// measured against the curves and surfaces themselves. Where chords are too far
+// from their edges the solid is meshed again, twice as finely; triangles that
+// are too far from their face are split (detail/face_mesh.h).
 //
 // A triangulation belongs to one face. But faces share their edges, and an edge
 // has the same points for both: vertices are joined by the edge that they lie
