@@ -11,12 +11,13 @@
 import json
 import math
 import os
+import shutil
 import sys
 
 import freecad_sections
 
-for folder in ("/usr/share/freecad/Mod", "/usr/share/freecad/Ext",
-               "/usr/share/freecad/Mod/Draft"):
+MODULES = "/usr/share/freecad/Mod"
+for folder in (MODULES, "/usr/share/freecad/Ext", MODULES + "/Draft"):
     sys.path.append(folder)
 
 import FreeCAD  # noqa: E402
@@ -825,6 +826,18 @@ def part_offset(m):
     return m.part("Offset", Source=block, Value=1.0)
 
 
+# --- FreeCAD's own examples ---------------------------------------------------
+
+EXAMPLES = {
+    "example_drilling": (
+        "Path/PathTests/Drilling_1.FCStd", ["Body"],
+        "FreeCAD's Drilling_1: 12 pockets, 3 pads, 2 patterns, a datum plane"),
+    "example_contact": (
+        "Fem/femtest/data/calculix/constraint_contact_solid_solid.FCStd",
+        ["AllGeomFusion"], "FreeCAD's constraint_contact_solid_solid"),
+}
+
+
 # --- Writing ------------------------------------------------------------------
 
 
@@ -870,6 +883,32 @@ def global_shape(thing):
     return Part.getShape(thing)
 
 
+def write_sections(shapes, path, feature, by):
+    shape = Part.makeCompound([global_shape(o) for o in shapes])
+    sections = freecad_sections.sections(shape, heights_of(shape))
+    for section in sections:
+        section["loops"] = [loop for loops in section.pop("solids")
+                            for loop in oriented(loops)]
+    with open(path + ".json", "w") as file:
+        json.dump({"feature": feature, "by": by, "sections": sections}, file)
+
+
+def write_example(name, folder):
+    file, shown, feature = EXAMPLES[name]
+    path = os.path.join(folder, name)
+    shutil.copy(os.path.join(MODULES, file), path + ".FCStd")
+    document = FreeCAD.openDocument(path + ".FCStd")
+    # A pattern of Drilling_1 says 3 occurrences and stores a shape with 5. Its
+    # later sketches hang on that shape's faces, so all is stored anew.
+    for thing in document.Objects:
+        thing.touch()
+    document.recompute()
+    document.save()
+    shapes = [document.getObject(o) for o in shown]
+    write_sections(shapes, path, feature, "parameter")
+    FreeCAD.closeDocument(document.Name)
+
+
 def write(name, folder):
     build, feature, by = MODELS[name]
     m = Model(name)
@@ -879,22 +918,17 @@ def write(name, folder):
               if "Invalid" in o.State or "Error" in o.State]
     if broken:
         raise RuntimeError(f"{name}: FreeCAD makes nothing of {broken}")
-    shape = Part.makeCompound([global_shape(o) for o in m.result or [shown]])
-    sections = freecad_sections.sections(shape, heights_of(shape))
-    for section in sections:
-        section["loops"] = [loop for loops in section.pop("solids")
-                            for loop in oriented(loops)]
-    m.document.saveAs(os.path.join(folder, name + ".FCStd"))
-    with open(os.path.join(folder, name + ".json"), "w") as file:
-        json.dump({"feature": feature, "by": by, "sections": sections}, file)
+    path = os.path.join(folder, name)
+    m.document.saveAs(path + ".FCStd")
+    write_sections(m.result or [shown], path, feature, by)
     FreeCAD.closeDocument(m.document.Name)
 
 
 def main():
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
-    for name in sys.argv[2:] or MODELS:
-        write(name, folder)
+    for name in sys.argv[2:] or [*MODELS, *EXAMPLES]:
+        (write if name in MODELS else write_example)(name, folder)
 
 
 if __name__ == "__main__":

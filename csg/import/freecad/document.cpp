@@ -55,6 +55,17 @@ Mat4 read_placement(const pugi::xml_node& value) {
   return matrix;
 }
 
+// Whether the boundary is one of more than points and curves. As text it names
+// each shape's kind on a line of its own, "Fa" for a face; the binary form is
+// not looked into.
+bool has_faces(std::string_view boundary) {
+  constexpr std::string_view kBinary = "Open CASCADE Topology";
+  if (boundary.substr(0, 100).find(kBinary) != std::string_view::npos) {
+    return true;
+  }
+  return boundary.find("\nFa") != std::string_view::npos;
+}
+
 }  // namespace
 
 double read_number(const pugi::xml_node& element, const char* attribute) {
@@ -228,7 +239,7 @@ std::string_view Document::boundary_entry(const Object& object) const {
   if (entry.empty()) return {};
   const auto bytes = archive_.read(std::string(entry));
   if (!bytes) throw FormatError(fmt::format("FCStd holds no '{}'", entry));
-  return bytes->empty() ? std::string_view() : entry;
+  return has_faces(*bytes) ? entry : std::string_view();
 }
 
 }  // namespace lamina::csg::freecad

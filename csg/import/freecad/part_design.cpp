@@ -103,6 +103,10 @@ bool Reader::adds(const Object& object) {
 
 Reader::Made Reader::make_tool(const Object& object, std::string& why) {
   const std::string_view type = object.type();
+  if (object.flag("Suppressed")) {
+    why = "it is suppressed";
+    return std::nullopt;
+  }
   if (type == "PartDesign::Pad" || type == "PartDesign::Pocket") {
     return make_prism_tool(object, why);
   }
@@ -140,6 +144,10 @@ Reader::Made Reader::make_prism_tool(const Object& object, std::string& why) {
   if (object.number("TaperAngle", 0) != 0 ||
       object.number("TaperAngle2", 0) != 0) {
     why = "it tapers";
+    return std::nullopt;
+  }
+  if (object.choice("SideType") != 0) {
+    why = "it has two sides, as newer FreeCAD says it";
     return std::nullopt;
   }
   const bool is_pocket = !adds(object);
@@ -274,6 +282,10 @@ Reader::Made Reader::make_hole_tool(const Object& object, std::string& why) {
   if (sketch == nullptr || !sketch->type().starts_with("Sketcher::") ||
       !link.subs.empty()) {
     why = "its profile is no sketch";
+    return std::nullopt;
+  }
+  if (object.value("BaseProfileType")) {
+    why = "it chooses among circles, arcs and points, as newer FreeCAD does";
     return std::nullopt;
   }
   auto profile = hole_profile(object, why);

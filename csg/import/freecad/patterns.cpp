@@ -36,7 +36,7 @@ double read_step(const Object& object, std::string_view whole, double parts) {
 
 Reader::Made Reader::make_pattern(const Object& object, std::string& why) {
   const std::vector<std::string_view> originals = object.links("Originals");
-  if (originals.empty()) {
+  if (originals.empty() || object.flag("Suppressed")) {
     why = "it repeats no feature";
     return std::nullopt;
   }

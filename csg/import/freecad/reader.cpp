@@ -49,8 +49,9 @@ bool is_flat(const Object& object) {
          type.starts_with("Part::Part2DObject") || kTypes.contains(type);
 }
 
-// Whether it is a part at all: not a table, a drawing, a material.
+// Whether it is a part at all: not a table, a drawing, a material, a load.
 bool has_geometry(const Object& object) {
+  if (object.type().starts_with("Fem::")) return false;
   return object.value("Shape") || object.value("Mesh") ||
          object.value("Points");
 }

@@ -93,8 +93,8 @@ class Document {
   const Object* find_part(std::string_view name_or_label) const;
 
   // The entry with the boundary that the file stores for the object, in the
-  // frame of what holds it; empty where it has none. Throws FormatError where
-  // the archive lacks it.
+  // frame of what holds it; empty where it has none, or one without faces.
+  // Throws FormatError where the archive lacks it.
   std::string_view boundary_entry(const Object& object) const;
 
  private:

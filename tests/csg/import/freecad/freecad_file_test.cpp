@@ -55,6 +55,8 @@ std::string limit_of(const std::function<void()>& parse) {
 
 const std::string kBox = "cube(size = [3, 4, 5], center = false);\n";
 
+const std::string kBoundary = "CASCADE Topology V1\nTShapes 1\nFa\n";
+
 std::string cut(const std::string& base, const std::string& tool) {
   return link("Base", base) + link("Tool", tool);
 }
@@ -104,7 +106,7 @@ TEST(FreecadFile, GivesOneObjectByNameOrByLabel) {
 
 TEST(FreecadFile, TakesUnknownFeaturesByTheirBoundary) {
   FreecadDocument document;
-  document.add("New::Twist", "Twist", shape("a.brp")).entry("a.brp", "CASCADE");
+  document.add("New::Twist", "Twist", shape("a.brp")).entry("a.brp", kBoundary);
   const Read all = read(document.bytes());
   EXPECT_EQ(all.csg, "import(part = \"Twist\");\n\n");
   EXPECT_EQ(all.notes, std::vector<std::string>{
@@ -123,7 +125,7 @@ TEST(FreecadFile, NamesWhatItLeavesOut) {
 
 TEST(FreecadFile, SaysWhyAFeatureIsTakenByItsBoundary) {
   FreecadDocument document;
-  document.box("A", "-3", shape("a.brp")).entry("a.brp", "CASCADE");
+  document.box("A", "-3", shape("a.brp")).entry("a.brp", kBoundary);
   EXPECT_EQ(
       read(document.bytes()).notes,
       std::vector<std::string>{"'A' (Part::Box) is taken by its boundary: "
