@@ -18,7 +18,7 @@ LAMINA_TEST_PACKAGES=(
   fonts-dejavu-core fonts-hosny-amiri
   slic3r prusa-slicer lib3mf1 python3 chromium make
   man-db bash-completion zsh fish locales
-  nodejs curl ca-certificates
+  nodejs curl ca-certificates freecad-python3
 )
 
 # The oracle of language 2026: OpenSCAD 2025.07.18 as WebAssembly.

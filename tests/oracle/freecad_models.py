@@ -183,6 +183,12 @@ def part_torus_sector(m):
     return m.part("Torus", TILT, Radius1=8, Radius2=2.5, Angle3=220)
 
 
+@model("Part::Torus, Angle1 to Angle3")
+def part_torus_part(m):
+    return m.part("Torus", LEAN, Radius1=8, Radius2=2.5, Angle1=-40, Angle2=110,
+                  Angle3=300)
+
+
 @model("Part::Prism")
 def part_prism(m):
     return m.part("Prism", LEAN, Polygon=5, Circumradius=4, Height=9)

@@ -133,6 +133,8 @@ std::optional<Solid> make_ellipsoid(const Parameters& p, SolidMaker& maker) {
   return maker.place(matrix, *ball);
 }
 
+// Of the tube's disk, the sector between two angles, which run downwards from
+// its outermost point.
 std::optional<Solid> make_torus(const Parameters& p, SolidMaker& maker) {
   if (!p.are_positive({"Radius1", "Radius2"}) || !p.is_turn("Angle3")) {
     return std::nullopt;
@@ -145,13 +147,18 @@ std::optional<Solid> make_torus(const Parameters& p, SolidMaker& maker) {
     p.fail("Radius2");
     return std::nullopt;
   }
-  if (end - begin != 360) {
+  if (!(begin < end) || end - begin > 360) {
     p.fail("Angle1 or Angle2");
     return std::nullopt;
   }
-  Polyline contour = arc(tube, 0, 2 * pi, maker.chordal_error() / 2);
-  contour.pop_back();
-  for (Vec2& corner : contour) corner.x += ring;
+  Polyline contour =
+      arc(tube, begin * pi / 180, end * pi / 180, maker.chordal_error() / 2);
+  if (end - begin == 360) {
+    contour.pop_back();
+  } else {
+    contour.emplace_back(0, 0);
+  }
+  for (Vec2& corner : contour) corner = {ring + corner.x, -corner.y};
   return maker.revolve({contour}, p.angle("Angle3", 360));
 }
 

@@ -150,7 +150,7 @@ TEST(FreecadFile, RejectsWhatIsNoArchive) {
 
 TEST(FreecadFile, SurvivesEveryCutAndChangedByteOfItsDocument) {
   FreecadDocument document;
-  document.box("A").box("B").add("Part::Cut", "C", cut("A", "B"));
+  document.add("Part::Fuse", "C", cut("C", "D"));
   expect_no_harm(document.xml(), [](std::string_view xml) {
     read(make_zip({{"Document.xml", std::string(xml)}}));
   });
