@@ -384,8 +384,9 @@ def part_revolution(m):
     sketch = m.sketch([line(3, -4, 7, -4), arc(7, 0, 4, -90, 90),
                        line(7, 4, 3, 4), line(3, 4, 3, -4), circle(7, 0, 1.5)],
                       Placement(Vector(0, 0, 0), Rotation(X, 90)))
-    return m.part("Revolution", LEAN, Source=sketch, Axis=Z, Base=Vector(0, 0, 0),
-                  Angle=360, Solid=True)
+    return m.part("Revolution", Placement(Vector(3, -2, 1), Rotation(Z, 40)),
+                  Source=sketch, Axis=Z, Base=Vector(0, 0, 0), Angle=360,
+                  Solid=True)
 
 
 @model("Part::Revolution, Angle, Symmetric")

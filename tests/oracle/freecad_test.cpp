@@ -111,7 +111,7 @@ TEST(FreecadFiles, HaveTheSectionsOfTheirShapes) {
     SCOPED_TRACE(file.filename().string());
     const Row row = judge_model(file);
     table << fmt::format(
-        "| `{}` | {} | {} | {:.2g} |\n", file.stem().string(), row.feature,
+        "| `{}` | {} | {} | {:.1f} |\n", file.stem().string(), row.feature,
         row.is_by_parameter ? "parameter" : "boundary", row.deviation * 1000);
   }
 }

@@ -158,8 +158,9 @@ void Reader::make_shown(const std::vector<const Object*>& objects,
 void Reader::report_left_out(const Object& object) {
   const std::string& why = entries_[&object].why;
   if (is_group(object)) return;  // it holds nothing
-  model_.warnings.push_back(fmt::format("{} is left out: {}", shown(object),
-                                        why.empty() ? "it has no shape" : why));
+  model_.warnings.push_back(
+      fmt::format("{} is left out: {}", shown(object),
+                  why.empty() ? "it stores no faces" : why));
 }
 
 // --- Making -----------------------------------------------------------------

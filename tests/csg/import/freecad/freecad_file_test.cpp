@@ -120,7 +120,7 @@ TEST(FreecadFile, NamesWhatItLeavesOut) {
       .entry("a.brp", "");
   EXPECT_EQ(read(document.bytes()).warnings,
             std::vector<std::string>{
-                "'My twist' (New::Twist) is left out: it has no shape"});
+                "'My twist' (New::Twist) is left out: it stores no faces"});
 }
 
 TEST(FreecadFile, SaysWhyAFeatureIsTakenByItsBoundary) {
