@@ -68,6 +68,7 @@ const std::vector<std::string> kRooms = {"base",
                                          "csg/eval/resolve",
                                          "csg/eval",
                                          "csg/text",
+                                         "csg/cad",
                                          "csg/plane",
                                          "csg/boundary",
                                          "csg/minkowski",
@@ -212,6 +213,14 @@ TEST(Includes, PackagesKeepToTheirHomes) {
                       });
       EXPECT_TRUE(is_at_home) << include.file << " includes " << include.target;
     }
+  }
+}
+
+TEST(Includes, OpenCascadeStaysInItsModule) {
+  for (const Include& include : includes_below(kProduct)) {
+    if (!include.target.ends_with(".hxx")) continue;
+    EXPECT_TRUE(starts_with(include.file, "csg/cad/"))
+        << include.file << " includes " << include.target;
   }
 }
 
