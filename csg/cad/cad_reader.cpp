@@ -18,9 +18,6 @@
 namespace lamina::cad {
 namespace {
 
-// Of processor time. OpenCASCADE may loop for ever on a broken file.
-constexpr unsigned kMostSeconds = 600;
-
 std::string_view name_of(Format format) {
   switch (format) {
     case Format::kStep:
@@ -150,11 +147,12 @@ Result read_result(const Source& source) {
   return result;
 }
 
-std::string failure_text(ChildFault fault, Format format) {
+std::string failure_text(ChildFault fault, Format format,
+                         unsigned most_seconds) {
   switch (fault) {
     case ChildFault::kOutOfTime:
       return fmt::format("OpenCASCADE takes more than {} s for this {}",
-                         kMostSeconds, name_of(format));
+                         most_seconds, name_of(format));
     case ChildFault::kKilled:
       return fmt::format("OpenCASCADE was killed when it read this {}",
                          name_of(format));
@@ -166,23 +164,26 @@ std::string failure_text(ChildFault fault, Format format) {
 }
 
 Result read_apart(Engine& engine, std::string_view bytes, Format format,
-                  const Fineness& fineness) {
+                  const Fineness& fineness, unsigned most_seconds) {
   ChildProcess child(
       [&](const ChildOutput& output) {
         work(engine, bytes, format, fineness, output);
       },
-      kMostSeconds);
+      most_seconds);
   try {
     return read_result(Source(child));
   } catch (const ChildFailed&) {
-    throw FormatError(failure_text(child.wait(), format));
+    throw FormatError(failure_text(child.wait(), format, most_seconds));
   }
 }
 
 }  // namespace
 
-Reader::Reader(std::vector<std::string> folders, Diagnostics& diagnostics)
-    : folders_(std::move(folders)), diagnostics_(diagnostics) {}
+Reader::Reader(std::vector<std::string> folders, Diagnostics& diagnostics,
+               unsigned most_seconds)
+    : folders_(std::move(folders)),
+      diagnostics_(diagnostics),
+      most_seconds_(most_seconds) {}
 
 Reader::~Reader() = default;
 
@@ -194,7 +195,7 @@ Part Reader::read(std::string_view bytes, Format format,
     engine_ = make_engine(kEngineVersion);
     if (engine_ == nullptr) fail_without_engine(kModule, 0, diagnostics_);
   }
-  Result result = read_apart(*engine_, bytes, format, fineness);
+  Result result = read_apart(*engine_, bytes, format, fineness, most_seconds_);
   switch (result.outcome) {
     case Outcome::kRead:
       break;

@@ -55,11 +55,18 @@ struct Part {
 
 class Engine;
 
+// Of processor time, for one file: OpenCASCADE may loop for ever on a broken
+// one.
+constexpr unsigned kMostSeconds = 300;
+
 class Reader {
  public:
-  // folders      where to look for the module, in this order
-  // diagnostics  gets the error that the module is missing; outlives the reader
-  Reader(std::vector<std::string> folders, Diagnostics& diagnostics);
+  // folders       where to look for the module, in this order
+  // diagnostics   gets the error that the module is missing; outlives the
+  //               reader
+  // most_seconds  see above
+  Reader(std::vector<std::string> folders, Diagnostics& diagnostics,
+         unsigned most_seconds = kMostSeconds);
   ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
@@ -67,13 +74,15 @@ class Reader {
   // Reads all solids of a file, assemblies with all instances of their parts.
   // Shells and faces that belong to no solid are sewn together first.
   //
-  // throws  FormatError for what cannot be read; GeometryError where the module
-  //         is missing; csg::LimitExceeded for too many triangles
+  // throws  FormatError for what cannot be read, whatever OpenCASCADE did then;
+  //         GeometryError where the module is missing; csg::LimitExceeded for
+  //         too many triangles; std::bad_alloc
   Part read(std::string_view bytes, Format format, const Fineness& fineness);
 
  private:
   std::vector<std::string> folders_;
   Diagnostics& diagnostics_;
+  unsigned most_seconds_;
   Engine* engine_ = nullptr;  // the module's, to the end
 };
 

@@ -23,7 +23,7 @@ import Part  # noqa: E402
 UP = FreeCAD.Vector(0, 0, 1)
 
 # Far below the chordal errors that are judged.
-DEFLECTION = 5e-7
+DEFLECTION = 2e-6
 
 # Ends of neighbouring curves are this close [mm].
 GAP = 1e-4
