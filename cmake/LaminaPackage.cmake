@@ -38,8 +38,7 @@ that the contours are exact and the time is short.
 
 It also checks, measures and draws layer files.")
 
-# OpenCASCADE and what it needs take 200 MB, so its module is a package of its
-# own.
+# OpenCASCADE takes 80 MB, so its module is a package of its own.
 set(CPACK_DEBIAN_CAD_PACKAGE_NAME lamina-cad)
 set(CPACK_DEBIAN_CAD_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_CAD_PACKAGE_SHLIBDEPS ON)

@@ -2,14 +2,15 @@
 # FreeCAD as the judge of layers: sections of shapes as its kernel, OpenCASCADE,
 # computes them from the exact surfaces, with no triangle in between.
 #
-#   tests/oracle/freecad_sections.py PART.step HEIGHT…      as JSON
+#   tests/oracle/freecad_sections.py --count 12 PART.step   as JSON
+#   tests/oracle/freecad_sections.py PART.step HEIGHT…
 #   import freecad_sections                                 from other scripts
 #
-# A section is [{"height": z, "area": a, "loops": [[[x, y], …], …]}, …]. Its
-# loops are closed, in no order and direction; curves are cut into chords that
-# are off by at most DEFLECTION times the part's size. The section of a part is what an odd number of
-# loops of one solid encloses, all solids united: "solids" has the loops of each
-# apart. Areas are those of the exact faces, of all solids added.
+# Sections are [{"height": z, "area": a, "perimeter": p, "solids": […]}, …]. For
+# each solid there are its loops, [[[x, y], …], …]: closed, in no order and
+# direction, and inside is what an odd number of them encloses. Curves are cut
+# into chords that are off by at most DEFLECTION times the solid's size. Area and
+# perimeter are those of the exact faces, of all solids added.
 
 import json
 import sys
@@ -59,30 +60,20 @@ def chain(edges, deflection):
     return [[p.x, p.y] for p in loop[:-1]]
 
 
-def solid_section(solid, height):
-    """The wires of one solid, and the area between them."""
-    wires = solid.slice(UP, height)
-    if not wires:
-        return [], 0.0
-    deflection = DEFLECTION * solid.BoundBox.DiagonalLength
-    face = Part.makeFace(Part.makeCompound(wires), "Part::FaceMakerBullseye")
-    return [chain(wire.Edges, deflection) for wire in wires], face.Area
-
-
 def section(shape, height):
-    solids = []
-    area = 0.0
+    result = {"height": height, "area": 0.0, "perimeter": 0.0, "solids": []}
     for solid in shape.Solids:
-        loops, own = solid_section(solid, height)
-        if loops:
-            solids.append(loops)
-            area += own
-    return {
-        "height": height,
-        "area": area,
-        "solids": solids,
-        "loops": [loop for loops in solids for loop in loops],
-    }
+        wires = solid.slice(UP, height)
+        if not wires:
+            continue
+        face = Part.makeFace(Part.makeCompound(wires),
+                             "Part::FaceMakerBullseye")
+        deflection = DEFLECTION * solid.BoundBox.DiagonalLength
+        result["area"] += face.Area
+        result["perimeter"] += face.Length
+        result["solids"].append(
+            [chain(wire.Edges, deflection) for wire in wires])
+    return result
 
 
 def sections(shape, heights):
@@ -97,8 +88,14 @@ def heights_of(shape, count):
 
 
 def main():
-    shape = Part.read(sys.argv[1])
-    json.dump(sections(shape, [float(z) for z in sys.argv[2:]]), sys.stdout)
+    arguments = sys.argv[1:]
+    if arguments[0] == "--count":
+        shape = Part.read(arguments[2])
+        heights = heights_of(shape, int(arguments[1]))
+    else:
+        shape = Part.read(arguments[0])
+        heights = [float(z) for z in arguments[1:]]
+    json.dump(sections(shape, heights), sys.stdout)
 
 
 if __name__ == "__main__":
