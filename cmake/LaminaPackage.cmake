@@ -1,4 +1,4 @@
-# Debian packages by CPack: lamina and lamina-dev. What lies in them is said in
+# Debian packages by CPack: lamina, lamina-cad and lamina-dev. What lies in them is said in
 # LaminaInstall.cmake; here is what Debian asks for beside it.
 
 set(CPACK_GENERATOR DEB)
@@ -14,7 +14,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
     WORLD_READ WORLD_EXECUTE)
 
-set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_COMPONENTS_ALL program cad development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-liberation, libosmesa6")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS
-    "lamina-dev, libegl1, openscad, openscad-mcad")
+    "lamina-cad, lamina-dev, libegl1, openscad, openscad-mcad")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
 "compiler from OpenSCAD designs to the layers of a 3D printer
 lamina reads a design of OpenSCAD (.scad or .csg) and writes the layers that
@@ -37,6 +37,19 @@ a mesh of the whole design: parts are cut layer by layer and joined there, so
 that the contours are exact and the time is short.
 
 It also checks, measures and draws layer files.")
+
+# OpenCASCADE takes 80 MB, so its module is a package of its own.
+set(CPACK_DEBIAN_CAD_PACKAGE_NAME lamina-cad)
+set(CPACK_DEBIAN_CAD_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_CAD_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_CAD_PACKAGE_DEPENDS
+    "lamina (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+set(CPACK_DEBIAN_CAD_DESCRIPTION
+"compiler from OpenSCAD designs to layers - parts of CAD programs
+lamina reads a design of OpenSCAD and makes the layers of a 3D printer.
+
+This package lets it read parts of CAD programs, too: STEP, IGES and BREP, by
+OpenCASCADE.")
 
 # The archive needs at link time what the program is linked with.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME lamina-dev)
@@ -62,9 +75,14 @@ lamina_compress(${PROJECT_BINARY_DIR}/changelog.Debian changelog.Debian.gz)
 install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
         DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/lamina
         COMPONENT program EXCLUDE_FROM_ALL)
-install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
-              ${PROJECT_BINARY_DIR}/changelog.gz cmake/debian/copyright
-        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/lamina-dev
-        COMPONENT development EXCLUDE_FROM_ALL)
+foreach(package IN ITEMS cad:cad dev:development)
+  string(REPLACE ":" ";" package ${package})
+  list(GET package 0 name)
+  list(GET package 1 component)
+  install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz
+                ${PROJECT_BINARY_DIR}/changelog.gz cmake/debian/copyright
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/lamina-${name}
+          COMPONENT ${component} EXCLUDE_FROM_ALL)
+endforeach()
 
 include(CPack)

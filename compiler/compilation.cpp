@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/module.h"
 #include "base/paths.h"
 #include "base/text.h"
 
@@ -12,7 +13,7 @@ namespace lamina::compiler {
 namespace {
 
 std::vector<std::string> module_folders_of(const Request& request) {
-  std::vector<std::string> folders = text::module_folders();
+  std::vector<std::string> folders = module_folders();
   if (!request.module_folder.empty()) {
     folders.insert(folders.begin(), request.module_folder);
   }
@@ -51,7 +52,8 @@ Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
       loader(sources, diagnostics, library_folders(files.file_access()),
              its_request.definitions, files.file_access()),
       typesetter(module_folders_of(its_request), diagnostics,
-                 files.file_access()) {
+                 files.file_access()),
+      cad_reader(module_folders_of(its_request), diagnostics) {
   diagnostics.set_hard_warnings(its_request.has_hard_warnings);
   if (request.language == "2026") loader.set_language(Language::k2026);
 }

@@ -15,6 +15,7 @@
 #include "base/file/output_file.h"
 #include "base/source.h"
 #include "compiler/request.h"
+#include "csg/cad/cad_reader.h"
 #include "csg/scene.h"
 #include "csg/text/typesetter.h"
 #include "csg/tree.h"
@@ -113,6 +114,7 @@ struct Compilation {
   Diagnostics diagnostics;
   Loader loader;
   text::Typesetter typesetter;
+  cad::Reader cad_reader;
   // A pass failed and has reported why. The next ones may still run, for what
   // they report; no layers can be made.
   bool has_failed = false;

@@ -69,6 +69,9 @@ csg::EvaluateOptions evaluate_options(Compilation& c) {
   options.check_ranges = request.checks_parameter_ranges;
   options.max_depth = request.max_depth;
   options.max_leaves = request.max_leaves;
+  if (request.chordal_error > 0) {
+    options.chordal_error = request.chordal_error / request.scale;
+  }
   options.text_measurer = &c.typesetter;
   return options;
 }
@@ -81,6 +84,7 @@ csg::LowerOptions lower_options(Compilation& c) {
   }
   options.chordal_error = request.chordal_error;
   options.typesetter = &c.typesetter;
+  options.cad_reader = &c.cad_reader;
   options.file_access = &c.file_access();
   options.scale = request.scale;
   return options;

@@ -51,7 +51,7 @@ struct Request {
   // A warning ends the run with no output, when its stage is done. Not given:
   // where the files that may be read are confined.
   std::optional<bool> is_strict;
-  // A folder where lamina_text.so is looked for first; empty: none.
+  // A folder where modules (lamina_text.so) are looked for first; empty: none.
   std::string module_folder;
 };
 

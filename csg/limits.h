@@ -24,6 +24,9 @@ constexpr double kMostTriangles = 1e8;
 // one long row of numbers makes all rows long; each makes four triangles.
 constexpr double kMostHeights = 1 << 23;
 
+// Of a feature in a pattern of a FreeCAD file, which says so with one number.
+constexpr double kMostOccurrences = 100'000;
+
 // Of a region of the plane. A star of 3,001 points crosses itself 4.5 million
 // times.
 constexpr double kMostCorners = 1 << 22;

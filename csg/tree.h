@@ -184,7 +184,11 @@ enum class ImportFormat : std::uint8_t {
   kAmf,
   k3mf,
   kDxf,
-  kSvg
+  kSvg,
+  kStep,
+  kIges,
+  kBrep,
+  kFcstd  // the boundary of one object
 };
 struct ImportParams {
   std::string_view path;  // to open
@@ -192,6 +196,7 @@ struct ImportParams {
   Language rules = Language::k2021;  // by which the file is read
   std::optional<std::string_view> id = std::nullopt;
   std::optional<std::string_view> layer = std::nullopt;
+  std::string_view entry;  // of a FreeCAD file: where a boundary is
   Vec2 origin = Vec2(0);
   bool center = false;
   double dpi = 72;

@@ -11,8 +11,14 @@ LAMINA_BUILD_PACKAGES=(
   libegl-dev libgl-dev libosmesa6-dev
 )
 
+# To build and open the module that reads STEP, IGES and BREP.
+LAMINA_CAD_PACKAGES=(
+  libocct-data-exchange-dev libocct-modeling-algorithms-dev
+)
+
 # To build and run the tests: the oracles above all.
 LAMINA_TEST_PACKAGES=(
+  "${LAMINA_CAD_PACKAGES[@]}" freecad-python3
   libgtest-dev libbenchmark-dev libcgal-dev
   openscad openscad-testing-data openscad-mcad libgl1-mesa-dri xvfb xauth
   fonts-dejavu-core fonts-hosny-amiri
@@ -79,6 +85,12 @@ configure() {
     return 0
   fi
   run_quietly cmake --preset release -DBUILD_TESTING="$1"
+}
+
+# configure_cad: configures once more where OpenCASCADE was installed since.
+configure_cad() {
+  ! grep -q '^OpenCASCADE_DIR:.*-NOTFOUND' build/release/CMakeCache.txt ||
+    run_quietly cmake --preset release
 }
 
 # build <target>…: builds, and says so where it takes longer than a moment.

@@ -31,13 +31,13 @@ constexpr std::string_view kCompareHelp =
        lamina compare DESIGN --against openscad [OPTION]...
 
 Compares the layers of files (.slc .cli .svg .3mf .sl1 .zip .layers.json, a
-folder of images), designs (.scad .csg), meshes (.stl .off .obj .amf .3mf) and
-drawings (.dxf), in any pairing.
-All but files are cut at the heights of the other one; two designs at those of
-the first. Shows for each layer the areas that only one of them covers, regions
-and holes, and the greatest distance of their contours: no point of one is
-farther from the other's. Ends with 0 if all layers are within the tolerance,
-with 1 if not.
+folder of images), designs (.scad .csg), meshes (.stl .off .obj .amf .3mf),
+drawings (.dxf) and CAD files (.step .stp .iges .igs .brep .brp), in any
+pairing. All but files of layers are cut at the heights of the other one; two
+designs at those of the first. Shows for each layer the areas that only one of
+them covers, regions and holes, and the greatest distance of their contours: no
+point of one is farther from the other's. Ends with 0 if all layers are within
+the tolerance, with 1 if not.
 
   --tolerance MM      greatest distance that counts as equal [the sum of what
                       both say of their precision, 0.001 at least]
@@ -109,7 +109,8 @@ class CompareCommand : public Command {
       refuse_if(
           !path.empty() && !can_compare(path),
           "'{}' is no file that compare reads (.slc .cli .svg "
-          ".sl1 .zip .layers.json .scad .csg .stl .off .obj .amf .3mf .dxf)",
+          ".sl1 .zip .layers.json .scad .csg .stl .off .obj .amf .3mf .dxf "
+          ".step .stp .iges .igs .brep .brp)",
           path);
     }
     if (is_against_openscad_) check_openscad();

@@ -117,7 +117,8 @@ std::vector<std::string> extensions_of(const std::string& usage) {
                                          "json", "scad", "csg"};
   if (usage.find(" FILE") == std::string::npos) {
     extensions.insert(extensions.end(),
-                      {"stl", "off", "obj", "amf", "3mf", "dxf"});
+                      {"stl", "off", "obj", "amf", "3mf", "dxf", "step", "stp",
+                       "iges", "igs", "brep", "brp", "FCStd"});
   }
   return extensions;
 }

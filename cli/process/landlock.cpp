@@ -15,6 +15,8 @@
 #include <unistd.h>
 
 #include "base/file/open_file.h"
+#include "base/module.h"
+#include "csg/cad/cad_reader.h"
 #include "csg/text/typesetter.h"
 
 namespace lamina::cli {
@@ -161,8 +163,10 @@ void restrict_process(const FileAccess& access) {
   for (const std::string& folder : library_folders_in_use()) {
     rules.allow_reading(folder);
   }
-  for (const std::string& folder : text::module_folders()) {
-    rules.allow_reading(folder + "/" + text::kModuleName);
+  for (const std::string& folder : module_folders()) {
+    for (const Module& module : {text::kModule, cad::kModule}) {
+      rules.allow_reading(folder + "/" + module.file);
+    }
   }
   const std::vector<int> folders = access.folder_descriptors();
   rules.allow(folders.front(), kRead | kWrite);

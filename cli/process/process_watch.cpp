@@ -64,7 +64,7 @@ std::chrono::nanoseconds ProcessWatch::pause() {
                                             std::chrono::milliseconds(1));
 }
 
-std::string ProcessWatch::look(std::uint64_t files) {
+std::string ProcessWatch::look(std::uint64_t besides) {
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
   for (const Timed& timed : timed_) {
@@ -79,12 +79,12 @@ std::string ProcessWatch::look(std::uint64_t files) {
   }
   const std::uint64_t resident = resident_memory();
   if (most_bytes_ == 0) begin_to_look(resident);
-  if (resident + files <= most_bytes_) return {};
+  if (resident + besides <= most_bytes_) return {};
   return error_line(
       names_under_way(),
       fmt::format("out of memory: {} are in use, more than the limit of {}; "
                   "--max-memory gives it more",
-                  memory_size_text(resident + files),
+                  memory_size_text(resident + besides),
                   memory_size_text(most_bytes_)));
 }
 

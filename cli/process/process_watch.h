@@ -68,8 +68,9 @@ class ProcessWatch {
   // Says as a line for the terminal which limit is exceeded; empty if none is.
   // Called by one thread.
   //
-  // files  bytes of memory that files take and that are not the process's own
-  std::string look(std::uint64_t files);
+  // besides  bytes of memory that are not the process's own but its files' and
+  //          its children's
+  std::string look(std::uint64_t besides);
 
  private:
   using Clock = std::chrono::steady_clock;

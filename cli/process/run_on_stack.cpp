@@ -15,6 +15,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include "base/child_process.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/progress.h"
 #include "cli/process/streams.h"
@@ -133,7 +134,8 @@ void watch_over(const sigset_t& signals, TemporaryFiles& temporary_files,
       default:
         end_process(temporary_files, kInterrupted, "");
     }
-    const std::string exceeded = watch.look(temporary_files.bytes_in_memory());
+    const std::string exceeded =
+        watch.look(temporary_files.bytes_in_memory() + memory_of_children());
     if (!exceeded.empty()) end_process(temporary_files, kFault, exceeded);
   }
 }

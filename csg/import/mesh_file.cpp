@@ -30,6 +30,10 @@ std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
     case ImportFormat::kUnknown:
     case ImportFormat::kDxf:
     case ImportFormat::kSvg:
+    case ImportFormat::kStep:
+    case ImportFormat::kIges:
+    case ImportFormat::kBrep:
+    case ImportFormat::kFcstd:
       break;
   }
   return bodies;

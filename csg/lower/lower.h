@@ -15,6 +15,9 @@
 #include "csg/scene.h"
 #include "csg/tree.h"
 
+namespace lamina::cad {
+class Reader;
+}
 namespace lamina::text {
 class Typesetter;
 }
@@ -30,6 +33,8 @@ struct LowerOptions {
   double chordal_error = 0;
   // Sets text(), which is an error without it.
   text::Typesetter* typesetter = nullptr;
+  // Reads STEP, IGES and BREP, which are errors without it.
+  cad::Reader* cad_reader = nullptr;
   const FileAccess* file_access = &kAllFiles;  // what import() may read
   // Scales the whole design about its origin, outlines too (`--scale`);
   // positive. Facets are those of the design before.

@@ -15,6 +15,7 @@
 #include "csg/import/surface_file.h"
 #include "csg/import/svg.h"
 #include "csg/limits.h"
+#include "csg/lower/detail/cad_file.h"
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/repair.h"
@@ -63,14 +64,14 @@ void center_meshes(std::vector<Mesh>& meshes) {
   }
 }
 
-Leaf make_import_leaf(const ImportParams& params, const FileAccess& access,
+Leaf make_import_leaf(std::vector<RawMesh> bodies, bool is_centered,
                       SourceRange range, Diagnostics& diagnostics) {
   Leaf leaf;
   leaf.may_overlap_itself = true;
-  for (RawMesh& raw : read_mesh_file(params, access, range, diagnostics)) {
+  for (RawMesh& raw : bodies) {
     leaf.meshes.push_back(make_sound(std::move(raw), range, diagnostics));
   }
-  if (params.center) center_meshes(leaf.meshes);
+  if (is_centered) center_meshes(leaf.meshes);
   return leaf;
 }
 
@@ -252,13 +253,16 @@ planar::Region read_svg(const ImportParams& params, const Fineness& fineness,
 
 Shape Lowerer::lower_op(const Import& op, const Place& at) {
   const ImportParams& params = *op.params;
-  const Fineness fine = fineness(params.facets, at.world);
+  Fineness fine = fineness(params.facets, at.world);
+  if (is_cad_format(params.format) && !(fine.chordal_error > 0)) {
+    fine.chordal_error = kChordalErrorOfParts / greatest_stretch(at.world);
+  }
   const std::string key =
       fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     const std::size_t messages = diagnostics_.all().size();
-    entry->second = read_import(params, fine, at.node.range);
+    entry->second = read_import(params, fine, at.node);
     const bool is_empty =
         !entry->second.leaf && entry->second.region.is_empty();
     if (is_empty && diagnostics_.all().size() == messages) {
@@ -272,8 +276,9 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
 
 Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
                                         const Fineness& fine,
-                                        SourceRange range) {
+                                        const Node& node) {
   const FileAccess& access = *options_.file_access;
+  const SourceRange range = node.range;
   switch (params.format) {
     case ImportFormat::kUnknown:
       diagnostics_.error(
@@ -293,11 +298,28 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kObj:
     case ImportFormat::kAmf:
     case ImportFormat::k3mf:
+    case ImportFormat::kStep:
+    case ImportFormat::kIges:
+    case ImportFormat::kBrep:
+    case ImportFormat::kFcstd:
       break;
   }
   return {Dimension::kSolid,
           {},
-          add_leaf(make_import_leaf(params, access, range, diagnostics_))};
+          add_leaf(make_import_leaf(read_bodies(params, fine, node),
+                                    params.center, range, diagnostics_))};
+}
+
+std::vector<RawMesh> Lowerer::read_bodies(const ImportParams& params,
+                                          const Fineness& fine,
+                                          const Node& node) {
+  const FileAccess& access = *options_.file_access;
+  if (!is_cad_format(params.format)) {
+    return read_mesh_file(params, access, node.range, diagnostics_);
+  }
+  if (!options_.cad_reader) fail_unsupported(node, "import");
+  return read_cad_file(params, fine.chordal_error, *options_.cad_reader, access,
+                       node.range, diagnostics_);
 }
 
 Shape Lowerer::lower_op(const Surface& op, const Place& at) {

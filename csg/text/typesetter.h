@@ -11,18 +11,16 @@
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
+#include "base/module.h"
 #include "base/vec.h"
 #include "csg/text_measurer.h"
 #include "csg/tree.h"
 
 namespace lamina::text {
 
-// The file of the module that holds the font libraries.
-inline constexpr const char* kModuleName = "lamina_text.so";
-
-// The folders of the program's modules: its own, or, where it is installed,
-// lib/lamina beside that.
-std::vector<std::string> module_folders();
+// The module that holds the font libraries.
+inline constexpr Module kModule{"lamina_text.so", "lamina_make_text_engine",
+                                "text()", ""};
 
 // Into how many chords a curve is cut.
 struct Chords {

@@ -38,7 +38,7 @@ std::vector<std::string> rights_of(const std::string& kind,
   return all;
 }
 
-// The program, and the module that reads fonts.
+// The program and its modules.
 class Hardening : public testing::TestWithParam<const char*> {};
 
 TEST_P(Hardening, NoMemoryIsBothWrittenAndRun) {
@@ -64,9 +64,12 @@ TEST_P(Hardening, ChecksStacks) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Hardening,
-                         testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE),
+                         testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE,
+                                         LAMINA_CAD_MODULE),
                          [](const auto& file) {
-                           return file.index == 0 ? "Program" : "TextModule";
+                           return file.index == 0   ? "Program"
+                                  : file.index == 1 ? "TextModule"
+                                                    : "CadModule";
                          });
 
 TEST(HardenedProgram, ChecksBuffersAndContainers) {

@@ -61,6 +61,7 @@ const std::vector<std::string> kRooms = {"base",
                                          "ldni/section",
                                          "ldni/sweep",
                                          "csg/import",
+                                         "csg/import/freecad",
                                          "csg/eval/value",
                                          "csg/eval/code",
                                          "csg/eval/run",
@@ -68,6 +69,7 @@ const std::vector<std::string> kRooms = {"base",
                                          "csg/eval/resolve",
                                          "csg/eval",
                                          "csg/text",
+                                         "csg/cad",
                                          "csg/plane",
                                          "csg/boundary",
                                          "csg/minkowski",
@@ -212,6 +214,14 @@ TEST(Includes, PackagesKeepToTheirHomes) {
                       });
       EXPECT_TRUE(is_at_home) << include.file << " includes " << include.target;
     }
+  }
+}
+
+TEST(Includes, OpenCascadeStaysInItsModule) {
+  for (const Include& include : includes_below(kProduct)) {
+    if (!include.target.ends_with(".hxx")) continue;
+    EXPECT_TRUE(starts_with(include.file, "csg/cad/"))
+        << include.file << " includes " << include.target;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "base/letter_case.h"
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/file_paths.h"
+#include "csg/eval/builtin/freecad_files.h"
 #include "csg/eval/builtin/modules.h"
 #include "csg/eval/builtin/text_arguments.h"
 #include "csg/eval/run/interpreter.h"
@@ -109,10 +110,13 @@ ImportFormat import_format(std::string_view module, const std::string& path) {
   if (extension.starts_with('.')) extension.erase(0, 1);
   extension = lower_case(extension);
   static const std::map<std::string_view, ImportFormat> kFormats = {
-      {"stl", ImportFormat::kStl}, {"off", ImportFormat::kOff},
-      {"obj", ImportFormat::kObj}, {"amf", ImportFormat::kAmf},
-      {"3mf", ImportFormat::k3mf}, {"dxf", ImportFormat::kDxf},
-      {"svg", ImportFormat::kSvg}};
+      {"stl", ImportFormat::kStl},   {"off", ImportFormat::kOff},
+      {"obj", ImportFormat::kObj},   {"amf", ImportFormat::kAmf},
+      {"3mf", ImportFormat::k3mf},   {"dxf", ImportFormat::kDxf},
+      {"svg", ImportFormat::kSvg},   {"fcstd", ImportFormat::kFcstd},
+      {"step", ImportFormat::kStep}, {"stp", ImportFormat::kStep},
+      {"iges", ImportFormat::kIges}, {"igs", ImportFormat::kIges},
+      {"brep", ImportFormat::kBrep}, {"brp", ImportFormat::kBrep}};
   const auto found = kFormats.find(extension);
   return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
 }
@@ -180,9 +184,16 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
       renamed(call["layer"], call["layername"], "layername", "layer", frame);
   Interpreter& in = frame.in;
   const Value& id = call["id"];
+  const Value& part = call["part"];
   ImportParams params;
   params.path = in.keep_text(path);
   params.format = import_format(code.name, path);
+  if (params.format == ImportFormat::kFcstd) {
+    return import_freecad(
+        path, part.is_undef() ? std::nullopt : std::optional(to_text(part)),
+        call);
+  }
+  if (!part.is_undef()) call.warn("part= names objects of FreeCAD files only");
   params.rules = in.language();
   if (!id.is_undef()) params.id = in.keep_text(to_text(id));
   if (!layer.is_undef()) params.layer = in.keep_text(to_text(layer));
@@ -203,7 +214,8 @@ std::vector<BuiltinModuleRow> file_rows() {
   const std::vector<std::string_view> positional = {
       "file", "layer", "convexity", "origin", "scale"};
   const std::vector<std::string_view> optional = {
-      "width", "height", "filename", "layername", "center", "dpi", "id"};
+      "width",  "height", "filename", "layername",
+      "center", "dpi",    "id",       "part"};
   return {
       {"text",
        text,

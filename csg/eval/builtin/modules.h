@@ -51,7 +51,7 @@ class ModuleCall {
   Interpreter& in;
 
  private:
-  static constexpr std::size_t kMost = 12;
+  static constexpr std::size_t kMost = 13;
   Value values_[kMost];
 };
 

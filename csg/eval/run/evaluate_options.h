@@ -34,6 +34,9 @@ struct EvaluateOptions {
   // Whether to warn of arguments for which a user's module has no parameter
   // (`--check-parameters`). Functions and built-in modules always warn.
   bool check_parameters = true;
+  // Greatest distance of facets from what they stand for, where the evaluation
+  // makes them: of FreeCAD files [mm].
+  double chordal_error = 0.01;
   // For textmetrics() and fontmetrics(), which give undef without it.
   TextMeasurer* text_measurer = nullptr;
   // Whether to warn of numbers outside their range

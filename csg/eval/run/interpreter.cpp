@@ -277,14 +277,25 @@ const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
   return kept;
 }
 
+void Interpreter::add_nodes(std::span<const Node* const> nodes,
+                            std::size_t leaves, SourceRange range) {
+  if (leaves > leaves_left()) fail_leaves(range);
+  leaf_count_ += static_cast<std::uint32_t>(leaves);
+  nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+}
+
+void Interpreter::fail_leaves(SourceRange range) {
+  fail(range,
+       fmt::format("Too many leaves: more than the {} that --max-leaves allows",
+                   options_.max_leaves),
+       nullptr);
+}
+
 void Interpreter::make_node(decltype(Node::op) op,
                             const InstantiationCode& code, std::size_t mark) {
-  if (mark == nodes_.size() && leaf_count_++ == options_.max_leaves) {
-    fail(code.range,
-         fmt::format(
-             "Too many leaves: more than the {} that --max-leaves allows",
-             options_.max_leaves),
-         nullptr);
+  if (mark == nodes_.size()) {
+    if (leaf_count_ == options_.max_leaves) fail_leaves(code.range);
+    ++leaf_count_;
   }
   Node* node = arena_.make(Node());
   node->op = op;

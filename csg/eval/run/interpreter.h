@@ -170,6 +170,14 @@ class Interpreter {
   // where the tree gets too many leaves.
   void make_node(decltype(Node::op) op, const InstantiationCode& code,
                  std::size_t mark);
+  // Adds nodes that were made elsewhere, with so many leaves in all.
+  void add_nodes(std::span<const Node* const> nodes, std::size_t leaves,
+                 SourceRange range);
+  // Leaves that the tree can still get.
+  std::size_t leaves_left() const {
+    return options_.max_leaves - std::size_t{leaf_count_};
+  }
+  Arena& node_arena() { return arena_; }
   void drop_nodes(std::size_t mark) { nodes_.resize(mark); }
   std::span<const Node* const> nodes_since(std::size_t mark) const {
     return {nodes_.data() + mark, nodes_.size() - mark};
@@ -223,6 +231,7 @@ class Interpreter {
 
   void assign_unusual(const Target& target, Value value, Frame& frame);
   [[noreturn]] void fail_steps();
+  [[noreturn]] void fail_leaves(SourceRange range);
   void note_call(std::string_view name, SourceRange range,
                  const Source* document);
   void unwind_trail(std::size_t mark);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "csg/import/mesh_file.h"
 #include "csg/lower/detail/fineness.h"
 #include "csg/lower/detail/leaf_store.h"
 #include "csg/lower/detail/program_builder.h"
@@ -153,7 +154,10 @@ class Lowerer {
     std::optional<std::uint32_t> leaf = std::nullopt;
   };
   FileShape read_import(const ImportParams& params, const Fineness& fine,
-                        SourceRange range);
+                        const Node& node);
+  // The bodies of a file of meshes or of a CAD program.
+  std::vector<RawMesh> read_bodies(const ImportParams& params,
+                                   const Fineness& fine, const Node& node);
   Shape place_file(const FileShape& shape, const Place& at);
   // --- lower_boundary.cpp ---------------------------------------------------
   Shape lower_op(const Hull& op, const Place& at);

@@ -2,9 +2,7 @@
 // What the program sees of the module lamina_text.so.
 //
 // FreeType, HarfBuzz and Fontconfig come with eight more shared libraries, and
-// few designs have text. So they stand behind a module that is opened on first
-// use. It offers one C function, which makes an Engine. Nothing is thrown
-// across the border: results report failures.
+// few designs have text. So they stand behind a module (base/module.h).
 
 #include <cstdint>
 #include <span>
@@ -78,6 +76,5 @@ constexpr int kEngineVersion = 5;
 //
 // files  outlives the engine
 using MakeEngine = Engine*(int version, const FontFiles* files);
-constexpr const char* kMakeEngineName = "lamina_make_text_engine";
 
 }  // namespace lamina::text

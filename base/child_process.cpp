@@ -1,0 +1,204 @@
+#include "base/child_process.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lamina {
+
+// What both processes see.
+struct ChildProcess::SharedPage {
+  std::atomic<std::uint64_t> bytes = 0;  // that the child takes
+};
+
+namespace {
+
+// The pages of all children, for whoever watches over the process's memory.
+struct Children {
+  std::mutex mutex;
+  std::vector<const std::atomic<std::uint64_t>*> bytes;
+};
+Children& children() {
+  static Children all;
+  return all;
+}
+
+// From pipe() until the child's end of it is closed here. A child that another
+// thread makes meanwhile would hold it open.
+std::mutex pipe_mutex;
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// Of the child: where it tells what it takes, and what it took at first.
+std::atomic<std::uint64_t>* told_bytes = nullptr;
+std::uint64_t first_bytes = 0;
+
+// Tells it every 20 ms, as often as the parent looks. The kernel keeps the
+// number, so this works where /proc may not be read.
+void tell_memory_now_and_then() {
+  constexpr suseconds_t kPause = 20000;
+  first_bytes = peak_memory();
+  struct sigaction action {};
+  action.sa_flags = SA_RESTART;
+  action.sa_handler = [](int) { *told_bytes = peak_memory() - first_bytes; };
+  ::sigaction(SIGALRM, &action, nullptr);
+  sigset_t alarm;
+  ::sigemptyset(&alarm);
+  ::sigaddset(&alarm, SIGALRM);
+  ::pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
+  const itimerval time{{0, kPause}, {0, kPause}};
+  ::setitimer(ITIMER_REAL, &time, nullptr);
+}
+
+// Nothing that this process set up for itself is to run in the child.
+void drop_handlers() {
+  for (int signal = 1; signal < NSIG; ++signal) {
+    if (signal != SIGPIPE) ::signal(signal, SIG_DFL);
+  }
+  std::set_terminate([] { ::_exit(1); });
+  std::set_new_handler(nullptr);
+}
+
+void drop_streams() {
+  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (nothing < 0) {
+      ::close(stream);
+    } else {
+      ::dup2(nothing, stream);
+    }
+  }
+}
+
+void limit(int resource, rlim_t value) {
+  rlimit now{};
+  if (::getrlimit(static_cast<__rlimit_resource_t>(resource), &now) != 0) {
+    return;
+  }
+  now.rlim_cur = std::min(now.rlim_max, value);
+  ::setrlimit(static_cast<__rlimit_resource_t>(resource), &now);
+}
+
+[[noreturn]] void run_child(
+    pid_t parent, int pipe, unsigned most_seconds,
+    const std::function<void(const ChildOutput&)>& work) noexcept {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+  drop_handlers();
+  drop_streams();
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, most_seconds);
+  tell_memory_now_and_then();
+  work(ChildOutput(pipe));
+  // Nothing of the parent's is to be cleaned up here.
+  ::_exit(0);
+}
+
+}  // namespace
+
+void ChildOutput::write(const void* bytes, std::size_t size) const {
+  const char* next = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t written = ::write(pipe_, next, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) ::_exit(1);
+    next += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+ChildProcess::ChildProcess(const std::function<void(const ChildOutput&)>& work,
+                           unsigned most_seconds) {
+  void* const page = ::mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (page == MAP_FAILED) throw std::bad_alloc();
+  page_ = new (page) SharedPage;
+  {
+    const std::lock_guard lock(children().mutex);
+    children().bytes.push_back(&page_->bytes);
+  }
+  const pid_t parent = ::getpid();
+  const std::lock_guard lock(pipe_mutex);
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC) == 0) process_ = ::fork();
+  if (process_ == 0) {
+    told_bytes = &page_->bytes;
+    run_child(parent, ends[1], most_seconds, work);
+  }
+  pipe_ = ends[0];
+  if (ends[1] >= 0) ::close(ends[1]);
+}
+
+ChildProcess::~ChildProcess() {
+  if (process_ > 0) {
+    ::kill(process_, SIGKILL);
+    wait();
+  }
+  if (pipe_ >= 0) ::close(pipe_);
+  const std::lock_guard lock(children().mutex);
+  std::erase(children().bytes, &page_->bytes);
+  ::munmap(page_, sizeof(SharedPage));
+}
+
+bool ChildProcess::read(void* bytes, std::size_t size) const {
+  char* next = static_cast<char*>(bytes);
+  while (size > 0) {
+    const ssize_t count = ::read(pipe_, next, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    next += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+ChildFault ChildProcess::wait() {
+  int status = 0;
+  pid_t ended = -1;
+  do {
+    ended = ::waitpid(process_, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  process_ = -1;
+  // Where the caller's program takes the statuses of all children, it is not
+  // known.
+  if (ended < 0) return ChildFault::kNone;
+  if (WIFSIGNALED(status)) {
+    switch (WTERMSIG(status)) {
+      case SIGXCPU:
+        return ChildFault::kOutOfTime;
+      case SIGKILL:
+        return ChildFault::kKilled;
+      default:
+        return ChildFault::kCrashed;
+    }
+  }
+  return WEXITSTATUS(status) == 0 ? ChildFault::kNone : ChildFault::kCrashed;
+}
+
+std::uint64_t memory_of_children() {
+  const std::lock_guard lock(children().mutex);
+  std::uint64_t sum = 0;
+  for (const std::atomic<std::uint64_t>* bytes : children().bytes) {
+    sum += *bytes;
+  }
+  return sum;
+}
+
+}  // namespace lamina

@@ -1,0 +1,66 @@
+#pragma once
+// Work in a process of its own, so that what crashes there ends nothing else.
+//
+// The child is a copy of this process (fork), with one thread, and gives back
+// bytes through a pipe. It dies with the thread that made it. What a library
+// does to a process as a whole, to its locale, its environment, its handlers,
+// stays in there.
+//
+// It may use what this process may, but its standard streams lead nowhere. It
+// has the limits that this process has now, and what it takes is counted
+// (memory_of_children()).
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include <sys/types.h>
+
+namespace lamina {
+
+// The child's end of the pipe.
+class ChildOutput {
+ public:
+  explicit ChildOutput(int pipe) : pipe_(pipe) {}
+  // Ends the child where nobody reads.
+  void write(const void* bytes, std::size_t size) const;
+
+ private:
+  int pipe_;
+};
+
+// How a child ended that did not end by itself.
+enum class ChildFault { kNone, kCrashed, kOutOfTime, kKilled };
+
+class ChildProcess {
+ public:
+  // Starts the child, which calls `work` and ends.
+  //
+  // most_seconds  of processor time
+  // throws        std::bad_alloc where the system grants no process
+  ChildProcess(const std::function<void(const ChildOutput&)>& work,
+               unsigned most_seconds);
+  // Ends it.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Reads so many bytes of its output; false if it ended before.
+  bool read(void* bytes, std::size_t size) const;
+
+  // Waits until it has ended.
+  ChildFault wait();
+
+ private:
+  struct SharedPage;
+
+  pid_t process_ = -1;
+  int pipe_ = -1;
+  SharedPage* page_ = nullptr;
+};
+
+// Memory that the children of this process take [bytes], beyond what they share
+// with it since they were made.
+std::uint64_t memory_of_children();
+
+}  // namespace lamina

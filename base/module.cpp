@@ -1,0 +1,67 @@
+#include "base/module.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <new>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/auxv.h>
+
+namespace lamina {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const Module& module, const std::string& words,
+                       Diagnostics& diagnostics) {
+  Diagnostic error{Severity::kError, {}, words};
+  if (*module.hint != '\0') error.hints = hint_of(module.hint);
+  diagnostics.report(error);
+  throw GeometryError(std::move(error));
+}
+
+}  // namespace
+
+std::vector<std::string> module_folders() {
+  std::error_code error;
+  fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) {
+    // Where /proc is not mounted, the kernel has left the path that was run.
+    const auto* run = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
+    if (run != nullptr) program = fs::canonical(run, error);
+  }
+  if (error) return {};
+  const fs::path folder = program.parent_path();
+  return {folder.string(), (folder.parent_path() / LAMINA_MODULES).string()};
+}
+
+void* open_module(const Module& module, const std::vector<std::string>& folders,
+                  Diagnostics& diagnostics) {
+  for (const std::string& folder : folders) {
+    const std::string path = folder + "/" + module.file;
+    std::error_code error;
+    if (!fs::exists(path, error)) continue;
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* symbol = library ? dlsym(library, module.function) : nullptr;
+    if (symbol) return symbol;
+    fail(module,
+         fmt::format("Can't open the module for {}: {}", module.purpose,
+                     dlerror()),
+         diagnostics);
+  }
+  fail(module,
+       fmt::format("Can't find the module for {}, {}, in {}", module.purpose,
+                   module.file, fmt::join(folders, " or ")),
+       diagnostics);
+}
+
+void fail_without_engine(const Module& module, int error,
+                         Diagnostics& diagnostics) {
+  if (error == ENOMEM) throw std::bad_alloc();
+  fail(module, fmt::format("{} is of another version", module.file),
+       diagnostics);
+}
+
+}  // namespace lamina

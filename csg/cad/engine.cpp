@@ -1,0 +1,66 @@
+// The module: STEP, IGES and BREP by OpenCASCADE.
+
+#include "csg/cad/detail/engine.h"
+
+#include <exception>
+#include <new>
+
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
+
+#include "csg/cad/detail/shape_file.h"
+#include "csg/cad/detail/solids.h"
+#include "csg/cad/detail/tessellation.h"
+
+namespace lamina::cad {
+namespace {
+
+Part make_part(std::string_view bytes, Format format,
+               const Fineness& fineness) {
+  const ShapeFile file = read_shape(bytes, format);
+  Part part;
+  for (const Solid& solid :
+       find_solids(file, fineness.chordal_error, part.warnings)) {
+    part.bodies.push_back(
+        {solid.name, tessellate(solid, fineness, part.warnings)});
+  }
+  return part;
+}
+
+class OpenCascade : public Engine {
+ public:
+  Result read(std::string_view bytes, Format format,
+              const Fineness& fineness) noexcept override {
+    // Nobody reads what it says, and to say it takes time.
+    try {
+      Message::DefaultMessenger()->ChangePrinters().Clear();
+      return {.part = make_part(bytes, format, fineness)};
+    } catch (const Unreadable& fault) {
+      return {.outcome = Outcome::kBroken, .reason = fault.reason};
+    } catch (const TooManyTriangles& fault) {
+      return {.outcome = Outcome::kTooManyTriangles,
+              .triangles = fault.triangles};
+    } catch (const Standard_OutOfMemory&) {
+      return {.outcome = Outcome::kNoMemory};
+    } catch (const std::bad_alloc&) {
+      return {.outcome = Outcome::kNoMemory};
+    } catch (const Standard_Failure& fault) {
+      return {.outcome = Outcome::kBroken,
+              .reason = std::string("OpenCASCADE fails on this file: ") +
+                        fault.GetMessageString()};
+    } catch (const std::exception& fault) {
+      return {.outcome = Outcome::kBroken, .reason = fault.what()};
+    }
+  }
+};
+
+}  // namespace
+}  // namespace lamina::cad
+
+extern "C" __attribute__((visibility("default"))) lamina::cad::Engine*
+lamina_make_cad_engine(int version) noexcept {
+  static lamina::cad::OpenCascade engine;
+  return version == lamina::cad::kEngineVersion ? &engine : nullptr;
+}

@@ -1,0 +1,192 @@
+#include "csg/cad/detail/solids.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Precision.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <ShapeFix_Solid.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <fmt/format.h>
+
+namespace lamina::cad {
+namespace {
+
+using Shapes = std::vector<TopoDS_Shape>;
+
+Shapes parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum what,
+                TopAbs_ShapeEnum outside = TopAbs_SHAPE) {
+  Shapes parts;
+  for (TopExp_Explorer at(shape, what, outside); at.More(); at.Next()) {
+    parts.push_back(at.Current());
+  }
+  return parts;
+}
+
+bool has_open_shell(const TopoDS_Shape& shape) {
+  const Shapes shells = parts_of(shape, TopAbs_SHELL);
+  return !std::all_of(shells.begin(), shells.end(), [](const auto& shell) {
+    return BRep_Tool::IsClosed(shell);
+  });
+}
+
+// --- Faces to shells ---------------------------------------------------------
+
+// Joins the edges of faces that are not farther apart than it takes, and never
+// than the chordal error. Edges that belong together and that a file gives
+// twice lie within what its program takes for one point, 1e-7 to 1e-3 mm.
+TopoDS_Shape sew(const Shapes& faces, double chordal_error) {
+  TopoDS_Shape sewn;
+  for (const double tolerance : {1e-6, 1e-4, 1e-3, 1e-2}) {
+    if (!sewn.IsNull() && tolerance > chordal_error) break;
+    BRepBuilderAPI_Sewing sewing(tolerance);
+    for (const TopoDS_Shape& face : faces) sewing.Add(face);
+    sewing.Perform();
+    sewn = sewing.SewedShape();
+    if (sewing.NbFreeEdges() == 0) break;
+  }
+  return sewn;
+}
+
+// A face that closes by itself, such as a sphere's, stays alone.
+TopoDS_Shell shell_of(const TopoDS_Shape& face) {
+  const BRep_Builder builder;
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  builder.Add(shell, face);
+  return shell;
+}
+
+Shapes shells_of(const TopoDS_Shape& sewn) {
+  Shapes shells = parts_of(sewn, TopAbs_SHELL);
+  for (const TopoDS_Shape& face : parts_of(sewn, TopAbs_FACE, TopAbs_SHELL)) {
+    shells.push_back(shell_of(face));
+  }
+  return shells;
+}
+
+// --- Shells to solids --------------------------------------------------------
+
+// A closed shell, as what is inside of it.
+struct Filled {
+  TopoDS_Shape shell;
+  TopoDS_Solid solid;
+  bool looks_inward = false;  // as the file has its faces
+};
+
+Filled fill(const TopoDS_Shape& shell) {
+  GProp_GProps measures;
+  BRepGProp::VolumeProperties(shell, measures);
+  ShapeFix_Solid fix;
+  return {shell, fix.SolidFromShell(TopoDS::Shell(shell)), measures.Mass() < 0};
+}
+
+bool contains(const Filled& outer, const Filled& inner) {
+  const Shapes vertices = parts_of(inner.shell, TopAbs_VERTEX);
+  if (vertices.empty()) return false;
+  const BRepClass3d_SolidClassifier classifier(
+      outer.solid, BRep_Tool::Pnt(TopoDS::Vertex(vertices.front())),
+      Precision::Confusion());
+  return classifier.State() == TopAbs_IN;
+}
+
+// A shell that looks inward and lies in another one bounds a void of it; all
+// others are solids of their own.
+void add_solids(const std::vector<Filled>& all, const std::string& name,
+                std::vector<Solid>& solids) {
+  const BRep_Builder builder;
+  const auto is_void = [&](const Filled& one) {
+    return one.looks_inward &&
+           std::any_of(all.begin(), all.end(), [&](const Filled& other) {
+             return &other != &one && !other.looks_inward &&
+                    contains(other, one);
+           });
+  };
+  std::vector<const Filled*> voids;
+  for (const Filled& one : all) {
+    if (is_void(one)) voids.push_back(&one);
+  }
+  for (const Filled& one : all) {
+    if (std::count(voids.begin(), voids.end(), &one) > 0) continue;
+    TopoDS_Solid solid = one.solid;
+    for (const Filled* hollow : voids) {
+      if (contains(one, *hollow)) builder.Add(solid, hollow->shell);
+    }
+    solids.push_back({solid, name});
+  }
+}
+
+void add_sewn(const Shapes& faces, const std::string& name,
+              double chordal_error, std::vector<Solid>& solids,
+              std::vector<std::string>& warnings) {
+  if (faces.empty()) return;
+  std::vector<Filled> filled;
+  std::size_t open = 0;
+  const Shapes shells = shells_of(sew(faces, chordal_error));
+  for (const TopoDS_Shape& shell : shells) {
+    if (BRep_Tool::IsClosed(shell)) {
+      filled.push_back(fill(shell));
+    } else {
+      ++open;
+      solids.push_back({shell, name});
+    }
+  }
+  add_solids(filled, name, solids);
+  if (open > 0) {
+    warnings.push_back(fmt::format("{}{} of {} shells are open",
+                                   prefix_of(name), open, shells.size()));
+  }
+}
+
+TopoDS_Shape healed(const TopoDS_Shape& shape) {
+  ShapeFix_Shape fix(shape);
+  fix.Perform();
+  return fix.Shape();
+}
+
+std::string name_of(const TopoDS_Shape& solid, const ShapeFile& file) {
+  const int* const name =
+      file.name_of_solid.Seek(solid.Located(TopLoc_Location()));
+  return name == nullptr ? "" : file.names[static_cast<std::size_t>(*name)];
+}
+
+}  // namespace
+
+std::vector<Solid> find_solids(const ShapeFile& file, double chordal_error,
+                               std::vector<std::string>& warnings) {
+  std::vector<Solid> solids;
+  for (const TopoDS_Shape& found : parts_of(file.shape, TopAbs_SOLID)) {
+    const std::string name = name_of(found, file);
+    const TopoDS_Shape solid = has_open_shell(found) ? healed(found) : found;
+    if (has_open_shell(solid)) {
+      add_sewn(parts_of(solid, TopAbs_FACE), name, chordal_error, solids,
+               warnings);
+    } else {
+      solids.push_back({solid, name});
+    }
+  }
+  add_sewn(parts_of(file.shape, TopAbs_FACE, TopAbs_SOLID), "", chordal_error,
+           solids, warnings);
+  const Shapes wires = parts_of(file.shape, TopAbs_EDGE, TopAbs_FACE);
+  if (!wires.empty()) {
+    warnings.push_back(
+        fmt::format("{} edges without a face are left out", wires.size()));
+  }
+  return solids;
+}
+
+std::string prefix_of(const std::string& name) {
+  return name.empty() ? "" : fmt::format("'{}': ", name);
+}
+
+}  // namespace lamina::cad

@@ -1,0 +1,191 @@
+#include "csg/cad/detail/tessellation.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <NCollection_DataMap.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_ShapeMapHasher.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <fmt/format.h>
+
+#include "csg/cad/detail/deviation.h"
+#include "csg/cad/detail/face_mesh.h"
+#include "csg/limits.h"
+
+namespace lamina::cad {
+namespace {
+
+using Index = std::uint32_t;
+
+template <typename Value>
+using ByShape =
+    NCollection_DataMap<TopoDS_Shape, Value, TopTools_ShapeMapHasher>;
+
+// Puts the triangles of faces together.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(double chordal_error) : chordal_error_(chordal_error) {}
+
+  // Returns whether the face has triangles.
+  bool add(const TopoDS_Face& face) {
+    TopLoc_Location place;
+    const auto triangulation = BRep_Tool::Triangulation(face, place);
+    if (triangulation.IsNull() || triangulation->NbTriangles() == 0) {
+      return false;
+    }
+    FaceMesh of_face = face_mesh(face, *triangulation, place);
+    deviation_ = std::max(deviation_, refine(face, chordal_error_, of_face));
+    vertices_.assign(of_face.points.size(), kNone);
+    join_edges(face, triangulation, place, of_face);
+    add_inner(of_face);
+    add_triangles(of_face);
+    return true;
+  }
+
+  csg::Mesh take() { return std::move(mesh_); }
+  std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  // The greatest of all faces, or any that is at most the chordal error.
+  double deviation() const { return deviation_; }
+
+ private:
+  static constexpr Index kNone = ~Index{0};
+
+  Index add_vertex(const gp_Pnt& p) {
+    mesh_.vertices.emplace_back(p.X(), p.Y(), p.Z());
+    return static_cast<Index>(mesh_.vertices.size() - 1);
+  }
+
+  // The mesh's vertex for an end of edges, which `p` is where it is new.
+  Index at_end(const TopoDS_Vertex& end, const gp_Pnt& p) {
+    if (end.IsNull()) return add_vertex(p);
+    if (const Index* known = ends_.Seek(end)) return *known;
+    const Index vertex = add_vertex(p);
+    ends_.Bind(end, vertex);
+    return vertex;
+  }
+
+  // Gives the nodes of the face that lie on its edges their vertices.
+  void join_edges(const TopoDS_Face& face,
+                  const Handle(Poly_Triangulation) & triangulation,
+                  const TopLoc_Location& place, const FaceMesh& of_face) {
+    for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+      const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
+      const auto polygon =
+          BRep_Tool::PolygonOnTriangulation(edge, triangulation, place);
+      if (polygon.IsNull()) continue;
+      std::vector<std::size_t> nodes;
+      for (int i = 1; i <= polygon->NbNodes(); ++i) {
+        nodes.push_back(static_cast<std::size_t>(polygon->Node(i) - 1));
+      }
+      const std::vector<Index>& along = vertices_along(edge, nodes, of_face);
+      // Else the edge is cut otherwise here than in another face.
+      if (along.size() != nodes.size()) continue;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        vertices_[nodes[i]] = along[i];
+      }
+    }
+  }
+
+  const std::vector<Index>& vertices_along(
+      const TopoDS_Edge& edge, const std::vector<std::size_t>& nodes,
+      const FaceMesh& of_face) {
+    if (const std::vector<Index>* known = along_.Seek(edge)) return *known;
+    const auto point = [&](std::size_t i) { return of_face.points[nodes[i]]; };
+    const std::size_t last = nodes.size() - 1;
+    std::vector<Index> along(nodes.size(), kNone);
+    along.front() = at_end(TopExp::FirstVertex(edge), point(0));
+    if (BRep_Tool::Degenerated(edge)) {
+      // A pole: the whole edge is a point.
+      std::fill(along.begin(), along.end(), along.front());
+    } else {
+      for (std::size_t i = 1; i < last; ++i) along[i] = add_vertex(point(i));
+      along.back() = at_end(TopExp::LastVertex(edge), point(last));
+    }
+    return *along_.Bound(edge, along);
+  }
+
+  void add_inner(const FaceMesh& of_face) {
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      if (vertices_[i] == kNone) vertices_[i] = add_vertex(of_face.points[i]);
+    }
+  }
+
+  // A triangle at a pole may have lost a side.
+  void add_triangles(const FaceMesh& of_face) {
+    for (const auto& nodes : of_face.triangles) {
+      const std::array<Index, 3> corners = {
+          vertices_[nodes[0]], vertices_[nodes[1]], vertices_[nodes[2]]};
+      if (corners[0] != corners[1] && corners[1] != corners[2] &&
+          corners[2] != corners[0]) {
+        mesh_.triangles.push_back(corners);
+      }
+    }
+  }
+
+  const double chordal_error_;
+  double deviation_ = 0;
+  csg::Mesh mesh_;
+  ByShape<Index> ends_;
+  ByShape<std::vector<Index>> along_;
+  std::vector<Index> vertices_;  // of the nodes of one face
+};
+
+// Meshes until the chords of edges are as near as they have to be; returns how
+// far they are.
+double mesh_edges_within(const TopoDS_Shape& shape, const Fineness& fineness) {
+  // Each is half of the one before.
+  constexpr int kMostTrials = 6;
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = fineness.chordal_error;
+  parameters.Angle = fineness.angle;
+  double deviation = 0;
+  for (int i = 0; i < kMostTrials; ++i) {
+    // The file may bring triangles along.
+    BRepTools::Clean(shape);
+    BRepMesh_IncrementalMesh(shape, parameters);
+    deviation = deviation_of_edges(shape);
+    if (deviation <= fineness.chordal_error) break;
+    parameters.Deflection /= 2;
+  }
+  return deviation;
+}
+
+}  // namespace
+
+csg::Mesh tessellate(const Solid& solid, const Fineness& fineness,
+                     std::vector<std::string>& warnings) {
+  const double of_edges = mesh_edges_within(solid.shape, fineness);
+  MeshBuilder builder(fineness.chordal_error);
+  std::size_t without = 0;
+  for (TopExp_Explorer at(solid.shape, TopAbs_FACE); at.More(); at.Next()) {
+    if (!builder.add(TopoDS::Face(at.Current()))) ++without;
+    const auto triangles = static_cast<double>(builder.triangle_count());
+    if (triangles > csg::kMostTriangles) throw TooManyTriangles{triangles};
+  }
+  if (without > 0) {
+    warnings.push_back(fmt::format("{}{} faces could not be meshed",
+                                   prefix_of(solid.name), without));
+  }
+  const double deviation = std::max(of_edges, builder.deviation());
+  if (deviation > fineness.chordal_error) {
+    warnings.push_back(fmt::format(
+        "{}a face deviates by {:.3g} mm, more than the chordal error of "
+        "{:.3g} mm",
+        prefix_of(solid.name), deviation, fineness.chordal_error));
+  }
+  return builder.take();
+}
+
+}  // namespace lamina::cad

@@ -1,0 +1,111 @@
+#pragma once
+// The document in a FreeCAD file: objects with names and properties.
+//
+// An .FCStd is a ZIP archive. Document.xml lists the objects, each with a type
+// ("Part::Box"), a name that is its own, a label that the user gave, and its
+// properties: the parameters, links to other objects by name, and the result as
+// a boundary representation in an entry of its own. Values that expressions
+// compute are stored as numbers, so nothing is computed anew here.
+// GuiDocument.xml, which a file that a script saved lacks, says what is shown.
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pugixml.hpp>
+
+#include "base/file/zip.h"
+#include "base/vec.h"
+
+namespace lamina::csg::freecad {
+
+// A part of an object that a property names: `Sketch`, "V_Axis".
+struct SubLink {
+  std::string_view object;             // empty: none
+  std::vector<std::string_view> subs;  // without empty ones
+};
+
+// Views of the document's texts. The readers of properties give nothing where
+// the object lacks the property, and throw FormatError where its value is
+// malformed: no finite number, or one beyond csg::kGreatestCoordinate.
+class Object {
+ public:
+  Object(pugi::xml_node data, std::string_view name, std::string_view type);
+
+  std::string_view name() const { return name_; }
+  std::string_view type() const { return type_; }
+  std::string_view label() const { return label_; }
+  bool is_a(std::string_view type) const { return type_ == type; }
+  bool is_visible() const { return is_visible_; }
+  void set_visible(bool is_visible) { is_visible_ = is_visible; }
+
+  // The element that holds the value, null if there is none.
+  pugi::xml_node value(std::string_view property) const;
+
+  std::optional<double> find_number(std::string_view property) const;
+  double number(std::string_view property, double fallback) const {
+    return find_number(property).value_or(fallback);
+  }
+  // Throws FormatError where there is none.
+  double number(std::string_view property) const;
+  // Of an enumeration: which one, from 0.
+  int choice(std::string_view property) const;
+  // A whole number within an int.
+  int count(std::string_view property) const;
+  bool flag(std::string_view property) const;
+  std::string_view text(std::string_view property) const;
+  std::optional<Vec3> vector(std::string_view property) const;
+  // The identity where there is none.
+  Mat4 placement(std::string_view property = "Placement") const;
+  // The linked object's name; empty: none. A link into another file counts as
+  // none.
+  std::string_view link(std::string_view property) const;
+  std::vector<std::string_view> links(std::string_view property) const;
+  SubLink sub_link(std::string_view property) const;
+  // The archive's entry that a property is in; empty: none.
+  std::string_view file(std::string_view property) const;
+
+ private:
+  std::string_view name_;
+  std::string_view type_;
+  std::string_view label_;
+  pugi::xml_node properties_;
+  bool is_visible_ = true;
+};
+
+// An attribute as a number, under the same terms.
+double read_number(const pugi::xml_node& element, const char* attribute);
+
+class Document {
+ public:
+  // bytes  must stay as long as the document
+  //
+  // throws  FormatError
+  explicit Document(std::string_view bytes);
+
+  const std::vector<Object>& objects() const { return objects_; }
+  // Null where there is none.
+  const Object* find(std::string_view name) const;
+  // By its name or, where none has that name, the first of that label.
+  const Object* find_part(std::string_view name_or_label) const;
+
+  // The entry with the boundary that the file stores for the object, in the
+  // frame of what holds it; empty where it has none, or one without faces.
+  // Throws FormatError where the archive lacks it.
+  std::string_view boundary_entry(const Object& object) const;
+
+ private:
+  void read_objects();
+  void read_visibility();
+
+  ZipArchive archive_;
+  pugi::xml_document document_;
+  pugi::xml_document view_;
+  std::vector<Object> objects_;
+  std::map<std::string_view, std::size_t> by_name_;
+};
+
+}  // namespace lamina::csg::freecad

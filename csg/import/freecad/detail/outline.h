@@ -1,0 +1,39 @@
+#pragma once
+// Closed outlines from the curves of a sketch.
+//
+// A sketch lists its curves in any order and direction. FreeCAD joins them to
+// wires and nests these: what lies in an odd number of wires is filled. That
+// does not depend on how wires are parted where several meet in a point, so
+// curves are joined as they come.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "csg/import/freecad/detail/curve.h"
+#include "csg/import/freecad/detail/document.h"
+
+namespace lamina::csg::freecad {
+
+// Filled where an odd number of the contours surround a point.
+struct Outline {
+  Mat4 plane = Mat4(1);  // from the outline's plane z = 0 to what holds it
+  std::vector<Polyline> contours;  // closed, the first corner not repeated
+};
+
+// The outline that an object has for others to extrude: a sketch, a regular
+// polygon, a circle, an ellipse, a rectangle.
+//
+// why      gets the reason where there is none
+// returns  nothing where the object is none of these, or not closed
+std::optional<Outline> read_outline(const Object& object, double error,
+                                    std::string& why);
+
+// Joins curves at their ends. Nothing where an end meets no other.
+std::optional<std::vector<Polyline>> join_curves(std::vector<Polyline> curves);
+
+// The centres of the circles and arcs of a sketch, in its plane: where holes
+// are drilled.
+std::vector<Vec2> circle_centers(const Object& sketch);
+
+}  // namespace lamina::csg::freecad

@@ -1,0 +1,120 @@
+#pragma once
+// From the objects of a document to solids.
+//
+// Each object is made once, in the frame of what holds it: a body's features in
+// the body's, the parts of a group in the group's. It is made by parameter if
+// its maker can, and else by its boundary. Makers give nothing where there is
+// no CSG form, and say why.
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "csg/import/freecad/detail/document.h"
+#include "csg/import/freecad/detail/outline.h"
+#include "csg/import/freecad/detail/solid_maker.h"
+#include "csg/import/freecad/freecad_file.h"
+
+namespace lamina::csg::freecad {
+
+class Reader {
+ public:
+  Reader(const Document& document, const FreecadOptions& options, Arena& arena);
+
+  FreecadModel read();
+
+ private:
+  using Made = std::optional<Solid>;
+  // why  gets the reason where there is no CSG form
+  using Make = Made (Reader::*)(const Object&, std::string& why);
+
+  // --- reader.cpp -----------------------------------------------------------
+  // The object in the frame of what holds it; nothing where it has no volume.
+  Made make(const Object& object);
+  Made make(std::string_view name);
+  Made make_anew(const Object& object, std::string& why);
+  static Make maker_of(const Object& object);
+  Made by_boundary(const Object& object, const std::string& why);
+  // Appends the solids of these objects that are shown and that no object is
+  // made of. Names what is left out.
+  void make_shown(const std::vector<const Object*>& objects,
+                  std::vector<Solid>& solids);
+  void report_left_out(const Object& object);
+  void find_operands();
+  std::vector<const Object*> objects_of(const Object& group) const;
+
+  Made make_group(const Object& object, std::string& why);
+  Made make_link(const Object& object, std::string& why);
+
+  // --- part_features.cpp ----------------------------------------------------
+  Made make_part_primitive(const Object& object, std::string& why);
+  Made make_cut(const Object& object, std::string& why);
+  Made make_fuse(const Object& object, std::string& why);
+  Made make_common(const Object& object, std::string& why);
+  Made make_mirroring(const Object& object, std::string& why);
+  Made make_extrusion(const Object& object, std::string& why);
+  Made make_part_revolution(const Object& object, std::string& why);
+  // All or, where one has no volume, nothing.
+  std::optional<std::vector<Solid>> make_operands(
+      const std::vector<std::string_view>& names, std::string& why);
+  std::optional<Outline> outline_of(std::string_view name, std::string& why);
+  struct Turn {
+    Vec3 base;
+    Vec3 axis;
+    double angle_deg = 360;
+    bool is_symmetric = false;  // about the outline's plane
+    bool is_reversed = false;
+  };
+  Made revolve(const Outline& outline, const Turn& turn, std::string& why);
+
+  // --- part_design.cpp ------------------------------------------------------
+  Made make_body(const Object& object, std::string& why);
+  Made make_base(const Object& object, std::string& why);
+  Made make_body_boolean(const Object& object, std::string& why);
+  // What stands before the feature, and what it adds or takes away.
+  Made make_feature(const Object& object, std::string& why);
+  Made make_tool(const Object& object, std::string& why);
+  // Whether the feature adds its tool; else it takes it away.
+  static bool adds(const Object& object);
+  Made make_prism_tool(const Object& object, std::string& why);
+  Made make_revolution_tool(const Object& object, std::string& why);
+  Made make_hole_tool(const Object& object, std::string& why);
+  std::optional<Outline> profile_of(const Object& object, std::string& why);
+
+  // --- patterns.cpp ---------------------------------------------------------
+  using Places = std::optional<std::vector<Mat4>>;
+  Made make_pattern(const Object& object, std::string& why);
+  // Where the originals are repeated, the first time where they stand.
+  Places places_of(const Object& object, std::string& why);
+  Places line_places(const Object& object, std::string& why);
+  Places circle_places(const Object& object, std::string& why);
+  Places mirror_places(const Object& object, std::string& why);
+  Places product_of_places(const Object& object, std::string& why);
+  struct Axis {
+    Vec3 base;
+    Vec3 way;
+  };
+  std::optional<Axis> axis_of(const SubLink& link, std::string& why);
+  std::optional<Axis> normal_of(const SubLink& link, std::string& why);
+
+  struct Entry {
+    bool is_done = false;
+    Made solid;
+    std::string why;  // there is none
+  };
+
+  const Document& document_;
+  const FreecadOptions& options_;
+  SolidMaker maker_;
+  FreecadModel model_;
+  std::map<const Object*, Entry> entries_;
+  std::set<std::string_view> operands_;  // of other objects
+  std::set<std::string_view> members_;   // of groups and bodies
+  int depth_ = 0;
+};
+
+}  // namespace lamina::csg::freecad

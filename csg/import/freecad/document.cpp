@@ -1,0 +1,245 @@
+#include "csg/import/freecad/detail/document.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/file/format_error.h"
+#include "base/file/xml.h"
+#include "base/text.h"
+#include "csg/limits.h"
+
+namespace lamina::csg::freecad {
+namespace {
+
+ZipArchive open_archive(std::string_view bytes) {
+  if (!ZipArchive::is_zip(bytes)) {
+    throw FormatError("FCStd, expected a ZIP archive");
+  }
+  return ZipArchive::open(bytes);
+}
+
+void parse_xml(std::string_view bytes, std::string_view entry,
+               pugi::xml_document& document) {
+  if (const auto fault = load_xml(bytes, document)) {
+    throw FormatError(
+        fmt::format("FCStd {} byte {}, {}", entry, fault->place, fault->words));
+  }
+}
+
+// A rotation by a right angle becomes one of whole numbers: quaternions leave
+// 2e-16 in the place of 0.
+double without_dust(double entry) {
+  constexpr double kDust = 1e-15;
+  const double whole = std::round(entry);
+  return std::abs(entry - whole) < kDust ? whole : entry;
+}
+
+Mat4 read_placement(const pugi::xml_node& value) {
+  const glm::dquat turn(read_number(value, "Q3"), read_number(value, "Q0"),
+                        read_number(value, "Q1"), read_number(value, "Q2"));
+  Mat4 matrix(1);
+  constexpr double kLeastNorm = 1e-7;
+  if (const double norm = glm::length(turn); norm > kLeastNorm) {
+    matrix = glm::mat4_cast(turn / norm);
+  }
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      matrix[column][row] = without_dust(matrix[column][row]);
+    }
+  }
+  matrix[3] = Vec4(read_number(value, "Px"), read_number(value, "Py"),
+                   read_number(value, "Pz"), 1);
+  return matrix;
+}
+
+// Whether the boundary is one of more than points and curves. As text it names
+// each shape's kind on a line of its own, "Fa" for a face; the binary form is
+// not looked into.
+bool has_faces(std::string_view boundary) {
+  constexpr std::string_view kBinary = "Open CASCADE Topology";
+  if (boundary.substr(0, 100).find(kBinary) != std::string_view::npos) {
+    return true;
+  }
+  return boundary.find("\nFa") != std::string_view::npos;
+}
+
+}  // namespace
+
+double read_number(const pugi::xml_node& element, const char* attribute) {
+  const std::string_view text = element.attribute(attribute).value();
+  const auto number = parse_number(text);
+  if (!number) {
+    throw FormatError(
+        fmt::format("FCStd, expected a number in {} of a {}, not '{}'",
+                    attribute, element.name(), text));
+  }
+  if (is_too_far(*number)) {
+    throw FormatError(fmt::format("FCStd, {} of a {} is {:g}, beyond 1e9",
+                                  attribute, element.name(), *number));
+  }
+  return *number;
+}
+
+// --- Object -----------------------------------------------------------------
+
+Object::Object(pugi::xml_node data, std::string_view name,
+               std::string_view type)
+    : name_(name), type_(type), properties_(data.child("Properties")) {
+  label_ = text("Label");
+  if (label_.empty()) label_ = name_;
+  is_visible_ = !value("Visibility") || flag("Visibility");
+}
+
+pugi::xml_node Object::value(std::string_view property) const {
+  for (const pugi::xml_node child : properties_.children("Property")) {
+    if (child.attribute("name").value() == property) {
+      return child.first_child();
+    }
+  }
+  return {};
+}
+
+std::optional<double> Object::find_number(std::string_view property) const {
+  const pugi::xml_node element = value(property);
+  if (!element) return std::nullopt;
+  return read_number(element, "value");
+}
+
+double Object::number(std::string_view property) const {
+  const auto number = find_number(property);
+  if (number) return *number;
+  throw FormatError(
+      fmt::format("FCStd, {} '{}' has no {}", type_, label_, property));
+}
+
+int Object::choice(std::string_view property) const {
+  return value(property) ? count(property) : 0;
+}
+
+int Object::count(std::string_view property) const {
+  return static_cast<int>(number(property));
+}
+
+bool Object::flag(std::string_view property) const {
+  return value(property).attribute("value").as_bool();
+}
+
+std::string_view Object::text(std::string_view property) const {
+  return value(property).attribute("value").value();
+}
+
+std::optional<Vec3> Object::vector(std::string_view property) const {
+  const pugi::xml_node element = value(property);
+  if (!element) return std::nullopt;
+  return Vec3(read_number(element, "valueX"), read_number(element, "valueY"),
+              read_number(element, "valueZ"));
+}
+
+Mat4 Object::placement(std::string_view property) const {
+  const pugi::xml_node element = value(property);
+  return element ? read_placement(element) : Mat4(1);
+}
+
+std::string_view Object::link(std::string_view property) const {
+  const pugi::xml_node element = value(property);
+  if (element.attribute("file").value()[0] != '\0') return {};
+  const char* const attribute =
+      element.name() == std::string_view("XLink") ? "name" : "value";
+  return element.attribute(attribute).value();
+}
+
+std::vector<std::string_view> Object::links(std::string_view property) const {
+  std::vector<std::string_view> names;
+  for (const pugi::xml_node link : value(property).children("Link")) {
+    const pugi::xml_attribute target = link.attribute("value");
+    names.emplace_back((target ? target : link.attribute("obj")).value());
+  }
+  return names;
+}
+
+SubLink Object::sub_link(std::string_view property) const {
+  const pugi::xml_node element = value(property);
+  SubLink link;
+  link.object = element.attribute("value").value();
+  for (const pugi::xml_node sub : element.children("Sub")) {
+    const std::string_view name = sub.attribute("value").value();
+    if (!name.empty()) link.subs.push_back(name);
+  }
+  return link;
+}
+
+std::string_view Object::file(std::string_view property) const {
+  return value(property).attribute("file").value();
+}
+
+// --- Document ---------------------------------------------------------------
+
+Document::Document(std::string_view bytes) : archive_(open_archive(bytes)) {
+  const auto text = archive_.read("Document.xml");
+  if (!text) throw FormatError("FCStd holds no 'Document.xml'");
+  parse_xml(*text, "Document.xml", document_);
+  read_objects();
+  if (const auto view = archive_.read("GuiDocument.xml")) {
+    parse_xml(*view, "GuiDocument.xml", view_);
+    read_visibility();
+  }
+}
+
+void Document::read_objects() {
+  const pugi::xml_node root = document_.document_element();
+  std::map<std::string_view, std::string_view> types;
+  for (const pugi::xml_node object : root.child("Objects").children("Object")) {
+    types[object.attribute("name").value()] = object.attribute("type").value();
+  }
+  for (const pugi::xml_node data :
+       root.child("ObjectData").children("Object")) {
+    const std::string_view name = data.attribute("name").value();
+    const auto type = types.find(name);
+    if (type == types.end()) continue;
+    if (!by_name_.try_emplace(name, objects_.size()).second) continue;
+    objects_.emplace_back(data, name, type->second);
+  }
+}
+
+void Document::read_visibility() {
+  const pugi::xml_node providers =
+      view_.document_element().child("ViewProviderData");
+  for (const pugi::xml_node view : providers.children("ViewProvider")) {
+    const auto found = by_name_.find(view.attribute("name").value());
+    if (found == by_name_.end()) continue;
+    for (const pugi::xml_node property :
+         view.child("Properties").children("Property")) {
+      if (property.attribute("name").value() ==
+          std::string_view("Visibility")) {
+        objects_[found->second].set_visible(
+            property.first_child().attribute("value").as_bool());
+      }
+    }
+  }
+}
+
+const Object* Document::find(std::string_view name) const {
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? nullptr : &objects_[found->second];
+}
+
+const Object* Document::find_part(std::string_view name_or_label) const {
+  if (const Object* const object = find(name_or_label)) return object;
+  const auto found = std::find_if(
+      objects_.begin(), objects_.end(),
+      [&](const Object& object) { return object.label() == name_or_label; });
+  return found == objects_.end() ? nullptr : &*found;
+}
+
+std::string_view Document::boundary_entry(const Object& object) const {
+  const std::string_view entry = object.file("Shape");
+  if (entry.empty()) return {};
+  const auto bytes = archive_.read(std::string(entry));
+  if (!bytes) throw FormatError(fmt::format("FCStd holds no '{}'", entry));
+  return has_faces(*bytes) ? entry : std::string_view();
+}
+
+}  // namespace lamina::csg::freecad

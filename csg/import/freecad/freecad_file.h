@@ -1,0 +1,59 @@
+#pragma once
+// FreeCAD files (.FCStd) as CSG trees.
+//
+// FreeCAD keeps both how a part is made and what came of it: features with
+// their parameters, and the boundary representation of each feature's result.
+// Here features become nodes of the CSG tree wherever these say the same:
+// primitives, prisms and bodies of revolution over sketches, Booleans,
+// patterns, placements. All else (fillets, lofts, imported shapes) is a node
+// that imports the feature's stored boundary, which lowering reads. A body that
+// ends with a fillet thus is one boundary, one with a pocket after it that
+// boundary less a prism.
+//
+// Positions are as FreeCAD computed and stored them: neither constraints nor
+// expressions are solved anew.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/arena.h"
+#include "base/source.h"
+#include "csg/tree.h"
+
+namespace lamina::csg {
+
+struct FreecadOptions {
+  std::string_view path;  // of the file; must live as long as the nodes
+  // One object, by name or label, in the frame of what holds it. Not given:
+  // all that is shown and that no other object is made of.
+  std::optional<std::string_view> part = std::nullopt;
+  // Greatest distance of facets from what they stand for, in the file's own
+  // millimetres.
+  double chordal_error = 0.01;
+  std::size_t most_leaves = 10'000'000;
+  SourceRange range = {};            // of the nodes
+  const CallSite* caller = nullptr;  // likewise
+  // The `.csg` text of a node that imports the boundary of the object of this
+  // name.
+  std::function<std::string(std::string_view name)> boundary_text;
+};
+
+struct FreecadModel {
+  std::vector<const Node*> nodes;
+  std::size_t leaves = 0;
+  std::vector<std::string> warnings;  // of what is left out
+  std::vector<std::string> notes;     // of what is taken by its boundary
+};
+
+// Reads the file and makes nodes, in the arena.
+//
+// throws  FormatError where the file is broken, an object is made from itself,
+//         or there is no such part; LimitExceeded
+FreecadModel read_freecad(std::string_view bytes, const FreecadOptions& options,
+                          Arena& arena);
+
+}  // namespace lamina::csg

@@ -1,0 +1,318 @@
+#include "csg/import/freecad/detail/reader.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+
+#include "base/file/format_error.h"
+#include "base/text.h"
+#include "csg/limits.h"
+
+namespace lamina::csg::freecad {
+namespace {
+
+// What an object that is made of others calls them. What it names besides, as
+// an axis, a support or the original of a copy, stays a part of its own.
+constexpr std::array<std::string_view, 10> kOperandProperties = {
+    "Base",  "Tool",  "Shapes",  "Links",    "Source",
+    "Spine", "Faces", "Profile", "Sections", "BaseFeature"};
+
+std::string shown(const Object& object) {
+  return fmt::format("'{}' ({})", on_one_line(object.label()), object.type());
+}
+
+// Curves, faces and helps to draw, which enclose nothing.
+bool is_flat(const Object& object) {
+  static const std::set<std::string_view> kTypes = {
+      "Part::Plane",
+      "Part::Line",
+      "Part::Vertex",
+      "Part::Circle",
+      "Part::Ellipse",
+      "Part::Polygon",
+      "Part::RegularPolygon",
+      "Part::Helix",
+      "Part::Spiral",
+      "Part::Face",
+      "PartDesign::Plane",
+      "PartDesign::Line",
+      "PartDesign::Point",
+      "PartDesign::CoordinateSystem",
+      "PartDesign::ShapeBinder",
+      "PartDesign::SubShapeBinder"};
+  const std::string_view type = object.type();
+  return type.starts_with("Sketcher::SketchObject") ||
+         type.starts_with("Part::Part2DObject") || kTypes.contains(type);
+}
+
+// Whether it is a part at all: not a table, a drawing, a material, a load.
+bool has_geometry(const Object& object) {
+  if (object.type().starts_with("Fem::")) return false;
+  return object.value("Shape") || object.value("Mesh") ||
+         object.value("Points");
+}
+
+bool is_group(const Object& object) {
+  return object.is_a("App::Part") ||
+         object.type().starts_with("App::DocumentObjectGroup") ||
+         object.is_a("App::LinkGroup");
+}
+
+}  // namespace
+
+Reader::Reader(const Document& document, const FreecadOptions& options,
+               Arena& arena)
+    : document_(document),
+      options_(options),
+      maker_(arena, {options.range, options.caller}, options.chordal_error,
+             options.most_leaves) {}
+
+FreecadModel Reader::read() {
+  find_operands();
+  std::vector<Solid> solids;
+  if (options_.part) {
+    const Object* const part = document_.find_part(*options_.part);
+    if (part == nullptr) {
+      throw FormatError(
+          fmt::format("FCStd, there is no part '{}'", *options_.part));
+    }
+    const Made solid = make(*part);
+    if (!solid) {
+      throw FormatError(fmt::format("FCStd, {} is no solid{}{}", shown(*part),
+                                    entries_[part].why.empty() ? "" : ": ",
+                                    entries_[part].why));
+    }
+    solids.push_back(*solid);
+  } else {
+    std::vector<const Object*> top;
+    for (const Object& object : document_.objects()) {
+      if (!members_.contains(object.name())) top.push_back(&object);
+    }
+    make_shown(top, solids);
+  }
+  for (const Solid& solid : solids) {
+    model_.nodes.push_back(solid.node);
+    model_.leaves += solid.leaves;
+  }
+  return std::move(model_);
+}
+
+// --- Which objects count ----------------------------------------------------
+
+void Reader::find_operands() {
+  for (const Object& object : document_.objects()) {
+    for (const std::string_view property : kOperandProperties) {
+      operands_.insert(object.link(property));
+      for (const std::string_view name : object.links(property)) {
+        operands_.insert(name);
+      }
+    }
+    for (const char* const holding : {"Group", "ElementList"}) {
+      for (const std::string_view name : object.links(holding)) {
+        members_.insert(name);
+      }
+    }
+  }
+}
+
+std::vector<const Object*> Reader::objects_of(const Object& group) const {
+  std::vector<const Object*> objects;
+  const char* const property =
+      group.is_a("App::LinkGroup") ? "ElementList" : "Group";
+  for (const std::string_view name : group.links(property)) {
+    const Object* const object = document_.find(name);
+    if (object != nullptr) objects.push_back(object);
+  }
+  return objects;
+}
+
+void Reader::make_shown(const std::vector<const Object*>& objects,
+                        std::vector<Solid>& solids) {
+  for (const Object* const object : objects) {
+    if (operands_.contains(object->name())) continue;
+    if (!has_geometry(*object) && maker_of(*object) == nullptr) continue;
+    if (!object->is_visible()) {
+      if (!is_flat(*object)) {
+        model_.notes.push_back(
+            fmt::format("{} is hidden, so left out", shown(*object)));
+      }
+      continue;
+    }
+    if (is_flat(*object)) {
+      model_.notes.push_back(
+          fmt::format("{} encloses nothing, so left out", shown(*object)));
+      continue;
+    }
+    if (const Made solid = make(*object)) {
+      solids.push_back(*solid);
+    } else {
+      report_left_out(*object);
+    }
+  }
+}
+
+void Reader::report_left_out(const Object& object) {
+  const std::string& why = entries_[&object].why;
+  if (is_group(object)) return;  // it holds nothing
+  model_.warnings.push_back(
+      fmt::format("{} is left out: {}", shown(object),
+                  why.empty() ? "it stores no faces" : why));
+}
+
+// --- Making -----------------------------------------------------------------
+
+Reader::Made Reader::make(std::string_view name) {
+  const Object* const object = document_.find(name);
+  return object == nullptr ? std::nullopt : make(*object);
+}
+
+Reader::Made Reader::make(const Object& object) {
+  const auto [found, is_new] = entries_.try_emplace(&object);
+  Entry& entry = found->second;
+  if (is_new) {
+    constexpr int kDeepest = 1000;
+    if (depth_ == kDeepest) {
+      throw LimitExceeded(fmt::format(
+          "Too deep: {} objects are made of one another, at most {} can be",
+          depth_, kDeepest));
+    }
+    ++depth_;
+    entry.solid = make_anew(object, entry.why);
+    --depth_;
+    entry.is_done = true;
+  }
+  if (!entry.is_done) {
+    throw FormatError(
+        fmt::format("FCStd, {} is made from itself", shown(object)));
+  }
+  return entry.solid;
+}
+
+Reader::Made Reader::make_anew(const Object& object, std::string& why) {
+  if (const Make maker = maker_of(object)) {
+    if (const Made solid = (this->*maker)(object, why)) return solid;
+    if (is_group(object)) return std::nullopt;
+  }
+  return by_boundary(object, why);
+}
+
+Reader::Make Reader::maker_of(const Object& object) {
+  static const std::map<std::string_view, Make> kMakers = {
+      {"App::Part", &Reader::make_group},
+      {"App::LinkGroup", &Reader::make_group},
+      {"App::Link", &Reader::make_link},
+      {"App::LinkElement", &Reader::make_link},
+      {"Part::Cut", &Reader::make_cut},
+      {"Part::Fuse", &Reader::make_fuse},
+      {"Part::Common", &Reader::make_common},
+      {"Part::MultiFuse", &Reader::make_fuse},
+      {"Part::MultiCommon", &Reader::make_common},
+      {"Part::Compound", &Reader::make_fuse},
+      {"Part::Mirroring", &Reader::make_mirroring},
+      {"Part::Extrusion", &Reader::make_extrusion},
+      {"Part::Revolution", &Reader::make_part_revolution},
+      {"PartDesign::Body", &Reader::make_body},
+      {"PartDesign::FeatureBase", &Reader::make_base},
+      {"PartDesign::Boolean", &Reader::make_body_boolean},
+      {"PartDesign::Pad", &Reader::make_feature},
+      {"PartDesign::Pocket", &Reader::make_feature},
+      {"PartDesign::Revolution", &Reader::make_feature},
+      {"PartDesign::Groove", &Reader::make_feature},
+      {"PartDesign::Hole", &Reader::make_feature},
+      {"PartDesign::LinearPattern", &Reader::make_pattern},
+      {"PartDesign::PolarPattern", &Reader::make_pattern},
+      {"PartDesign::Mirrored", &Reader::make_pattern},
+      {"PartDesign::MultiTransform", &Reader::make_pattern}};
+  const std::string_view type = object.type();
+  const auto found = kMakers.find(type);
+  if (found != kMakers.end()) return found->second;
+  if (type.starts_with("App::DocumentObjectGroup")) return &Reader::make_group;
+  static const std::set<std::string_view> kPrimitives = {
+      "Box",   "Cylinder", "Sphere", "Cone",
+      "Torus", "Prism",    "Wedge",  "Ellipsoid"};
+  const auto is_primitive = [&](std::string_view prefix) {
+    return type.starts_with(prefix) &&
+           kPrimitives.contains(type.substr(prefix.size()));
+  };
+  if (is_primitive("Part::")) return &Reader::make_part_primitive;
+  if (is_primitive("PartDesign::Additive") ||
+      is_primitive("PartDesign::Subtractive")) {
+    return &Reader::make_feature;
+  }
+  return nullptr;
+}
+
+Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
+  if (is_flat(object) || document_.boundary_entry(object).empty())
+    return std::nullopt;
+  // A feature that was told to make a surface is none whose boundary counts.
+  if (object.value("Solid") && !object.flag("Solid")) return std::nullopt;
+  model_.notes.push_back(fmt::format("{} is taken by its boundary{}{}",
+                                     shown(object), why.empty() ? "" : ": ",
+                                     why));
+  ImportParams params;
+  params.path = options_.path;
+  params.format = ImportFormat::kFcstd;
+  params.entry = maker_.keep_text(document_.boundary_entry(object));
+  params.csg_text = maker_.keep_text(options_.boundary_text(object.name()));
+  return maker_.leaf(Import{maker_.keep(params)});
+}
+
+// --- Groups and links -------------------------------------------------------
+
+Reader::Made Reader::make_group(const Object& object, std::string&) {
+  std::vector<Solid> solids;
+  make_shown(objects_of(object), solids);
+  if (solids.empty()) return std::nullopt;
+  const Solid all = maker_.unite(solids);
+  // Plain groups have no place of their own.
+  return maker_.place(object.placement(), all);
+}
+
+// A link shows its target at a place of its own or, if it keeps the target's,
+// in a frame of its own.
+Reader::Made Reader::make_link(const Object& object, std::string& why) {
+  const std::string_view name = object.link("LinkedObject");
+  const Object* const target = document_.find(name);
+  if (target == nullptr) {
+    why = name.empty() ? "it links to another file, or to nothing"
+                       : fmt::format("there is no object '{}'", name);
+    return std::nullopt;
+  }
+  if (object.number("ElementCount", 0) > 0) {
+    why = "it is an array of links";
+    return std::nullopt;
+  }
+  const Made solid = make(*target);
+  if (!solid) {
+    why = fmt::format("{} is no solid", shown(*target));
+    return std::nullopt;
+  }
+  const char* const own =
+      object.value("Placement") ? "Placement" : "LinkPlacement";
+  Mat4 matrix = object.placement(own);
+  Mat4 scale(1);
+  if (const auto factors = object.vector("ScaleVector")) {
+    for (int i = 0; i < 3; ++i) scale[i][i] = (*factors)[i];
+  }
+  const Mat4 from_target = object.flag("LinkTransform")
+                               ? Mat4(1)
+                               : glm::inverse(target->placement());
+  return maker_.place(matrix * scale * from_target, *solid);
+}
+
+}  // namespace lamina::csg::freecad
+
+namespace lamina::csg {
+
+FreecadModel read_freecad(std::string_view bytes, const FreecadOptions& options,
+                          Arena& arena) {
+  const freecad::Document document(bytes);
+  return freecad::Reader(document, options, arena).read();
+}
+
+}  // namespace lamina::csg

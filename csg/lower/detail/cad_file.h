@@ -1,0 +1,29 @@
+#pragma once
+// import() of STEP, IGES and BREP, and of the boundaries in FreeCAD files.
+
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "base/file/file_access.h"
+#include "csg/cad/cad_reader.h"
+#include "csg/import/mesh_file.h"
+#include "csg/tree.h"
+
+namespace lamina::csg {
+
+// Of parts where no chordal error is asked for: that of a circle of 20 mm with
+// 100 sides [mm].
+constexpr double kChordalErrorOfParts = 0.01;
+
+bool is_cad_format(ImportFormat format);
+
+// Reads the solids of a file; none where it cannot be read, which it reports at
+// `range` as it does what the reader warns of.
+//
+// chordal_error  in the file's coordinates [mm]
+std::vector<RawMesh> read_cad_file(const ImportParams& params,
+                                   double chordal_error, cad::Reader& reader,
+                                   const FileAccess& access, SourceRange range,
+                                   Diagnostics& diagnostics);
+
+}  // namespace lamina::csg

@@ -1,0 +1,123 @@
+// STEP, IGES and BREP on the command line.
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/lamina.h"
+
+namespace lamina::cli {
+namespace {
+
+using support::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Cylinders of radius 5 and height 12.
+void add_seed(const TemporaryFolder& folder, const std::string& seed,
+              const std::string& name) {
+  std::filesystem::copy_file(std::string(LAMINA_SEEDS) + "/" + seed,
+                             folder.file(name));
+}
+
+TEST(Cad, APartIsSlicedAsTheDesignThatImportsIt) {
+  const TemporaryFolder folder;
+  add_seed(folder, "step/cylinder", "part.STEP");
+  add_seed(folder, "iges/cylinder", "part.igs");
+  add_seed(folder, "brep/binary", "part.brp");
+  for (const char* name : {"part.STEP", "part.igs", "part.brp"}) {
+    folder.write("a.scad", std::string("import(\"") + name + "\");");
+    EXPECT_EQ(run(folder, {name, "-q", "-o", "part.slc"}).status, 0) << name;
+    EXPECT_EQ(run(folder, {"a.scad", "-q", "-o", "a.slc"}).status, 0) << name;
+    EXPECT_EQ(run(folder, {"compare", "part.slc", "a.slc"}).status, 0) << name;
+  }
+}
+
+TEST(Cad, LayersKeepTheChordalErrorInTheWorld) {
+  const TemporaryFolder folder;
+  add_seed(folder, "step/cylinder", "part.step");
+  folder.write("part.scad", "scale(10) import(\"part.step\");");
+  folder.write("fine.scad", "scale(10) cylinder(r = 5, h = 12, $fn = 5000);");
+  for (const char* design : {"part", "fine"}) {
+    EXPECT_EQ(run(folder, {std::string(design) + ".scad", "-q", "--layer", "1",
+                           "--chordal-error", "0.02", "-o",
+                           std::string(design) + ".slc"})
+                  .status,
+              0);
+  }
+  const auto result =
+      run(folder, {"compare", "part.slc", "fine.slc", "--tolerance", "0.0225"});
+  EXPECT_EQ(result.status, 0) << result.output << result.errors;
+}
+
+TEST(Cad, ABrokenFileIsAnErrorWithItsPlace) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(LAMINA_CRASHES "/step/segmentation",
+                             folder.file("crash.step"));
+  folder.write("noise.step", "noise");
+  folder.write("a.scad", "cube(1);\nimport(\"noise.step\");");
+  const auto noise = run(folder, {"a.scad", "-o", "a.slc"});
+  EXPECT_EQ(noise.status, 1);
+  EXPECT_TRUE(has(noise.errors,
+                  "a.scad:2:1: error: STEP that is no exchange structure of "
+                  "ISO 10303-21 importing file 'noise.step'"))
+      << noise.errors;
+  const auto crash = run(folder, {"crash.step", "-o", "a.slc"});
+  EXPECT_EQ(crash.status, 1);
+  EXPECT_TRUE(has(crash.errors, "OpenCASCADE fails on this STEP"))
+      << crash.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.slc")));
+}
+
+TEST(Cad, AProgramWithoutItsModuleSaysWhatHelps) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(LAMINA_PROGRAM, folder.file("lamina"));
+  add_seed(folder, "step/cylinder", "part.step");
+  const auto result =
+      support::run_process({folder.file("lamina"), "part.step"}, folder.path());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors,
+                  "error: Can't find the module for STEP, IGES and BREP, "
+                  "lamina_cad.so, in "))
+      << result.errors;
+  EXPECT_TRUE(has(result.errors, "the package lamina-cad has it"))
+      << result.errors;
+}
+
+TEST(Cad, IsReadWithinARoot) {
+  const TemporaryFolder folder;
+  add_seed(folder, "step/cylinder", "part.step");
+  add_seed(folder, "iges/cylinder", "part.iges");
+  for (const char* name : {"part.step", "part.iges"}) {
+    const auto result = run(folder, {name, "-q", "-o", "a.slc", "--root", "."});
+    EXPECT_EQ(result.status, 0) << result.errors;
+  }
+  const TemporaryFolder other;
+  add_seed(other, "step/cylinder", "part.step");
+  folder.write("a.scad", "import(\"" + other.file("part.step") + "\");");
+  EXPECT_EQ(run(folder, {"a.scad", "-o", "b.slc", "--root", "."}).status, 1);
+  folder.write("b.scad", "import(\"part.step\");");
+  EXPECT_EQ(run(folder, {"b.scad", "-o", "b.slc", "--no-import"}).status, 1);
+}
+
+TEST(Cad, KeepsToTheLimitsOfTheRun) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(LAMINA_CRASHES "/brep/endless",
+                             folder.file("endless.brep"));
+  const auto endless = run(folder, {"endless.brep", "--max-time", "1"});
+  EXPECT_EQ(endless.status, 1);
+  EXPECT_TRUE(has(endless.errors, "out of time")) << endless.errors;
+  // Chords so short that they fill all memory.
+  add_seed(folder, "step/cylinder", "part.step");
+  const auto hungry = run(folder, {"part.step", "--chordal-error", "1e-13",
+                                   "--max-memory", "200M"});
+  EXPECT_EQ(hungry.status, 1);
+  EXPECT_TRUE(has(hungry.errors, "out of memory")) << hungry.errors;
+}
+
+}  // namespace
+}  // namespace lamina::cli

@@ -1,0 +1,207 @@
+// Reading as such. The oracle (tests/oracle/cad_test.cpp) has parts of all
+// kinds.
+
+#include "csg/cad/cad_reader.h"
+
+#include <clocale>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "base/file/format_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::cad {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+std::string seed(const std::string& name) {
+  return bytes_of(std::string(LAMINA_SEEDS) + "/" + name);
+}
+
+double volume_of(const csg::Mesh& mesh) {
+  double volume = 0;
+  for (const auto& t : mesh.triangles) {
+    volume += glm::dot(mesh.vertices[t[0]],
+                       glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]])) /
+              6;
+  }
+  return volume;
+}
+
+bool is_closed(const csg::Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++sides[{t[k], t[(k + 1) % 3]}];
+      --sides[{t[(k + 1) % 3], t[k]}];
+    }
+  }
+  for (const auto& [side, count] : sides) {
+    if (count != 0) return false;
+  }
+  return true;
+}
+
+// The seeds are cylinders of radius 5 and height 12.
+constexpr double kVolume = std::numbers::pi * 25 * 12;
+
+class CadReader : public ::testing::Test {
+ protected:
+  Part read(const std::string& bytes, Format format,
+            const Fineness& fineness = {}, unsigned most_seconds = 60) {
+    Reader reader({LAMINA_MODULES}, diagnostics_, most_seconds);
+    return reader.read(bytes, format, fineness);
+  }
+
+  std::string failure(const std::string& bytes, Format format,
+                      unsigned most_seconds = 60) {
+    try {
+      read(bytes, format, {}, most_seconds);
+    } catch (const FormatError& fault) {
+      return fault.what();
+    }
+    return "";
+  }
+
+  Diagnostics diagnostics_;
+};
+
+void expect_cylinder(const Part& part, double chordal_error) {
+  ASSERT_EQ(part.bodies.size(), 1U);
+  const csg::Mesh& mesh = part.bodies[0].mesh;
+  EXPECT_TRUE(part.warnings.empty());
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_LT(volume_of(mesh), kVolume);
+  EXPECT_GT(volume_of(mesh),
+            kVolume - chordal_error * 2 * std::numbers::pi * 5 * 12);
+}
+
+TEST_F(CadReader, ReadsAllFormats) {
+  const std::pair<const char*, Format> kFiles[] = {
+      {"step/cylinder", Format::kStep},
+      {"iges/cylinder", Format::kIges},
+      {"brep/cylinder", Format::kBrep},
+      {"brep/binary", Format::kBrep}};
+  for (const auto& [name, format] : kFiles) {
+    SCOPED_TRACE(name);
+    for (const double error : {0.5, 0.01, 0.0002}) {
+      expect_cylinder(read(seed(name), format, {.chordal_error = error}),
+                      error);
+    }
+  }
+}
+
+TEST_F(CadReader, ReadsSeveralFilesOneAfterAnother) {
+  Reader reader({LAMINA_MODULES}, diagnostics_);
+  for (int i = 0; i < 2; ++i) {
+    expect_cylinder(reader.read(seed("iges/cylinder"), Format::kIges, {}),
+                    0.01);
+    EXPECT_THROW(reader.read("", Format::kStep, {}), FormatError);
+    expect_cylinder(reader.read(seed("step/cylinder"), Format::kStep, {}),
+                    0.01);
+  }
+}
+
+TEST_F(CadReader, KeepsAnAngleBesideALargeChordalError) {
+  const auto triangles = [&](double angle) {
+    return read(seed("step/cylinder"), Format::kStep,
+                {.chordal_error = 100, .angle = angle})
+        .bodies[0]
+        .mesh.triangles.size();
+  };
+  EXPECT_GT(triangles(0.05), 3 * triangles(0.35));
+}
+
+TEST_F(CadReader, NamesSolids) {
+  std::string step = seed("step/cylinder");
+  const std::string name = "Open CASCADE STEP translator 7.6";
+  for (std::size_t at = step.find(name); at != std::string::npos;
+       at = step.find(name, at)) {
+    step.replace(at, name.size(), "bracket");
+  }
+  const Part part = read(step, Format::kStep);
+  ASSERT_EQ(part.bodies.size(), 1U);
+  EXPECT_EQ(part.bodies[0].name.substr(0, 7), "bracket");
+}
+
+// One face of three is missing: what is left is a shell, and open.
+TEST_F(CadReader, ReportsWhatIsOpen) {
+  std::string step = seed("step/cylinder");
+  const std::size_t list = step.find('(', step.find("CLOSED_SHELL('',") + 14);
+  const std::size_t comma = step.find(',', list);
+  step.erase(list + 1, comma - list);
+  const Part part = read(step, Format::kStep);
+  ASSERT_EQ(part.bodies.size(), 1U);
+  EXPECT_FALSE(is_closed(part.bodies[0].mesh));
+  ASSERT_EQ(part.warnings.size(), 1U);
+  EXPECT_NE(part.warnings[0].find("1 of 1 shells are open"), std::string::npos)
+      << part.warnings[0];
+}
+
+TEST_F(CadReader, SaysWhatIsNoSuchFile) {
+  EXPECT_EQ(failure("solid", Format::kStep),
+            "STEP that is no exchange structure of ISO 10303-21");
+  EXPECT_EQ(failure("solid", Format::kIges), "IGES without its sections");
+  EXPECT_EQ(failure("solid", Format::kBrep),
+            "BREP that does not begin with 'CASCADE Topology'");
+}
+
+TEST_F(CadReader, SurvivesWhatEndsOpenCascade) {
+  EXPECT_EQ(
+      failure(bytes_of(LAMINA_CRASHES "/step/segmentation"), Format::kStep),
+      "OpenCASCADE fails on this STEP");
+  EXPECT_EQ(
+      failure(bytes_of(LAMINA_CRASHES "/brep/segmentation"), Format::kBrep),
+      "OpenCASCADE fails on this BREP");
+  EXPECT_EQ(failure(bytes_of(LAMINA_CRASHES "/brep/endless"), Format::kBrep, 1),
+            "OpenCASCADE takes more than 1 s for this BREP");
+}
+
+TEST_F(CadReader, IsDeafToLocaleAndEnvironment) {
+  setenv("CSF_STEPDefaults", "/nowhere", 1);
+  const char* const was = std::setlocale(LC_ALL, "de_DE.UTF-8");
+  expect_cylinder(read(seed("step/cylinder"), Format::kStep), 0.01);
+  expect_cylinder(read(seed("iges/cylinder"), Format::kIges), 0.01);
+  expect_cylinder(read(seed("brep/cylinder"), Format::kBrep), 0.01);
+  if (was != nullptr) EXPECT_STREQ(std::setlocale(LC_ALL, nullptr), was);
+  std::setlocale(LC_ALL, "C");
+  EXPECT_STREQ(std::getenv("CSF_STEPDefaults"), "/nowhere");
+}
+
+TEST_F(CadReader, PrintsNothing) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  read(seed("step/cylinder"), Format::kStep);
+  failure(seed("brep/cylinder").substr(0, 400), Format::kBrep);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(CadReaderWithoutModule, SaysWhatHelps) {
+  Diagnostics diagnostics;
+  Reader reader({"/nowhere"}, diagnostics);
+  EXPECT_THROW(reader.read("", Format::kStep, {}), GeometryError);
+  ASSERT_EQ(diagnostics.all().size(), 1U);
+  EXPECT_EQ(diagnostics.all()[0].message,
+            "Can't find the module for STEP, IGES and BREP, lamina_cad.so, in "
+            "/nowhere");
+  EXPECT_EQ(diagnostics.all()[0].hints.size(), 1U);
+}
+
+}  // namespace
+}  // namespace lamina::cad

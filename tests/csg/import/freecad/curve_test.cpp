@@ -1,0 +1,99 @@
+// Curves of sketches, judged by their formulas.
+
+#include "csg/import/freecad/detail/curve.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/file/format_error.h"
+#include "csg/import/freecad/detail/outline.h"
+
+namespace lamina::csg::freecad {
+namespace {
+
+constexpr double kError = 0.01;
+
+Polyline read(const std::string& type, const std::string& xml) {
+  pugi::xml_document document;
+  document.load_string(
+      ("<Geometry type=\"Part::Geom" + type + "\">" + xml + "</Geometry>")
+          .c_str());
+  const auto curve = read_curve(document.document_element(), kError);
+  EXPECT_TRUE(curve.has_value());
+  return curve.value_or(Polyline());
+}
+
+TEST(Curve, AnArcLiesWithinTheErrorOfItsCircle) {
+  const Polyline chords =
+      read("ArcOfCircle",
+           "<ArcOfCircle CenterX=\"3\" CenterY=\"-2\" CenterZ=\"0\" "
+           "NormalX=\"0\" NormalY=\"0\" NormalZ=\"1\" AngleXU=\"0.25\" "
+           "Radius=\"5\" StartAngle=\"0.5\" EndAngle=\"2.5\"/>");
+  for (std::size_t i = 1; i < chords.size(); ++i) {
+    const Vec2 middle = (chords[i - 1] + chords[i]) / 2.0 - Vec2(3, -2);
+    EXPECT_GE(std::hypot(middle.x, middle.y), 5 - kError);
+    EXPECT_NEAR(std::hypot(chords[i].x - 3, chords[i].y + 2), 5, 1e-12);
+  }
+  EXPECT_NEAR(chords.front().x, 3 + 5 * std::cos(0.75), 1e-12);
+  EXPECT_NEAR(chords.back().y, -2 + 5 * std::sin(2.75), 1e-12);
+}
+
+TEST(Curve, AnArcThatLooksDownRunsTheOtherWay) {
+  const Polyline chords =
+      read("ArcOfCircle",
+           "<ArcOfCircle CenterX=\"0\" CenterY=\"0\" CenterZ=\"0\" "
+           "NormalX=\"0\" NormalY=\"0\" NormalZ=\"-1\" AngleXU=\"0\" "
+           "Radius=\"2\" StartAngle=\"0\" EndAngle=\"1\"/>");
+  EXPECT_NEAR(chords.front().x, -2, 1e-12);
+  EXPECT_NEAR(chords.back().x, -2 * std::cos(1), 1e-12);
+  EXPECT_NEAR(chords.back().y, 2 * std::sin(1), 1e-12);
+}
+
+TEST(Curve, ABezierCurveIsASplineOfTwoKnots) {
+  const Polyline chords =
+      read("BSplineCurve",
+           "<BSplineCurve PolesCount=\"3\" KnotsCount=\"2\" Degree=\"2\" "
+           "IsPeriodic=\"0\"><Pole X=\"0\" Y=\"0\" Z=\"0\" Weight=\"1\"/>"
+           "<Pole X=\"2\" Y=\"0\" Z=\"0\" Weight=\"1\"/>"
+           "<Pole X=\"2\" Y=\"2\" Z=\"0\" Weight=\"1\"/>"
+           "<Knot Value=\"0\" Mult=\"3\"/><Knot Value=\"1\" Mult=\"3\"/>"
+           "</BSplineCurve>");
+  ASSERT_GT(chords.size(), 4U);
+  // x = 4t − 2t², y = 2t².
+  for (const Vec2 corner : chords) {
+    const double t = std::sqrt(corner.y / 2);
+    EXPECT_NEAR(corner.x, 4 * t - 2 * t * t, 1e-12);
+  }
+}
+
+TEST(Curve, SplinesThatLackPolesAreRejected) {
+  const std::string head =
+      "<BSplineCurve Degree=\"3\" IsPeriodic=\"0\">"
+      "<Pole X=\"0\" Y=\"0\" Z=\"0\" Weight=\"1\"/>";
+  const std::string knots =
+      "<Knot Value=\"0\" Mult=\"2\"/><Knot Value=\"1\" Mult=\"3\"/>"
+      "</BSplineCurve>";
+  EXPECT_THROW(read("BSplineCurve", head + knots), FormatError);
+}
+
+TEST(JoinCurves, JoinsCurvesOfAnyOrderAndDirection) {
+  const auto contours = join_curves({{{0, 0}, {1, 0}},
+                                     {{0, 1}, {0, 0}},
+                                     {{1, 1}, {0, 1}},
+                                     {{1, 1}, {1, 0}},
+                                     {{5, 5}, {6, 5}, {5, 6}, {5, 5}}});
+  ASSERT_TRUE(contours.has_value());
+  ASSERT_EQ(contours->size(), 2U);
+  EXPECT_EQ((*contours)[0], (Polyline{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ((*contours)[1], (Polyline{{5, 5}, {6, 5}, {5, 6}}));
+}
+
+TEST(JoinCurves, FindsWhatIsOpen) {
+  EXPECT_FALSE(join_curves({{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}}).has_value());
+}
+
+}  // namespace
+}  // namespace lamina::csg::freecad

@@ -1,0 +1,263 @@
+// FreeCAD files: what becomes of features is judged against FreeCAD itself
+// (tests/oracle/freecad_test.cpp); here, which objects count, and that no file
+// does harm.
+
+#include "csg/import/freecad/freecad_file.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "base/arena.h"
+#include "base/file/format_error.h"
+#include "csg/csg_printer.h"
+#include "csg/limits.h"
+#include "tests/csg/import/byte_changes.h"
+#include "tests/csg/import/freecad/freecad_document.h"
+
+namespace lamina::csg {
+namespace {
+
+// The tree as `.csg`, and all that was said.
+struct Read {
+  std::string csg;
+  std::vector<std::string> warnings;
+  std::vector<std::string> notes;
+};
+
+Read read(const std::string& bytes, FreecadOptions options = {}) {
+  Tree tree;
+  tree.arena = std::make_shared<Arena>();
+  options.boundary_text = [](std::string_view name) {
+    return fmt::format("import(part = \"{}\")", name);
+  };
+  FreecadModel model = read_freecad(bytes, options, *tree.arena);
+  Node root;
+  root.op = Group{};
+  root.children = model.nodes;
+  tree.root = &root;
+  return {print_csg(tree, root), std::move(model.warnings),
+          std::move(model.notes)};
+}
+
+std::string limit_of(const std::function<void()>& parse) {
+  try {
+    parse();
+  } catch (const LimitExceeded& fault) {
+    return fault.diagnostic().message;
+  }
+  return "";
+}
+
+const std::string kBox = "cube(size = [3, 4, 5], center = false);\n";
+
+const std::string kBoundary = "CASCADE Topology V1\nTShapes 1\nFa\n";
+
+std::string cut(const std::string& base, const std::string& tool) {
+  return link("Base", base) + link("Tool", tool);
+}
+
+// --- Which objects count ----------------------------------------------------
+
+TEST(FreecadFile, ShowsWhatNoOtherObjectIsMadeOf) {
+  FreecadDocument document;
+  document.box("A").box("B", "2").add("Part::Cut", "C", cut("A", "B"));
+  EXPECT_EQ(read(document.bytes()).csg,
+            "difference() {\n\tcube(size = [3, 4, 5], center = false);\n"
+            "\tcube(size = [2, 4, 5], center = false);\n}\n\n");
+}
+
+TEST(FreecadFile, LeavesOutWhatIsHiddenAndSaysSo) {
+  FreecadDocument document;
+  document.box("A").box("B", "2", flag("Visibility", false) + label("Jig"));
+  const Read all = read(document.bytes());
+  EXPECT_EQ(all.csg, kBox + "\n");
+  EXPECT_EQ(all.notes, std::vector<std::string>{
+                           "'Jig' (Part::Box) is hidden, so left out"});
+  EXPECT_TRUE(all.warnings.empty());
+}
+
+TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
+  FreecadDocument document;
+  document.box("A").box("B", "2").entry(
+      "GuiDocument.xml",
+      "<Document><ViewProviderData><ViewProvider name=\"B\"><Properties>" +
+          flag("Visibility", false) +
+          "</Properties></ViewProvider></ViewProviderData></Document>");
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, GivesOneObjectByNameOrByLabel) {
+  FreecadDocument document;
+  document.box("A", "1", label("B")).box("B", "3", label("Lid"));
+  FreecadOptions options;
+  options.part = "B";
+  EXPECT_EQ(read(document.bytes(), options).csg, kBox + "\n");
+  options.part = "Lid";
+  EXPECT_EQ(read(document.bytes(), options).csg, kBox + "\n");
+  options.part = "Nut";
+  EXPECT_EQ(fault_of([&] { read(document.bytes(), options); }),
+            "FCStd, there is no part 'Nut'");
+}
+
+TEST(FreecadFile, TakesUnknownFeaturesByTheirBoundary) {
+  FreecadDocument document;
+  document.add("New::Twist", "Twist", shape("a.brp")).entry("a.brp", kBoundary);
+  const Read all = read(document.bytes());
+  EXPECT_EQ(all.csg, "import(part = \"Twist\");\n\n");
+  EXPECT_EQ(all.notes, std::vector<std::string>{
+                           "'Twist' (New::Twist) is taken by its boundary"});
+}
+
+TEST(FreecadFile, NamesWhatItLeavesOut) {
+  FreecadDocument document;
+  document.box("A")
+      .add("New::Twist", "Twist", label("My twist") + shape("a.brp"))
+      .entry("a.brp", "");
+  EXPECT_EQ(read(document.bytes()).warnings,
+            std::vector<std::string>{
+                "'My twist' (New::Twist) is left out: it stores no faces"});
+}
+
+TEST(FreecadFile, SaysWhyAFeatureIsTakenByItsBoundary) {
+  FreecadDocument document;
+  document.box("A", "-3", shape("a.brp")).entry("a.brp", kBoundary);
+  EXPECT_EQ(
+      read(document.bytes()).notes,
+      std::vector<std::string>{"'A' (Part::Box) is taken by its boundary: "
+                               "its Length makes no solid"});
+}
+
+// --- Hostile files ----------------------------------------------------------
+
+std::string fault_of_bytes(const std::string& bytes) {
+  return fault_of([&] { read(bytes); });
+}
+
+TEST(FreecadFile, RejectsWhatIsNoArchive) {
+  EXPECT_EQ(fault_of_bytes(""), "FCStd, expected a ZIP archive");
+  EXPECT_EQ(fault_of_bytes("solid"), "FCStd, expected a ZIP archive");
+  EXPECT_EQ(fault_of_bytes(make_zip({{"a", "b"}})),
+            "FCStd holds no 'Document.xml'");
+  const std::string whole = FreecadDocument().box("A").bytes();
+  EXPECT_EQ(fault_of_bytes(whole.substr(0, whole.size() / 2)),
+            "ZIP archive has no directory");
+}
+
+TEST(FreecadFile, SurvivesEveryCutAndChangedByteOfItsDocument) {
+  FreecadDocument document;
+  document.add("Part::Fuse", "C", cut("C", "D"));
+  expect_no_harm(document.xml(), [](std::string_view xml) {
+    read(make_zip({{"Document.xml", std::string(xml)}}));
+  });
+}
+
+TEST(FreecadFile, DoesNotUnpackBombs) {
+  const std::string bomb =
+      make_zip({{"Document.xml", std::string(std::size_t{4} << 20, ' ')}});
+  EXPECT_EQ(fault_of_bytes(bomb), "ZIP entry 'Document.xml' is too large");
+}
+
+TEST(FreecadFile, DoesNotExpandEntities) {
+  std::string xml =
+      "<?xml version='1.0'?><!DOCTYPE d [<!ENTITY a0 \"aaaaaaaa\">";
+  for (int i = 1; i < 30; ++i) {
+    xml += fmt::format("<!ENTITY a{0} \"&a{1};&a{1};&a{1};&a{1};\">", i, i - 1);
+  }
+  xml += "]>" + FreecadDocument().box("&a29;").xml().substr(38);
+  EXPECT_EQ(fault_of_bytes(make_zip({{"Document.xml", xml}})), "");
+}
+
+TEST(FreecadFile, RejectsNumbersThatAreNone) {
+  for (const std::string number : {"nan", "inf", "1e999", "x", ""}) {
+    EXPECT_EQ(
+        fault_of_bytes(FreecadDocument().box("A", number).bytes()),
+        "FCStd, expected a number in value of a Float, not '" + number + "'");
+  }
+  EXPECT_EQ(fault_of_bytes(FreecadDocument().box("A", "1e300").bytes()),
+            "FCStd, value of a Float is 1e+300, beyond 1e9");
+}
+
+TEST(FreecadFile, RejectsWhatIsMadeFromItself) {
+  FreecadDocument cut_of_itself;
+  cut_of_itself.box("A")
+      .add("Part::Cut", "B", cut("A", "C"))
+      .add("Part::Cut", "C", cut("B", "A"));
+  FreecadOptions options;
+  options.part = "C";
+  EXPECT_EQ(fault_of([&] { read(cut_of_itself.bytes(), options); }),
+            "FCStd, 'C' (Part::Cut) is made from itself");
+  FreecadDocument ring;
+  ring.add("App::Link", "L", link("LinkedObject", "M"))
+      .add("App::Link", "M", link("LinkedObject", "L"));
+  EXPECT_EQ(fault_of_bytes(ring.bytes()),
+            "FCStd, 'L' (App::Link) is made from itself");
+  FreecadDocument group;
+  group.add("App::Part", "P", links("Group", {"Q"}))
+      .add("App::Part", "Q", links("Group", {"P"}));
+  options.part = "P";
+  EXPECT_EQ(fault_of([&] { read(group.bytes(), options); }),
+            "FCStd, 'P' (App::Part) is made from itself");
+}
+
+TEST(FreecadFile, RejectsAMissingBoundary) {
+  FreecadDocument document;
+  document.add("Part::Fillet", "A", shape("PartShape9.brp"));
+  EXPECT_EQ(fault_of_bytes(document.bytes()),
+            "FCStd holds no 'PartShape9.brp'");
+}
+
+TEST(FreecadFile, RejectsNestingBeyondAThousand) {
+  FreecadDocument document;
+  document.box("O0");
+  for (int i = 1; i <= 1200; ++i) {
+    document.add("Part::MultiFuse", fmt::format("O{}", i),
+                 links("Shapes", {fmt::format("O{}", i - 1)}));
+  }
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
+            "Too deep: 1000 objects are made of one another, at most 1000 can "
+            "be");
+}
+
+TEST(FreecadFile, CountsLeavesOfObjectsThatDouble) {
+  FreecadDocument document;
+  document.box("O0");
+  for (int i = 1; i <= 60; ++i) {
+    const std::string last = fmt::format("O{}", i - 1);
+    document.add("Part::MultiFuse", fmt::format("O{}", i),
+                 links("Shapes", {last, last}));
+  }
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
+            "Too many leaves: more than the 10000000 that --max-leaves allows");
+}
+
+TEST(FreecadFile, LimitsOccurrences) {
+  FreecadDocument document;
+  document
+      .add("PartDesign::AdditiveBox", "Box",
+           number("Length", "1") + number("Width", "1") +
+               number("Height", "1") + link("BaseFeature", ""))
+      .add("App::Line", "Axis", "")
+      .add("PartDesign::LinearPattern", "Row",
+           links("Originals", {"Box"}) + link("BaseFeature", "Box") +
+               property("Direction", "<LinkSub value=\"Axis\" count=\"0\"/>") +
+               number("Length", "9") + number("Occurrences", "1e9"));
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
+            "Too many occurrences: 1e+09 in 'Row', at most 100000 can be");
+}
+
+TEST(FreecadFile, LimitsSidesAndCorners) {
+  FreecadDocument document;
+  document.add("Part::Prism", "A",
+               number("Polygon", "1e8") + number("Circumradius", "1") +
+                   number("Height", "1"));
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }).substr(0, 19),
+            "Too many fragments:");
+}
+
+}  // namespace
+}  // namespace lamina::csg

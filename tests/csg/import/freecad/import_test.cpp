@@ -1,0 +1,96 @@
+// import() of FreeCAD files, from the text of a design to its layers.
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "base/loop_area.h"
+#include "tests/csg/import/freecad/freecad_document.h"
+#include "tests/support/design.h"
+#include "tests/support/temporary_folder.h"
+
+namespace lamina::csg {
+namespace {
+
+// The area of the design's section at z = 2.
+double area_at_two(const std::string& text, double chordal_error = 0) {
+  const auto design = support::Design::from_text(text, chordal_error);
+  double area = 0;
+  for (const auto& layer : support::slice_heights(design.scene(), {2.0})) {
+    for (std::size_t i = 0; i < layer.contours.loop_count(); ++i) {
+      area += signed_area(layer.contours.loop(i));
+    }
+  }
+  return area;
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    support::Design::from_text(text);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ImportOfFreecadFiles, IsAPartOfADesignLikeAnyOther) {
+  const support::TemporaryFolder folder;
+  const std::string path =
+      folder.write("a.FCStd", FreecadDocument().box("A").box("B", "2").bytes());
+  EXPECT_DOUBLE_EQ(
+      area_at_two(fmt::format("difference() {{ import(\"{}\"); "
+                              "translate([1, 1, -1]) cube([1, 1, 9]); }}",
+                              path)),
+      3 * 4 - 1);
+  EXPECT_DOUBLE_EQ(area_at_two(fmt::format(
+                       "scale([2, 1, 1]) import(\"{}\", part = \"B\");", path)),
+                   2 * 2 * 4);
+}
+
+TEST(ImportOfFreecadFiles, DividesCurvesByTheChordalError) {
+  const support::TemporaryFolder folder;
+  FreecadDocument document;
+  document.add("Part::Cylinder", "A",
+               number("Radius", "10") + number("Height", "5"));
+  const std::string text =
+      fmt::format("import(\"{}\");", folder.write("a.FCStd", document.bytes()));
+  const double circle = 100 * std::numbers::pi;
+  for (const double error : {0.1, 0.01, 0.001}) {
+    const double missing = circle - area_at_two(text, error);
+    EXPECT_GT(missing, 0);
+    EXPECT_LE(missing, error * 20 * std::numbers::pi);
+  }
+  EXPECT_LE(circle - area_at_two(text), 0.01 * 20 * std::numbers::pi);
+}
+
+TEST(ImportOfFreecadFiles, FailsAtItsPlaceInTheDesign) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.write("a.FCStd", "PK\3\4 and no more");
+  const std::string message =
+      message_of(fmt::format("cube();\nimport(\"{}\");", path));
+  EXPECT_NE(message.find("test.scad:2:1: error: ZIP archive has no directory, "
+                         "importing file"),
+            std::string::npos)
+      << message;
+}
+
+TEST(ImportOfFreecadFiles, CountsLeavesWithThoseOfTheDesign) {
+  const support::TemporaryFolder folder;
+  FreecadDocument document;
+  document.box("O0");
+  for (int i = 1; i <= 30; ++i) {
+    const std::string last = fmt::format("O{}", i - 1);
+    document.add("Part::MultiFuse", fmt::format("O{}", i),
+                 links("Shapes", {last, last}));
+  }
+  const std::string path = folder.write("a.FCStd", document.bytes());
+  const std::string message = message_of(fmt::format("import(\"{}\");", path));
+  EXPECT_NE(message.find("Too many leaves"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace lamina::csg
