@@ -10,8 +10,8 @@
 namespace lamina::compiler {
 
 bool is_imported(const std::string& path) {
-  constexpr std::array<std::string_view, 6> kExtensions = {
-      ".stl", ".off", ".obj", ".amf", ".3mf", ".dxf"};
+  constexpr std::array<std::string_view, 8> kExtensions = {
+      ".stl", ".off", ".obj", ".ply", ".om", ".amf", ".3mf", ".dxf"};
   return std::any_of(kExtensions.begin(), kExtensions.end(),
                      [&](std::string_view extension) {
                        return slicer::is_named(path, extension);

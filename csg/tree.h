@@ -181,6 +181,8 @@ enum class ImportFormat : std::uint8_t {
   kStl,
   kOff,
   kObj,
+  kPly,
+  kOm,
   kAmf,
   k3mf,
   kDxf,

@@ -23,6 +23,12 @@ std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
     case ImportFormat::kObj:
       bodies.push_back(parse_obj(bytes));
       break;
+    case ImportFormat::kPly:
+      bodies.push_back(parse_ply(bytes));
+      break;
+    case ImportFormat::kOm:
+      bodies.push_back(parse_om(bytes));
+      break;
     case ImportFormat::kAmf:
       return parse_amf(bytes, std::filesystem::path(params.path).filename());
     case ImportFormat::k3mf:

@@ -1,6 +1,6 @@
 #pragma once
-// import() of meshes: STL, OFF, AMF, 3MF, OBJ; and a reader for each format,
-// which throws FormatError.
+// import() of meshes: STL, OFF, AMF, 3MF, OBJ, PLY, OM; and a reader for each
+// format, which throws FormatError.
 
 #include <cstdint>
 #include <span>
@@ -56,6 +56,16 @@ RawMesh parse_off(std::string_view bytes);
 // make one body. Indices count from 1, or, if negative, back from the last
 // vertex so far.
 RawMesh parse_obj(std::string_view bytes);
+
+// PLY, the format of Stanford's scans: as text, or binary in either order of
+// bytes. Vertices are the elements "vertex" with x, y and z; faces are those of
+// "face", or of "tristrips", with vertex_indices (or vertex_index). All other
+// elements and properties are passed over. A file without faces is rejected.
+RawMesh parse_ply(std::string_view bytes);
+
+// OM, the binary format of OpenMesh, version 2: positions and faces; all other
+// properties are passed over.
+RawMesh parse_om(std::string_view bytes);
 
 // AMF, plain and zipped: one body for each object. As in OpenSCAD 2021.01,
 // every object counts where it lies; units, constellations, colours and curved

@@ -291,6 +291,8 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kStl:
     case ImportFormat::kOff:
     case ImportFormat::kObj:
+    case ImportFormat::kPly:
+    case ImportFormat::kOm:
     case ImportFormat::kAmf:
     case ImportFormat::k3mf:
       break;

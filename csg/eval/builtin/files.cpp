@@ -110,7 +110,8 @@ ImportFormat import_format(std::string_view module, const std::string& path) {
   extension = lower_case(extension);
   static const std::map<std::string_view, ImportFormat> kFormats = {
       {"stl", ImportFormat::kStl}, {"off", ImportFormat::kOff},
-      {"obj", ImportFormat::kObj}, {"amf", ImportFormat::kAmf},
+      {"obj", ImportFormat::kObj}, {"ply", ImportFormat::kPly},
+      {"om", ImportFormat::kOm},   {"amf", ImportFormat::kAmf},
       {"3mf", ImportFormat::k3mf}, {"dxf", ImportFormat::kDxf},
       {"svg", ImportFormat::kSvg}};
   const auto found = kFormats.find(extension);
