@@ -198,6 +198,9 @@ struct ImportParams {
   bool center = false;
   double dpi = 72;
   double scale = 1;
+  // Greatest distance of a decimated mesh from that of the file, in its own
+  // lengths; 0: the file's mesh; none: the run decides.
+  std::optional<double> decimate = std::nullopt;
   int convexity = 1;
   Facets facets = {};
   std::string_view csg_text;

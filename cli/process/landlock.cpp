@@ -14,8 +14,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/file/module.h"
 #include "base/file/open_file.h"
-#include "csg/text/typesetter.h"
 
 namespace lamina::cli {
 namespace {
@@ -161,8 +161,10 @@ void restrict_process(const FileAccess& access) {
   for (const std::string& folder : library_folders_in_use()) {
     rules.allow_reading(folder);
   }
-  for (const std::string& folder : text::module_folders()) {
-    rules.allow_reading(folder + "/" + text::kModuleName);
+  for (const std::string& folder : module_folders()) {
+    for (const std::string module : kModules) {
+      rules.allow_reading(folder + "/" + module);
+    }
   }
   const std::vector<int> folders = access.folder_descriptors();
   rules.allow(folders.front(), kRead | kWrite);

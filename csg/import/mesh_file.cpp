@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "base/file/format_error.h"
+#include "base/letter_case.h"
 
 namespace lamina::csg {
 namespace {
@@ -89,6 +91,23 @@ std::size_t drop_infinite(RawMesh& raw) {
 }
 
 }  // namespace
+
+ImportFormat import_format_of(std::string_view extension) {
+  if (extension.starts_with('.')) extension.remove_prefix(1);
+  static const std::map<std::string_view, ImportFormat> kFormats = {
+      {"stl", ImportFormat::kStl}, {"off", ImportFormat::kOff},
+      {"obj", ImportFormat::kObj}, {"ply", ImportFormat::kPly},
+      {"om", ImportFormat::kOm},   {"amf", ImportFormat::kAmf},
+      {"3mf", ImportFormat::k3mf}, {"dxf", ImportFormat::kDxf},
+      {"svg", ImportFormat::kSvg}};
+  const auto found = kFormats.find(lower_case(extension));
+  return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
+}
+
+bool is_mesh(ImportFormat format) {
+  return format != ImportFormat::kUnknown && format != ImportFormat::kDxf &&
+         format != ImportFormat::kSvg;
+}
 
 std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     const FileAccess& access, SourceRange range,

@@ -81,6 +81,12 @@ std::vector<RawMesh> parse_amf(std::string_view bytes, const std::string& name);
 std::vector<RawMesh> parse_3mf(std::string_view bytes,
                                Language rules = Language::k2021);
 
+// The format by a file's extension, with or without its dot, in any case of
+// letters.
+ImportFormat import_format_of(std::string_view extension);
+
+bool is_mesh(ImportFormat format);
+
 // Reads the bodies of a file; none where it cannot be read, which it reports in
 // OpenSCAD's words at `range`. It drops facets with coordinates that are no
 // numbers, with a warning, so all vertices are finite.

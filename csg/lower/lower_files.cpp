@@ -10,6 +10,7 @@
 
 #include "base/file/file_access.h"
 #include "base/file/format_error.h"
+#include "csg/import/decimate.h"
 #include "csg/import/dxf.h"
 #include "csg/import/mesh_file.h"
 #include "csg/import/surface_file.h"
@@ -63,12 +64,38 @@ void center_meshes(std::vector<Mesh>& meshes) {
   }
 }
 
-Leaf make_import_leaf(const ImportParams& params, const FileAccess& access,
-                      SourceRange range, Diagnostics& diagnostics) {
+void report(const Decimation& done, double tolerance, std::string_view path,
+            Diagnostics& diagnostics) {
+  Diagnostic told{
+      Severity::kPlain,
+      {},
+      fmt::format("{}: {} of {} triangles, within {:.6g} of the file's surface",
+                  quoted_from_here(path), done.triangles_after,
+                  done.triangles_before, tolerance)};
+  if (done.tangled_edges + done.tangled_vertices > 0) {
+    told.message += fmt::format(
+        " (kept whole where it is no manifold: {} edges, {} "
+        "vertices)",
+        done.tangled_edges, done.tangled_vertices);
+  }
+  told.audience = Audience::kTerminal;
+  diagnostics.report(std::move(told));
+}
+
+// tolerance  of decimation, in the file's lengths; 0: none
+Leaf make_import_leaf(const ImportParams& params, double tolerance,
+                      const LowerOptions& options, SourceRange range,
+                      Diagnostics& diagnostics) {
   Leaf leaf;
   leaf.may_overlap_itself = true;
-  for (RawMesh& raw : read_mesh_file(params, access, range, diagnostics)) {
-    leaf.meshes.push_back(make_sound(std::move(raw), range, diagnostics));
+  for (RawMesh& raw :
+       read_mesh_file(params, *options.file_access, range, diagnostics)) {
+    Mesh mesh = make_sound(std::move(raw), range, diagnostics);
+    if (tolerance > 0 && !mesh.triangles.empty()) {
+      report(decimate(mesh, tolerance, options.module_folders), tolerance,
+             params.path, diagnostics);
+    }
+    leaf.meshes.push_back(std::move(mesh));
   }
   if (params.center) center_meshes(leaf.meshes);
   return leaf;
@@ -253,12 +280,14 @@ planar::Region read_svg(const ImportParams& params, const Fineness& fineness,
 Shape Lowerer::lower_op(const Import& op, const Place& at) {
   const ImportParams& params = *op.params;
   const Fineness fine = fineness(params.facets, at.world);
+  const double decimation = decimation_of(params, at.world);
   const std::string key =
-      fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
+      fmt::format("{} {} {} {}", params.path, params.csg_text,
+                  fine.chordal_error, decimation);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     const std::size_t messages = diagnostics_.all().size();
-    entry->second = read_import(params, fine, at.node.range);
+    entry->second = read_import(params, fine, decimation, at.node.range);
     const bool is_empty =
         !entry->second.leaf && entry->second.region.is_empty();
     if (is_empty && diagnostics_.all().size() == messages) {
@@ -270,8 +299,16 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
   return place_file(entry->second, at);
 }
 
+double Lowerer::decimation_of(const ImportParams& params,
+                              const Affine& world) const {
+  if (params.decimate) return *params.decimate;
+  if (options_.decimation == 0) return 0;
+  const double tolerance = options_.decimation / greatest_stretch(world);
+  return std::isfinite(tolerance) ? tolerance : 0;  // else it has no volume
+}
+
 Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
-                                        const Fineness& fine,
+                                        const Fineness& fine, double decimation,
                                         SourceRange range) {
   const FileAccess& access = *options_.file_access;
   switch (params.format) {
@@ -299,7 +336,8 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
   }
   return {Dimension::kSolid,
           {},
-          add_leaf(make_import_leaf(params, access, range, diagnostics_))};
+          add_leaf(make_import_leaf(params, decimation, options_, range,
+                                    diagnostics_))};
 }
 
 Shape Lowerer::lower_op(const Surface& op, const Place& at) {

@@ -3,45 +3,28 @@
 #include <algorithm>
 #include <cerrno>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <utility>
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <sys/auxv.h>
 
+#include "base/file/module.h"
 #include "csg/text/detail/engine.h"
 
 namespace lamina::text {
 namespace {
-
-namespace fs = std::filesystem;
 
 [[noreturn]] void fail(Diagnostics& diagnostics, const std::string& words) {
   diagnostics.error({}, words);
   throw GeometryError({Severity::kError, {}, words});
 }
 
-// The module stays open to the end: the libraries below it keep state of
-// their own that outlives their callers.
 MakeEngine* open_module(const std::vector<std::string>& folders,
                         Diagnostics& diagnostics) {
-  for (const std::string& folder : folders) {
-    const std::string path = folder + "/" + kModuleName;
-    std::error_code error;
-    if (!fs::exists(path, error)) continue;
-    void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void* symbol = module ? dlsym(module, kMakeEngineName) : nullptr;
-    if (!symbol) {
-      fail(diagnostics,
-           fmt::format("Can't open the module for text(): {}", dlerror()));
-    }
-    return reinterpret_cast<MakeEngine*>(symbol);
-  }
-  fail(diagnostics, fmt::format("Can't find the module for text(), {}, in {}",
-                                kModuleName, fmt::join(folders, " or ")));
+  const ModuleFunction make =
+      find_in_module(folders, kTextModule, kMakeEngineName, "text()");
+  if (!make.address) fail(diagnostics, make.fault);
+  return reinterpret_cast<MakeEngine*>(make.address);
 }
 
 // What the module measured; nothing where it found no font.
@@ -124,19 +107,6 @@ class ReadableFonts : public FontFiles {
   mutable std::exception_ptr fault_;
 };
 
-std::vector<std::string> module_folders() {
-  std::error_code error;
-  fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) {
-    // Where /proc is not mounted, the kernel has left the path that was run.
-    const auto* run = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
-    if (run != nullptr) program = fs::canonical(run, error);
-  }
-  if (error) return {};
-  const fs::path folder = program.parent_path();
-  return {folder.string(), (folder.parent_path() / LAMINA_MODULES).string()};
-}
-
 Typesetter::Typesetter(std::vector<std::string> folders,
                        Diagnostics& diagnostics, const FileAccess& access)
     : folders_(std::move(folders)),
@@ -157,7 +127,7 @@ Engine& Typesetter::engine() {
   readable_fonts_->rethrow_fault();
   if (lacks_memory) throw std::bad_alloc();
   if (!engine_) {
-    fail(diagnostics_, fmt::format("{} is of another version", kModuleName));
+    fail(diagnostics_, fmt::format("{} is of another version", kTextModule));
   }
   for (const std::string& file : font_files_) {
     const AddedFont added = engine_->add_font(file.c_str());

@@ -17,13 +17,6 @@
 
 namespace lamina::text {
 
-// The file of the module that holds the font libraries.
-inline constexpr const char* kModuleName = "lamina_text.so";
-
-// The folders of the program's modules: its own, or, where it is installed,
-// lib/lamina beside that.
-std::vector<std::string> module_folders();
-
 // Into how many chords a curve is cut.
 struct Chords {
   int count = 1;

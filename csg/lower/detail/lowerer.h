@@ -152,8 +152,10 @@ class Lowerer {
     planar::Region region = {};
     std::optional<std::uint32_t> leaf = std::nullopt;
   };
+  // In the file's lengths; 0: none.
+  double decimation_of(const ImportParams& params, const Affine& world) const;
   FileShape read_import(const ImportParams& params, const Fineness& fine,
-                        SourceRange range);
+                        double decimation, SourceRange range);
   Shape place_file(const FileShape& shape, const Place& at);
   // --- lower_boundary.cpp ---------------------------------------------------
   Shape lower_op(const Hull& op, const Place& at);
