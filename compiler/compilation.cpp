@@ -12,14 +12,6 @@
 namespace lamina::compiler {
 namespace {
 
-std::vector<std::string> module_folders_of(const Request& request) {
-  std::vector<std::string> folders = module_folders();
-  if (!request.module_folder.empty()) {
-    folders.insert(folders.begin(), request.module_folder);
-  }
-  return folders;
-}
-
 std::string place_of(const SourceRange& range) {
   if (!range.is_known()) return {};
   const LineColumn at = range.source->line_column(range.begin);
@@ -43,6 +35,14 @@ std::string text_of(const FeatureOrigin& origin) {
 }
 
 }  // namespace
+
+std::vector<std::string> module_folders_of(const Request& request) {
+  std::vector<std::string> folders = module_folders();
+  if (!request.module_folder.empty()) {
+    folders.insert(folders.begin(), request.module_folder);
+  }
+  return folders;
+}
 
 Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
                          Diagnostics::Observer observer)

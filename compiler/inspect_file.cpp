@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "compiler/request.h"
+#include "csg/lower/mesh_file_facts.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/formats/slc_reader.h"
@@ -29,6 +31,12 @@ slicer::Inspection inspect_file(const std::string& path,
     inspector.take(layer, written.boundaries);
   }
   return inspector.finish(path, reader.facts());
+}
+
+std::vector<csg::MeshFacts> inspect_meshes(const std::string& path,
+                                           const FileAccess& access) {
+  if (!is_imported(path)) return {};
+  return csg::measure_mesh_file(path, access);
 }
 
 }  // namespace lamina::compiler

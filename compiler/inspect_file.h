@@ -2,8 +2,10 @@
 // Inspects a file of layers: here readers and checks meet.
 
 #include <string>
+#include <vector>
 
 #include "base/file/file_access.h"
+#include "csg/mesh_facts.h"
 #include "slicer/check/inspect.h"
 
 namespace lamina::compiler {
@@ -13,5 +15,10 @@ namespace lamina::compiler {
 slicer::Inspection inspect_file(const std::string& path,
                                 const slicer::InspectOptions& options,
                                 const FileAccess& access);
+
+// The meshes of a file that is imported as a design, as they are in the file;
+// none of another.
+std::vector<csg::MeshFacts> inspect_meshes(const std::string& path,
+                                           const FileAccess& access);
 
 }  // namespace lamina::compiler

@@ -83,6 +83,8 @@ csg::LowerOptions lower_options(Compilation& c) {
     options.world_from_design = slicer::turn_to_axis(request.axis);
   }
   options.chordal_error = request.chordal_error;
+  options.decimation = request.decimation;
+  options.module_folders = module_folders_of(request);
   options.typesetter = &c.typesetter;
   options.cad_reader = &c.cad_reader;
   options.file_access = &c.file_access();

@@ -10,9 +10,9 @@
 namespace lamina::compiler {
 
 bool is_imported(const std::string& path) {
-  constexpr std::array<std::string_view, 13> kExtensions = {
-      ".stl",  ".off", ".obj",  ".amf", ".3mf",  ".dxf", ".fcstd",
-      ".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
+  constexpr std::array<std::string_view, 15> kExtensions = {
+      ".stl",   ".off",  ".obj", ".ply",  ".om",  ".amf",  ".3mf", ".dxf",
+      ".fcstd", ".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
   return std::any_of(kExtensions.begin(), kExtensions.end(),
                      [&](std::string_view extension) {
                        return slicer::is_named(path, extension);

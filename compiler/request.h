@@ -36,6 +36,7 @@ struct Request {
   bool is_placed_on_bed = false;
   double scale = 1;
   double chordal_error = 0;  // [mm]; 0: $fa and $fs decide
+  double decimation = 0;     // of imported meshes [mm]; 0: none
   slicer::Settings settings;
   std::uint32_t seed = 0;
   bool checks_parameters = true;

@@ -181,6 +181,8 @@ enum class ImportFormat : std::uint8_t {
   kStl,
   kOff,
   kObj,
+  kPly,
+  kOm,
   kAmf,
   k3mf,
   kDxf,
@@ -201,6 +203,9 @@ struct ImportParams {
   bool center = false;
   double dpi = 72;
   double scale = 1;
+  // Greatest distance of a decimated mesh from that of the file, in its own
+  // lengths; 0: the file's mesh; none: the run decides.
+  std::optional<double> decimate = std::nullopt;
   int convexity = 1;
   Facets facets = {};
   std::string_view csg_text;

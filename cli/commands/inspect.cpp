@@ -25,8 +25,9 @@ constexpr std::string_view kInspectHelp =
 
 Shows the header, the layers, the box, the volume and the weight in usual
 metals of a file of layers (.slc, .cli, .svg, .3mf, .sl1, .zip, .layers.json, a folder
-of images), or of a .scad or
-.csg design with any option that slicing has. Checks the loops: closed, without
+of images), or of a design or mesh with any option that slicing has; of a mesh
+(.stl, .off, .obj, .ply, .om, .amf, .3mf) also its vertices, triangles, components,
+genus and holes, as they are in the file. Checks the loops: closed, without
 repeats, crossings and empty loops, in the direction that their nesting asks
 for, layers rising. Ends with 1 if there is a defect. Says what would go wrong
 in the print as 'lamina check' does.
@@ -84,6 +85,8 @@ class InspectCommand : public Command {
     slicer::Inspection found =
         inspector.finish(request_.design, std::move(exact));
     found.print = compilation.report.slice.print;
+    found.meshes =
+        compiler::inspect_meshes(request_.design, compilation.file_access());
     return found;
   }
 

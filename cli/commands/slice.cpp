@@ -94,6 +94,8 @@ Slicing (lengths in millimetres):
   --place-on-bed      put the lowest point of the design at height 0
   --chordal-error MM  distance of facets from curves where $fn does not say
                       [$fa and $fs decide]
+  --decimate MM       take triangles out of imported meshes, such as scans,
+                      that stay within this distance of themselves
   --tolerance MM, --simplify MM
                       write the fewest vertices within this distance of the
                       contour; 0 writes all [0.001]

@@ -103,6 +103,11 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
     require(request.chordal_error >= kLeastChordalError, "--chordal-error",
             "must be at least 0.000001 mm");
   });
+  add_text(app, "--decimate", "length", [&](const std::string& text) {
+    request.decimation = require_number("--decimate", text);
+    require(request.decimation >= kLeastChordalError, "--decimate",
+            "must be at least 0.000001 mm");
+  });
   // Two names of one thing: what simplification is for, and what it promises.
   add_text(
       app, "--tolerance,--simplify", "length", [&](const std::string& text) {

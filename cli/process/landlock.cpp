@@ -17,6 +17,7 @@
 #include "base/file/open_file.h"
 #include "base/module.h"
 #include "csg/cad/cad_reader.h"
+#include "csg/import/decimate.h"
 #include "csg/text/typesetter.h"
 
 namespace lamina::cli {
@@ -164,7 +165,8 @@ void restrict_process(const FileAccess& access) {
     rules.allow_reading(folder);
   }
   for (const std::string& folder : module_folders()) {
-    for (const Module& module : {text::kModule, cad::kModule}) {
+    for (const Module& module :
+         {text::kModule, cad::kModule, csg::kDecimationModule}) {
       rules.allow_reading(folder + "/" + module.file);
     }
   }

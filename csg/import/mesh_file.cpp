@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "base/file/format_error.h"
+#include "base/letter_case.h"
 
 namespace lamina::csg {
 namespace {
@@ -22,6 +24,12 @@ std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
       break;
     case ImportFormat::kObj:
       bodies.push_back(parse_obj(bytes));
+      break;
+    case ImportFormat::kPly:
+      bodies.push_back(parse_ply(bytes));
+      break;
+    case ImportFormat::kOm:
+      bodies.push_back(parse_om(bytes));
       break;
     case ImportFormat::kAmf:
       return parse_amf(bytes, std::filesystem::path(params.path).filename());
@@ -87,6 +95,36 @@ std::size_t drop_infinite(RawMesh& raw) {
 }
 
 }  // namespace
+
+ImportFormat import_format_of(std::string_view extension) {
+  if (extension.starts_with('.')) extension.remove_prefix(1);
+  static const std::map<std::string_view, ImportFormat> kFormats = {
+      {"stl", ImportFormat::kStl},   {"off", ImportFormat::kOff},
+      {"obj", ImportFormat::kObj},   {"ply", ImportFormat::kPly},
+      {"om", ImportFormat::kOm},     {"amf", ImportFormat::kAmf},
+      {"3mf", ImportFormat::k3mf},   {"dxf", ImportFormat::kDxf},
+      {"svg", ImportFormat::kSvg},   {"fcstd", ImportFormat::kFcstd},
+      {"step", ImportFormat::kStep}, {"stp", ImportFormat::kStep},
+      {"iges", ImportFormat::kIges}, {"igs", ImportFormat::kIges},
+      {"brep", ImportFormat::kBrep}, {"brp", ImportFormat::kBrep}};
+  const auto found = kFormats.find(lower_case(extension));
+  return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
+}
+
+bool is_mesh(ImportFormat format) {
+  switch (format) {
+    case ImportFormat::kStl:
+    case ImportFormat::kOff:
+    case ImportFormat::kObj:
+    case ImportFormat::kPly:
+    case ImportFormat::kOm:
+    case ImportFormat::kAmf:
+    case ImportFormat::k3mf:
+      return true;
+    default:
+      return false;
+  }
+}
 
 std::vector<RawMesh> read_mesh_file(const ImportParams& params,
                                     const FileAccess& access, SourceRange range,

@@ -1,6 +1,6 @@
 #pragma once
-// import() of meshes: STL, OFF, AMF, 3MF, OBJ; and a reader for each format,
-// which throws FormatError.
+// import() of meshes: STL, OFF, AMF, 3MF, OBJ, PLY, OM; and a reader for each
+// format, which throws FormatError.
 
 #include <cstdint>
 #include <span>
@@ -57,6 +57,16 @@ RawMesh parse_off(std::string_view bytes);
 // vertex so far.
 RawMesh parse_obj(std::string_view bytes);
 
+// PLY, the format of Stanford's scans: as text, or binary in either order of
+// bytes. Vertices are the elements "vertex" with x, y and z; faces are those of
+// "face", or of "tristrips", with vertex_indices (or vertex_index). All other
+// elements and properties are passed over. A file without faces is rejected.
+RawMesh parse_ply(std::string_view bytes);
+
+// OM, the binary format of OpenMesh, version 2: positions and faces; all other
+// properties are passed over.
+RawMesh parse_om(std::string_view bytes);
+
 // AMF, plain and zipped: one body for each object. As in OpenSCAD 2021.01,
 // every object counts where it lies; units, constellations, colours and curved
 // triangles do not.
@@ -70,6 +80,12 @@ std::vector<RawMesh> parse_amf(std::string_view bytes, const std::string& name);
 // where these put them. Units and colours do not count.
 std::vector<RawMesh> parse_3mf(std::string_view bytes,
                                Language rules = Language::k2021);
+
+// The format by a file's extension, with or without its dot, in any case of
+// letters.
+ImportFormat import_format_of(std::string_view extension);
+
+bool is_mesh(ImportFormat format);
 
 // Reads the bodies of a file; none where it cannot be read, which it reports in
 // OpenSCAD's words at `range`. It drops facets with coordinates that are no

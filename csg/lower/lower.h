@@ -7,7 +7,9 @@
 // empty are left out. What is 2D, 3D, empty or mixed follows OpenSCAD 2021.01,
 // warnings included.
 
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
@@ -31,6 +33,11 @@ struct LowerOptions {
   // Greatest distance in the world of facets from the round surface that they
   // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
   double chordal_error = 0;
+  // Greatest distance in the world of decimated meshes from those that import()
+  // read, where it does not say itself [mm]; 0: meshes stay as they are.
+  double decimation = 0;
+  // Where modules are looked for (base/module.h).
+  std::vector<std::string> module_folders = {};
   // Sets text(), which is an error without it.
   text::Typesetter* typesetter = nullptr;
   // Reads STEP, IGES and BREP, which are errors without it.

@@ -10,6 +10,7 @@
 
 #include "base/file/file_access.h"
 #include "base/file/format_error.h"
+#include "csg/import/decimate.h"
 #include "csg/import/dxf.h"
 #include "csg/import/mesh_file.h"
 #include "csg/import/surface_file.h"
@@ -64,14 +65,39 @@ void center_meshes(std::vector<Mesh>& meshes) {
   }
 }
 
-Leaf make_import_leaf(std::vector<RawMesh> bodies, bool is_centered,
+void report(const Decimation& done, double tolerance, std::string_view path,
+            Diagnostics& diagnostics) {
+  Diagnostic told{
+      Severity::kPlain,
+      {},
+      fmt::format("{}: {} of {} triangles, within {:.6g} of the file's surface",
+                  quoted_from_here(path), done.triangles_after,
+                  done.triangles_before, tolerance)};
+  if (done.tangled_edges + done.tangled_vertices > 0) {
+    told.message += fmt::format(
+        " (kept whole where it is no manifold: {} edges, {} "
+        "vertices)",
+        done.tangled_edges, done.tangled_vertices);
+  }
+  told.audience = Audience::kTerminal;
+  diagnostics.report(std::move(told));
+}
+
+// tolerance  of decimation, in the file's lengths; 0: none
+Leaf make_import_leaf(std::vector<RawMesh> bodies, const ImportParams& params,
+                      double tolerance, const LowerOptions& options,
                       SourceRange range, Diagnostics& diagnostics) {
   Leaf leaf;
   leaf.may_overlap_itself = true;
   for (RawMesh& raw : bodies) {
-    leaf.meshes.push_back(make_sound(std::move(raw), range, diagnostics));
+    Mesh mesh = make_sound(std::move(raw), range, diagnostics);
+    if (tolerance > 0 && !mesh.triangles.empty()) {
+      report(decimate(mesh, tolerance, options.module_folders, diagnostics),
+             tolerance, params.path, diagnostics);
+    }
+    leaf.meshes.push_back(std::move(mesh));
   }
-  if (is_centered) center_meshes(leaf.meshes);
+  if (params.center) center_meshes(leaf.meshes);
   return leaf;
 }
 
@@ -257,12 +283,14 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
   if (is_cad_format(params.format) && !(fine.chordal_error > 0)) {
     fine.chordal_error = kChordalErrorOfParts / greatest_stretch(at.world);
   }
+  const double decimation = decimation_of(params, at.world);
   const std::string key =
-      fmt::format("{} {} {}", params.path, params.csg_text, fine.chordal_error);
+      fmt::format("{} {} {} {}", params.path, params.csg_text,
+                  fine.chordal_error, decimation);
   const auto [entry, is_new] = file_shapes_.try_emplace(key);
   if (is_new) {
     const std::size_t messages = diagnostics_.all().size();
-    entry->second = read_import(params, fine, at.node);
+    entry->second = read_import(params, fine, decimation, at.node);
     const bool is_empty =
         !entry->second.leaf && entry->second.region.is_empty();
     if (is_empty && diagnostics_.all().size() == messages) {
@@ -274,8 +302,16 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
   return place_file(entry->second, at);
 }
 
+double Lowerer::decimation_of(const ImportParams& params,
+                              const Affine& world) const {
+  if (params.decimate) return *params.decimate;
+  if (options_.decimation == 0) return 0;
+  const double tolerance = options_.decimation / greatest_stretch(world);
+  return std::isfinite(tolerance) ? tolerance : 0;  // else it has no volume
+}
+
 Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
-                                        const Fineness& fine,
+                                        const Fineness& fine, double decimation,
                                         const Node& node) {
   const FileAccess& access = *options_.file_access;
   const SourceRange range = node.range;
@@ -296,6 +332,8 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kStl:
     case ImportFormat::kOff:
     case ImportFormat::kObj:
+    case ImportFormat::kPly:
+    case ImportFormat::kOm:
     case ImportFormat::kAmf:
     case ImportFormat::k3mf:
     case ImportFormat::kStep:
@@ -304,10 +342,11 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kFcstd:
       break;
   }
-  return {Dimension::kSolid,
-          {},
-          add_leaf(make_import_leaf(read_bodies(params, fine, node),
-                                    params.center, range, diagnostics_))};
+  return {
+      Dimension::kSolid,
+      {},
+      add_leaf(make_import_leaf(read_bodies(params, fine, node), params,
+                                decimation, options_, range, diagnostics_))};
 }
 
 std::vector<RawMesh> Lowerer::read_bodies(const ImportParams& params,

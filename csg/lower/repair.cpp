@@ -40,16 +40,6 @@ void rename_corners(Mesh& mesh, const std::vector<std::uint32_t>& new_names) {
   }
 }
 
-// Makes one vertex of equal ones.
-void merge_equal_vertices(Mesh& mesh) {
-  VertexTable table(mesh.vertices.size());
-  std::vector<std::uint32_t> names(mesh.vertices.size());
-  table.name(mesh.vertices, names);
-  if (table.size() == names.size()) return;
-  mesh.vertices = table.take_points();
-  rename_corners(mesh, names);
-}
-
 // Lets triangles name the first of vertices within kMergeDistance, found in
 // the cells of that size around each.
 void merge_near_vertices(Mesh& mesh) {
@@ -305,6 +295,15 @@ void report(const Repairs& repairs, std::size_t triangle_count,
 }
 
 }  // namespace
+
+void merge_equal_vertices(Mesh& mesh) {
+  VertexTable table(mesh.vertices.size());
+  std::vector<std::uint32_t> names(mesh.vertices.size());
+  table.name(mesh.vertices, names);
+  if (table.size() == names.size()) return;
+  mesh.vertices = table.take_points();
+  rename_corners(mesh, names);
+}
 
 Repairs repair(Mesh& mesh, Vertices vertices) {
   Repairs repairs;

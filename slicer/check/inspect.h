@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "csg/mesh_facts.h"
 #include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"
@@ -28,6 +29,7 @@ struct Inspection {
 
   std::string name;  // of the file or the design
   LayerFileFacts file;
+  std::vector<csg::MeshFacts> meshes;  // of a file of meshes: each body
   std::vector<LayerRow> layers;
   Box3 box;  // of all contours and their layers; empty where there are none
   double top = 0;                  // of the part, as the file says [mm]

@@ -21,9 +21,8 @@ namespace {
 // Metals, wax, and resin as such, the heaviest first.
 std::vector<Material> weighed_materials() {
   std::vector<Material> materials = known_materials();
-  std::erase_if(materials, [](const Material& material) {
-    return material.exposure > 0;
-  });
+  std::erase_if(materials,
+                [](const Material& material) { return material.exposure > 0; });
   std::ranges::stable_sort(materials, std::greater(), &Material::density);
   return materials;
 }
@@ -65,6 +64,7 @@ class Text : PrintedText {
 
   std::string write(LayerList list) {
     print_header();
+    for (const csg::MeshFacts& mesh : found_.meshes) print_mesh(mesh);
     print_layers(list);
     print_totals();
     print_weights();
@@ -115,6 +115,28 @@ class Text : PrintedText {
     }
   }
 
+  void print_box(const Box3& box) {
+    const Vec3 low = without_minus_zero(box.low);
+    const Vec3 high = without_minus_zero(box.high);
+    const Vec3 size = high - low;
+    print(
+        "box       x {:.4f} … {:.4f}   y {:.4f} … {:.4f}   z {:.4f} … "
+        "{:.4f}   ({:.4f} x {:.4f} x {:.4f} mm)\n",
+        low.x, high.x, low.y, high.y, low.z, high.z, size.x, size.y, size.z);
+  }
+
+  void print_mesh(const csg::MeshFacts& mesh) {
+    print("\nmesh      {} vertices, {} triangles; {}\n", mesh.vertices,
+          mesh.triangles, mesh.is_closed ? "closed" : "not closed");
+    print("surface   {} components, genus {}, {} boundary loops\n",
+          mesh.components, mesh.genus, mesh.boundary_loops);
+    print("edges     {} open, {} no manifold; {} vertices no manifold\n",
+          mesh.open_edges, mesh.tangled_edges, mesh.tangled_vertices);
+    if (!mesh.box.is_empty()) print_box(mesh.box);
+    print("area      {:.6f} mm²\n", mesh.area);
+    print("volume    {:.6f} mm³\n", mesh.volume);
+  }
+
   void print_layers(LayerList list) {
     if (found_.layers.empty()) return;
     const std::size_t count = found_.layers.size();
@@ -141,15 +163,7 @@ class Text : PrintedText {
           found_.layers.size(), totals.empty, found_.top);
     print("loops     {}, {} of them holes; {} vertices\n", totals.loops,
           totals.holes, totals.vertices);
-    if (!found_.box.is_empty()) {
-      const Vec3 low = without_minus_zero(found_.box.low);
-      const Vec3 high = without_minus_zero(found_.box.high);
-      const Vec3 size = high - low;
-      print(
-          "box       x {:.4f} … {:.4f}   y {:.4f} … {:.4f}   z {:.4f} … "
-          "{:.4f}   ({:.4f} x {:.4f} x {:.4f} mm)\n",
-          low.x, high.x, low.y, high.y, low.z, high.z, size.x, size.y, size.z);
-    }
+    if (!found_.box.is_empty()) print_box(found_.box);
     print("volume    {:.6f} mm³\n", found_.volume);
   }
 
@@ -202,6 +216,25 @@ ordered_json box_json(const Box3& box) {
           {"high", {box.high.x, box.high.y, box.high.z}}};
 }
 
+ordered_json meshes_json(const Inspection& found) {
+  ordered_json meshes = ordered_json::array();
+  for (const csg::MeshFacts& mesh : found.meshes) {
+    meshes.push_back({{"vertices", mesh.vertices},
+                      {"triangles", mesh.triangles},
+                      {"is_closed", mesh.is_closed},
+                      {"components", mesh.components},
+                      {"genus", mesh.genus},
+                      {"boundary_loops", mesh.boundary_loops},
+                      {"open_edges", mesh.open_edges},
+                      {"non_manifold_edges", mesh.tangled_edges},
+                      {"non_manifold_vertices", mesh.tangled_vertices},
+                      {"box_mm", box_json(mesh.box)},
+                      {"area_mm2", mesh.area},
+                      {"volume_mm3", mesh.volume}});
+  }
+  return meshes;
+}
+
 ordered_json layers_json(const Inspection& found) {
   ordered_json layers = ordered_json::array();
   for (const auto& [bottom, thickness, of, perimeter] : found.layers) {
@@ -241,6 +274,7 @@ std::string inspection_json(const Inspection& found) {
   json["name"] = found.name;
   json["format"] = found.file.format;
   json["writer"] = found.file.writer;
+  if (!found.meshes.empty()) json["meshes"] = meshes_json(found);
   json["sampling"] = ordered_json::array();
   for (const SamplingRow& row : found.file.sampling) {
     json["sampling"].push_back({{"z", row.min_z},
@@ -251,8 +285,7 @@ std::string inspection_json(const Inspection& found) {
   json["top_mm"] = found.top;
   json["volume_mm3"] = found.volume;
   for (const Material& material : weighed_materials()) {
-    json["weight_g"][material.title] =
-        material.weight(found.volume);
+    json["weight_g"][material.title] = material.weight(found.volume);
   }
   json["loops"] = totals.loops;
   json["holes"] = totals.holes;

@@ -1,13 +1,12 @@
 // text, import, surface: modules whose shape comes from fonts and files.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <map>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "base/letter_case.h"
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/file_paths.h"
 #include "csg/eval/builtin/freecad_files.h"
@@ -15,6 +14,7 @@
 #include "csg/eval/builtin/text_arguments.h"
 #include "csg/eval/run/interpreter.h"
 #include "csg/eval/value/text.h"
+#include "csg/import/mesh_file.h"
 
 namespace lamina::csg {
 
@@ -99,26 +99,14 @@ void surface(const BuiltinModuleCode& code, Frame& frame) {
 
 // --- import -----------------------------------------------------------------
 
-// The format by the file's extension, in any letter case. import_stl() and its
-// like name the format themselves.
+// The format by the file's extension. import_stl() and its like name the format
+// themselves.
 ImportFormat import_format(std::string_view module, const std::string& path) {
   constexpr std::string_view kPrefix = "import_";
-  std::string extension =
+  return import_format_of(
       module.starts_with(kPrefix)
           ? std::string(module.substr(kPrefix.size()))
-          : std::filesystem::path(path).extension().string();
-  if (extension.starts_with('.')) extension.erase(0, 1);
-  extension = lower_case(extension);
-  static const std::map<std::string_view, ImportFormat> kFormats = {
-      {"stl", ImportFormat::kStl},   {"off", ImportFormat::kOff},
-      {"obj", ImportFormat::kObj},   {"amf", ImportFormat::kAmf},
-      {"3mf", ImportFormat::k3mf},   {"dxf", ImportFormat::kDxf},
-      {"svg", ImportFormat::kSvg},   {"fcstd", ImportFormat::kFcstd},
-      {"step", ImportFormat::kStep}, {"stp", ImportFormat::kStep},
-      {"iges", ImportFormat::kIges}, {"igs", ImportFormat::kIges},
-      {"brep", ImportFormat::kBrep}, {"brp", ImportFormat::kBrep}};
-  const auto found = kFormats.find(extension);
-  return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
+          : std::filesystem::path(path).extension().string());
 }
 
 // A parameter, or its deprecated name.
@@ -146,6 +134,22 @@ double read_dpi(const Value& value, const Value& origin,
   return kDefaultDpi;
 }
 
+// How far decimation may move a mesh; no value where that is not said.
+std::optional<double> read_decimate(const ModuleCall& call) {
+  const Value& value = call["decimate"];
+  if (value.is_undef()) return std::nullopt;
+  const double length = number_or(value, -1);
+  // The least is that of --chordal-error.
+  constexpr double kLeast = 1e-6;
+  const bool is_length = std::isfinite(length) && length >= kLeast;
+  if (is_length || length == 0) return length;
+  call.warn(
+      "import() ignores decimate = {}: expected a distance of at least "
+      "0.000001, or 0 for none",
+      to_echo(value));
+  return std::nullopt;
+}
+
 // What 2021.01 does not know stands in its text only where it was given.
 std::string import_text(const ImportParams& params, Frame& frame) {
   const std::string file = relative_quoted(std::string(params.path), frame);
@@ -157,9 +161,12 @@ std::string import_text(const ImportParams& params, Frame& frame) {
                               ? fmt::format("dpi = {:g}, ", params.dpi)
                               : "";
   const std::string center = fmt::format("center = {}, ", params.center);
-  const std::string end = fmt::format(
-      "convexity = {}, {}, {})", params.convexity, facets_text(params.facets),
-      timestamp_text(std::string(params.path), frame));
+  const std::string decimate =
+      params.decimate ? fmt::format("decimate = {:g}, ", *params.decimate) : "";
+  const std::string end =
+      fmt::format("{}convexity = {}, {}, {})", decimate, params.convexity,
+                  facets_text(params.facets),
+                  timestamp_text(std::string(params.path), frame));
   if (params.rules == Language::k2021) {
     const bool has_center =
         params.center || params.format == ImportFormat::kSvg;
@@ -203,6 +210,7 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   params.dpi = read_dpi(call["dpi"], call["origin"], call);
   const double scale = call["scale"].number_or_zero();
   params.scale = scale <= 0 ? 1 : scale;
+  params.decimate = read_decimate(call);
   params.convexity = std::max(to_int(call["convexity"]), 1);
   params.facets = facets_of(call);
   make_leaf<Import>(params, import_text(params, frame), call);
@@ -215,7 +223,7 @@ std::vector<BuiltinModuleRow> file_rows() {
       "file", "layer", "convexity", "origin", "scale"};
   const std::vector<std::string_view> optional = {
       "width",  "height", "filename", "layername",
-      "center", "dpi",    "id",       "part"};
+      "center", "dpi",    "id",       "part",     "decimate"};
   return {
       {"text",
        text,

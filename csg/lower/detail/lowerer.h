@@ -153,8 +153,10 @@ class Lowerer {
     planar::Region region = {};
     std::optional<std::uint32_t> leaf = std::nullopt;
   };
+  // In the file's lengths; 0: none.
+  double decimation_of(const ImportParams& params, const Affine& world) const;
   FileShape read_import(const ImportParams& params, const Fineness& fine,
-                        const Node& node);
+                        double decimation, const Node& node);
   // The bodies of a file of meshes or of a CAD program.
   std::vector<RawMesh> read_bodies(const ImportParams& params,
                                    const Fineness& fine, const Node& node);

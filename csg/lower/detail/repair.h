@@ -28,6 +28,9 @@ struct Repairs {
 // corner of a triangle.
 enum class Vertices : std::uint8_t { kAnyhow, kJoined };
 
+// Makes one vertex of equal ones.
+void merge_equal_vertices(Mesh& mesh);
+
 // Merges equal vertices (and where the mesh is open otherwise, those that are
 // no further apart than 1e-6 mm), turns triangles to agree with their
 // neighbours, and closes what is still open. Afterwards every directed edge is
