@@ -1,5 +1,11 @@
 #pragma once
 // Processor time of the calling thread, for the times of `--report`.
+//
+// To ask for it is a system call, of 0.4 us. What is done for every layer is
+// measured by the clock on the wall, which takes a tenth of that, and gets its
+// share of the processor time of all layers of a block.
+
+#include <chrono>
 
 #include <time.h>
 
@@ -18,6 +24,15 @@ double measure_seconds(const Work& work) {
   const double begin = thread_seconds();
   work();
   return thread_seconds() - begin;
+}
+
+// The same by the clock on the wall.
+template <typename Work>
+double measure_wall_seconds(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+      .count();
 }
 
 }  // namespace lamina

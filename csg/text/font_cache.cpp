@@ -313,15 +313,22 @@ Owned<FT_FaceRec> FontCache::open_face(const std::string& bytes,
   return Owned<FT_FaceRec>(fault == 0 ? face : nullptr);
 }
 
-Font FontCache::load(const std::string& name) const {
-  Font font;
-  font.complaint = fmt::format("Can't get font {}", name);
+// What Fontconfig makes of a name.
+struct FontCache::Match {
+  std::string file;  // empty: there is no such font
+  int index = 0;
+  std::string substitution;  // a warning, or ""
+  std::vector<hb_feature_t> features;
+};
+
+FontCache::Match FontCache::find_match(const std::string& name) const {
+  Match result;
   const std::string wanted(trim(name));
   errno = 0;
   const Owned<FcPattern> pattern(
       FcNameParse(to_fc(wanted.empty() ? kDefaultFont : wanted.c_str())));
   require(errno != ENOMEM);
-  if (!pattern) return font;
+  if (!pattern) return result;
   const Owned<FcPattern> asked(FcPatternDuplicate(pattern.get()));
   require(asked != nullptr &&
           FcPatternAddBool(pattern.get(), FC_OUTLINE, FcTrue) &&
@@ -330,19 +337,47 @@ Font FontCache::load(const std::string& name) const {
   FcDefaultSubstitute(pattern.get());
   const Owned<FcPattern> matching = match(*pattern);
   FcChar8* file = nullptr;
-  int index = 0;
   if (!matching ||
       FcPatternGetString(matching.get(), FC_FILE, 0, &file) != FcResultMatch ||
-      FcPatternGetInteger(matching.get(), FC_INDEX, 0, &index) !=
+      FcPatternGetInteger(matching.get(), FC_INDEX, 0, &result.index) !=
           FcResultMatch) {
-    return font;
+    return result;
   }
+  result.file = from_fc(file);
+  result.substitution = describe_substitution(*asked, *pattern, *matching);
+  result.features = read_features(*matching);
+  return result;
+}
 
-  font.bytes = std::make_unique<const std::string>(files_.read(from_fc(file)));
-  Owned<FT_FaceRec> owned = open_face(*font.bytes, index);
+// Among the same fonts a name means the same to all: pieces of a batch ask for
+// one font again and again, and to find it takes longer than to set a word.
+FontCache::Match FontCache::shared_match(const std::string& name) const {
+  if (files_.is_confined() || own_fonts_->nfont > 0) return find_match(name);
+  static std::mutex mutex;
+  static Owned<FcConfig> config;
+  static std::map<std::string, Match> matches;
+  const std::lock_guard lock(mutex);
+  if (config.get() != config_.get()) {
+    matches.clear();
+    config.reset(FcConfigReference(config_.get()));
+  }
+  constexpr std::size_t kMost = 1000;
+  if (matches.size() > kMost) matches.clear();
+  const auto known = matches.find(name);
+  if (known != matches.end()) return known->second;
+  return matches.emplace(name, find_match(name)).first->second;
+}
+
+Font FontCache::load(const std::string& name) const {
+  Font font;
+  font.complaint = fmt::format("Can't get font {}", name);
+  Match match = shared_match(name);
+  if (match.file.empty()) return font;
+  font.bytes = std::make_unique<const std::string>(files_.read(match.file));
+  Owned<FT_FaceRec> owned = open_face(*font.bytes, match.index);
   FT_Face face = owned.get();
   if (face == nullptr) return font;
-  font.complaint = describe_substitution(*asked, *pattern, *matching);
+  font.complaint = match.substitution;
   if (!select_best_charmap(*face)) {
     const auto words = [](const char* text) { return text ? text : ""; };
     font.complaint =
@@ -354,7 +389,7 @@ Font FontCache::load(const std::string& name) const {
     return font;
   }
   font.is_symbol = has_symbols(*face);
-  font.features = read_features(*matching);
+  font.features = std::move(match.features);
   font.shaper.reset(hb_ft_font_create(face, nullptr));
   require(font.shaper.get() != hb_font_get_empty());
   font.face = std::move(owned);

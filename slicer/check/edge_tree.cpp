@@ -1,6 +1,7 @@
 #include "slicer/check/edge_tree.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -11,11 +12,21 @@ namespace {
 
 double squared_distance_to(const Box2& box, Vec2 point) {
   const double x =
-      std::max({box.low.x - point.x, point.x - box.high.x, 0.0});
+      std::max(std::max(box.low.x - point.x, point.x - box.high.x), 0.0);
   const double y =
-      std::max({box.low.y - point.y, point.y - box.high.y, 0.0});
+      std::max(std::max(box.low.y - point.y, point.y - box.high.y), 0.0);
   return x * x + y * y;
 }
+
+// The square of what distance_to_segment() returns, before its root is rounded.
+double squared_distance_to(const EdgeTree::Edge& edge, Vec2 point) {
+  const double share = nearest_share(point, edge.from, edge.to);
+  const Vec2 away = point - (edge.from + share * (edge.to - edge.from));
+  return dot(away, away);
+}
+
+// More than rounding can add to a square.
+constexpr double kRoundedUp = 1 + 1e-12;
 
 }  // namespace
 
@@ -82,7 +93,9 @@ void EdgeTree::lower(Vec2 point, double enough, double& best,
     if (level == 0) {
       const std::size_t end = std::min(begin + kFanOut, edges_.size());
       for (std::size_t edge = begin; edge < end; ++edge) {
-        const double here = distance(edge, point);
+        const double square = squared_distance_to(edges_[edge], point);
+        if (square > kRoundedUp * best * best) continue;
+        const double here = std::sqrt(square);
         if (here >= best) continue;
         best = here;
         guess = edge;

@@ -58,7 +58,7 @@ struct Font {
   static constexpr int kSize = 100000;
 };
 
-// All caches share what Fontconfig finds.
+// All caches share what Fontconfig finds, and which font a name means.
 class FontCache {
  public:
   // Loads Fontconfig's configuration; where only some files may be read, also
@@ -76,7 +76,11 @@ class FontCache {
  private:
   explicit FontCache(const FontFiles& files) : files_(files) {}
 
+  struct Match;
+
   Font load(const std::string& name) const;
+  Match find_match(const std::string& name) const;
+  Match shared_match(const std::string& name) const;
   void add_permitted_folders();
   void add_pattern(FT_FaceRec& face, const char* path, unsigned index);
   Owned<FcPattern> match(FcPattern& pattern) const;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -135,8 +136,7 @@ class Worker {
       }
       if (!overlay) overlay.emplace();
       const std::uint32_t number = block.first_layer + i;
-      const double rise =
-          grid_.section_z(number) - grid_.section_z(number - 1);
+      const double rise = grid_.section_z(number) - grid_.section_z(number - 1);
       overlay_sweep_->lay_over(block.layers[i].layer.contours,
                                reach_of(self_supporting_, rise), *overlay);
     }
@@ -165,6 +165,12 @@ class Worker {
   std::vector<std::uint8_t> repeats_;  // of the block's layers
 };
 
+// What checks have taken on the way, by the clock on the wall [s].
+struct CheckSeconds {
+  double features = 0;
+  double graph = 0;
+};
+
 // Hands layers on in order.
 class OrderedOutput {
  public:
@@ -180,8 +186,7 @@ class OrderedOutput {
   }
 
   // overlay  of the layer over the one before; null where it is not known
-  void take(std::uint32_t index, Draft& draft,
-            const LayerOverlay* overlay) {
+  void take(std::uint32_t index, Draft& draft, const LayerOverlay* overlay) {
     report_.losses += draft.losses;
     if (draft.layer.contours.is_empty() && !keeps_empty_) {
       if (report_.layers_there > 0) ++held_back_;
@@ -193,9 +198,13 @@ class OrderedOutput {
     emit(index, draft, overlay);
   }
 
+  // Since the last call.
+  CheckSeconds take_check_seconds() {
+    return std::exchange(check_seconds_, {});
+  }
+
  private:
-  void emit(std::uint32_t index, Draft& draft,
-            const LayerOverlay* overlay) {
+  void emit(std::uint32_t index, Draft& draft, const LayerOverlay* overlay) {
     if (!wanted_.contains(++report_.layers_there)) return;
     Layer& layer = draft.layer;
     layer.section_z = grid_.section_z(index);
@@ -204,13 +213,12 @@ class OrderedOutput {
     report_.add(draft.measures, layer.bottom, layer.top);
     sink_.take(layer);
     if (checks_.features != nullptr) {
-      report_.feature_seconds += measure_seconds(
+      check_seconds_.features += measure_wall_seconds(
           [&] { checks_.features->take(layer, draft.thin); });
     }
     if (checks_.graph != nullptr) {
-      report_.graph_seconds += measure_seconds([&] {
-        checks_.graph->take(layer, overlay);
-      });
+      check_seconds_.graph +=
+          measure_wall_seconds([&] { checks_.graph->take(layer, overlay); });
     }
   }
 
@@ -220,6 +228,7 @@ class OrderedOutput {
   LayerSink& sink_;
   const Checks checks_;
   SliceReport& report_;
+  CheckSeconds check_seconds_;
   std::uint32_t held_back_ = 0;
   Draft empty_;
 };
@@ -251,17 +260,21 @@ class Job {
     report_.sweep_seconds += block.sweep_seconds;
     report_.feature_seconds += block.feature_seconds;
     report_.graph_seconds += block.graph_seconds;
-    const double before = report_.feature_seconds + report_.graph_seconds;
+    double wall_seconds = 0;
     const double seconds = measure_seconds([&] {
-      for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-        output_.take(block.first_layer + i, block.layers[i],
-                     block.overlay_of(i));
-      }
+      wall_seconds = measure_wall_seconds([&] {
+        for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+          output_.take(block.first_layer + i, block.layers[i],
+                       block.overlay_of(i));
+        }
+      });
     });
-    // Checks look at the layers on the way.
-    report_.output_seconds +=
-        block.finish_seconds + seconds -
-        (report_.feature_seconds + report_.graph_seconds - before);
+    const CheckSeconds checks = output_.take_check_seconds();
+    const double share = wall_seconds > 0 ? seconds / wall_seconds : 0;
+    report_.feature_seconds += share * checks.features;
+    report_.graph_seconds += share * checks.graph;
+    report_.output_seconds += block.finish_seconds + seconds -
+                              share * (checks.features + checks.graph);
   }
 
  private:
