@@ -734,6 +734,18 @@ def app_link(m):
     return body
 
 
+@model("App::Link, scaled")
+def app_link_scaled(m):
+    block = m.part("Cut", LEAN, Base=m.part("Box", Length=9, Width=7, Height=5),
+                   Tool=m.part("Cylinder", Radius=3, Height=9))
+    link = m.add("App::Link", "Link")
+    link.setLink(block)
+    link.ScaleVector = Vector(1.5, 0.5, 2)
+    link.Placement = TILT
+    block.Visibility = False
+    return link
+
+
 # --- By boundary --------------------------------------------------------------
 
 
@@ -802,6 +814,51 @@ def part_fillet(m):
     fillet.Edges = [(1, 1.0, 1.0), (4, 1.5, 1.5)]
     return m.part("Cut", LEAN, Base=fillet,
                   Tool=m.part("Sphere", TILT, Radius=4))
+
+
+@model("PartDesign::Pad to a face", "boundary")
+def design_pad_to_face(m):
+    body = m.body(LEAN)
+    m.feature(body, "Pad", box(-8, -5, 8, 5), Length=3)
+    pad = m.feature(body, "Pad", box(4, -5, 8, 5),
+                    Placement(Vector(0, 0, 3), Rotation()), Length=4)
+    to = m.feature(body, "Pad", box(-2, -2, 2, 2),
+                   Placement(Vector(0, 0, 5), Rotation(Y, 90)))
+    to.UpToFace = (pad, ["Face%d" % next(
+        i for i, f in enumerate(pad.Shape.Faces, 1)
+        if f.CenterOfMass.x > 3.9 and f.CenterOfMass.x < 4.1)])
+    to.Type = "UpToFace"
+    return body
+
+
+@model("PartDesign::LinearPattern along an edge", "boundary")
+def design_pattern_edge(m):
+    body = m.body(TILT)
+    pad = m.feature(body, "Pad", box(0, 0, 30, 10), Length=4)
+    pocket = m.feature(body, "Pocket", [circle(3, 3, 1.5)],
+                       Placement(Vector(0, 0, 4), Rotation()), Length=3)
+    edge = next(i for i, e in enumerate(pad.Shape.Edges, 1)
+                if abs(e.tangentAt(0).x) > 0.9)
+    pattern = body.newObject("PartDesign::LinearPattern", "LinearPattern")
+    pattern.Originals = [pocket]
+    pattern.Direction = (pad, ["Edge%d" % edge])
+    pattern.Length = 20
+    pattern.Occurrences = 4
+    body.Tip = pattern
+    return body
+
+
+@model("Part::Chamfer, Part::Thickness", "boundary")
+def part_chamfer(m):
+    block = m.part("Box", TILT, Length=9, Width=7, Height=5)
+    m.document.recompute()
+    chamfer = m.part("Chamfer", Base=block)
+    chamfer.Edges = [(1, 1.0, 1.0), (4, 1.5, 1.5)]
+    cup = m.part("Box", Placement(Vector(12, 0, 0), Rotation()), Length=9,
+                 Width=7, Height=5)
+    m.document.recompute()
+    hollow = m.part("Thickness", Faces=(cup, ["Face6"]), Value=1.0)
+    return m.part("Compound", Links=[chamfer, hollow])
 
 
 @model("Part::Feature, imported", "boundary")
