@@ -52,8 +52,10 @@ class Writer {
 };
 
 void write_part(const Part& part, const Writer& writer) {
-  writer.write(part.warnings.size());
-  for (const std::string& words : part.warnings) writer.write_row(words);
+  for (const auto* messages : {&part.warnings, &part.notes}) {
+    writer.write(messages->size());
+    for (const std::string& words : *messages) writer.write_row(words);
+  }
   writer.write(part.bodies.size());
   for (const Body& body : part.bodies) {
     writer.write_row(body.name);
@@ -138,8 +140,10 @@ Result read_result(const Source& source) {
   result.outcome = static_cast<Outcome>(source.read());
   result.reason = source.read_text();
   result.triangles = static_cast<double>(source.read());
-  for (std::uint64_t count = source.read(); count > 0; --count) {
-    result.part.warnings.push_back(source.read_text());
+  for (auto* messages : {&result.part.warnings, &result.part.notes}) {
+    for (std::uint64_t count = source.read(); count > 0; --count) {
+      messages->push_back(source.read_text());
+    }
   }
   for (std::uint64_t count = source.read(); count > 0; --count) {
     result.part.bodies.push_back(read_body(source));

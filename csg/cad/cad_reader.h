@@ -51,6 +51,7 @@ struct Body {
 struct Part {
   std::vector<Body> bodies;  // in the order of the file
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  // what is left out, and is no solid's
 };
 
 class Engine;

@@ -157,6 +157,10 @@ void put_into_standard_input(std::string_view bytes) {
 }
 
 ShapeFile read_iges(std::string_view bytes) {
+  constexpr std::size_t kColumn = 73;
+  if (bytes.size() < kColumn || bytes[kColumn - 1] != 'S') {
+    throw Unreadable{"IGES whose first line has no S in column 73"};
+  }
   put_into_standard_input(bytes);
   IGESControl_Reader reader;
   if (reader.ReadFile("") != IFSelect_RetDone) {

@@ -163,23 +163,23 @@ std::string name_of(const TopoDS_Shape& solid, const ShapeFile& file) {
 }  // namespace
 
 std::vector<Solid> find_solids(const ShapeFile& file, double chordal_error,
-                               std::vector<std::string>& warnings) {
+                               Part& part) {
   std::vector<Solid> solids;
   for (const TopoDS_Shape& found : parts_of(file.shape, TopAbs_SOLID)) {
     const std::string name = name_of(found, file);
     const TopoDS_Shape solid = has_open_shell(found) ? healed(found) : found;
     if (has_open_shell(solid)) {
       add_sewn(parts_of(solid, TopAbs_FACE), name, chordal_error, solids,
-               warnings);
+               part.warnings);
     } else {
       solids.push_back({solid, name});
     }
   }
   add_sewn(parts_of(file.shape, TopAbs_FACE, TopAbs_SOLID), "", chordal_error,
-           solids, warnings);
+           solids, part.warnings);
   const Shapes wires = parts_of(file.shape, TopAbs_EDGE, TopAbs_FACE);
   if (!wires.empty()) {
-    warnings.push_back(
+    part.notes.push_back(
         fmt::format("{} edges without a face are left out", wires.size()));
   }
   return solids;

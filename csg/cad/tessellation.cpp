@@ -142,22 +142,32 @@ class MeshBuilder {
   std::vector<Index> vertices_;  // of the nodes of one face
 };
 
+// Returns how far chords of edges are from these.
+double mesh(const TopoDS_Shape& shape, double deflection, double angle) {
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = deflection;
+  parameters.Angle = angle;
+  // The file may bring triangles along.
+  BRepTools::Clean(shape);
+  BRepMesh_IncrementalMesh(shape, parameters);
+  return deviation_of_edges(shape);
+}
+
 // Meshes until the chords of edges are as near as they have to be; returns how
 // far they are.
 double mesh_edges_within(const TopoDS_Shape& shape, const Fineness& fineness) {
-  // Each is half of the one before.
-  constexpr int kMostTrials = 6;
-  IMeshTools_Parameters parameters;
-  parameters.Deflection = fineness.chordal_error;
-  parameters.Angle = fineness.angle;
-  double deviation = 0;
-  for (int i = 0; i < kMostTrials; ++i) {
-    // The file may bring triangles along.
-    BRepTools::Clean(shape);
-    BRepMesh_IncrementalMesh(shape, parameters);
-    deviation = deviation_of_edges(shape);
-    if (deviation <= fineness.chordal_error) break;
-    parameters.Deflection /= 2;
+  double deflection = fineness.chordal_error;
+  double deviation = mesh(shape, deflection, fineness.angle);
+  while (deviation > fineness.chordal_error) {
+    const double finer = mesh(shape, deflection / 2, fineness.angle);
+    // In some files the ends of chords are off their edge, which no finer ones
+    // cure.
+    constexpr double kLeastGain = 0.9;
+    if (finer > kLeastGain * deviation) {
+      return mesh(shape, deflection, fineness.angle);
+    }
+    deflection /= 2;
+    deviation = finer;
   }
   return deviation;
 }

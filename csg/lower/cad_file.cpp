@@ -17,10 +17,38 @@ cad::Format cad_format(ImportFormat format) {
                                          : cad::Format::kBrep;
 }
 
+// With the entry of an archive as if that were a folder.
+std::string shown_name(const ImportParams& params) {
+  return params.entry.empty() ? std::string(params.path)
+                              : fmt::format("{}/{}", params.path, params.entry);
+}
+
 std::string unpack(std::string_view archive, const std::string& entry) {
   auto bytes = ZipArchive::open(archive).read(entry);
   if (!bytes) throw FormatError(fmt::format("FCStd holds no '{}'", entry));
   return std::move(*bytes);
+}
+
+cad::Part read_part(const ImportParams& params, double chordal_error,
+                    cad::Reader& reader, const FileAccess& access,
+                    SourceRange range) {
+  const std::string path(params.path);
+  auto bytes = access.read_regular(path);
+  if (!bytes) {
+    throw FileError({Severity::kError, range,
+                     fmt::format("Can't open import file '{}'", path)});
+  }
+  try {
+    if (params.format == ImportFormat::kFcstd) {
+      bytes = unpack(*bytes, std::string(params.entry));
+    }
+    return reader.read(*bytes, cad_format(params.format),
+                       {.chordal_error = chordal_error});
+  } catch (const FormatError& fault) {
+    throw GeometryError({Severity::kError, range,
+                         fmt::format("{} importing file '{}'", fault.what(),
+                                     shown_name(params))});
+  }
 }
 
 }  // namespace
@@ -34,31 +62,16 @@ std::vector<RawMesh> read_cad_file(const ImportParams& params,
                                    double chordal_error, cad::Reader& reader,
                                    const FileAccess& access, SourceRange range,
                                    Diagnostics& diagnostics) {
-  const std::string path(params.path);
-  auto bytes = access.read_regular(path);
-  if (!bytes) {
-    diagnostics.error(range,
-                      fmt::format("Can't open import file '{}', import() at "
-                                  "line {}",
-                                  path, range.openscad_line()));
-    return {};
-  }
-  cad::Part part;
-  try {
-    if (params.format == ImportFormat::kFcstd) {
-      bytes = unpack(*bytes, std::string(params.entry));
-    }
-    part = reader.read(*bytes, cad_format(params.format),
-                       {.chordal_error = chordal_error});
-  } catch (const FormatError& fault) {
-    diagnostics.error(
-        range, fmt::format("{} importing file '{}'", fault.what(), path));
-    return {};
-  }
+  const std::string name = shown_name(params);
+  cad::Part part = read_part(params, chordal_error, reader, access, range);
   for (const std::string& words : part.warnings) {
-    diagnostics.own_warning(
-        range, fmt::format("{} in '{}{}{}'", words, path,
-                           params.entry.empty() ? "" : "/", params.entry));
+    diagnostics.own_warning(range, fmt::format("{} in '{}'", words, name));
+  }
+  for (const std::string& words : part.notes) {
+    Diagnostic note{Severity::kPlain, range,
+                    fmt::format("{} in '{}'", words, name)};
+    note.audience = Audience::kTerminal;
+    diagnostics.report(std::move(note));
   }
   std::vector<RawMesh> meshes;
   for (cad::Body& body : part.bodies) {

@@ -42,7 +42,8 @@ planar::Region to_region(const nlohmann::json& loops) {
 std::vector<Section> sections_of(const std::string& name) {
   std::ifstream file(kParts / (name + ".json"));
   std::vector<Section> sections;
-  for (const auto& layer : nlohmann::json::parse(file)["layers"]) {
+  const nlohmann::json all = nlohmann::json::parse(file);
+  for (const auto& layer : all["layers"]) {
     std::vector<planar::Region> solids;
     for (const auto& loops : layer["solids"]) {
       solids.push_back(to_region(loops));

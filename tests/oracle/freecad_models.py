@@ -382,11 +382,11 @@ def part_extrusion_plain(m):
 @model("Part::Revolution")
 def part_revolution(m):
     sketch = m.sketch([line(3, -4, 7, -4), arc(7, 0, 4, -90, 90),
-                       line(7, 4, 3, 4), line(3, 4, 3, -4), circle(7, 0, 1.5)],
+                       line(7, 4, 3, 4), line(3, 4, 3, -4),
+                       *path((6, -1), (8, 0), (6, 1))],
                       Placement(Vector(0, 0, 0), Rotation(X, 90)))
-    return m.part("Revolution", Placement(Vector(3, -2, 1), Rotation(Z, 40)),
-                  Source=sketch, Axis=Z, Base=Vector(0, 0, 0), Angle=360,
-                  Solid=True)
+    return m.part("Revolution", TILT, Source=sketch, Axis=Z,
+                  Base=Vector(0, 0, 0), Angle=360, Solid=True)
 
 
 @model("Part::Revolution, Angle, Symmetric")
@@ -734,6 +734,18 @@ def app_link(m):
     return body
 
 
+@model("App::Link, scaled")
+def app_link_scaled(m):
+    block = m.part("Cut", LEAN, Base=m.part("Box", Length=9, Width=7, Height=5),
+                   Tool=m.part("Cylinder", Radius=3, Height=9))
+    link = m.add("App::Link", "Link")
+    link.setLink(block)
+    link.ScaleVector = Vector(1.5, 0.5, 2)
+    link.Placement = TILT
+    block.Visibility = False
+    return link
+
+
 # --- By boundary --------------------------------------------------------------
 
 
@@ -804,6 +816,51 @@ def part_fillet(m):
                   Tool=m.part("Sphere", TILT, Radius=4))
 
 
+@model("PartDesign::Pad to a face", "boundary")
+def design_pad_to_face(m):
+    body = m.body(LEAN)
+    m.feature(body, "Pad", box(-8, -5, 8, 5), Length=3)
+    pad = m.feature(body, "Pad", box(4, -5, 8, 5),
+                    Placement(Vector(0, 0, 3), Rotation()), Length=4)
+    to = m.feature(body, "Pad", box(-2, -2, 2, 2),
+                   Placement(Vector(0, 0, 5), Rotation(Y, 90)))
+    to.UpToFace = (pad, ["Face%d" % next(
+        i for i, f in enumerate(pad.Shape.Faces, 1)
+        if f.CenterOfMass.x > 3.9 and f.CenterOfMass.x < 4.1)])
+    to.Type = "UpToFace"
+    return body
+
+
+@model("PartDesign::LinearPattern along an edge", "boundary")
+def design_pattern_edge(m):
+    body = m.body(TILT)
+    pad = m.feature(body, "Pad", box(0, 0, 30, 10), Length=4)
+    pocket = m.feature(body, "Pocket", [circle(3, 3, 1.5)],
+                       Placement(Vector(0, 0, 4), Rotation()), Length=3)
+    edge = next(i for i, e in enumerate(pad.Shape.Edges, 1)
+                if abs(e.tangentAt(0).x) > 0.9)
+    pattern = body.newObject("PartDesign::LinearPattern", "LinearPattern")
+    pattern.Originals = [pocket]
+    pattern.Direction = (pad, ["Edge%d" % edge])
+    pattern.Length = 20
+    pattern.Occurrences = 4
+    body.Tip = pattern
+    return body
+
+
+@model("Part::Chamfer, Part::Thickness", "boundary")
+def part_chamfer(m):
+    block = m.part("Box", TILT, Length=9, Width=7, Height=5)
+    m.document.recompute()
+    chamfer = m.part("Chamfer", Base=block)
+    chamfer.Edges = [(1, 1.0, 1.0), (4, 1.5, 1.5)]
+    cup = m.part("Box", Placement(Vector(12, 0, 0), Rotation()), Length=9,
+                 Width=7, Height=5)
+    m.document.recompute()
+    hollow = m.part("Thickness", Faces=(cup, ["Face6"]), Value=1.0)
+    return m.part("Compound", Links=[chamfer, hollow])
+
+
 @model("Part::Feature, imported", "boundary")
 def part_feature(m):
     shape = Part.makeTorus(6, 2).cut(Part.makeBox(5, 5, 5))
@@ -837,8 +894,8 @@ def part_offset(m):
 
 EXAMPLES = {
     "example_drilling": (
-        "Path/PathTests/Drilling_1.FCStd", ["Body"],
-        "FreeCAD's Drilling_1: 12 pockets, 3 pads, 2 patterns, a datum plane"),
+        "Path/PathTests/Drilling_1.FCStd", ["Pocket006"],
+        "FreeCAD's Drilling_1: 3 pads, 7 pockets, 2 patterns"),
     "example_contact": (
         "Fem/femtest/data/calculix/constraint_contact_solid_solid.FCStd",
         ["AllGeomFusion"], "FreeCAD's constraint_contact_solid_solid"),
@@ -905,11 +962,12 @@ def write_example(name, folder):
     path = os.path.join(folder, name)
     shutil.copy(os.path.join(MODULES, file), path + ".FCStd")
     document = FreeCAD.openDocument(path + ".FCStd")
-    # A pattern of Drilling_1 says 3 occurrences and stores a shape with 5. Its
-    # later sketches hang on that shape's faces, so all is stored anew.
-    for thing in document.Objects:
-        thing.touch()
-    document.recompute()
+    if name == "example_drilling":
+        # What it says is not what its shapes were made with: patterns of 3
+        # occurrences have shapes of 4 and 5, and a later sketch was moved.
+        document.LinearPattern.Occurrences = 4
+        document.PolarPattern.Occurrences = 5
+        document.Body.Tip = document.Pocket006
     document.save()
     shapes = [document.getObject(o) for o in shown]
     write_sections(shapes, path, feature, "parameter")

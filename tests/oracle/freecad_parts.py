@@ -186,7 +186,7 @@ def crossed_pipes():
     a = Part.makeCylinder(3, 20, Vector(-10, 0, 0), X)
     b = Part.makeCylinder(3, 20, Vector(0, -10, 0), Y)
     c = Part.makeCylinder(2, 16, Vector(0, 0, -8), Vector(0.2, 0.1, 1))
-    return a.fuse(b).cut(c).removeSplitter()
+    return placed(a.fuse(b).cut(c).removeSplitter(), LEAN)
 
 
 @part

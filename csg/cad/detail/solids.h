@@ -16,9 +16,9 @@ struct Solid {
 };
 
 // chordal_error  how far apart edges may be that are sewn together [mm]
-// warnings       gets what does not close, and what is no surface
+// part           gets warnings of what does not close, and notes
 std::vector<Solid> find_solids(const ShapeFile& file, double chordal_error,
-                               std::vector<std::string>& warnings);
+                               Part& part);
 
 // "'bracket': ", or nothing for a solid without a name.
 std::string prefix_of(const std::string& name);

@@ -39,29 +39,26 @@ void import_freecad(const std::string& path,
   const std::string file = relative_quoted(path, call.frame);
   const auto bytes = in.file_access().read_regular(path);
   if (!bytes) {
-    call.warn("Can't open import file {}", file);
-  } else {
-    FreecadOptions options;
-    options.path = in.keep_text(path);
-    options.part = part;
-    options.chordal_error = in.options().chordal_error;
-    options.most_leaves = in.leaves_left();
-    options.range = range;
-    options.caller = in.current_call;
-    options.boundary_text = [&](std::string_view name) {
-      return fmt::format("import(file = {}, part = {}, {})", file,
-                         in_quotes(name), timestamp_text(path, call.frame));
-    };
-    const FreecadModel model = read_file(*bytes, options, call);
-    for (const std::string& note : model.notes) in.note(note);
-    for (const std::string& warning : model.warnings) {
-      call.warn("{}, import() at line {}", warning, range.openscad_line());
-    }
-    if (model.nodes.empty()) {
-      call.warn("File {} shows nothing to import", file);
-    }
-    in.add_nodes(model.nodes, model.leaves, range);
+    in.fail(range, fmt::format("Can't open import file {}", file), nullptr);
   }
+  FreecadOptions options;
+  options.path = in.keep_text(path);
+  options.part = part;
+  options.chordal_error = in.options().chordal_error;
+  options.most_leaves = in.leaves_left();
+  options.range = range;
+  options.caller = in.current_call;
+  options.boundary_text = [&](std::string_view name) {
+    return fmt::format("import(file = {}, part = {}, {})", file,
+                       in_quotes(name), timestamp_text(path, call.frame));
+  };
+  const FreecadModel model = read_file(*bytes, options, call);
+  for (const std::string& note : model.notes) in.note(note);
+  for (const std::string& warning : model.warnings) {
+    call.warn("{}, import() at line {}", warning, range.openscad_line());
+  }
+  if (model.nodes.empty()) call.warn("File {} shows nothing to import", file);
+  in.add_nodes(model.nodes, model.leaves, range);
   in.make_node(Group{}, call.code, mark);
 }
 

@@ -45,8 +45,10 @@ struct FreecadOptions {
 struct FreecadModel {
   std::vector<const Node*> nodes;
   std::size_t leaves = 0;
-  std::vector<std::string> warnings;  // of what is left out
-  std::vector<std::string> notes;     // of what is taken by its boundary
+  // Of what is shown and left out all the same.
+  std::vector<std::string> warnings;
+  // Of what is hidden, encloses nothing, or is taken by its boundary.
+  std::vector<std::string> notes;
 };
 
 // Reads the file and makes nodes, in the arena.

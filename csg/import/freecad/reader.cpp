@@ -94,6 +94,8 @@ FreecadModel Reader::read() {
     }
     make_shown(top, solids);
   }
+  note_all("hidden, so left out", hidden_);
+  note_all("left out, as they enclose nothing", flat_);
   for (const Solid& solid : solids) {
     model_.nodes.push_back(solid.node);
     model_.leaves += solid.leaves;
@@ -135,16 +137,12 @@ void Reader::make_shown(const std::vector<const Object*>& objects,
   for (const Object* const object : objects) {
     if (operands_.contains(object->name())) continue;
     if (!has_geometry(*object) && maker_of(*object) == nullptr) continue;
-    if (!object->is_visible()) {
-      if (!is_flat(*object)) {
-        model_.notes.push_back(
-            fmt::format("{} is hidden, so left out", shown(*object)));
-      }
+    if (is_flat(*object)) {
+      if (object->is_visible()) flat_.push_back(object);
       continue;
     }
-    if (is_flat(*object)) {
-      model_.notes.push_back(
-          fmt::format("{} encloses nothing, so left out", shown(*object)));
+    if (!object->is_visible()) {
+      hidden_.push_back(object);
       continue;
     }
     if (const Made solid = make(*object)) {
@@ -153,6 +151,16 @@ void Reader::make_shown(const std::vector<const Object*>& objects,
       report_left_out(*object);
     }
   }
+}
+
+void Reader::note_all(std::string_view what,
+                      const std::vector<const Object*>& objects) {
+  std::string names;
+  for (const Object* const object : objects) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", shown(*object));
+  }
+  if (!names.empty())
+    model_.notes.push_back(fmt::format("{}: {}", what, names));
 }
 
 void Reader::report_left_out(const Object& object) {

@@ -6,7 +6,6 @@
 // its maker can, and else by its boundary. Makers give nothing where there is
 // no CSG form, and say why.
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -44,6 +43,9 @@ class Reader {
   void make_shown(const std::vector<const Object*>& objects,
                   std::vector<Solid>& solids);
   void report_left_out(const Object& object);
+  // One note that names all of them, if there are any.
+  void note_all(std::string_view what,
+                const std::vector<const Object*>& objects);
   void find_operands();
   std::vector<const Object*> objects_of(const Object& group) const;
 
@@ -112,6 +114,8 @@ class Reader {
   SolidMaker maker_;
   FreecadModel model_;
   std::map<const Object*, Entry> entries_;
+  std::vector<const Object*> hidden_;    // of those that were left out
+  std::vector<const Object*> flat_;      // likewise
   std::set<std::string_view> operands_;  // of other objects
   std::set<std::string_view> members_;   // of groups and bodies
   int depth_ = 0;

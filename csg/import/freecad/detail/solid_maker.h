@@ -7,7 +7,6 @@
 // leaves than memory holds.
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 

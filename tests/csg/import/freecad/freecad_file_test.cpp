@@ -76,8 +76,8 @@ TEST(FreecadFile, LeavesOutWhatIsHiddenAndSaysSo) {
   document.box("A").box("B", "2", flag("Visibility", false) + label("Jig"));
   const Read all = read(document.bytes());
   EXPECT_EQ(all.csg, kBox + "\n");
-  EXPECT_EQ(all.notes, std::vector<std::string>{
-                           "'Jig' (Part::Box) is hidden, so left out"});
+  EXPECT_EQ(all.notes,
+            std::vector<std::string>{"hidden, so left out: 'Jig' (Part::Box)"});
   EXPECT_TRUE(all.warnings.empty());
 }
 

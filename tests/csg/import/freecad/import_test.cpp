@@ -78,6 +78,13 @@ TEST(ImportOfFreecadFiles, FailsAtItsPlaceInTheDesign) {
       << message;
 }
 
+TEST(ImportOfFreecadFiles, FailsWhereThereIsNoFile) {
+  const std::string message = message_of("import(\"none.FCStd\");");
+  EXPECT_NE(message.find("error: Can't open import file \"none.FCStd\""),
+            std::string::npos)
+      << message;
+}
+
 TEST(ImportOfFreecadFiles, CountsLeavesWithThoseOfTheDesign) {
   const support::TemporaryFolder folder;
   FreecadDocument document;
