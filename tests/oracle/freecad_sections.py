@@ -4,6 +4,7 @@
 #
 #   tests/oracle/freecad_sections.py --count 12 PART.step   as JSON
 #   tests/oracle/freecad_sections.py PART.step HEIGHT…
+#   tests/oracle/freecad_sections.py --off LAYERS.json PART.step
 #   import freecad_sections                                 from other scripts
 #
 # Sections are [{"height": z, "area": a, "perimeter": p, "solids": […]}, …]. For
@@ -13,6 +14,7 @@
 # perimeter are those of the exact faces, of all solids added.
 
 import json
+import random
 import sys
 
 for folder in ("/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"):
@@ -88,8 +90,29 @@ def heights_of(shape, count):
             * (box.ZMax - box.ZMin) for k in range(count)]
 
 
+def distance_in_space(shape, layers, count=200):
+    """The greatest distance from the part's faces of some points of contours,
+    of a .layers.json, corners and middles of sides."""
+    points = []
+    for layer in layers:
+        for contour in layer["contours"]:
+            loop = contour["points"]
+            for a, b in zip(loop, loop[1:] + loop[:1]):
+                points.append((*a, layer["z"]))
+                points.append(((a[0] + b[0]) / 2, (a[1] + b[1]) / 2,
+                               layer["z"]))
+    faces = Part.makeCompound(shape.Faces)
+    return max(faces.distToShape(Part.Vertex(*p))[0] for p in
+               random.Random(1).sample(points, min(count, len(points))))
+
+
 def main():
     arguments = sys.argv[1:]
+    if arguments[0] == "--off":
+        with open(arguments[1]) as file:
+            layers = json.load(file)["layers"]
+        print(distance_in_space(Part.read(arguments[2]), layers))
+        return
     if arguments[0] == "--count":
         shape = Part.read(arguments[2])
         heights = heights_of(shape, int(arguments[1]))
