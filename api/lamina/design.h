@@ -90,7 +90,8 @@ struct DesignOptions {
   // Gets what the design echoes and what it is warned of, as the program
   // prints it, at once.
   std::function<void(std::string_view message)> show;
-  // Holds lamina_text.so, which text() needs. The CMake target lamina::lamina
+  // Holds lamina_text.so and lamina_decimate.so, which text() and
+  // import(decimate =) need. The CMake target lamina::lamina
   // defines where it lies.
 #ifdef LAMINA_MODULE_FOLDER
   std::string module_folder = LAMINA_MODULE_FOLDER;

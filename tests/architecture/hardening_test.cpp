@@ -64,9 +64,12 @@ TEST_P(Hardening, ChecksStacks) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Hardening,
-                         testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE),
+                         testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE,
+                                         LAMINA_DECIMATE_MODULE),
                          [](const auto& file) {
-                           return file.index == 0 ? "Program" : "TextModule";
+                           return file.index == 0   ? "Program"
+                                  : file.index == 1 ? "TextModule"
+                                                    : "DecimateModule";
                          });
 
 TEST(HardenedProgram, ChecksBuffersAndContainers) {
