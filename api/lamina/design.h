@@ -90,9 +90,9 @@ struct DesignOptions {
   // Gets what the design echoes and what it is warned of, as the program
   // prints it, at once.
   std::function<void(std::string_view message)> show;
-  // Holds the modules: lamina_text.so, which text() needs, and lamina_cad.so,
-  // which STEP, IGES and BREP need. The CMake target lamina::lamina defines
-  // where they lie.
+  // Holds the modules: lamina_text.so, which text() needs, lamina_decimate.so,
+  // which import(decimate =) needs, and lamina_cad.so, which STEP, IGES and
+  // BREP need. The CMake target lamina::lamina defines where they lie.
 #ifdef LAMINA_MODULE_FOLDER
   std::string module_folder = LAMINA_MODULE_FOLDER;
 #else

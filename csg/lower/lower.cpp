@@ -73,8 +73,8 @@ void fail_unsupported(const Node& node, std::string_view module) {
 }
 
 Lowerer::Lowerer(std::size_t instances, const LowerOptions& options,
-                 HullTable& hulls, Diagnostics& diagnostics)
-    : options_(options), hulls_(hulls), diagnostics_(diagnostics) {
+                 SharedTables& shared, Diagnostics& diagnostics)
+    : options_(options), shared_(shared), diagnostics_(diagnostics) {
   builder_.reserve(instances);
 }
 
@@ -102,10 +102,10 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   Survey found;
   survey(*tree.root, found);
   const Node* root = found.root_modifier ? found.root_modifier : tree.root;
-  HullTable hulls;
+  SharedTables shared;
   LowerOptions of_tree = options;
   of_tree.language = tree.language;
-  Lowerer lowerer(found.childless, of_tree, hulls, diagnostics);
+  Lowerer lowerer(found.childless, of_tree, shared, diagnostics);
   Shape shape = lowerer.lower(
       {*root, options.world_from_design * Mat4(glm::dmat3(options.scale))});
   if (!shape.region.is_empty()) {

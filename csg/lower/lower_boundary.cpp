@@ -93,7 +93,8 @@ Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
 Lowerer Lowerer::make_inner(const Place& at) {
   LowerOptions options = options_;
   options.chordal_error = fineness({}, at.world).chordal_error;
-  return {at.node.children.size(), options, hulls_, diagnostics_};
+  options.decimation = decimation_at(at.world);
+  return {at.node.children.size(), options, shared_, diagnostics_};
 }
 
 Lowerer::Apart Lowerer::lower_apart(const Place& at, bool takes_corners) {
@@ -113,7 +114,7 @@ Shape Lowerer::lower_op(const Hull&, const Place& at) {
   }
   if (apart.scene.instances.empty()) return {};
   Leaf leaf;
-  leaf.meshes.push_back(hulls_.find_or_make(std::move(apart.scene)));
+  leaf.meshes.push_back(shared_.hulls.find_or_make(std::move(apart.scene)));
   place_leaf(std::move(leaf), at);
   return {Dimension::kSolid};
 }

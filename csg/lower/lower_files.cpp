@@ -305,7 +305,10 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
 double Lowerer::decimation_of(const ImportParams& params,
                               const Affine& world) const {
   if (params.decimate) return *params.decimate;
-  if (options_.decimation == 0) return 0;
+  return decimation_at(world);
+}
+
+double Lowerer::decimation_at(const Affine& world) const {
   const double tolerance = options_.decimation / greatest_stretch(world);
   return std::isfinite(tolerance) ? tolerance : 0;  // else it has no volume
 }
@@ -342,11 +345,16 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kFcstd:
       break;
   }
-  return {
-      Dimension::kSolid,
-      {},
-      add_leaf(make_import_leaf(read_bodies(params, fine, node), params,
-                                decimation, options_, range, diagnostics_))};
+  const auto make = [&] {
+    return make_import_leaf(read_bodies(params, fine, node), params, decimation,
+                            options_, range, diagnostics_);
+  };
+  if (decimation == 0) return {Dimension::kSolid, {}, add_leaf(make())};
+  const auto [kept, is_new] = shared_.decimated.try_emplace(
+      fmt::format("{} {} {} {}", params.path, params.csg_text,
+                  fine.chordal_error, decimation));
+  if (is_new) kept->second = make();
+  return {Dimension::kSolid, {}, add_leaf(kept->second)};
 }
 
 std::vector<RawMesh> Lowerer::read_bodies(const ImportParams& params,

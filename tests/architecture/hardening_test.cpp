@@ -2,6 +2,7 @@
 // read out of the finished files: a flag that is given, yet without effect,
 // would not be seen elsewhere.
 
+#include <array>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -65,11 +66,13 @@ TEST_P(Hardening, ChecksStacks) {
 
 INSTANTIATE_TEST_SUITE_P(Files, Hardening,
                          testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE,
-                                         LAMINA_CAD_MODULE),
+                                         LAMINA_CAD_MODULE,
+                                         LAMINA_DECIMATE_MODULE),
                          [](const auto& file) {
-                           return file.index == 0   ? "Program"
-                                  : file.index == 1 ? "TextModule"
-                                                    : "CadModule";
+                           constexpr std::array kNames = {
+                               "Program", "TextModule", "CadModule",
+                               "DecimateModule"};
+                           return kNames[file.index];
                          });
 
 TEST(HardenedProgram, ChecksBuffersAndContainers) {

@@ -231,6 +231,7 @@ BuiltinModuleEntry make_entry(const BuiltinModuleRow& row, Language language) {
       names.push_back(name);
     }
   }
+  LAMINA_CHECK_EQ(names.size() <= ModuleCall::kMost, true);
   entry.parameters = make_parameters(names);
   for (std::size_t i = own; i < names.size(); ++i) {
     entry.parameters[i].is_extra = true;

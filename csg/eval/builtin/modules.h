@@ -40,6 +40,9 @@ class ModuleCall {
   // the call gives none.
   const Value& operator[](std::string_view parameter) const;
 
+  // More parameters no module has.
+  static constexpr std::size_t kMost = 16;
+
   // Warns at the call.
   template <typename... Values>
   void warn(fmt::format_string<Values...> words, Values&&... values) const {
@@ -51,7 +54,6 @@ class ModuleCall {
   Interpreter& in;
 
  private:
-  static constexpr std::size_t kMost = 13;
   Value values_[kMost];
 };
 

@@ -55,12 +55,18 @@ template <typename Op>
 concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
     std::same_as<Op, Render> || std::same_as<Op, Color>;
 
+// What is made once for the whole design, though parts of it are lowered apart.
+struct SharedTables {
+  HullTable hulls;
+  std::map<std::string, Leaf> decimated;  // by file, arguments and tolerance
+};
+
 class Lowerer {
  public:
   // instances  about as many as there will be
-  // hulls      of the whole design; they outlive the lowerer
-  Lowerer(std::size_t instances, const LowerOptions& options, HullTable& hulls,
-          Diagnostics& diagnostics);
+  // shared     of the whole design; they outlive the lowerer
+  Lowerer(std::size_t instances, const LowerOptions& options,
+          SharedTables& shared, Diagnostics& diagnostics);
 
   // The solid parts of the subtree are left on top of the builder's stack, in
   // world coordinates; a region is in the node's own coordinates.
@@ -153,6 +159,8 @@ class Lowerer {
     planar::Region region = {};
     std::optional<std::uint32_t> leaf = std::nullopt;
   };
+  // The tolerance of --decimate in a node's own coordinates; 0: none.
+  double decimation_at(const Affine& world) const;
   // In the file's lengths; 0: none.
   double decimation_of(const ImportParams& params, const Affine& world) const;
   FileShape read_import(const ImportParams& params, const Fineness& fine,
@@ -191,7 +199,7 @@ class Lowerer {
   };
 
   LowerOptions options_;
-  HullTable& hulls_;
+  SharedTables& shared_;
   Diagnostics& diagnostics_;
   // Of the next leaf only the corners count: it stands below a hull, without
   // siblings all the way. So its faces need not be closed.
