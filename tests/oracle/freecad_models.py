@@ -861,6 +861,13 @@ def part_chamfer(m):
     return m.part("Compound", Links=[chamfer, hollow])
 
 
+@model("Part::FeaturePython, as Draft's copies are", "boundary")
+def part_feature_python(m):
+    row = Part.makeCompound([
+        Part.makeCone(3, 1, 5, Vector(8 * i, 0, 0)) for i in range(3)])
+    return m.part("FeaturePython", LEAN, Shape=row)
+
+
 @model("Part::Feature, imported", "boundary")
 def part_feature(m):
     shape = Part.makeTorus(6, 2).cut(Part.makeBox(5, 5, 5))
