@@ -26,7 +26,7 @@ constexpr std::string_view kHelp =
     R"(lamina compiles OpenSCAD designs straight to the layers of a 3D printer.
 
 Usage:
-  lamina DESIGN... [-o FILE] [OPTION]...  slice .scad, .csg or meshes
+  lamina DESIGN... [-o FILE] [OPTION]...  slice .scad, .csg, meshes, CAD files
   lamina batch DESIGN --table TABLE -o PATTERN [OPTION]...
                                           a piece for every row of a table
   lamina check FILE [OPTION]...           say what would go wrong in the print
@@ -93,7 +93,7 @@ Slicing (lengths in millimetres):
                       one with the least steps, height and overhang [z]
   --place-on-bed      put the lowest point of the design at height 0
   --chordal-error MM  distance of facets from curves where $fn does not say
-                      [$fa and $fs decide]
+                      [$fa and $fs decide; of CAD files 0.01]
   --decimate MM       take triangles out of imported meshes, such as scans,
                       that stay within this distance of themselves
   --tolerance MM, --simplify MM

@@ -34,6 +34,8 @@ difference() {
     minkowski() { cube([9, 2, 1]); cylinder(r = 0.7, h = 1, $fn = 9); }
     translate([-8, 5, 0]) linear_extrude(3) text("Qa1", size = 5);
     translate([0, 0, 2]) import("parts/tetrahedron.stl");
+    translate([8, 0, 3]) rotate([80, 0, 20]) scale(0.4)
+      import("parts/cylinder.step");
   }
   rotate([70, 10, 5]) cylinder(r = 1, h = 40, center = true, $fn = 31);
   nothing_known();
@@ -84,6 +86,7 @@ void write_design(const fs::path& folder) {
   put("design.scad", kDesign);
   put("parts/part.scad", kPart);
   put("parts/tetrahedron.stl", kTetrahedron);
+  fs::copy_file(LAMINA_SEEDS "/step/cylinder", folder / "parts/cylinder.step");
 }
 
 // One way to run the program.
