@@ -14,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const Module& module, const std::string& words,
+[[noreturn]] void fail(const std::string& words, const std::string& hint,
                        Diagnostics& diagnostics) {
   Diagnostic error{Severity::kError, {}, words};
-  if (*module.hint != '\0') error.hints = hint_of(module.hint);
+  error.hints = hint_of(hint);
   diagnostics.report(error);
   throw GeometryError(std::move(error));
 }
@@ -46,22 +46,19 @@ void* open_module(const Module& module, const std::vector<std::string>& folders,
     void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* symbol = library ? dlsym(library, module.function) : nullptr;
     if (symbol) return symbol;
-    fail(module,
-         fmt::format("Can't open the module for {}: {}", module.purpose,
+    fail(fmt::format("Can't open the module for {}: {}", module.purpose,
                      dlerror()),
-         diagnostics);
+         "", diagnostics);
   }
-  fail(module,
-       fmt::format("Can't find the module for {}, {}, in {}", module.purpose,
+  fail(fmt::format("Can't find the module for {}, {}, in {}", module.purpose,
                    module.file, fmt::join(folders, " or ")),
-       diagnostics);
+       module.hint, diagnostics);
 }
 
 void fail_without_engine(const Module& module, int error,
                          Diagnostics& diagnostics) {
   if (error == ENOMEM) throw std::bad_alloc();
-  fail(module, fmt::format("{} is of another version", module.file),
-       diagnostics);
+  fail(fmt::format("{} is of another version", module.file), "", diagnostics);
 }
 
 }  // namespace lamina

@@ -148,10 +148,9 @@ class Refiner {
   }
 
   //     c              c
-  //    / \            /|\       The triangle becomes (a, m, c), the other one
-  //   a───b    ▶     a─m─b      (m, a, d); two more are (m, b, c) and (b, m,
-  //   d).
-  //    \ /            \|/
+  //    / \            /|\       The triangle becomes (a, m, c),
+  //   a───b    ▶     a─m─b      the other one (m, a, d);
+  //    \ /            \|/       (m, b, c) and (b, m, d) are new.
   //     d              d
   void split_pair(Side side, Index other) {
     const Index triangle = side.triangle;

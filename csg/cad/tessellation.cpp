@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
@@ -172,30 +173,49 @@ double mesh_edges_within(const TopoDS_Shape& shape, const Fineness& fineness) {
   return deviation;
 }
 
+struct Tessellation {
+  csg::Mesh mesh;
+  double deviation = 0;        // or any that is at most the chordal error
+  std::size_t bare_faces = 0;  // without triangles
+};
+
+Tessellation tessellate_shape(const TopoDS_Shape& shape,
+                              const Fineness& fineness) {
+  Tessellation result;
+  const double of_edges = mesh_edges_within(shape, fineness);
+  MeshBuilder builder(fineness.chordal_error);
+  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
+    if (!builder.add(TopoDS::Face(at.Current()))) ++result.bare_faces;
+    const auto triangles = static_cast<double>(builder.triangle_count());
+    if (triangles > csg::kMostTriangles) throw TooManyTriangles{triangles};
+  }
+  result.deviation = std::max(of_edges, builder.deviation());
+  result.mesh = builder.take();
+  return result;
+}
+
 }  // namespace
 
 csg::Mesh tessellate(const Solid& solid, const Fineness& fineness,
                      std::vector<std::string>& warnings) {
-  const double of_edges = mesh_edges_within(solid.shape, fineness);
-  MeshBuilder builder(fineness.chordal_error);
-  std::size_t without = 0;
-  for (TopExp_Explorer at(solid.shape, TopAbs_FACE); at.More(); at.Next()) {
-    if (!builder.add(TopoDS::Face(at.Current()))) ++without;
-    const auto triangles = static_cast<double>(builder.triangle_count());
-    if (triangles > csg::kMostTriangles) throw TooManyTriangles{triangles};
+  Tessellation result = tessellate_shape(solid.shape, fineness);
+  if (result.bare_faces > 0) {
+    // BRepMesh makes no triangles of some cones, but of the same faces as
+    // splines.
+    result = tessellate_shape(BRepBuilderAPI_NurbsConvert(solid.shape).Shape(),
+                              fineness);
   }
-  if (without > 0) {
+  if (result.bare_faces > 0) {
     warnings.push_back(fmt::format("{}{} faces could not be meshed",
-                                   prefix_of(solid.name), without));
+                                   prefix_of(solid.name), result.bare_faces));
   }
-  const double deviation = std::max(of_edges, builder.deviation());
-  if (deviation > fineness.chordal_error) {
+  if (result.deviation > fineness.chordal_error) {
     warnings.push_back(fmt::format(
         "{}a face deviates by {:.3g} mm, more than the chordal error of "
         "{:.3g} mm",
-        prefix_of(solid.name), deviation, fineness.chordal_error));
+        prefix_of(solid.name), result.deviation, fineness.chordal_error));
   }
-  return builder.take();
+  return std::move(result.mesh);
 }
 
 }  // namespace lamina::cad

@@ -20,8 +20,8 @@ bool is_cad_format(ImportFormat format);
 // Reads the solids of a file, and reports at `range` what the reader warns of.
 //
 // chordal_error  in the file's coordinates [mm]
-// throws         FileError, GeometryError: unlike a mesh, which a design is made
-//                without, as in OpenSCAD, such a file has to be there
+// throws         FileError, GeometryError: such a file has to be there, unlike
+//                a mesh, which a design is made without, as in OpenSCAD
 std::vector<RawMesh> read_cad_file(const ImportParams& params,
                                    double chordal_error, cad::Reader& reader,
                                    const FileAccess& access, SourceRange range,

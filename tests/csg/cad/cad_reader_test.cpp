@@ -156,7 +156,8 @@ TEST_F(CadReader, ReportsWhatIsOpen) {
 TEST_F(CadReader, SaysWhatIsNoSuchFile) {
   EXPECT_EQ(failure("solid", Format::kStep),
             "STEP that is no exchange structure of ISO 10303-21");
-  EXPECT_EQ(failure("solid", Format::kIges), "IGES whose first line has no S in column 73");
+  EXPECT_EQ(failure("solid", Format::kIges),
+            "IGES whose first line has no S in column 73");
   EXPECT_EQ(failure("solid", Format::kBrep),
             "BREP that does not begin with 'CASCADE Topology'");
 }
