@@ -55,7 +55,7 @@ int main(int count, char** words) {
       const double tolerance = std::atof(words[i]);
       csg::Mesh mesh = scan;
       csg::decimate(mesh, tolerance, {LAMINA_MODULES});
-      const double error = tolerance / 20;
+      const double error = tolerance / 10;
       std::printf("%g %zu %zu %.5f %.5f\n", tolerance, scan.triangles.size(),
                   mesh.triangles.size(),
                   oracle::surface_distance(scan, mesh, error),
