@@ -25,6 +25,9 @@ install(DIRECTORY docs examples
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         PATTERN man EXCLUDE PATTERN cpp EXCLUDE)
 
+install(PROGRAMS scripts/cluster/submit
+        DESTINATION ${CMAKE_INSTALL_DOCDIR}/scripts/cluster COMPONENT program)
+
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lamina)
 install(TARGETS lamina_api EXPORT lamina
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development

@@ -173,6 +173,32 @@ class Slurm:
     def wait_for_jobs(self, seconds):
         wait_until(lambda: not self.has_jobs(), seconds, "the end of all jobs")
 
+    def stop_jobs(self):
+        """Waits until nothing has run for a while, and ends what still waits:
+        for nodes that are down or drained, or for somebody to release it."""
+        running = ("squeue", "-h", "--states=RUNNING,COMPLETING,CONFIGURING")
+        end = time.monotonic() + 240
+        idle_since = time.monotonic()
+        while self.has_jobs() and time.monotonic() - idle_since < 8:
+            if self.run(*running, check=False).strip():
+                idle_since = time.monotonic()
+            if time.monotonic() > end:
+                raise RuntimeError("jobs run on and on")
+            time.sleep(0.2)
+        self.run("scancel", "--partition=main")
+        self.wait_for_jobs(60)
+
+    def repair_nodes(self):
+        for node in self.nodes:
+            if node not in self.servers:
+                self.start_node(node)
+        wait_until(lambda: self.count_nodes("down*") == 0, 60, "all nodes")
+        for node in self.nodes:
+            self.run("scontrol", "update", f"nodename={node}", "state=resume",
+                     check=False)
+        wait_until(lambda: self.count_nodes("idle") == len(self.nodes), 60,
+                   "nodes that are idle")
+
     def crash(self, node):
         """Ends a node as a power failure does."""
         self.kill(node)
