@@ -32,8 +32,9 @@ constexpr double kRoundedUp = 1 + 1e-12;
 
 EdgeTree::EdgeTree(const ldni::Contours& contours) {
   edges_.reserve(contours.points.size());
-  visit_edges(contours,
-              [&](Vec2 from, Vec2 to) { edges_.push_back({from, to}); });
+  visit_edges(contours, [&](Vec2 from, Vec2 to) {
+    edges_.push_back({from, to});
+  });
   std::vector<Box2> boxes((edges_.size() + kFanOut - 1) / kFanOut);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     boxes[i / kFanOut].add(edges_[i].from);
