@@ -1,6 +1,6 @@
-// Decimates a mesh at some tolerances and prints what becomes of it, a line each:
-// tolerance, triangles before and after, and how far a point of the old surface is
-// from the new one, and of the new from the old, at most, by CGAL.
+// Decimates a mesh at some tolerances and prints what becomes of it, a line
+// each: tolerance, triangles before and after, and how far a point of the old
+// surface is from the new one, and of the new from the old, at most, by CGAL.
 //
 //   build/release/bench/scan_decimation scan.ply 0.01 0.02 0.05
 
@@ -54,7 +54,8 @@ int main(int count, char** words) {
     for (int i = 2; i < count; ++i) {
       const double tolerance = std::atof(words[i]);
       csg::Mesh mesh = scan;
-      csg::decimate(mesh, tolerance, {LAMINA_MODULES});
+      Diagnostics diagnostics;
+      csg::decimate(mesh, tolerance, {LAMINA_MODULES}, diagnostics);
       const double error = tolerance / 10;
       std::printf("%g %zu %zu %.5f %.5f\n", tolerance, scan.triangles.size(),
                   mesh.triangles.size(),

@@ -59,7 +59,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   csg::keep_named_points(mesh.vertices, mesh.triangles);
   const std::size_t count = mesh.triangles.size();
   const Boundary before = boundary_of(mesh);
-  csg::decimate(mesh, 0.5, {LAMINA_MODULES});
+  Diagnostics diagnostics;
+  csg::decimate(mesh, 0.5, {LAMINA_MODULES}, diagnostics);
   fuzz::require(mesh.triangles.size() <= count, "triangles are not more");
   fuzz::require(boundary_of(mesh) == before, "the boundary stays");
   return 0;

@@ -16,7 +16,8 @@ namespace shapes = csg::test;
 
 void expect_within(const csg::Mesh& scan, double tolerance) {
   csg::Mesh mesh = scan;
-  csg::decimate(mesh, tolerance, {LAMINA_MODULES});
+  Diagnostics diagnostics;
+  csg::decimate(mesh, tolerance, {LAMINA_MODULES}, diagnostics);
   EXPECT_LT(mesh.triangles.size(), scan.triangles.size());
   const double error = tolerance / 50;
   EXPECT_LE(surface_distance(scan, mesh, error), tolerance + error);

@@ -24,7 +24,8 @@ using test::joined;
 using test::patch;
 
 Decimation thin_out(Mesh& mesh, double tolerance) {
-  return decimate(mesh, tolerance, {LAMINA_MODULES});
+  Diagnostics diagnostics;
+  return decimate(mesh, tolerance, {LAMINA_MODULES}, diagnostics);
 }
 
 // Calls look(point) for points all over the triangles.
@@ -140,8 +141,9 @@ TEST(Decimate, TheSameMeshGivesTheSameTriangles) {
 
 TEST(Decimate, SaysWhereTheModuleWasLookedFor) {
   Mesh mesh = box(Vec3(0), Vec3(1), 2);
+  Diagnostics diagnostics;
   try {
-    decimate(mesh, 0.1, {"/nowhere", "/neither"});
+    decimate(mesh, 0.1, {"/nowhere", "/neither"}, diagnostics);
     FAIL() << "no error";
   } catch (const GeometryError& error) {
     EXPECT_STREQ(error.what(),
