@@ -222,8 +222,8 @@ std::vector<BuiltinModuleRow> file_rows() {
   const std::vector<std::string_view> positional = {
       "file", "layer", "convexity", "origin", "scale"};
   const std::vector<std::string_view> optional = {
-      "width",  "height", "filename", "layername",
-      "center", "dpi",    "id",       "part",     "decimate"};
+      "width", "height", "filename", "layername", "center",
+      "dpi",   "id",     "part",     "decimate"};
   return {
       {"text",
        text,
