@@ -64,15 +64,16 @@ TEST_P(Hardening, ChecksStacks) {
   EXPECT_TRUE(has(read_elf("--dyn-syms", GetParam()), " __stack_chk_fail@"));
 }
 
+// Of the files below, in their order.
+constexpr std::array kFileNames = {"Program", "TextModule", "CadModule",
+                                   "DecimateModule"};
+
 INSTANTIATE_TEST_SUITE_P(Files, Hardening,
                          testing::Values(LAMINA_PROGRAM, LAMINA_TEXT_MODULE,
                                          LAMINA_CAD_MODULE,
                                          LAMINA_DECIMATE_MODULE),
                          [](const auto& file) {
-                           constexpr std::array kNames = {
-                               "Program", "TextModule", "CadModule",
-                               "DecimateModule"};
-                           return kNames[file.index];
+                           return kFileNames[file.index];
                          });
 
 TEST(HardenedProgram, ChecksBuffersAndContainers) {
