@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/module.h"
+#include "base/file/module.h"
 #include "base/paths.h"
 #include "base/text.h"
 

@@ -83,7 +83,7 @@ struct Report {
 // one thread at a time.
 using Progress = std::function<void(std::uint64_t done, std::uint64_t all)>;
 
-// Where the modules of a run are looked for (base/module.h).
+// Where the modules of a run are looked for (base/file/module.h).
 std::vector<std::string> module_folders_of(const Request& request);
 
 struct Compilation {

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "base/file/open_file.h"
-#include "base/module.h"
+#include "base/file/module.h"
 #include "csg/cad/cad_reader.h"
 #include "csg/import/decimate.h"
 #include "csg/text/typesetter.h"

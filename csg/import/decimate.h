@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
-#include "base/module.h"
+#include "base/file/module.h"
 #include "csg/scene.h"
 
 namespace lamina::csg {

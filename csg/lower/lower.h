@@ -36,7 +36,7 @@ struct LowerOptions {
   // Greatest distance in the world of decimated meshes from those that import()
   // read, where it does not say itself [mm]; 0: meshes stay as they are.
   double decimation = 0;
-  // Where modules are looked for (base/module.h).
+  // Where modules are looked for (base/file/module.h).
   std::vector<std::string> module_folders = {};
   // Sets text(), which is an error without it.
   text::Typesetter* typesetter = nullptr;

@@ -11,7 +11,7 @@
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
-#include "base/module.h"
+#include "base/file/module.h"
 #include "base/vec.h"
 #include "csg/text_measurer.h"
 #include "csg/tree.h"

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "slicer/check/feature_table.h"
 #include "slicer/check/finding_table.h"
 #include "slicer/check/printed_text.h"
@@ -126,12 +127,17 @@ class Text : PrintedText {
   }
 
   void print_mesh(const csg::MeshFacts& mesh) {
-    print("\nmesh      {} vertices, {} triangles; {}\n", mesh.vertices,
-          mesh.triangles, mesh.is_closed ? "closed" : "not closed");
-    print("surface   {} components, genus {}, {} boundary loops\n",
-          mesh.components, mesh.genus, mesh.boundary_loops);
-    print("edges     {} open, {} no manifold; {} vertices no manifold\n",
-          mesh.open_edges, mesh.tangled_edges, mesh.tangled_vertices);
+    print("\nmesh      {}, {}; {}\n",
+          counted(mesh.vertices, "vertex", "vertices"),
+          counted(mesh.triangles, "triangle"),
+          mesh.is_closed ? "closed" : "not closed");
+    print("surface   {}, genus {}, {}\n", counted(mesh.components, "component"),
+          mesh.genus, counted(mesh.boundary_loops, "boundary loop"));
+    print("edges     {} open\n", mesh.open_edges);
+    if (mesh.tangled_edges + mesh.tangled_vertices > 0) {
+      print("no manifold at {} and {}\n", counted(mesh.tangled_edges, "edge"),
+            counted(mesh.tangled_vertices, "vertex", "vertices"));
+    }
     if (!mesh.box.is_empty()) print_box(mesh.box);
     print("area      {:.6f} mm²\n", mesh.area);
     print("volume    {:.6f} mm³\n", mesh.volume);

@@ -44,7 +44,7 @@ const std::map<std::string, std::string> kMayTouch = {
     {"base/file/output_file.cpp",
      "what FileAccess::find_output found; devices without --root"},
     {"base/file/output_folder.cpp", "the same"},
-    {"base/module.cpp", "the program's own modules"},
+    {"base/file/module.cpp", "the program's own modules"},
     {"base/child_process.cpp", "/dev/null"},
     {"csg/text/font_cache.cpp",
      "Fontconfig, which looks for the system's fonts"},

@@ -249,7 +249,7 @@ TEST_F(Compare, HelpNamesEveryKindOfFileThatTheErrorNames) {
   for (std::string extension; named >> extension; ++count) {
     EXPECT_TRUE(contains(help, extension)) << extension;
   }
-  EXPECT_EQ(count, 14U) << error;
+  EXPECT_EQ(count, 23U) << error;
 }
 
 TEST_F(Compare, ChecksItsUsage) {

@@ -77,7 +77,7 @@ TEST(Scan, IsSlicedAndInspectedAsADesign) {
               4 * std::numbers::pi * std::numbers::pi * 10 * 3, 3);
   const auto text = run(folder, {"inspect", "a.PLY", "-q"});
   EXPECT_NE(text.output.find("\nmesh      12000 vertices, 24000 triangles; "
-                             "closed\nsurface   1 components, genus 1, 0 "
+                             "closed\nsurface   1 component, genus 1, 0 "
                              "boundary loops\n"),
             std::string::npos)
       << text.output;
@@ -93,8 +93,8 @@ TEST(Scan, InspectTellsOfHolesBeforeTheyAreClosed) {
   EXPECT_NE(result.errors.find("The given mesh is not closed!"),
             std::string::npos)
       << result.errors;
-  EXPECT_NE(result.output.find("; not closed\nsurface   1 components, genus "
-                               "1, 1 boundary loops\nedges     4 open"),
+  EXPECT_NE(result.output.find("; not closed\nsurface   1 component, genus 1, "
+                               "1 boundary loop\nedges     4 open\n"),
             std::string::npos)
       << result.output;
 }

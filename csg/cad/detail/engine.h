@@ -1,5 +1,5 @@
 #pragma once
-// What the program sees of the module lamina_cad.so (base/module.h).
+// What the program sees of the module lamina_cad.so (base/file/module.h).
 //
 // The engine works in a process of its own (base/child_process.h), which reads
 // one file and ends.

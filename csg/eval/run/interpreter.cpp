@@ -285,6 +285,8 @@ void Interpreter::add_nodes(std::span<const Node* const> nodes,
 }
 
 void Interpreter::fail_leaves(SourceRange range) {
+  // The root of what has been made until now still becomes a node.
+  leaf_count_ = options_.max_leaves + 1;
   fail(range,
        fmt::format("Too many leaves: more than the {} that --max-leaves allows",
                    options_.max_leaves),

@@ -2,7 +2,7 @@
 // What the program sees of the module lamina_text.so.
 //
 // FreeType, HarfBuzz and Fontconfig come with eight more shared libraries, and
-// few designs have text. So they stand behind a module (base/module.h).
+// few designs have text. So they stand behind a module (base/file/module.h).
 
 #include <cstdint>
 #include <span>

@@ -1,4 +1,4 @@
-#include "base/module.h"
+#include "base/file/module.h"
 
 #include <cerrno>
 #include <filesystem>
