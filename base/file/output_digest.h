@@ -10,17 +10,14 @@
 
 namespace lamina {
 
-struct OutputSize {
-  std::uint64_t bytes = 0;  // of a folder: 0
-  bool is_folder = false;
+struct OutputDigest {
+  std::uint64_t bytes = 0;
+  std::string digest;  // of all bytes; of a folder, of its files by name
 };
 
-// No value where no file and no folder stands there.
-std::optional<OutputSize> size_of_output(const std::string& path,
-                                         const FileAccess& access);
-
-// Of all bytes of the file; empty where there is none, or it cannot be read,
-// and for folders. It counts as no input of the run.
-std::string digest_of_output(const std::string& path, const FileAccess& access);
+// Of a file, or of a folder of files. No value where there is none, or where it
+// cannot be read. It counts as no input of the run.
+std::optional<OutputDigest> digest_of_output(const std::string& path,
+                                             const FileAccess& access);
 
 }  // namespace lamina

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/file/output_digest.h"
 #include "base/text.h"
 #include "cli/commands/ledger.h"
 #include "cli/commands/outcomes.h"
@@ -69,10 +68,8 @@ class Collector {
       ++failed_;
       return tell(piece, "failed", index_.messages_of(entry));
     }
-    const auto size = entry.state == State::kDone
-                          ? size_of_output(piece.request.output, access_)
-                          : std::nullopt;
-    if (!size || size->bytes != entry.bytes) {
+    if (entry.state != State::kDone ||
+        !is_as_noted(piece.request.output, entry, access_)) {
       ++missing_;
       return tell(piece, "missing", {});
     }

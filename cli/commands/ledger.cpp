@@ -128,10 +128,11 @@ void LedgerIndex::read_line(std::string_view line) {
     seconds_ += json.at("seconds").get<double>();
     peak_memory_bytes_ =
         std::max(peak_memory_bytes_, json.at("memory").get<std::uint64_t>());
+    const std::string read(key, std::min(key.size(), kDigestLength + 1));
+    if (!standing_.contains(read)) return;
     if (is_done) {
       entry.times = 1;
-      const std::string read(key, std::min(key.size(), kDigestLength + 1));
-      if (standing_.contains(read)) entry.state = State::kDone;
+      entry.state = State::kDone;
     } else {
       entry.state = State::kFailed;
       if (messages_.size() < Outcomes::kMostRows) {
@@ -148,14 +149,17 @@ void LedgerIndex::close() {
   std::stable_sort(
       entries_.begin(), entries_.end(),
       [](const Entry& a, const Entry& b) { return a.piece < b.piece; });
-  // Of the lines of a piece the last one stays, with the number of times that
-  // it was done.
+  // Of the lines of a piece one stays, with the number of times that it was
+  // done.
   std::size_t kept = 0;
   for (const Entry& entry : entries_) {
     if (kept > 0 && entries_[kept - 1].piece == entry.piece) {
-      const std::uint32_t times = entries_[kept - 1].times + entry.times;
-      entries_[kept - 1] = entry;
-      entries_[kept - 1].times = times;
+      Entry& before = entries_[kept - 1];
+      const std::uint32_t times = before.times + entry.times;
+      if (entry.state == State::kDone || before.state != State::kDone) {
+        before = entry;
+      }
+      before.times = times;
     } else {
       entries_[kept++] = entry;
     }
@@ -178,10 +182,17 @@ std::vector<std::string> LedgerIndex::messages_of(const Entry& entry) const {
   return found == messages_.end() ? std::vector<std::string>() : found->second;
 }
 
+bool is_as_noted(const std::string& output, const LedgerIndex::Entry& entry,
+                 const FileAccess& access) {
+  const auto stands = digest_of_output(output, access);
+  return stands && stands->bytes == entry.bytes &&
+         fingerprint(stands->digest) == entry.output;
+}
+
 std::string asked_key(const Piece& piece, const std::string& options) {
-  return digest(fmt::format("{}\n{}\n{}\n{}", version(), options,
-                            piece.request.definitions,
-                            piece.request.parameter_set));
+  return digest(fmt::format(
+      "{}\n{}\n{}\n{}\n{}", version(), options, piece.request.definitions,
+      piece.request.parameter_file, piece.request.parameter_set));
 }
 
 // --- Writing ----------------------------------------------------------------
@@ -203,11 +214,8 @@ bool Ledger::stands(const Piece& piece) const {
   if (!index_) return false;
   const LedgerIndex::Entry entry =
       index_->find(piece, asked_key(piece, options_.asked));
-  if (entry.state != State::kDone) return false;
-  const auto size = size_of_output(piece.request.output, access_);
-  if (!size || size->bytes != entry.bytes) return false;
-  return entry.output ==
-         fingerprint(digest_of_output(piece.request.output, access_));
+  return entry.state == State::kDone &&
+         is_as_noted(piece.request.output, entry, access_);
 }
 
 void Ledger::note(const Piece& piece, const Outcome& outcome,
@@ -215,8 +223,9 @@ void Ledger::note(const Piece& piece, const Outcome& outcome,
                   const compiler::Compilation& compilation) {
   const bool is_done = outcome.is_done();
   const std::string& output = piece.request.output;
-  const auto size =
-      is_done ? size_of_output(output, access_) : std::optional<OutputSize>();
+  const OutputDigest made =
+      (is_done ? digest_of_output(output, access_) : std::nullopt)
+          .value_or(OutputDigest());
   const std::string read = read_key(compilation);
   const std::chrono::duration<double> seconds =
       std::chrono::steady_clock::now() - compilation.begin;
@@ -228,8 +237,8 @@ void Ledger::note(const Piece& piece, const Outcome& outcome,
                {"status", is_done ? "done" : "failed"},
                {"seconds", seconds.count()},
                {"memory", 0},
-               {"bytes", size ? size->bytes : 0},
-               {"digest", is_done ? digest_of_output(output, access_) : ""},
+               {"bytes", made.bytes},
+               {"digest", made.digest},
                {"messages", lines_of(messages)}};
   const std::lock_guard lock(mutex_);
   json["memory"] = memory_;
@@ -254,7 +263,9 @@ std::string Ledger::read_key(const compiler::Compilation& compilation) {
   return key;
 }
 
-// Whether the file may be another one than the piece has read.
+// Whether the file may be another one than the piece has read. Its time of
+// change (ctime) is the machine's own: that of a file that is moved here is
+// new, too.
 bool Ledger::has_changed_since(std::chrono::steady_clock::time_point begin,
                                const std::string& path) const {
   const auto status = access_.look_at(path);
@@ -262,8 +273,8 @@ bool Ledger::has_changed_since(std::chrono::steady_clock::time_point begin,
   const auto ago = std::chrono::steady_clock::now() - begin;
   const auto at = std::chrono::system_clock::now() - ago;
   const std::chrono::nanoseconds changed =
-      std::chrono::seconds(status->st_mtim.tv_sec) +
-      std::chrono::nanoseconds(status->st_mtim.tv_nsec);
+      std::chrono::seconds(status->st_ctim.tv_sec) +
+      std::chrono::nanoseconds(status->st_ctim.tv_nsec);
   return changed > at.time_since_epoch();
 }
 

@@ -13,8 +13,10 @@
 // them, before the first piece that read just these. A piece stands if both
 // halves are those of today and its output is there, byte for byte.
 //
-// A ledger only grows, and the last line of a piece counts. A line that was
-// torn as the machine stopped is passed over, and its piece made again.
+// A ledger only grows. Lines of pieces whose files are others today count no
+// more; of the others of a piece the last one that says "done" counts, or else
+// the last. A line that was torn as the machine stopped is passed over, and its
+// piece made again.
 
 #include <chrono>
 #include <cstdint>
@@ -42,10 +44,11 @@ namespace lamina::cli {
 // from several threads.
 class FileDigests {
  public:
-  // access  outlives it
-  explicit FileDigests(const FileAccess& access) : access_(access) {}
+  explicit FileDigests(const FileAccess& access) : access_(access) {
+    access_.report_to(nullptr);  // to know a file again is not to read it
+  }
 
-  // "none" for what is no file.
+  // "none" for what is no file that may be read.
   std::string digest_of(const std::string& path);
 
  private:
@@ -54,7 +57,7 @@ class FileDigests {
     std::string digest;
   };
 
-  const FileAccess& access_;
+  FileAccess access_;
   std::mutex mutex_;
   std::map<std::string, Known> known_;
 };
@@ -103,6 +106,10 @@ class LedgerIndex {
   double seconds_ = 0;
   std::uint64_t peak_memory_bytes_ = 0;
 };
+
+// Whether the output is what the entry's line says, byte for byte.
+bool is_as_noted(const std::string& output, const LedgerIndex::Entry& entry,
+                 const FileAccess& access);
 
 // The first half of a piece's key.
 //

@@ -45,9 +45,9 @@ class PrintersCommand : public Command {
   std::string_view help() const override { return kPrintersHelp; }
   void add_options(CLI::App& /*app*/) override {}
   int run(const Context& /*context*/) override {
-    std::string text = fmt::format("{:<26} {:>26} {:>13} {:>15} {:>7}  {}\n",
-                                   "printer", "builds mm", "pixels",
-                                   "of mm", "move s", "source");
+    std::string text =
+        fmt::format("{:<26} {:>26} {:>13} {:>15} {:>7}  {}\n", "printer",
+                    "builds mm", "pixels", "of mm", "move s", "source");
     for (const slicer::Printer& printer : slicer::known_printers()) {
       const Vec3 volume = printer.build_volume();
       text += fmt::format(

@@ -3,6 +3,7 @@
 #include "cli/commands/ledger.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -242,6 +243,52 @@ TEST_F(Ledgers, WhatWasAskedCounts) {
   EXPECT_EQ(count_standing(), 2);
 }
 
+TEST_F(Ledgers, ASetCountsByItsFile) {
+  folder_.write("a.scad", "size = 1; cube(size);");
+  for (const char* size : {"6", "9"}) {
+    folder_.write(fmt::format("{}.json", size),
+                  fmt::format(R"({{"parameterSets": {{"s": {{"size": "{}"}}}},)"
+                              R"( "fileFormatVersion": "1"}})",
+                              size));
+    run(folder_, {"batch", "a.scad", "--table", fmt::format("{}.json", size),
+                  "-o", "out/{name}.csg", "--ledger", "l", "--resume"});
+    EXPECT_TRUE(has(outputs("out")["s.csg"], size));
+  }
+}
+
+TEST_F(Ledgers, AFolderOfImagesStandsWithAllOfThem) {
+  write_orders(2);
+  const Words images = {"-o", "out/{name}.png", "--layer", "0.5"};
+  EXPECT_EQ(count_standing(images), 0);
+  EXPECT_EQ(count_standing(images), 2);
+  const auto made = outputs("out");
+  fs::remove(folder_.file("out/p1.png/00000.png"));
+  folder_.write("out/p2.png/00000.png", "junk");
+  EXPECT_EQ(count_standing(images), 0);
+  EXPECT_EQ(outputs("out"), made);
+}
+
+TEST_F(Ledgers, AFileThatIsMovedHereMeanwhileIsNotTakenForWhatWasRead) {
+  write_orders(2);
+  fs::last_write_time(folder_.file("part.scad"),
+                      fs::file_time_type::clock::now() + std::chrono::hours(1));
+  count_standing();
+  EXPECT_EQ(count_standing(), 2);
+}
+
+TEST_F(Ledgers, AnOutputOfTheRunMayBeWhatAnotherLineRead) {
+  write_orders(2);
+  folder_.write("b.scad", "include <out/p1.csg>");
+  const Words derived = {"batch",    "b.scad", "--table", "t.csv",
+                         "--skip",   "size",   "-o",      "out/b-{name}.csg",
+                         "--ledger", "l",      "--resume"};
+  EXPECT_EQ(batch({"--ledger", "l", "--resume"}).status, 0);
+  EXPECT_EQ(run(folder_, derived).status, 0);
+  write_orders(3);
+  const auto again = batch({"--ledger", "l", "--resume"});
+  EXPECT_EQ(again.status, 0) << again.errors;
+}
+
 TEST_F(Ledgers, WhatFailedIsTriedAgain) {
   write_orders(3, {2});
   EXPECT_EQ(count_standing(), 0);
@@ -310,6 +357,28 @@ TEST_F(Ledgers, TogetherTellWhatIsMissingFailedAndTwice) {
 }
 
 // --- Torn ledgers -----------------------------------------------------------
+
+TEST_F(Ledgers, TogetherSeeOutputsThatHoldSomethingElse) {
+  write_orders(2);
+  batch({"--ledger", "l"});
+  std::string bytes = read_file(folder_.file("out/p2.csg"));
+  bytes[bytes.find('2')] = '7';
+  folder_.write("out/p2.csg", bytes);
+  EXPECT_EQ(collect({"l"}, 1).at("missing"), 1);
+}
+
+TEST_F(Ledgers, LinesOfAnEarlierDesignHideNoneOfTodays) {
+  write_orders(2);
+  batch({"--ledger", "z"});
+  const std::string design = read_file(folder_.file("a.scad"));
+  folder_.write("a.scad", "size = 1; assert(size > 9);");
+  batch({"--ledger", "b", "-o", "other/{name}.csg"});
+  folder_.write("a.scad", "size = 1; sphere(size);");
+  batch({"--ledger", "a"});
+  const auto sum = collect({"a", "b", "z"}, 0);
+  EXPECT_EQ(sum.at("done"), 2);
+  EXPECT_EQ(sum.at("twice"), 0);
+}
 
 TEST_F(Ledgers, TornAtAnyByteKeepTheirWholeLines) {
   write_orders(3);
