@@ -69,9 +69,10 @@ csg::EvaluateOptions evaluate_options(Compilation& c) {
   options.check_ranges = request.checks_parameter_ranges;
   options.max_depth = request.max_depth;
   options.max_leaves = request.max_leaves;
-  if (request.chordal_error > 0) {
-    options.chordal_error = request.chordal_error / request.scale;
-  }
+  options.chordal_error =
+      (request.chordal_error > 0 ? request.chordal_error
+                                 : csg::kChordalErrorOfParts) /
+      request.scale;
   options.text_measurer = &c.typesetter;
   return options;
 }

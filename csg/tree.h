@@ -176,6 +176,10 @@ struct TextParams {
 struct Text {
   const TextParams* params;
 };
+// Of parts of CAD programs where no chordal error is asked for: that of a
+// circle of 20 mm with 100 sides [mm].
+inline constexpr double kChordalErrorOfParts = 0.01;
+
 enum class ImportFormat : std::uint8_t {
   kUnknown,
   kStl,

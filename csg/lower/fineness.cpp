@@ -136,7 +136,12 @@ double greatest_stretch(const Affine& map) {
     for (int j = 0; j < 3; ++j) sum += std::abs(glm::dot(map[i], map[j]));
     bound = std::max(bound, sum);
   }
-  return std::sqrt(bound);
+  // Rounded up, but for what rounding can have added, so that it is the same
+  // for copies that are only turned.
+  constexpr double kUnits = 0x1p40;
+  int exponent = 0;
+  const double mantissa = std::frexp(std::sqrt(bound), &exponent);
+  return std::ldexp(std::ceil((mantissa - 1e-13) * kUnits) / kUnits, exponent);
 }
 
 }  // namespace lamina::csg

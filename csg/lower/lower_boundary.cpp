@@ -93,6 +93,7 @@ Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
 Lowerer Lowerer::make_inner(const Place& at) {
   LowerOptions options = options_;
   options.chordal_error = fineness({}, at.world).chordal_error;
+  options.chordal_error_of_parts = chordal_error_of_parts_at(at.world);
   options.decimation = decimation_at(at.world);
   return {at.node.children.size(), options, shared_, diagnostics_};
 }

@@ -281,7 +281,7 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
   const ImportParams& params = *op.params;
   Fineness fine = fineness(params.facets, at.world);
   if (is_cad_format(params.format) && !(fine.chordal_error > 0)) {
-    fine.chordal_error = kChordalErrorOfParts / greatest_stretch(at.world);
+    fine.chordal_error = chordal_error_of_parts_at(at.world);
   }
   const double decimation = decimation_of(params, at.world);
   const std::string key =
@@ -305,7 +305,14 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
 double Lowerer::decimation_of(const ImportParams& params,
                               const Affine& world) const {
   if (params.decimate) return *params.decimate;
-  return decimation_at(world);
+  // Files of CAD programs have their own chordal error.
+  return is_cad_format(params.format) ? 0 : decimation_at(world);
+}
+
+double Lowerer::chordal_error_of_parts_at(const Affine& world) const {
+  const double stretch = greatest_stretch(world);
+  const double error = options_.chordal_error_of_parts / stretch;
+  return std::isfinite(error) ? error : kChordalErrorOfParts;
 }
 
 double Lowerer::decimation_at(const Affine& world) const {

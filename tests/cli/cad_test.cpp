@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +53,46 @@ TEST(Cad, LayersKeepTheChordalErrorInTheWorld) {
   const auto result =
       run(folder, {"compare", "part.slc", "fine.slc", "--tolerance", "0.0225"});
   EXPECT_EQ(result.status, 0) << result.output << result.errors;
+}
+
+TEST(Cad, HullsAndSumsKeepTheChordalErrorInTheWorld) {
+  const TemporaryFolder folder;
+  add_seed(folder, "step/cylinder", "part.step");
+  folder.write("part.scad", "scale(10) import(\"part.step\");");
+  folder.write("hull.scad", "scale(10) hull() import(\"part.step\");");
+  folder.write("resize.scad",
+               "scale(10) resize([20, 20, 12]) resize([10, 10, 12])"
+               " import(\"part.step\");");
+  folder.write("fine.scad", "scale(10) cylinder(r = 5, h = 12, $fn = 5000);");
+  folder.write("wide.scad", "scale(10) cylinder(r = 10, h = 12, $fn = 5000);");
+  for (const char* design : {"part", "hull", "resize", "fine", "wide"}) {
+    EXPECT_EQ(run(folder, {std::string(design) + ".scad", "-q", "--layer", "1",
+                           "-o", std::string(design) + ".slc"})
+                  .status,
+              0);
+  }
+  for (const auto& [a, b] :
+       {std::pair("part", "fine"), {"hull", "fine"}, {"resize", "wide"}}) {
+    const auto result =
+        run(folder, {"compare", std::string(a) + ".slc",
+                     std::string(b) + ".slc", "--tolerance", "0.0225"});
+    EXPECT_EQ(result.status, 0) << a << result.output << result.errors;
+  }
+}
+
+TEST(Cad, CopiesThatAreTurnedShareOneMesh) {
+  const TemporaryFolder folder;
+  add_seed(folder, "step/cylinder", "part.step");
+  folder.write("a.scad",
+               "for (i = [0 : 30]) translate([20 * i, 0, 0])"
+               " rotate([i * 1.7, i * 2.3, i * 3.6]) import(\"part.step\","
+               " decimate = 0.05);");
+  const auto result = run(folder, {"a.scad", "-o", "a.slc", "--layer", "1"});
+  EXPECT_EQ(result.status, 0);
+  const std::string words = "within 0.05 of the file's surface";
+  EXPECT_EQ(result.errors.find(words), result.errors.rfind(words))
+      << result.errors;
+  EXPECT_FALSE(has(result.errors, "times in all")) << result.errors;
 }
 
 TEST(Cad, ABrokenFileIsAnErrorWithItsPlace) {

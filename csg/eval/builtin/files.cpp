@@ -196,6 +196,11 @@ void import(const BuiltinModuleCode& code, Frame& frame) {
   params.path = in.keep_text(path);
   params.format = import_format(code.name, path);
   if (params.format == ImportFormat::kFcstd) {
+    for (const char* name : {"center", "scale", "decimate", "origin", "dpi"}) {
+      if (!call[name].is_undef()) {
+        call.warn("{}= has no say in FreeCAD files", name);
+      }
+    }
     return import_freecad(
         path, part.is_undef() ? std::nullopt : std::optional(to_text(part)),
         call);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "csg/text_measurer.h"
+#include "csg/tree.h"
 #include "parser/language.h"
 
 namespace lamina::csg {
@@ -36,7 +37,7 @@ struct EvaluateOptions {
   bool check_parameters = true;
   // Greatest distance of facets from what they stand for, where the evaluation
   // makes them: of FreeCAD files [mm].
-  double chordal_error = 0.01;
+  double chordal_error = kChordalErrorOfParts;
   // For textmetrics() and fontmetrics(), which give undef without it.
   TextMeasurer* text_measurer = nullptr;
   // Whether to warn of numbers outside their range

@@ -11,10 +11,6 @@
 
 namespace lamina::csg {
 
-// Of parts where no chordal error is asked for: that of a circle of 20 mm with
-// 100 sides [mm].
-constexpr double kChordalErrorOfParts = 0.01;
-
 bool is_cad_format(ImportFormat format);
 
 // Reads the solids of a file, and reports at `range` what the reader warns of.

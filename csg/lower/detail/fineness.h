@@ -48,7 +48,8 @@ ExtrusionSteps extrusion_steps(const LinearExtrudeParams& params,
                                const Fineness& fineness);
 
 // The greatest factor by which the map lengthens a vector, or a little more
-// where its columns are not perpendicular.
+// where its columns are not perpendicular, up to 1e-12 of itself. Maps that
+// differ by rounding have the same.
 double greatest_stretch(const Affine& map);
 
 }  // namespace lamina::csg

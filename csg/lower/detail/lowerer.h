@@ -161,6 +161,8 @@ class Lowerer {
   };
   // The tolerance of --decimate in a node's own coordinates; 0: none.
   double decimation_at(const Affine& world) const;
+  // Of files of CAD programs where none is asked for.
+  double chordal_error_of_parts_at(const Affine& world) const;
   // In the file's lengths; 0: none.
   double decimation_of(const ImportParams& params, const Affine& world) const;
   FileShape read_import(const ImportParams& params, const Fineness& fine,
