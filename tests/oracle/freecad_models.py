@@ -234,6 +234,15 @@ def part_cut(m):
     return m.part("Cut", LEAN, Base=block, Tool=drill)
 
 
+@model("Part::Box, seen by a drawing and a hidden Part::Cut")
+def part_box_seen(m):
+    block = m.part("Box", LEAN, Length=7, Width=5, Height=9)
+    m.add("TechDraw::DrawViewPart", "View", Source=[block])
+    m.part("Cut", Base=block, Tool=m.part("Sphere", Radius=3, Visibility=False),
+           Visibility=False)
+    return block
+
+
 @model("Part::Fuse")
 def part_fuse(m):
     stem = m.part("Cylinder", Radius=5, Height=4)
@@ -736,8 +745,11 @@ def app_link(m):
 
 @model("App::Link, scaled")
 def app_link_scaled(m):
-    block = m.part("Cut", LEAN, Base=m.part("Box", Length=9, Width=7, Height=5),
-                   Tool=m.part("Cylinder", Radius=3, Height=9))
+    block = m.part("Cut", LEAN,
+                   Base=m.part("Box", Length=9, Width=7, Height=5,
+                               Visibility=False),
+                   Tool=m.part("Cylinder", Radius=3, Height=9,
+                               Visibility=False))
     link = m.add("App::Link", "Link")
     link.setLink(block)
     link.ScaleVector = Vector(1.5, 0.5, 2)

@@ -38,6 +38,7 @@ bool is_flat(const Object& object) {
       "Part::Helix",
       "Part::Spiral",
       "Part::Face",
+      "Part::Section",
       "PartDesign::Plane",
       "PartDesign::Line",
       "PartDesign::Point",
@@ -49,17 +50,22 @@ bool is_flat(const Object& object) {
          type.starts_with("Part::Part2DObject") || kTypes.contains(type);
 }
 
-// Whether it is a part at all: not a table, a drawing, a material, a load.
+// Not a table, a drawing, a material, a load.
 bool has_geometry(const Object& object) {
   if (object.type().starts_with("Fem::")) return false;
   return object.value("Shape") || object.value("Mesh") ||
          object.value("Points");
 }
 
-bool is_group(const Object& object) {
-  return object.is_a("App::Part") ||
-         object.type().starts_with("App::DocumentObjectGroup") ||
-         object.is_a("App::LinkGroup");
+std::vector<std::string_view> operands_of(const Object& object) {
+  std::vector<std::string_view> names;
+  if (object.type().starts_with("PartDesign::")) names = object.links("Group");
+  for (const std::string_view property : kOperandProperties) {
+    names.push_back(object.link(property));
+    const auto listed = object.links(property);
+    names.insert(names.end(), listed.begin(), listed.end());
+  }
+  return names;
 }
 
 }  // namespace
@@ -94,6 +100,7 @@ FreecadModel Reader::read() {
     }
     make_shown(top, solids);
   }
+  note_all("left out, as others that are shown are made of them", used_);
   note_all("hidden, so left out", hidden_);
   note_all("left out, as they enclose nothing", flat_);
   for (const Solid& solid : solids) {
@@ -105,17 +112,36 @@ FreecadModel Reader::read() {
 
 // --- Which objects count ----------------------------------------------------
 
+// Drawings and views of a part are not made of it, and what is hidden leaves
+// its operands to be shown, unless something shown is made of it in turn.
 void Reader::find_operands() {
+  std::set<std::string_view> features;  // of bodies
   for (const Object& object : document_.objects()) {
-    for (const std::string_view property : kOperandProperties) {
-      operands_.insert(object.link(property));
-      for (const std::string_view name : object.links(property)) {
-        operands_.insert(name);
-      }
-    }
+    if (maker_of(object) == nullptr) continue;
     for (const char* const holding : {"Group", "ElementList"}) {
       for (const std::string_view name : object.links(holding)) {
         members_.insert(name);
+        if (!is_group(object)) features.insert(name);
+      }
+    }
+  }
+  for (const Object& object : document_.objects()) {
+    if (object.is_visible() && !features.contains(object.name())) {
+      claim_operands(object);
+    }
+  }
+}
+
+void Reader::claim_operands(const Object& shown) {
+  std::vector<const Object*> open = {&shown};
+  while (!open.empty()) {
+    const Object& object = *open.back();
+    open.pop_back();
+    if (is_flat(object) || !is_part(object) || is_group(object)) continue;
+    for (const std::string_view name : operands_of(object)) {
+      const Object* const operand = document_.find(name);
+      if (operand != nullptr && operands_.insert(name).second) {
+        open.push_back(operand);
       }
     }
   }
@@ -135,8 +161,11 @@ std::vector<const Object*> Reader::objects_of(const Object& group) const {
 void Reader::make_shown(const std::vector<const Object*>& objects,
                         std::vector<Solid>& solids) {
   for (const Object* const object : objects) {
-    if (operands_.contains(object->name())) continue;
-    if (!has_geometry(*object) && maker_of(*object) == nullptr) continue;
+    if (!is_part(*object)) continue;
+    if (operands_.contains(object->name())) {
+      if (object->is_visible() && !is_flat(*object)) used_.push_back(object);
+      continue;
+    }
     if (is_flat(*object)) {
       if (object->is_visible()) flat_.push_back(object);
       continue;
@@ -252,6 +281,14 @@ Reader::Make Reader::maker_of(const Object& object) {
     return &Reader::make_feature;
   }
   return nullptr;
+}
+
+bool Reader::is_part(const Object& object) {
+  return has_geometry(object) || maker_of(object) != nullptr;
+}
+
+bool Reader::is_group(const Object& object) {
+  return maker_of(object) == &Reader::make_group;
 }
 
 Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {

@@ -81,6 +81,52 @@ TEST(FreecadFile, LeavesOutWhatIsHiddenAndSaysSo) {
   EXPECT_TRUE(all.warnings.empty());
 }
 
+TEST(FreecadFile, NamesWhatIsVisibleAndPartOfAnotherObject) {
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2", flag("Visibility", false))
+      .add("Part::Cut", "C", cut("A", "B"));
+  EXPECT_EQ(read(document.bytes()).notes,
+            std::vector<std::string>{"left out, as others that are shown are "
+                                     "made of them: 'A' (Part::Box)"});
+}
+
+TEST(FreecadFile, KeepsAPartThatOnlyDrawingsAndFlatViewsAreMadeOf) {
+  FreecadDocument document;
+  document.box("A")
+      .add("TechDraw::DrawViewPart", "View", links("Source", {"A"}))
+      .add("Part::Part2DObjectPython", "Flat", link("Base", "A") + shape("f"))
+      .add("Part::Section", "Section", cut("A", "A") + shape("s"));
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, KeepsAPartThatOnlyHiddenObjectsAreMadeOf) {
+  const std::string hidden = flag("Visibility", false);
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2", hidden)
+      .add("Part::Cut", "C", cut("A", "B") + hidden)
+      .add("PartDesign::FeatureBase", "Clone", link("BaseFeature", "A"))
+      .add("PartDesign::Body", "Body",
+           links("Group", {"Clone"}) + link("Tip", "Clone") + hidden);
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, LeavesOutWhatHiddenOperandsAndFeaturesAreMadeOf) {
+  const std::string hidden = flag("Visibility", false);
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2")
+      .add("PartDesign::FeatureBase", "Clone",
+           link("BaseFeature", "A") + hidden)
+      .add("PartDesign::Body", "Body",
+           links("Group", {"Clone"}) + link("Tip", "Clone") + hidden)
+      .add("Part::Cut", "C", cut("Body", "B"));
+  EXPECT_EQ(read(document.bytes()).csg,
+            "difference() {\n\tcube(size = [3, 4, 5], center = false);\n"
+            "\tcube(size = [2, 4, 5], center = false);\n}\n\n");
+}
+
 TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
   FreecadDocument document;
   document.box("A").box("B", "2").entry(
