@@ -728,6 +728,15 @@ def app_group(m):
     return group
 
 
+@model("App::GeometryPython with a plain group, as Arch's storeys are")
+def app_group_python(m):
+    storey = m.document.addObject("App::GeometryPython", "Storey")
+    storey.addExtension("App::GroupExtensionPython")
+    storey.addObject(m.part("Box", LEAN, Length=4, Width=5, Height=6))
+    storey.addObject(m.part("Cylinder", TILT, Radius=2, Height=5))
+    return storey
+
+
 @model("App::Link")
 def app_link(m):
     body = m.body(LEAN)

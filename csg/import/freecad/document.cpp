@@ -93,6 +93,17 @@ Object::Object(pugi::xml_node data, std::string_view name,
   is_visible_ = !value("Visibility") || flag("Visibility");
 }
 
+bool Object::has_extension(std::string_view type) const {
+  const auto extensions =
+      properties_.parent().child("Extensions").children("Extension");
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const pugi::xml_node& extension) {
+                       const std::string_view found =
+                           extension.attribute("type").value();
+                       return found.starts_with(type);
+                     });
+}
+
 pugi::xml_node Object::value(std::string_view property) const {
   for (const pugi::xml_node child : properties_.children("Property")) {
     if (child.attribute("name").value() == property) {

@@ -57,6 +57,11 @@ bool has_geometry(const Object& object) {
          object.value("Points");
 }
 
+// The members of a group, a body, an array of links.
+std::vector<std::string_view> held_by(const Object& object) {
+  return object.links(object.value("Group") ? "Group" : "ElementList");
+}
+
 std::vector<std::string_view> operands_of(const Object& object) {
   std::vector<std::string_view> names;
   if (object.type().starts_with("PartDesign::")) names = object.links("Group");
@@ -118,11 +123,9 @@ void Reader::find_operands() {
   std::set<std::string_view> features;  // of bodies
   for (const Object& object : document_.objects()) {
     if (maker_of(object) == nullptr) continue;
-    for (const char* const holding : {"Group", "ElementList"}) {
-      for (const std::string_view name : object.links(holding)) {
-        members_.insert(name);
-        if (!is_group(object)) features.insert(name);
-      }
+    for (const std::string_view name : held_by(object)) {
+      members_.insert(name);
+      if (!is_group(object)) features.insert(name);
     }
   }
   for (const Object& object : document_.objects()) {
@@ -149,12 +152,19 @@ void Reader::claim_operands(const Object& shown) {
 
 std::vector<const Object*> Reader::objects_of(const Object& group) const {
   std::vector<const Object*> objects;
-  const char* const property =
-      group.is_a("App::LinkGroup") ? "ElementList" : "Group";
-  for (const std::string_view name : group.links(property)) {
+  for (const std::string_view name : held_by(group)) {
     const Object* const object = document_.find(name);
     if (object != nullptr) objects.push_back(object);
   }
+  // A part names the members of its plain groups, too.
+  std::set<std::string_view> of_groups;
+  for (const Object* const object : objects) {
+    if (!is_group(*object) || !object->is_visible()) continue;
+    for (const std::string_view name : held_by(*object)) of_groups.insert(name);
+  }
+  std::erase_if(objects, [&](const Object* object) {
+    return of_groups.contains(object->name());
+  });
   return objects;
 }
 
@@ -267,7 +277,6 @@ Reader::Make Reader::maker_of(const Object& object) {
   const std::string_view type = object.type();
   const auto found = kMakers.find(type);
   if (found != kMakers.end()) return found->second;
-  if (type.starts_with("App::DocumentObjectGroup")) return &Reader::make_group;
   static const std::set<std::string_view> kPrimitives = {
       "Box",   "Cylinder", "Sphere", "Cone",
       "Torus", "Prism",    "Wedge",  "Ellipsoid"};
@@ -279,6 +288,11 @@ Reader::Make Reader::maker_of(const Object& object) {
   if (is_primitive("PartDesign::Additive") ||
       is_primitive("PartDesign::Subtractive")) {
     return &Reader::make_feature;
+  }
+  // An assembly, say, or a storey, whose shape merely repeats its members'.
+  const bool is_holder = object.value("Group") || object.value("ElementList");
+  if (is_holder && (!has_geometry(object) || type.starts_with("App::"))) {
+    return &Reader::make_group;
   }
   return nullptr;
 }
@@ -314,7 +328,8 @@ Reader::Made Reader::make_group(const Object& object, std::string&) {
   make_shown(objects_of(object), solids);
   if (solids.empty()) return std::nullopt;
   const Solid all = maker_.unite(solids);
-  // Plain groups have no place of their own.
+  // Members of plain groups stand where they would without them.
+  if (object.has_extension("App::GroupExtension")) return all;
   return maker_.place(object.placement(), all);
 }
 

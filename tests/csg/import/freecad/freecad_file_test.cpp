@@ -137,6 +137,42 @@ TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
   EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
 }
 
+TEST(FreecadFile, MakesWhatGroupsOfAnyTypeHold) {
+  FreecadDocument assembly;
+  assembly.box("A").add("Assembly::AssemblyObject", "G",
+                        links("Group", {"A"}) + placement_at_x("10"));
+  EXPECT_EQ(read(assembly.bytes()).csg,
+            "multmatrix([[1, 0, 0, 10], [0, 1, 0, 0], [0, 0, 1, 0], "
+            "[0, 0, 0, 1]]) {\n\t" +
+                kBox + "}\n\n");
+}
+
+TEST(FreecadFile, LeavesMembersOfPlainGroupsInTheirPlace) {
+  FreecadDocument storey;
+  storey.box("A").add(
+      "App::GeometryPython", "G",
+      links("Group", {"A"}) + placement_at_x("10") + shape("Storey.brp"),
+      "<Extensions><Extension type=\"App::GroupExtensionPython\"/>"
+      "</Extensions>");
+  EXPECT_EQ(read(storey.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, MakesShapesThatHoldOthersAndTheOthersToo) {
+  FreecadDocument document;
+  document.box("A")
+      .add("Part::FeaturePython", "Wall", links("Group", {"A"}) + shape("w"))
+      .entry("w", kBoundary);
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "import(part = \"Wall\");\n\n");
+}
+
+TEST(FreecadFile, MakesWhatAPartAndItsGroupNameOnce) {
+  FreecadDocument document;
+  document.box("A")
+      .add("App::DocumentObjectGroup", "G", links("Group", {"A"}))
+      .add("App::Part", "P", links("Group", {"A", "G"}));
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
 TEST(FreecadFile, GivesOneObjectByNameOrByLabel) {
   FreecadDocument document;
   document.box("A", "1", label("B")).box("B", "3", label("Lid"));
