@@ -398,6 +398,24 @@ def part_revolution(m):
                   Base=Vector(0, 0, 0), Angle=360, Solid=True)
 
 
+@model("Part::Extrusion and Part::Revolution of a face, not Solid")
+def part_extrusion_face(m):
+    plane = m.part("Plane", LEAN, Length=5, Width=4)
+    other = m.part("Plane", Length=5, Width=4)
+    return m.part("Compound", Links=[
+        m.part("Extrusion", Base=plane, DirMode="Normal", LengthFwd=6,
+               Solid=False),
+        m.part("Revolution", TILT, Source=other, Axis=Y, Base=Vector(0, 0, 0),
+               Angle=90, Solid=False)])
+
+
+@model("Part::Extrusion of a face of no known outline, not Solid", "boundary")
+def part_extrusion_drawn_face(m):
+    face = m.part("Feature", Shape=Part.Face(Part.Wire(Part.makeCircle(5))))
+    return m.part("Extrusion", LEAN, Base=face, DirMode="Normal", LengthFwd=6,
+                  Solid=False)
+
+
 @model("Part::Revolution, Angle, Symmetric")
 def part_revolution_sector(m):
     sketch = m.sketch(box(2, -3, 6, 4), TILT)

@@ -297,6 +297,11 @@ Reader::Make Reader::maker_of(const Object& object) {
   return nullptr;
 }
 
+// Told to, of a wire: of a face there is a solid all the same.
+bool Reader::makes_surface(const Object& object) const {
+  return !object.flag("Solid") && !document_.has_stored_solid(object);
+}
+
 bool Reader::is_part(const Object& object) {
   return has_geometry(object) || maker_of(object) != nullptr;
 }
@@ -308,8 +313,7 @@ bool Reader::is_group(const Object& object) {
 Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
   if (is_flat(object) || document_.boundary_entry(object).empty())
     return std::nullopt;
-  // A feature that was told to make a surface is none whose boundary counts.
-  if (object.value("Solid") && !object.flag("Solid")) return std::nullopt;
+  if (object.value("Solid") && makes_surface(object)) return std::nullopt;
   model_.notes.push_back(fmt::format("{} is taken by its boundary{}{}",
                                      shown(object), why.empty() ? "" : ": ",
                                      why));

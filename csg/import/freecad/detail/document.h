@@ -100,7 +100,11 @@ class Document {
   // Throws FormatError where the archive lacks it.
   std::string_view boundary_entry(const Object& object) const;
 
+  // Whether that boundary is one of solids, and as text, so that it says so.
+  bool has_stored_solid(const Object& object) const;
+
  private:
+  std::string boundary(std::string_view entry) const;
   void read_objects();
   void read_visibility();
 

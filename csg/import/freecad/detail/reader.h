@@ -39,6 +39,7 @@ class Reader {
   static Make maker_of(const Object& object);
   static bool is_part(const Object& object);
   static bool is_group(const Object& object);
+  bool makes_surface(const Object& extrusion_or_revolution) const;
   Made by_boundary(const Object& object, const std::string& why);
   // Appends the solids of these objects that are shown and that no object is
   // made of. Names what is left out.

@@ -214,6 +214,33 @@ TEST(FreecadFile, SaysWhyAFeatureIsTakenByItsBoundary) {
                                "its Length makes no solid"});
 }
 
+// An extrusion of a face that was told to make no solid.
+std::string extrusion_of_plane(const std::string& boundary) {
+  FreecadDocument document;
+  document
+      .add("Part::Plane", "Plane", number("Length", "3") + number("Width", "4"))
+      .add("Part::Extrusion", "A",
+           link("Base", "Plane") + number("DirMode", "2") +
+               number("LengthFwd", "5") + flag("Solid", false) + shape("a.brp"))
+      .entry("a.brp", boundary);
+  return document.bytes();
+}
+
+TEST(FreecadFile, MakesAnExtrusionWhoseBoundaryIsASolid) {
+  const Read solid = read(extrusion_of_plane(kBoundary + "So\n"));
+  EXPECT_NE(solid.csg.find("linear_extrude(height = 5"), std::string::npos)
+      << solid.csg;
+  EXPECT_TRUE(solid.warnings.empty());
+}
+
+TEST(FreecadFile, LeavesOutAnExtrusionWhoseBoundaryIsASurface) {
+  const Read surface = read(extrusion_of_plane(kBoundary));
+  EXPECT_EQ(surface.csg, "\n");
+  EXPECT_EQ(surface.warnings,
+            std::vector<std::string>{"'A' (Part::Extrusion) is left out: it "
+                                     "makes a surface, no solid"});
+}
+
 // --- Hostile files ----------------------------------------------------------
 
 std::string fault_of_bytes(const std::string& bytes) {
