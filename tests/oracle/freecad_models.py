@@ -785,6 +785,15 @@ def app_link_scaled(m):
     return link
 
 
+@model("App::LinkGroup that hides a link")
+def app_link_group(m):
+    group = m.add("App::LinkGroup", "LinkGroup", TILT)
+    group.setLink([m.part("Box", LEAN, Length=9, Width=7, Height=5),
+                   m.part("Sphere", Radius=9)])
+    group.setElementVisible("1", False)
+    return group
+
+
 # --- By boundary --------------------------------------------------------------
 
 

@@ -150,11 +150,17 @@ void Reader::claim_operands(const Object& shown) {
   }
 }
 
-std::vector<const Object*> Reader::objects_of(const Object& group) const {
+std::vector<const Object*> Reader::objects_of(const Object& group) {
+  const std::vector<std::string_view> names = held_by(group);
+  // A group of links tells itself which of them it shows, the last one first.
+  const std::string_view shows = group.text("VisibilityList");
   std::vector<const Object*> objects;
-  for (const std::string_view name : held_by(group)) {
-    const Object* const object = document_.find(name);
-    if (object != nullptr) objects.push_back(object);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Object* const object = document_.find(names[i]);
+    if (object == nullptr) continue;
+    const bool is_hidden =
+        i < shows.size() && shows[shows.size() - 1 - i] == '0';
+    (is_hidden ? hidden_ : objects).push_back(object);
   }
   // A part names the members of its plain groups, too.
   std::set<std::string_view> of_groups;
@@ -345,6 +351,11 @@ Reader::Made Reader::make_link(const Object& object, std::string& why) {
   if (target == nullptr) {
     why = name.empty() ? "it links to another file, or to nothing"
                        : fmt::format("there is no object '{}'", name);
+    return std::nullopt;
+  }
+  const pugi::xml_node link = object.value("LinkedObject");
+  if (link.attribute("sub").value()[0] != '\0' || link.child("Sub")) {
+    why = fmt::format("it links to a part of {}", shown(*target));
     return std::nullopt;
   }
   if (object.number("ElementCount", 0) > 0) {

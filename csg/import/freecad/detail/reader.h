@@ -52,7 +52,8 @@ class Reader {
   void find_operands();
   // What the object is made of and, of that, in turn.
   void claim_operands(const Object& shown);
-  std::vector<const Object*> objects_of(const Object& group) const;
+  // What the group shows. Names what it hides.
+  std::vector<const Object*> objects_of(const Object& group);
 
   Made make_group(const Object& object, std::string& why);
   Made make_link(const Object& object, std::string& why);

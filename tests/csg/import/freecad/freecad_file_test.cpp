@@ -173,6 +173,34 @@ TEST(FreecadFile, MakesWhatAPartAndItsGroupNameOnce) {
   EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
 }
 
+TEST(FreecadFile, LeavesOutWhatAGroupOfLinksHides) {
+  FreecadDocument document;
+  document.box("A").box("B", "2").add(
+      "App::LinkGroup", "G",
+      links("ElementList", {"A", "B"}) +
+          property("VisibilityList", "<BoolList value=\"01\"/>"));
+  const Read all = read(document.bytes());
+  EXPECT_EQ(all.csg, kBox + "\n");
+  EXPECT_EQ(all.notes,
+            std::vector<std::string>{"hidden, so left out: 'B' (Part::Box)"});
+}
+
+TEST(FreecadFile, LeavesOutLinksToAPartOfAnObject) {
+  for (const std::string link : {"<XLink file=\"\" name=\"P\" sub=\"A.\"/>",
+                                 "<XLink file=\"\" name=\"P\" count=\"1\"><Sub "
+                                 "value=\"A.\"/></XLink>"}) {
+    FreecadDocument document;
+    document.box("A")
+        .add("App::Part", "P", links("Group", {"A"}))
+        .add("App::Link", "L", property("LinkedObject", link));
+    const Read all = read(document.bytes());
+    EXPECT_EQ(all.csg, kBox + "\n");
+    EXPECT_EQ(all.warnings,
+              std::vector<std::string>{"'L' (App::Link) is left out: it links "
+                                       "to a part of 'P' (App::Part)"});
+  }
+}
+
 TEST(FreecadFile, GivesOneObjectByNameOrByLabel) {
   FreecadDocument document;
   document.box("A", "1", label("B")).box("B", "3", label("Lid"));
