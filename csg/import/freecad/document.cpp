@@ -100,7 +100,7 @@ bool Object::has_extension(std::string_view type) const {
                      [&](const pugi::xml_node& extension) {
                        const std::string_view found =
                            extension.attribute("type").value();
-                       return found.starts_with(type);
+                       return found.find(type) != std::string_view::npos;
                      });
 }
 

@@ -283,6 +283,7 @@ Reader::Make Reader::maker_of(const Object& object) {
   const std::string_view type = object.type();
   const auto found = kMakers.find(type);
   if (found != kMakers.end()) return found->second;
+  if (type.starts_with("App::DocumentObjectGroup")) return &Reader::make_group;
   static const std::set<std::string_view> kPrimitives = {
       "Box",   "Cylinder", "Sphere", "Cone",
       "Torus", "Prism",    "Wedge",  "Ellipsoid"};
@@ -295,9 +296,10 @@ Reader::Make Reader::maker_of(const Object& object) {
       is_primitive("PartDesign::Subtractive")) {
     return &Reader::make_feature;
   }
-  // An assembly, say, or a storey, whose shape merely repeats its members'.
-  const bool is_holder = object.value("Group") || object.value("ElementList");
-  if (is_holder && (!has_geometry(object) || type.starts_with("App::"))) {
+  // An assembly, say, or a storey, whose shape merely repeats its members'. A
+  // layer of a drawing has a Group too, but is none.
+  if (object.value("Group") && object.has_extension("GroupExtension") &&
+      (!has_geometry(object) || type.starts_with("App::"))) {
     return &Reader::make_group;
   }
   return nullptr;

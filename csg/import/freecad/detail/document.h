@@ -42,7 +42,7 @@ class Object {
   bool is_visible() const { return is_visible_; }
   void set_visible(bool is_visible) { is_visible_ = is_visible; }
 
-  // Whether FreeCAD gave it an extension whose type begins so.
+  // Whether FreeCAD gave it an extension whose type has this in it.
   bool has_extension(std::string_view type) const;
 
   // The element that holds the value, null if there is none.

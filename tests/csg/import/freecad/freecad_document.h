@@ -38,6 +38,9 @@ inline std::string placement_at_x(const std::string& x) {
                               "Q0=\"0\" Q1=\"0\" Q2=\"0\" Q3=\"1\"/>",
                               x));
 }
+inline std::string extension(const std::string& type) {
+  return fmt::format("<Extensions><Extension type=\"{}\"/></Extensions>", type);
+}
 inline std::string label(const std::string& text) {
   return property("Label", fmt::format("<String value=\"{}\"/>", text));
 }
@@ -48,7 +51,7 @@ inline std::string shape(const std::string& entry) {
 // The texts and entries of a file.
 class FreecadDocument {
  public:
-  // extensions  what stands before the properties
+  // extensions  see extension()
   FreecadDocument& add(const std::string& type, const std::string& name,
                        const std::string& properties,
                        const std::string& extensions = "") {

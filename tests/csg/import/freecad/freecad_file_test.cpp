@@ -140,7 +140,8 @@ TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
 TEST(FreecadFile, MakesWhatGroupsOfAnyTypeHold) {
   FreecadDocument assembly;
   assembly.box("A").add("Assembly::AssemblyObject", "G",
-                        links("Group", {"A"}) + placement_at_x("10"));
+                        links("Group", {"A"}) + placement_at_x("10"),
+                        extension("App::OriginGroupExtension"));
   EXPECT_EQ(read(assembly.bytes()).csg,
             "multmatrix([[1, 0, 0, 10], [0, 1, 0, 0], [0, 0, 1, 0], "
             "[0, 0, 0, 1]]) {\n\t" +
@@ -152,15 +153,24 @@ TEST(FreecadFile, LeavesMembersOfPlainGroupsInTheirPlace) {
   storey.box("A").add(
       "App::GeometryPython", "G",
       links("Group", {"A"}) + placement_at_x("10") + shape("Storey.brp"),
-      "<Extensions><Extension type=\"App::GroupExtensionPython\"/>"
-      "</Extensions>");
+      extension("App::GroupExtensionPython"));
   EXPECT_EQ(read(storey.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, MakesWhatALayerListsOnce) {
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2", flag("Visibility", false))
+      .add("App::FeaturePython", "Layer", links("Group", {"A", "B"}))
+      .add("App::Part", "P", links("Group", {"A"}));
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
 }
 
 TEST(FreecadFile, MakesShapesThatHoldOthersAndTheOthersToo) {
   FreecadDocument document;
   document.box("A")
-      .add("Part::FeaturePython", "Wall", links("Group", {"A"}) + shape("w"))
+      .add("Part::FeaturePython", "Wall", links("Group", {"A"}) + shape("w"),
+           extension("App::GroupExtensionPython"))
       .entry("w", kBoundary);
   EXPECT_EQ(read(document.bytes()).csg, kBox + "import(part = \"Wall\");\n\n");
 }
