@@ -234,6 +234,15 @@ def part_cut(m):
     return m.part("Cut", LEAN, Base=block, Tool=drill)
 
 
+@model("Part::Box, seen by a drawing and a hidden Part::Cut")
+def part_box_seen(m):
+    block = m.part("Box", LEAN, Length=7, Width=5, Height=9)
+    m.add("TechDraw::DrawViewPart", "View", Source=[block])
+    m.part("Cut", Base=block, Tool=m.part("Sphere", Radius=3, Visibility=False),
+           Visibility=False)
+    return block
+
+
 @model("Part::Fuse")
 def part_fuse(m):
     stem = m.part("Cylinder", Radius=5, Height=4)
@@ -387,6 +396,24 @@ def part_revolution(m):
                       Placement(Vector(0, 0, 0), Rotation(X, 90)))
     return m.part("Revolution", TILT, Source=sketch, Axis=Z,
                   Base=Vector(0, 0, 0), Angle=360, Solid=True)
+
+
+@model("Part::Extrusion and Part::Revolution of a face, not Solid")
+def part_extrusion_face(m):
+    plane = m.part("Plane", LEAN, Length=5, Width=4)
+    other = m.part("Plane", Length=5, Width=4)
+    return m.part("Compound", Links=[
+        m.part("Extrusion", Base=plane, DirMode="Normal", LengthFwd=6,
+               Solid=False),
+        m.part("Revolution", TILT, Source=other, Axis=Y, Base=Vector(0, 0, 0),
+               Angle=90, Solid=False)])
+
+
+@model("Part::Extrusion of a face of no known outline, not Solid", "boundary")
+def part_extrusion_drawn_face(m):
+    face = m.part("Feature", Shape=Part.Face(Part.Wire(Part.makeCircle(5))))
+    return m.part("Extrusion", LEAN, Base=face, DirMode="Normal", LengthFwd=6,
+                  Solid=False)
 
 
 @model("Part::Revolution, Angle, Symmetric")
@@ -719,6 +746,15 @@ def app_group(m):
     return group
 
 
+@model("App::GeometryPython with a plain group, as Arch's storeys are")
+def app_group_python(m):
+    storey = m.document.addObject("App::GeometryPython", "Storey")
+    storey.addExtension("App::GroupExtensionPython")
+    storey.addObject(m.part("Box", LEAN, Length=4, Width=5, Height=6))
+    storey.addObject(m.part("Cylinder", TILT, Radius=2, Height=5))
+    return storey
+
+
 @model("App::Link")
 def app_link(m):
     body = m.body(LEAN)
@@ -736,14 +772,26 @@ def app_link(m):
 
 @model("App::Link, scaled")
 def app_link_scaled(m):
-    block = m.part("Cut", LEAN, Base=m.part("Box", Length=9, Width=7, Height=5),
-                   Tool=m.part("Cylinder", Radius=3, Height=9))
+    block = m.part("Cut", LEAN,
+                   Base=m.part("Box", Length=9, Width=7, Height=5,
+                               Visibility=False),
+                   Tool=m.part("Cylinder", Radius=3, Height=9,
+                               Visibility=False))
     link = m.add("App::Link", "Link")
     link.setLink(block)
     link.ScaleVector = Vector(1.5, 0.5, 2)
     link.Placement = TILT
     block.Visibility = False
     return link
+
+
+@model("App::LinkGroup that hides a link")
+def app_link_group(m):
+    group = m.add("App::LinkGroup", "LinkGroup", TILT)
+    group.setLink([m.part("Box", LEAN, Length=9, Width=7, Height=5),
+                   m.part("Sphere", Radius=9)])
+    group.setElementVisible("1", False)
+    return group
 
 
 # --- By boundary --------------------------------------------------------------

@@ -93,6 +93,17 @@ Object::Object(pugi::xml_node data, std::string_view name,
   is_visible_ = !value("Visibility") || flag("Visibility");
 }
 
+bool Object::has_extension(std::string_view type) const {
+  const auto extensions =
+      properties_.parent().child("Extensions").children("Extension");
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const pugi::xml_node& extension) {
+                       const std::string_view found =
+                           extension.attribute("type").value();
+                       return found.find(type) != std::string_view::npos;
+                     });
+}
+
 pugi::xml_node Object::value(std::string_view property) const {
   for (const pugi::xml_node child : properties_.children("Property")) {
     if (child.attribute("name").value() == property) {
@@ -237,9 +248,18 @@ const Object* Document::find_part(std::string_view name_or_label) const {
 std::string_view Document::boundary_entry(const Object& object) const {
   const std::string_view entry = object.file("Shape");
   if (entry.empty()) return {};
-  const auto bytes = archive_.read(std::string(entry));
+  return has_faces(boundary(entry)) ? entry : std::string_view();
+}
+
+bool Document::has_stored_solid(const Object& object) const {
+  const std::string_view entry = object.file("Shape");
+  return !entry.empty() && boundary(entry).find("\nSo") != std::string::npos;
+}
+
+std::string Document::boundary(std::string_view entry) const {
+  auto bytes = archive_.read(std::string(entry));
   if (!bytes) throw FormatError(fmt::format("FCStd holds no '{}'", entry));
-  return has_faces(*bytes) ? entry : std::string_view();
+  return *std::move(bytes);
 }
 
 }  // namespace lamina::csg::freecad

@@ -105,7 +105,7 @@ std::optional<Outline> Reader::outline_of(std::string_view name,
 }
 
 Reader::Made Reader::make_extrusion(const Object& object, std::string& why) {
-  if (!object.flag("Solid")) {
+  if (makes_surface(object)) {
     why = "it makes a surface, no solid";
     return std::nullopt;
   }
@@ -208,7 +208,7 @@ Reader::Made Reader::revolve(const Outline& outline, const Turn& spin,
 
 Reader::Made Reader::make_part_revolution(const Object& object,
                                           std::string& why) {
-  if (!object.flag("Solid")) {
+  if (makes_surface(object)) {
     why = "it makes a surface, no solid";
     return std::nullopt;
   }

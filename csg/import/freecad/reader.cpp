@@ -38,6 +38,7 @@ bool is_flat(const Object& object) {
       "Part::Helix",
       "Part::Spiral",
       "Part::Face",
+      "Part::Section",
       "PartDesign::Plane",
       "PartDesign::Line",
       "PartDesign::Point",
@@ -49,17 +50,27 @@ bool is_flat(const Object& object) {
          type.starts_with("Part::Part2DObject") || kTypes.contains(type);
 }
 
-// Whether it is a part at all: not a table, a drawing, a material, a load.
+// Not a table, a drawing, a material, a load.
 bool has_geometry(const Object& object) {
   if (object.type().starts_with("Fem::")) return false;
   return object.value("Shape") || object.value("Mesh") ||
          object.value("Points");
 }
 
-bool is_group(const Object& object) {
-  return object.is_a("App::Part") ||
-         object.type().starts_with("App::DocumentObjectGroup") ||
-         object.is_a("App::LinkGroup");
+// The members of a group, a body, an array of links.
+std::vector<std::string_view> held_by(const Object& object) {
+  return object.links(object.value("Group") ? "Group" : "ElementList");
+}
+
+std::vector<std::string_view> operands_of(const Object& object) {
+  std::vector<std::string_view> names;
+  if (object.type().starts_with("PartDesign::")) names = object.links("Group");
+  for (const std::string_view property : kOperandProperties) {
+    names.push_back(object.link(property));
+    const auto listed = object.links(property);
+    names.insert(names.end(), listed.begin(), listed.end());
+  }
+  return names;
 }
 
 }  // namespace
@@ -94,6 +105,7 @@ FreecadModel Reader::read() {
     }
     make_shown(top, solids);
   }
+  note_all("left out, as others that are shown are made of them", used_);
   note_all("hidden, so left out", hidden_);
   note_all("left out, as they enclose nothing", flat_);
   for (const Solid& solid : solids) {
@@ -105,38 +117,71 @@ FreecadModel Reader::read() {
 
 // --- Which objects count ----------------------------------------------------
 
+// Drawings and views of a part are not made of it, and what is hidden leaves
+// its operands to be shown, unless something shown is made of it in turn.
 void Reader::find_operands() {
+  std::set<std::string_view> features;  // of bodies
   for (const Object& object : document_.objects()) {
-    for (const std::string_view property : kOperandProperties) {
-      operands_.insert(object.link(property));
-      for (const std::string_view name : object.links(property)) {
-        operands_.insert(name);
-      }
+    if (maker_of(object) == nullptr) continue;
+    for (const std::string_view name : held_by(object)) {
+      members_.insert(name);
+      if (!is_group(object)) features.insert(name);
     }
-    for (const char* const holding : {"Group", "ElementList"}) {
-      for (const std::string_view name : object.links(holding)) {
-        members_.insert(name);
+  }
+  for (const Object& object : document_.objects()) {
+    if (object.is_visible() && !features.contains(object.name())) {
+      claim_operands(object);
+    }
+  }
+}
+
+void Reader::claim_operands(const Object& shown) {
+  std::vector<const Object*> open = {&shown};
+  while (!open.empty()) {
+    const Object& object = *open.back();
+    open.pop_back();
+    if (is_flat(object) || !is_part(object) || is_group(object)) continue;
+    for (const std::string_view name : operands_of(object)) {
+      const Object* const operand = document_.find(name);
+      if (operand != nullptr && operands_.insert(name).second) {
+        open.push_back(operand);
       }
     }
   }
 }
 
-std::vector<const Object*> Reader::objects_of(const Object& group) const {
+std::vector<const Object*> Reader::objects_of(const Object& group) {
+  const std::vector<std::string_view> names = held_by(group);
+  // A group of links tells itself which of them it shows, the last one first.
+  const std::string_view shows = group.text("VisibilityList");
   std::vector<const Object*> objects;
-  const char* const property =
-      group.is_a("App::LinkGroup") ? "ElementList" : "Group";
-  for (const std::string_view name : group.links(property)) {
-    const Object* const object = document_.find(name);
-    if (object != nullptr) objects.push_back(object);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Object* const object = document_.find(names[i]);
+    if (object == nullptr) continue;
+    const bool is_hidden =
+        i < shows.size() && shows[shows.size() - 1 - i] == '0';
+    (is_hidden ? hidden_ : objects).push_back(object);
   }
+  // A part names the members of its plain groups, too.
+  std::set<std::string_view> of_groups;
+  for (const Object* const object : objects) {
+    if (!is_group(*object) || !object->is_visible()) continue;
+    for (const std::string_view name : held_by(*object)) of_groups.insert(name);
+  }
+  std::erase_if(objects, [&](const Object* object) {
+    return of_groups.contains(object->name());
+  });
   return objects;
 }
 
 void Reader::make_shown(const std::vector<const Object*>& objects,
                         std::vector<Solid>& solids) {
   for (const Object* const object : objects) {
-    if (operands_.contains(object->name())) continue;
-    if (!has_geometry(*object) && maker_of(*object) == nullptr) continue;
+    if (!is_part(*object)) continue;
+    if (operands_.contains(object->name())) {
+      if (object->is_visible() && !is_flat(*object)) used_.push_back(object);
+      continue;
+    }
     if (is_flat(*object)) {
       if (object->is_visible()) flat_.push_back(object);
       continue;
@@ -251,14 +296,32 @@ Reader::Make Reader::maker_of(const Object& object) {
       is_primitive("PartDesign::Subtractive")) {
     return &Reader::make_feature;
   }
+  // An assembly, say, or a storey, whose shape merely repeats its members'. A
+  // layer of a drawing has a Group too, but is none.
+  if (object.value("Group") && object.has_extension("GroupExtension") &&
+      (!has_geometry(object) || type.starts_with("App::"))) {
+    return &Reader::make_group;
+  }
   return nullptr;
+}
+
+// Told to, of a wire: of a face there is a solid all the same.
+bool Reader::makes_surface(const Object& object) const {
+  return !object.flag("Solid") && !document_.has_stored_solid(object);
+}
+
+bool Reader::is_part(const Object& object) {
+  return has_geometry(object) || maker_of(object) != nullptr;
+}
+
+bool Reader::is_group(const Object& object) {
+  return maker_of(object) == &Reader::make_group;
 }
 
 Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
   if (is_flat(object) || document_.boundary_entry(object).empty())
     return std::nullopt;
-  // A feature that was told to make a surface is none whose boundary counts.
-  if (object.value("Solid") && !object.flag("Solid")) return std::nullopt;
+  if (object.value("Solid") && makes_surface(object)) return std::nullopt;
   model_.notes.push_back(fmt::format("{} is taken by its boundary{}{}",
                                      shown(object), why.empty() ? "" : ": ",
                                      why));
@@ -277,7 +340,8 @@ Reader::Made Reader::make_group(const Object& object, std::string&) {
   make_shown(objects_of(object), solids);
   if (solids.empty()) return std::nullopt;
   const Solid all = maker_.unite(solids);
-  // Plain groups have no place of their own.
+  // Members of plain groups stand where they would without them.
+  if (object.has_extension("App::GroupExtension")) return all;
   return maker_.place(object.placement(), all);
 }
 
@@ -289,6 +353,11 @@ Reader::Made Reader::make_link(const Object& object, std::string& why) {
   if (target == nullptr) {
     why = name.empty() ? "it links to another file, or to nothing"
                        : fmt::format("there is no object '{}'", name);
+    return std::nullopt;
+  }
+  const pugi::xml_node link = object.value("LinkedObject");
+  if (link.attribute("sub").value()[0] != '\0' || link.child("Sub")) {
+    why = fmt::format("it links to a part of {}", shown(*target));
     return std::nullopt;
   }
   if (object.number("ElementCount", 0) > 0) {

@@ -42,6 +42,9 @@ class Object {
   bool is_visible() const { return is_visible_; }
   void set_visible(bool is_visible) { is_visible_ = is_visible; }
 
+  // Whether FreeCAD gave it an extension whose type has this in it.
+  bool has_extension(std::string_view type) const;
+
   // The element that holds the value, null if there is none.
   pugi::xml_node value(std::string_view property) const;
 
@@ -97,7 +100,11 @@ class Document {
   // Throws FormatError where the archive lacks it.
   std::string_view boundary_entry(const Object& object) const;
 
+  // Whether that boundary is one of solids, and as text, so that it says so.
+  bool has_stored_solid(const Object& object) const;
+
  private:
+  std::string boundary(std::string_view entry) const;
   void read_objects();
   void read_visibility();
 

@@ -37,6 +37,9 @@ class Reader {
   Made make(std::string_view name);
   Made make_anew(const Object& object, std::string& why);
   static Make maker_of(const Object& object);
+  static bool is_part(const Object& object);
+  static bool is_group(const Object& object);
+  bool makes_surface(const Object& extrusion_or_revolution) const;
   Made by_boundary(const Object& object, const std::string& why);
   // Appends the solids of these objects that are shown and that no object is
   // made of. Names what is left out.
@@ -47,7 +50,10 @@ class Reader {
   void note_all(std::string_view what,
                 const std::vector<const Object*>& objects);
   void find_operands();
-  std::vector<const Object*> objects_of(const Object& group) const;
+  // What the object is made of and, of that, in turn.
+  void claim_operands(const Object& shown);
+  // What the group shows. Names what it hides.
+  std::vector<const Object*> objects_of(const Object& group);
 
   Made make_group(const Object& object, std::string& why);
   Made make_link(const Object& object, std::string& why);
@@ -116,7 +122,8 @@ class Reader {
   std::map<const Object*, Entry> entries_;
   std::vector<const Object*> hidden_;    // of those that were left out
   std::vector<const Object*> flat_;      // likewise
-  std::set<std::string_view> operands_;  // of other objects
+  std::vector<const Object*> used_;      // likewise, and visible
+  std::set<std::string_view> operands_;  // of other objects that are shown
   std::set<std::string_view> members_;   // of groups and bodies
   int depth_ = 0;
 };

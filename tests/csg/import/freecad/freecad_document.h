@@ -32,6 +32,15 @@ inline std::string links(const std::string& name,
   }
   return property(name, "<LinkList>" + list + "</LinkList>");
 }
+inline std::string placement_at_x(const std::string& x) {
+  return property("Placement",
+                  fmt::format("<PropertyPlacement Px=\"{}\" Py=\"0\" Pz=\"0\" "
+                              "Q0=\"0\" Q1=\"0\" Q2=\"0\" Q3=\"1\"/>",
+                              x));
+}
+inline std::string extension(const std::string& type) {
+  return fmt::format("<Extensions><Extension type=\"{}\"/></Extensions>", type);
+}
 inline std::string label(const std::string& text) {
   return property("Label", fmt::format("<String value=\"{}\"/>", text));
 }
@@ -42,12 +51,14 @@ inline std::string shape(const std::string& entry) {
 // The texts and entries of a file.
 class FreecadDocument {
  public:
+  // extensions  see extension()
   FreecadDocument& add(const std::string& type, const std::string& name,
-                       const std::string& properties) {
+                       const std::string& properties,
+                       const std::string& extensions = "") {
     objects_ += fmt::format("<Object type=\"{}\" name=\"{}\"/>", type, name);
-    data_ +=
-        fmt::format("<Object name=\"{}\"><Properties>{}</Properties></Object>",
-                    name, properties);
+    data_ += fmt::format(
+        "<Object name=\"{}\">{}<Properties>{}</Properties></Object>", name,
+        extensions, properties);
     return *this;
   }
   FreecadDocument& box(const std::string& name, const std::string& length = "3",

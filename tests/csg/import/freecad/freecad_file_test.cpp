@@ -81,6 +81,52 @@ TEST(FreecadFile, LeavesOutWhatIsHiddenAndSaysSo) {
   EXPECT_TRUE(all.warnings.empty());
 }
 
+TEST(FreecadFile, NamesWhatIsVisibleAndPartOfAnotherObject) {
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2", flag("Visibility", false))
+      .add("Part::Cut", "C", cut("A", "B"));
+  EXPECT_EQ(read(document.bytes()).notes,
+            std::vector<std::string>{"left out, as others that are shown are "
+                                     "made of them: 'A' (Part::Box)"});
+}
+
+TEST(FreecadFile, KeepsAPartThatOnlyDrawingsAndFlatViewsAreMadeOf) {
+  FreecadDocument document;
+  document.box("A")
+      .add("TechDraw::DrawViewPart", "View", links("Source", {"A"}))
+      .add("Part::Part2DObjectPython", "Flat", link("Base", "A") + shape("f"))
+      .add("Part::Section", "Section", cut("A", "A") + shape("s"));
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, KeepsAPartThatOnlyHiddenObjectsAreMadeOf) {
+  const std::string hidden = flag("Visibility", false);
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2", hidden)
+      .add("Part::Cut", "C", cut("A", "B") + hidden)
+      .add("PartDesign::FeatureBase", "Clone", link("BaseFeature", "A"))
+      .add("PartDesign::Body", "Body",
+           links("Group", {"Clone"}) + link("Tip", "Clone") + hidden);
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, LeavesOutWhatHiddenOperandsAndFeaturesAreMadeOf) {
+  const std::string hidden = flag("Visibility", false);
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2")
+      .add("PartDesign::FeatureBase", "Clone",
+           link("BaseFeature", "A") + hidden)
+      .add("PartDesign::Body", "Body",
+           links("Group", {"Clone"}) + link("Tip", "Clone") + hidden)
+      .add("Part::Cut", "C", cut("Body", "B"));
+  EXPECT_EQ(read(document.bytes()).csg,
+            "difference() {\n\tcube(size = [3, 4, 5], center = false);\n"
+            "\tcube(size = [2, 4, 5], center = false);\n}\n\n");
+}
+
 TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
   FreecadDocument document;
   document.box("A").box("B", "2").entry(
@@ -89,6 +135,80 @@ TEST(FreecadFile, TakesVisibilityFromTheGuisDocument) {
           flag("Visibility", false) +
           "</Properties></ViewProvider></ViewProviderData></Document>");
   EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, MakesWhatGroupsOfAnyTypeHold) {
+  FreecadDocument assembly;
+  assembly.box("A").add("Assembly::AssemblyObject", "G",
+                        links("Group", {"A"}) + placement_at_x("10"),
+                        extension("App::OriginGroupExtension"));
+  EXPECT_EQ(read(assembly.bytes()).csg,
+            "multmatrix([[1, 0, 0, 10], [0, 1, 0, 0], [0, 0, 1, 0], "
+            "[0, 0, 0, 1]]) {\n\t" +
+                kBox + "}\n\n");
+}
+
+TEST(FreecadFile, LeavesMembersOfPlainGroupsInTheirPlace) {
+  FreecadDocument storey;
+  storey.box("A").add(
+      "App::GeometryPython", "G",
+      links("Group", {"A"}) + placement_at_x("10") + shape("Storey.brp"),
+      extension("App::GroupExtensionPython"));
+  EXPECT_EQ(read(storey.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, MakesWhatALayerListsOnce) {
+  FreecadDocument document;
+  document.box("A")
+      .box("B", "2", flag("Visibility", false))
+      .add("App::FeaturePython", "Layer", links("Group", {"A", "B"}))
+      .add("App::Part", "P", links("Group", {"A"}));
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, MakesShapesThatHoldOthersAndTheOthersToo) {
+  FreecadDocument document;
+  document.box("A")
+      .add("Part::FeaturePython", "Wall", links("Group", {"A"}) + shape("w"),
+           extension("App::GroupExtensionPython"))
+      .entry("w", kBoundary);
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "import(part = \"Wall\");\n\n");
+}
+
+TEST(FreecadFile, MakesWhatAPartAndItsGroupNameOnce) {
+  FreecadDocument document;
+  document.box("A")
+      .add("App::DocumentObjectGroup", "G", links("Group", {"A"}))
+      .add("App::Part", "P", links("Group", {"A", "G"}));
+  EXPECT_EQ(read(document.bytes()).csg, kBox + "\n");
+}
+
+TEST(FreecadFile, LeavesOutWhatAGroupOfLinksHides) {
+  FreecadDocument document;
+  document.box("A").box("B", "2").add(
+      "App::LinkGroup", "G",
+      links("ElementList", {"A", "B"}) +
+          property("VisibilityList", "<BoolList value=\"01\"/>"));
+  const Read all = read(document.bytes());
+  EXPECT_EQ(all.csg, kBox + "\n");
+  EXPECT_EQ(all.notes,
+            std::vector<std::string>{"hidden, so left out: 'B' (Part::Box)"});
+}
+
+TEST(FreecadFile, LeavesOutLinksToAPartOfAnObject) {
+  for (const std::string link : {"<XLink file=\"\" name=\"P\" sub=\"A.\"/>",
+                                 "<XLink file=\"\" name=\"P\" count=\"1\"><Sub "
+                                 "value=\"A.\"/></XLink>"}) {
+    FreecadDocument document;
+    document.box("A")
+        .add("App::Part", "P", links("Group", {"A"}))
+        .add("App::Link", "L", property("LinkedObject", link));
+    const Read all = read(document.bytes());
+    EXPECT_EQ(all.csg, kBox + "\n");
+    EXPECT_EQ(all.warnings,
+              std::vector<std::string>{"'L' (App::Link) is left out: it links "
+                                       "to a part of 'P' (App::Part)"});
+  }
 }
 
 TEST(FreecadFile, GivesOneObjectByNameOrByLabel) {
@@ -130,6 +250,33 @@ TEST(FreecadFile, SaysWhyAFeatureIsTakenByItsBoundary) {
       read(document.bytes()).notes,
       std::vector<std::string>{"'A' (Part::Box) is taken by its boundary: "
                                "its Length makes no solid"});
+}
+
+// An extrusion of a face that was told to make no solid.
+std::string extrusion_of_plane(const std::string& boundary) {
+  FreecadDocument document;
+  document
+      .add("Part::Plane", "Plane", number("Length", "3") + number("Width", "4"))
+      .add("Part::Extrusion", "A",
+           link("Base", "Plane") + number("DirMode", "2") +
+               number("LengthFwd", "5") + flag("Solid", false) + shape("a.brp"))
+      .entry("a.brp", boundary);
+  return document.bytes();
+}
+
+TEST(FreecadFile, MakesAnExtrusionWhoseBoundaryIsASolid) {
+  const Read solid = read(extrusion_of_plane(kBoundary + "So\n"));
+  EXPECT_NE(solid.csg.find("linear_extrude(height = 5"), std::string::npos)
+      << solid.csg;
+  EXPECT_TRUE(solid.warnings.empty());
+}
+
+TEST(FreecadFile, LeavesOutAnExtrusionWhoseBoundaryIsASurface) {
+  const Read surface = read(extrusion_of_plane(kBoundary));
+  EXPECT_EQ(surface.csg, "\n");
+  EXPECT_EQ(surface.warnings,
+            std::vector<std::string>{"'A' (Part::Extrusion) is left out: it "
+                                     "makes a surface, no solid"});
 }
 
 // --- Hostile files ----------------------------------------------------------
