@@ -14,8 +14,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "base/file/open_file.h"
 #include "base/file/module.h"
+#include "base/file/open_file.h"
 #include "csg/cad/cad_reader.h"
 #include "csg/import/decimate.h"
 #include "csg/text/typesetter.h"

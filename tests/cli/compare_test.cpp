@@ -67,9 +67,9 @@ TEST_F(Compare, AFileEqualsItselfToTheLastDigit) {
 }
 
 TEST_F(Compare, AllFormatsHoldTheSameLayers) {
-  const std::vector<std::string> files = {"ring.slc", "ring.cli", "ascii.cli",
-                                          "ring.svg", "ring.3mf",
-                                          "ring.layers.json"};
+  const std::vector<std::string> files = {"ring.slc",  "ring.cli",
+                                          "ascii.cli", "ring.svg",
+                                          "ring.3mf",  "ring.layers.json"};
   for (const std::string& file : files) {
     slice(file, file == "ascii.cli" ? std::vector<std::string>{"--cli", "ascii"}
                                     : std::vector<std::string>{});
@@ -297,13 +297,13 @@ TEST(Images, AreReadBackToATenthOfAPixel) {
        {Case{"a.sl1", "prusa-sl1"}, Case{"b.sl1", "elegoo-mars-3"},
         Case{"a.zip", "wanhao-d7"}, Case{"b.nanodlp", "concepts3d-athena-8k"},
         Case{"a.png", "plain"}, Case{"b.png", "plain"}}) {
-    ASSERT_EQ(run(folder, {"a.scad", "-q", "-o", one.output, "--printer",
-                           one.printer})
+    ASSERT_EQ(run(folder,
+                  {"a.scad", "-q", "-o", one.output, "--printer", one.printer})
                   .status,
               0);
     // Half of a corner's pixel is rounded off.
-    const ProcessResult result = run(
-        folder, {"compare", one.output, "a.scad", "--tolerance", "0.03"});
+    const ProcessResult result =
+        run(folder, {"compare", one.output, "a.scad", "--tolerance", "0.03"});
     EXPECT_EQ(result.status, 0) << one.output << result.output << result.errors;
     const ProcessResult found = run(folder, {"inspect", one.output});
     EXPECT_EQ(found.status, 0) << found.output;

@@ -25,6 +25,13 @@ constexpr std::uint32_t kMostColumns = 256;
 // Operators above a leaf that are asked, from the nearest one on.
 constexpr int kMostGrids = 4;
 
+// Whether the operator above has the same value wherever the leaf is, whatever
+// else is below it.
+bool decides_its_operator(const csg::Scene& scene, const csg::Instance& leaf) {
+  return scene.program[leaf.parent].op == csg::BooleanOp::kUnion ||
+         csg::is_subtrahend(scene, leaf);
+}
+
 // Calls visit(word, mask) for the words of a column's bits that rows [begin,
 // end) lie in.
 template <typename Visit>
@@ -83,10 +90,7 @@ void CoveredLeaves::make_grids(std::span<const LeafPart> parts) {
   std::vector<Grid> all(program.size());
   for (const LeafPart& part : parts) {
     const csg::Instance& instance = scene_.instances[part.instance];
-    if (program[instance.parent].op != csg::BooleanOp::kUnion &&
-        !csg::is_subtrahend(scene_, instance)) {
-      continue;
-    }
+    if (!decides_its_operator(scene_, instance)) continue;
     Grid& grid = all[instance.parent];
     ++grid.leaf_count;
     grid.box.add(part.box);
@@ -116,16 +120,12 @@ void CoveredLeaves::make_grids(std::span<const LeafPart> parts) {
   }
 }
 
-// The grid of the operator that the leaf decides wherever it is; null where
-// there is none.
+// The grid of the operator that the leaf decides; null where there is none.
 CoveredLeaves::Grid* CoveredLeaves::grid_of_coverer(std::uint32_t instance) {
   const csg::Instance& leaf = scene_.instances[instance];
-  if (grid_of_node_[leaf.parent] == kNone) return nullptr;
-  if (scene_.program[leaf.parent].op != csg::BooleanOp::kUnion &&
-      !csg::is_subtrahend(scene_, leaf)) {
-    return nullptr;
-  }
-  return &grids_[grid_of_node_[leaf.parent]];
+  const std::uint32_t grid = grid_of_node_[leaf.parent];
+  return grid != kNone && decides_its_operator(scene_, leaf) ? &grids_[grid]
+                                                             : nullptr;
 }
 
 bool CoveredLeaves::is_covered(const LeafPart& part) {
