@@ -98,7 +98,7 @@ class Refiner {
 
   Side longest_side(Index triangle) const {
     Side longest{triangle, 0};
-    for (const std::size_t k : {1, 2}) {
+    for (const std::size_t k : {1U, 2U}) {
       if (length({triangle, k}) > length(longest)) longest.k = k;
     }
     return longest;
@@ -112,7 +112,7 @@ class Refiner {
   // Only where something is to be split: most faces need none of this.
   void find_pairs() {
     for (Index i = 0; i < mesh_.triangles.size(); ++i) {
-      for (const std::size_t k : {0, 1, 2}) {
+      for (const std::size_t k : {0U, 1U, 2U}) {
         const Side side{i, k};
         Pair& pair =
             pairs_.try_emplace(key(from(side), to(side)), Pair{kNone, kNone})

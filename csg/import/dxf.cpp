@@ -20,7 +20,6 @@ namespace {
 
 // A few hundred bytes may ask for any number of lines, by blocks within blocks
 // and by arcs of many turns. Drawings need far fewer than these.
-constexpr std::size_t kMostLines = 1'000'000;
 constexpr std::size_t kMostLinesOfAByte = 20;
 
 // One entity: its groups up to the next entity. What a group means depends on
@@ -47,7 +46,7 @@ class Reader {
   Reader(std::string_view bytes, const DxfOptions& options)
       : lines_(bytes),
         options_(options),
-        most_lines_(kMostLines + kMostLinesOfAByte * bytes.size()) {}
+        most_lines_(options.most_lines + kMostLinesOfAByte * bytes.size()) {}
 
   DxfDrawing read() {
     for (;;) {
@@ -179,15 +178,30 @@ class Reader {
 
   bool add_line(std::optional<Vec2> from, std::optional<Vec2> to) {
     if (!from || !to) return false;
-    const bool is_drawn = is_in_entities_ && is_asked_for();
-    const bool is_kept = is_in_blocks_ && !block_.empty();
-    if (!is_drawn && !is_kept) return true;
-    if (++line_count_ > most_lines_) {
-      throw FormatError(fmt::format("DXF line {}, more than {} lines to draw",
-                                    lines_.number(), most_lines_));
-    }
+    if (!is_drawn() && !is_kept()) return true;
+    require_room_for(1);
+    ++line_count_;
     const DxfLine line = {snap(*from), snap(*to)};
-    (is_drawn ? drawn_ : blocks_[block_]).push_back(line);
+    (is_drawn() ? drawn_ : blocks_[block_]).push_back(line);
+    return true;
+  }
+
+  bool is_drawn() const { return is_in_entities_ && is_asked_for(); }
+
+  bool is_kept() const { return is_in_blocks_ && !block_.empty(); }
+
+  void require_room_for(std::size_t count) const {
+    if (count <= most_lines_ - line_count_) return;
+    throw FormatError(fmt::format("DXF line {}, more than {} lines to draw",
+                                  lines_.number(), most_lines_));
+  }
+
+  // Draws lines between at(0) … at(n).
+  template <typename At>
+  bool add_curve(int n, const At& at) {
+    if (!is_drawn() && !is_kept()) return true;
+    require_room_for(static_cast<std::size_t>(n));
+    for (int i = 0; i < n; ++i) add_line(at(i), at(i + 1));
     return true;
   }
 
@@ -231,8 +245,7 @@ class Reader {
       const double angle = begin_deg + sweep * i / n;
       return *center + Vec2(cos_deg(angle) * r, sin_deg(angle) * r);
     };
-    for (int i = 0; i < n; ++i) add_line(at(i), at(i + 1));
-    return true;
+    return add_curve(n, at);
   }
 
   // `end` and as many whole turns as take it to `begin` or past it.
@@ -260,8 +273,7 @@ class Reader {
       return *center + Vec2(std::cos(tilt) * p.x - std::sin(tilt) * p.y,
                             std::sin(tilt) * p.x + std::cos(tilt) * p.y);
     };
-    for (int i = 0; i < n; ++i) add_line(at(i), at(i + 1));
-    return true;
+    return add_curve(n, at);
   }
 
   bool insert_block() {
@@ -278,6 +290,7 @@ class Reader {
     };
     // A copy: a block may be inserted into itself.
     const std::vector<DxfLine> lines = block->second;
+    if (is_drawn() || is_kept()) require_room_for(lines.size());
     for (const auto [from, to] : lines) add_line(moved(from), moved(to));
     return true;
   }

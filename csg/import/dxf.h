@@ -7,6 +7,7 @@
 // entities are only counted.
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,8 @@ struct DxfOptions {
   // Number of sides of a full circle of that radius.
   std::function<int(double radius)> fragments;
   std::string path;  // as messages show it
+  // That may be drawn, beside 20 for each byte of the file.
+  std::size_t most_lines = 1'000'000;
 };
 
 struct DxfPath {
@@ -49,7 +52,8 @@ struct DxfDrawing {
   int straightened_arcs = 0;  // bulges of polylines in the layer
 };
 
-// throws  FormatError where blocks inserted into blocks make too many lines
+// throws  FormatError where blocks inserted into blocks, or arcs of many turns,
+//         make too many lines
 DxfDrawing parse_dxf(std::string_view bytes, const DxfOptions& options);
 
 // OpenSCAD's warnings about unknown entities.
