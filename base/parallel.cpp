@@ -3,16 +3,40 @@
 
 #include "base/parallel.h"
 
+#include <stdexcept>
+#include <typeinfo>
+
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
+
+#include "base/diagnostic.h"
 
 namespace lamina {
 
 namespace tbb = oneapi::tbb;
 
+namespace {
+
+// oneTBB throws a plain std::runtime_error where the system grants no thread.
+template <typename Work>
+void with_threads(const Work& work) {
+  try {
+    work();
+  } catch (const std::runtime_error& error) {
+    if (typeid(error) != typeid(std::runtime_error)) throw;
+    throw Error(
+        fmt::format("the system grants no further thread, or no stack "
+                    "for it (ulimit -u, -d, -v): {}",
+                    error.what()));
+  }
+}
+
+}  // namespace
+
 void run_tasks(std::size_t count,
                const std::function<void(std::size_t)>& task) {
-  tbb::parallel_for(std::size_t{0}, count, task);
+  with_threads([&] { tbb::parallel_for(std::size_t{0}, count, task); });
 }
 
 void run_stages(std::size_t places, const Stages& stages) {
@@ -28,12 +52,11 @@ void run_stages(std::size_t places, const Stages& stages) {
   };
   const auto finish = [&](std::size_t item) { stages.finish(item); };
   using Place = std::size_t;
-  tbb::parallel_pipeline(
-      places,
+  const auto stages_in_order =
       tbb::make_filter<void, Place>(tbb::filter_mode::serial_in_order, start) &
-          tbb::make_filter<Place, Place>(tbb::filter_mode::parallel, work) &
-          tbb::make_filter<Place, void>(tbb::filter_mode::serial_in_order,
-                                        finish));
+      tbb::make_filter<Place, Place>(tbb::filter_mode::parallel, work) &
+      tbb::make_filter<Place, void>(tbb::filter_mode::serial_in_order, finish);
+  with_threads([&] { tbb::parallel_pipeline(places, stages_in_order); });
 }
 
 }  // namespace lamina

@@ -344,6 +344,23 @@ TEST(MaxMemory, OfTheSystemIsNamed) {
   expect_no_output(folder);
 }
 
+// A stack takes what it can have, which may leave a second thread without one.
+TEST(MaxMemory, OfTheSystemMayDenyAThreadItsStack) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (const int kib : {36000, 40000, 72000, 140000}) {
+    const auto result = support::run_process(
+        {"bash", "-c",
+         fmt::format("ulimit -d {}; exec {} a.scad -o a.slc --threads 2", kib,
+                     LAMINA_PROGRAM)},
+        folder.path());
+    EXPECT_LE(result.status, 1);
+    EXPECT_EQ(result.status == 1, has(result.errors, "(ulimit -"))
+        << result.errors;
+    EXPECT_FALSE(has(result.errors, "internal error")) << result.errors;
+  }
+}
+
 // --- What a design may ask for -----------------------------------------------
 
 // What is refused before it is made: within a second, in little memory.
