@@ -167,12 +167,14 @@ void LayerGraph::measure_regions(const LayerOverlay& overlay) {
 }
 
 void LayerGraph::take_area(double area) {
+  constexpr double kRounding = 1e-9;  // share of an area that is no jump
   if (area > peel_.greatest_area) {
     peel_.greatest_area = area;
     peel_.layer = layers_;
   }
-  if (layers_ > 1 && area - last_area_ > peel_.greatest_jump) {
-    peel_.greatest_jump = area - last_area_;
+  const double jump = area - last_area_;
+  if (layers_ > 1 && jump > std::max(peel_.greatest_jump, kRounding * area)) {
+    peel_.greatest_jump = jump;
     peel_.jump_layer = layers_;
   }
   last_area_ = area;
@@ -203,8 +205,8 @@ void LayerGraph::take_solids(const Layer& layer, const LayerOverlay& overlay) {
   for (const auto& [below, above] : overlay.solids) {
     const std::uint32_t component = root_of(members_[below]);
     std::uint32_t& member = next_members_[above];
-    member = member == kNone ? component
-                             : join_solids(root_of(member), component);
+    member =
+        member == kNone ? component : join_solids(root_of(member), component);
   }
   for (std::uint32_t i = 0; i < around_.size(); ++i) {
     if (around_[i] == kNowhere || next_members_[i] != kNone) continue;
@@ -241,8 +243,8 @@ void LayerGraph::take_voids(const Layer& layer, const LayerOverlay& overlay) {
       continue;
     }
     std::uint32_t& member = next_members_[above];
-    member = member == kNone ? component
-                             : join_voids(root_of(member), component);
+    member =
+        member == kNone ? component : join_voids(root_of(member), component);
   }
   for (std::uint32_t i = 0; i < around_.size(); ++i) {
     if (around_[i] == kNowhere || next_members_[i] != kNone) continue;
@@ -319,8 +321,8 @@ void LayerGraph::end_island(std::uint32_t component) {
   finding.last_layer = now.last_layer;
   finding.top = now.top;
   finding.box = now.box;
-  finding.is_minor = finding.area < kPeakArea &&
-                     finding.last_layer == finding.first_layer;
+  finding.is_minor =
+      finding.area < kPeakArea && finding.last_layer == finding.first_layer;
 }
 
 std::uint32_t LayerGraph::join_voids(std::uint32_t a, std::uint32_t b) {
@@ -434,8 +436,8 @@ PrintCheck LayerGraph::finish() {
   for (std::uint32_t i = 0; i < overhangs_.size(); ++i) {
     if (overhang_parents_[i] != i) continue;
     Finding& finding = overhangs_[i];
-    finding.is_minor = finding.area < kLeastOverhangArea &&
-                       finding.distance < kLeastOverhang;
+    finding.is_minor =
+        finding.area < kLeastOverhangArea && finding.distance < kLeastOverhang;
     findings_.push_back(finding);
   }
   std::ranges::stable_sort(findings_, {}, [](const Finding& finding) {

@@ -81,14 +81,22 @@ TEST(Check, IsInSummariesReportsAndInspections) {
       << result.errors;
   const json report = json::parse(read_file(folder.file("a.json")));
   EXPECT_EQ(report.at("print").at("findings")[0].at("kind"), "island");
-  EXPECT_EQ(report.at("print")
-                .at("findings")[0]
-                .at("made_by")[0]
-                .at("place"),
+  EXPECT_EQ(report.at("print").at("findings")[0].at("made_by")[0].at("place"),
             "a.scad:2:23");
   EXPECT_EQ(report.at("print").at("peel").at("jump_layer"), 101);
   EXPECT_TRUE(has(run(folder, {"inspect", "a.slc"}).output,
                   "print: 1 island, 1 loose part\n"));
+}
+
+// Its area is the same in all layers, but for rounding.
+TEST(Check, APrismThatLeansHasNoJump) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "multmatrix([[1, 0, 0.37, 0], [0, 1, 0.21, 0], [0, 0, 1, 0]])"
+               " cylinder(r = 5, h = 10, $fn = 50);");
+  const auto result = run(folder, {"check", "a.scad"});
+  EXPECT_TRUE(has(result.output, "peel: ")) << result.output;
+  EXPECT_FALSE(has(result.output, "more than before")) << result.output;
 }
 
 TEST(Machine, APartThatDoesNotFitIsAnError) {
