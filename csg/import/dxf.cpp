@@ -248,10 +248,11 @@ class Reader {
     return add_curve(n, at);
   }
 
-  // `end` and as many whole turns as take it to `begin` or past it.
+  // `end` and as many whole turns as take it to `begin` or past it. (Angles of
+  // 1e30 turns are less exact than a turn.)
   static double turn_past(double begin, double end, double turn) {
     if (end >= begin) return end;
-    return end + turn * std::ceil((begin - end) / turn);
+    return std::max(begin, end + turn * std::ceil((begin - end) / turn));
   }
 
   bool add_ellipse() {
