@@ -214,7 +214,10 @@ std::string FileAccess::canonical(const std::string& path) const {
 
 std::string FileAccess::weakly_canonical(const std::string& path) const {
   std::error_code error;
-  if (!is_confined()) return fs::weakly_canonical(path, error).string();
+  if (!is_confined()) {
+    // Where not even the first part is there, only what is absolute becomes so.
+    return fs::weakly_canonical(fs::absolute(path, error), error).string();
+  }
   const Destination found = find(path);
   if (found.state != State::kOutside) return found.path;
   return fs::absolute(path, error).lexically_normal().string();

@@ -1,12 +1,18 @@
 #include "base/file/run_files.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <fmt/format.h>
+#include <locale.h>
+#include <wctype.h>
 
 #include "base/file/file_access.h"
+#include "base/file/temporary_files.h"
 #include "base/letter_case.h"
 #include "base/paths.h"
+#include "base/utf8.h"
 
 namespace lamina {
 namespace {
@@ -38,6 +44,42 @@ std::vector<std::uint64_t> files_at(const std::string& path,
   return files;
 }
 
+// The same for all ways of writing a path where letters have no case: small
+// ones, and no points at the end of a name, which FAT leaves out.
+std::string without_case(std::string_view path) {
+  static const locale_t unicode =
+      ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  std::string folded;
+  while (!path.empty()) {
+    const std::size_t length = std::max<std::size_t>(character_length(path), 1);
+    const bool is_letter =
+        length > 1 && unicode != nullptr &&
+        append_utf8(::towlower_l(first_code_point(path), unicode), folded);
+    if (!is_letter) folded += lower_case(path.substr(0, length));
+    path.remove_prefix(length);
+    if (path.empty() || path.front() == '/') {
+      while (folded.ends_with('.')) folded.pop_back();
+    }
+  }
+  return folded;
+}
+
+// The folder of that name, or what there is around it.
+std::string nearest_folder(std::string folder, const FileAccess& access) {
+  while (folder.size() > 1 && !access.is_there(folder)) {
+    folder.resize(std::max<std::size_t>(folder.rfind('/'), 1));
+  }
+  return folder;
+}
+
+void refuse_hidden_name(const std::string& path) {
+  if (!is_hidden_name(path)) return;
+  throw FileError(fmt::format(
+      "Can't write '{}': names such as '.x.lamina-0' are kept for unfinished "
+      "outputs",
+      shown_path(path)));
+}
+
 [[noreturn]] void refuse_input(const std::string& path) {
   throw FileError(fmt::format(
       "Can't write '{}': this run reads it, too; give the output another name",
@@ -56,27 +98,43 @@ std::string RunFiles::place_of(const std::string& path, bool is_there,
   const std::size_t slash = path.rfind('/');
   const std::string folder =
       slash == std::string::npos ? "." : path.substr(0, slash + 1);
-  std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+  const std::string name =
+      slash == std::string::npos ? path : path.substr(slash + 1);
   const bool is_plain = !name.empty() && name != "." && name != "..";
-  if (!is_plain || is_there) return access.weakly_canonical(path);
-  // Tables have many outputs in one folder.
-  constexpr std::size_t kMostFolders = 10'000;
+  const auto folder_of = [&](const std::string& path_of_folder) -> Folder& {
+    // Tables have many outputs in one folder.
+    constexpr std::size_t kMostFolders = 10'000;
+    if (folders_.size() > kMostFolders) folders_.clear();
+    const auto [known, is_new] = folders_.try_emplace(path_of_folder);
+    if (is_new) {
+      known->second.path = access.weakly_canonical(path_of_folder);
+      known->second.folds_case =
+          access.folds_case(nearest_folder(known->second.path, access));
+      if (!known->second.path.ends_with('/')) known->second.path += '/';
+    }
+    return known->second;
+  };
   const std::lock_guard lock(mutex_);
-  if (folders_.size() > kMostFolders) folders_.clear();
-  const auto [known, is_new] = folders_.try_emplace(folder);
-  if (is_new) {
-    known->second = {access.weakly_canonical(folder),
-                     access.folds_case(folder)};
-    if (!known->second.path.ends_with('/')) known->second.path += '/';
+  std::string place;
+  bool folds_case = false;
+  if (is_plain && !is_there) {
+    const Folder& found = folder_of(folder);
+    place = found.path + name;
+    folds_case = found.folds_case;
+  } else {
+    place = access.weakly_canonical(path);
+    const std::size_t end = place.rfind('/');
+    folds_case = end != std::string::npos &&
+                 folder_of(place.substr(0, end + 1)).folds_case;
   }
-  return known->second.path +
-         (known->second.folds_case ? lower_case(name) : name);
+  return folds_case ? without_case(place) : place;
 }
 
 void RunFiles::expect_output(std::string path, const FileAccess& access) {
   if (path.empty()) return;
   if (path == "-") return expect_place(path, path);
   while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  refuse_hidden_name(path);
   const OutputPlace output = access.find_output(path);
   if (output.there && !S_ISREG(output.there->st_mode) &&
       !S_ISDIR(output.there->st_mode)) {
@@ -88,6 +146,7 @@ void RunFiles::expect_output(std::string path, const FileAccess& access) {
 
 bool RunFiles::expect_one_of_many(const std::string& path,
                                   const FileAccess& access) {
+  refuse_hidden_name(path);
   // Where nothing is confined, one look is all that it takes.
   const std::optional<struct stat> there = access.is_confined()
                                                ? access.find_output(path).there
@@ -103,12 +162,14 @@ bool RunFiles::expect_of_another_run(const std::string& path,
                                      const FileAccess& access) {
   const std::string place = place_of(path, false, access);
   const std::lock_guard lock(mutex_);
+  check_place(place, path);
   return many_places_.insert(fingerprint(place));
 }
 
 void RunFiles::end_of_many() {
   const std::lock_guard lock(mutex_);
   many_places_ = {};
+  around_ = {};
 }
 
 void RunFiles::expect_files(const std::string& path,
@@ -120,12 +181,18 @@ void RunFiles::expect_files(const std::string& path,
   for (const std::uint64_t file : files) outputs_.insert(file);
 }
 
-void RunFiles::require_unread(const std::string& path,
-                              const FileAccess& access) {
-  const std::vector<std::uint64_t> files =
-      files_at(path, access.look_at(path), access);
+std::vector<std::uint64_t> RunFiles::require_unread(
+    const std::string& path, const std::optional<struct stat>& there,
+    const FileAccess& access) {
+  std::vector<std::uint64_t> files = files_at(path, there, access);
   const std::lock_guard lock(mutex_);
   check_unread(path, files);
+  return files;
+}
+
+void RunFiles::require_unread(const std::string& path,
+                              const FileAccess& access) {
+  require_unread(path, access.look_at(path), access);
 }
 
 void RunFiles::check_unread(const std::string& path,
@@ -141,25 +208,57 @@ void RunFiles::expect_place(const std::string& place, const std::string& path) {
   places_.emplace(place, path);
 }
 
-void RunFiles::check_place(const std::string& place,
-                           const std::string& path) const {
-  const auto known = places_.find(place);
-  if (known == places_.end()) return;
-  throw FileError(fmt::format(
-      "Can't write '{}': '{}', another output of this run, is the same file",
-      path, known->second));
+void RunFiles::check_place(const std::string& place, const std::string& path) {
+  const auto refuse = [&](std::string_view why) {
+    throw FileError(fmt::format("Can't write '{}': {}", shown_path(path), why));
+  };
+  const auto refuse_if_output = [&](const std::string& other,
+                                    std::string_view what) {
+    const auto known = places_.find(other);
+    if (known != places_.end()) {
+      refuse(fmt::format("'{}', another output of this run, {}",
+                         shown_path(known->second), what));
+    }
+  };
+  refuse_if_output(place, "is the same file");
+  if (around_.contains(fingerprint(place))) {
+    refuse("another output of this run would lie inside of it");
+  }
+  // What is around others is no output. (Of many outputs none lies in another:
+  // their names have no '/'.)
+  std::vector<std::uint64_t> folders;
+  for (std::size_t end = place.rfind('/'); end != std::string::npos && end > 0;
+       end = place.rfind('/', end - 1)) {
+    const std::string folder = place.substr(0, end);
+    const std::uint64_t print = fingerprint(folder);
+    if (around_.contains(print)) break;
+    refuse_if_output(folder, "would be a folder around it");
+    folders.push_back(print);
+  }
+  for (const std::uint64_t folder : folders) around_.insert(folder);
 }
 
 void RunFiles::note_input(const std::string& path, const struct stat& status) {
   const std::lock_guard lock(mutex_);
-  if (outputs_.contains(identity_of(status))) refuse_input(path);
   inputs_.insert(identity_of(status));
+  if (outputs_.contains(identity_of(status))) refuse_input(path);
 }
 
-void RunFiles::note_written(const struct stat* before, const struct stat& now) {
+bool RunFiles::is_input(const struct stat& status) {
   const std::lock_guard lock(mutex_);
-  if (before != nullptr) outputs_.erase(identity_of(*before));
-  outputs_.insert(identity_of(now));
+  return inputs_.contains(identity_of(status));
+}
+
+void RunFiles::note_written(const std::vector<std::uint64_t>& before,
+                            const std::string& path, const struct stat& now,
+                            const FileAccess& access) {
+  const std::vector<std::uint64_t> files = files_at(path, now, access);
+  const std::lock_guard lock(mutex_);
+  for (const std::uint64_t file : before) outputs_.erase(file);
+  for (const std::uint64_t file : files) {
+    outputs_.insert(file);
+    inputs_.erase(file);  // the number of a file that is gone has come back
+  }
 }
 
 }  // namespace lamina

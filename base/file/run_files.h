@@ -4,7 +4,8 @@
 //
 // Outputs are told before the work begins. Inputs make themselves known as they
 // are opened (FileAccess), many of them while the design runs. Whichever comes
-// second is the error, and nothing has been written then.
+// second is the error. What the run has read, or tried to read, it does not
+// write after that: the outputs ask once more when they are written.
 
 #include <cstdint>
 #include <mutex>
@@ -28,8 +29,10 @@ class RunFiles {
   // Says that the run will write `path`, a file or a folder of files of its
   // own.
   //
-  // Throws FileError where that is a file that the run has read, or another
-  // output; AccessError where it may not be written.
+  // Throws FileError where that is a file that the run has read or another
+  // output, where one of two outputs would lie inside of the other, and for
+  // names that are kept for unfinished outputs; AccessError where it may not be
+  // written.
   void expect_output(std::string path, const FileAccess& access);
 
   // The same for one of so many outputs that only a fingerprint of each is
@@ -43,16 +46,25 @@ class RunFiles {
   // Says that all of these have been told: their names are compared no more.
   void end_of_many();
 
-  // Throws FileError where the run has read `path`, or a file in that folder:
-  // for a run without an end, whose outputs may be made again.
+  // Throws FileError where the run has read, or tried to read, what an output
+  // is about to replace. Returns that for note_written().
+  //
+  // there  what stands at `path`
+  std::vector<std::uint64_t> require_unread(
+      const std::string& path, const std::optional<struct stat>& there,
+      const FileAccess& access);
   void require_unread(const std::string& path, const FileAccess& access);
 
   // Says that the run has opened `path` for reading. Throws FileError where
   // that is one of its outputs.
   void note_input(const std::string& path, const struct stat& status);
+  bool is_input(const struct stat& status);
 
-  // Says that an output has got its name: where `before` stood stands `now`.
-  void note_written(const struct stat* before, const struct stat& now);
+  // Says that an output has got its name: where the files `before` stood
+  // stands `now`, or what is in that folder.
+  void note_written(const std::vector<std::uint64_t>& before,
+                    const std::string& path, const struct stat& now,
+                    const FileAccess& access);
 
   // Where a path leads: equal for two paths that would be one file, be it there
   // or not.
@@ -73,7 +85,7 @@ class RunFiles {
   // With the mutex held.
   void check_unread(const std::string& path,
                     const std::vector<std::uint64_t>& files) const;
-  void check_place(const std::string& place, const std::string& path) const;
+  void check_place(const std::string& place, const std::string& path);
 
   std::mutex mutex_;
   // Fingerprints of device and inode: of what a file is, whatever it is called.
@@ -81,7 +93,8 @@ class RunFiles {
   FingerprintSet outputs_;  // of those that are there
   std::unordered_map<std::string, std::string> places_;  // outputs by place
   FingerprintSet many_places_;                           // of the many
-  std::unordered_map<std::string, Folder> folders_;      // that hold them
+  FingerprintSet around_;  // the folders around all of these, up to the root
+  std::unordered_map<std::string, Folder> folders_;  // that hold them
 };
 
 }  // namespace lamina

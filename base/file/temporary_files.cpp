@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -17,6 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file/run_files.h"
 #include "base/file/write_all.h"
 
 namespace lamina {
@@ -28,6 +30,7 @@ using Lock = std::lock_guard<std::timed_mutex>;
 
 // Names have 255 bytes.
 constexpr std::size_t kLongestShown = 200;
+constexpr std::string_view kMark = ".lamina-";
 
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
@@ -38,15 +41,31 @@ std::string folder_of(const std::string& path) {
 std::string hidden_sibling(const std::string& path, int attempt) {
   const std::size_t slash = path.rfind('/');
   const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
-  return fmt::format("{}.{}.lamina-{}", path.substr(0, name),
-                     path.substr(name, kLongestShown), attempt);
+  return fmt::format("{}.{}{}{}", path.substr(0, name),
+                     path.substr(name, kLongestShown), kMark, attempt);
 }
 
-// A file, or a folder with all that it holds.
+// A file, or a folder with the files that it holds. (No output has folders in
+// it.)
 void remove_all(const std::string& path) {
-  if (::rmdir(path.c_str()) == 0) return;
-  std::error_code ignored;
-  std::filesystem::remove_all(path, ignored);
+  if (::unlink(path.c_str()) == 0) return;
+  std::error_code error;
+  std::filesystem::directory_iterator entry(path, error);
+  for (; !error && entry != std::filesystem::directory_iterator();
+       entry.increment(error)) {
+    ::unlink(entry->path().c_str());
+  }
+  ::rmdir(path.c_str());
+}
+
+bool holds_folders(const std::string& path) {
+  std::error_code error;
+  std::filesystem::directory_iterator entry(path, error);
+  for (; !error && entry != std::filesystem::directory_iterator();
+       entry.increment(error)) {
+    if (entry->is_directory(error)) return true;
+  }
+  return false;
 }
 
 void close_quietly(int& file) {
@@ -86,15 +105,18 @@ bool stands_at(const std::string& path, const struct stat& open) {
          open.st_ino == named.st_ino;
 }
 
-// Removes what an ended run left under this name; false if there is no such.
-bool remove_abandoned(const std::string& path) {
+// Removes what an ended run left under this name; false if there is no such:
+// what this run reads, and folders in folders, are none.
+bool remove_abandoned(const std::string& path, RunFiles* run) {
   int file =
       ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;
   struct stat status = {};
   const bool is_abandoned =
       ::fstat(file, &status) == 0 && status.st_uid == ::geteuid() &&
-      (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+      (S_ISREG(status.st_mode) ||
+       (S_ISDIR(status.st_mode) && !holds_folders(path))) &&
+      (run == nullptr || !run->is_input(status)) &&
       ::flock(file, LOCK_EX | LOCK_NB) == 0 && stands_at(path, status);
   if (is_abandoned) remove_all(path);
   close_quietly(file);
@@ -112,10 +134,12 @@ bool keep(int file, const std::string& path) {
 //
 // name   the name it got
 // names  gets it too, before it stands for anything: nothing can fail between
+// run    the files of the run, which stay; or null
 // make   makes it and returns it open, or −1 (errno)
 template <typename Make>
 int make_hidden(const std::string& target, std::string& name,
-                std::vector<std::string>& names, const Make& make) {
+                std::vector<std::string>& names, RunFiles* run,
+                const Make& make) {
   for (int attempt = 0;;) {
     name = hidden_sibling(target, attempt);
     names.push_back(name);
@@ -128,7 +152,7 @@ int make_hidden(const std::string& target, std::string& name,
       names.pop_back();
       name.clear();
       return -1;
-    } else if (!remove_abandoned(name)) {
+    } else if (!remove_abandoned(name, run)) {
       ++attempt;
     }
     names.pop_back();
@@ -189,6 +213,20 @@ int end_writing(int file) {
 
 }  // namespace
 
+bool is_hidden_name(std::string_view path) {
+  while (!path.empty()) {
+    const std::string_view name = path.substr(0, path.find('/'));
+    path.remove_prefix(std::min(name.size() + 1, path.size()));
+    const std::size_t mark = name.rfind(kMark);
+    if (!name.starts_with('.') || mark == std::string_view::npos) continue;
+    const std::string_view number = name.substr(mark + kMark.size());
+    if (number.find_first_not_of("0123456789") == std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
 int TemporaryFiles::open_nameless() {
   const std::string folder = access_.scratch_folder();
   int file = open_nameless_in(folder);
@@ -196,7 +234,8 @@ int TemporaryFiles::open_nameless() {
   // It has a hidden name for a moment.
   std::string name;
   const Lock lock(mutex_);
-  file = make_hidden(folder + "/output", name, paths_, make_file<0600>);
+  file = make_hidden(folder + "/output", name, paths_, access_.run_files(),
+                     make_file<0600>);
   if (file >= 0) {
     ::unlink(name.c_str());
     forget(name);
@@ -236,11 +275,12 @@ void TemporaryFiles::forget(const std::string& path) {
 
 TemporaryFiles::File TemporaryFiles::open_file(const std::string& target) {
   const Lock lock(mutex_);
-  remove_abandoned(hidden_sibling(target, 0));
+  remove_abandoned(hidden_sibling(target, 0), access_.run_files());
   File file;
   file.file = open_nameless_in(folder_of(target));
   if (file.file >= 0) return file;
-  file.file = make_hidden(target, file.name, paths_, make_file<0666>);
+  file.file = make_hidden(target, file.name, paths_, access_.run_files(),
+                          make_file<0666>);
   return file;
 }
 
@@ -254,12 +294,13 @@ bool TemporaryFiles::give_name(File& file, const std::string& target) {
     const int error = errno;
     paths_.pop_back();
     if (error != EEXIST) break;
-    if (!remove_abandoned(file.name)) ++attempt;
+    if (!remove_abandoned(file.name, access_.run_files())) ++attempt;
   }
   file.name.clear();
   // Some systems do not allow that: a copy has a name from the start.
   File copy;
-  copy.file = make_hidden(target, copy.name, paths_, make_file<0666>);
+  copy.file = make_hidden(target, copy.name, paths_, access_.run_files(),
+                          make_file<0666>);
   if (copy.file < 0) return false;
   std::swap(file, copy);
   int error = copy_bytes(copy.file, file.file);
@@ -283,13 +324,17 @@ bool TemporaryFiles::put_at(File& file, const std::string& target) {
 
 bool TemporaryFiles::commit_file(File& file, const OutputPlace& target) {
   const Lock lock(mutex_);
+  RunFiles* const run = access_.run_files();
+  std::vector<std::uint64_t> before;
+  if (run != nullptr) {
+    before = run->require_unread(target.path, target.there, access_);
+  }
   if (target.there) take_after(file.file, *target.there);
   errno = end_writing(file.file);
   if (errno != 0 || !put_at(file, target.path)) return false;
   struct stat now {};
-  if (access_.run_files() != nullptr && ::fstat(file.file, &now) == 0) {
-    access_.run_files()->note_written(target.there ? &*target.there : nullptr,
-                                      now);
+  if (run != nullptr && ::fstat(file.file, &now) == 0) {
+    run->note_written(before, target.path, now, access_);
   }
   return true;
 }
@@ -314,8 +359,8 @@ TemporaryFiles::Folder TemporaryFiles::make_folder(const std::string& path) {
   folder.place = access_.find_output(path);
   errno = folder.place.error;
   if (errno != 0) return folder;
-  folder.lock =
-      make_hidden(folder.place.path, folder.path, paths_, make_named_folder);
+  folder.lock = make_hidden(folder.place.path, folder.path, paths_,
+                            access_.run_files(), make_named_folder);
   return folder;
 }
 
@@ -333,6 +378,9 @@ bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
   const OutputPlace target = access_.find_output(path);
   errno = target.error;
   if (errno != 0) return false;
+  RunFiles* const run = access_.run_files();
+  std::vector<std::uint64_t> before;
+  if (run != nullptr) before = run->require_unread(path, target.there, access_);
   if (target.there) take_after(folder.lock, *target.there);
   // A name that is free, or an empty folder, is taken by a rename. Else the
   // two change places at once, where the file system can do that.
@@ -346,6 +394,10 @@ bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
   }
   forget(folder.path);
   folder.path.clear();
+  struct stat now {};
+  if (run != nullptr && ::fstat(folder.lock, &now) == 0) {
+    run->note_written(before, path, now, access_);
+  }
   close_quietly(folder.lock);
   return true;
 }

@@ -10,11 +10,15 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/file/file_access.h"
 
 namespace lamina {
+
+// Whether `path` goes through a name that an unfinished output may have.
+bool is_hidden_name(std::string_view path);
 
 // The temporary files and folders of a run, so that whoever stops the run can
 // remove them. Safe to use from several threads.
@@ -47,7 +51,7 @@ class TemporaryFiles {
   File open_file(const std::string& target);
   // Puts the file in the place of `target`, with mode and owner of what stands
   // there as far as that may be. False if it cannot (errno). Either way the
-  // file stays open.
+  // file stays open. Throws FileError where the run has read what it replaces.
   bool commit_file(File& file, const OutputPlace& target);
   // Closes the file and removes it if it was not committed.
   void discard_file(File& file);
@@ -64,7 +68,8 @@ class TemporaryFiles {
   // A new file of that folder, for writing; −1 if it cannot be made (errno).
   int open_file_in(const Folder& folder, const std::string& name);
   // Puts the folder in the place of `path`, or of what it links to, and removes
-  // what stood there. False if it cannot (errno).
+  // what stood there. False if it cannot (errno). Throws FileError where the
+  // run has read a file in there.
   bool commit_folder(Folder& folder, const std::string& path);
   void discard_folder(Folder& folder);
 

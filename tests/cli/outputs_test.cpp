@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file/file_access.h"
+#include "base/file/output_file.h"
+#include "base/file/run_files.h"
+#include "base/file/temporary_files.h"
 #include "tests/cli/lamina.h"
 
 namespace lamina::cli {
@@ -95,6 +100,12 @@ TEST_F(Outputs, AreNoInputs) {
        "--report", "table.csv"},
       {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.scad",
        "--export-format", "slc"},
+      {"batch", "ring.scad", "--table", "table.csv", "-o", "{name}.svg",
+       "--ledger", "plan.svg"},
+      {"batch", "ring.scad", "--table", "table.csv", "-o", "{name}.svg",
+       "--report", "plan.svg"},
+      {"batch", "ring.scad", "--table", "table.csv", "-o", "{name}.svg",
+       "--ledger", "font.ttf"},
       {"compare", "a.svg", "a.svg", "--report", "a.svg"},
       {"compare", "a.svg", "b.svg", "--report", "b.svg"},
   };
@@ -123,6 +134,97 @@ TEST_F(Outputs, AreDifferentFiles) {
   expect_refused({"batch", "cube.scad", "--table", "table.csv", "-o",
                   "{name}.slc", "--report", "cube.slc"},
                  "another output of this run, is the same file");
+  // Of another share of the table, too.
+  for (const char* option : {"--report", "--ledger"}) {
+    expect_refused({"batch", "cube.scad", "--table", "table.csv", "-o",
+                    "{name}.slc", "--shard", "1/2", option, "ball.slc"},
+                   "another output of this run, is the same file");
+  }
+  // In a folder that is not there yet.
+  expect_refused({"cube.scad", "ball.scad", "-o", "new/{name}.slc", "--report",
+                  folder_.file("new/cube.slc")},
+                 "another output of this run, is the same file");
+}
+
+TEST_F(Outputs, LieInNoOther) {
+  const std::vector<std::vector<std::string>> cases = {
+      {"cube.scad", "-o", "new.png", "--report", "new.png/00001.png"},
+      {"cube.scad", "-o", "new.png", "-d", "q/../new.png/index.json"},
+      {"cube.scad", "-o", "new.png/x.slc", "-d", "new.png"},
+      {"batch", "cube.scad", "--table", "table.csv", "-o", "out/{name}.png",
+       "--ledger", "out/ball.png/00001.png"},
+  };
+  for (const auto& arguments : cases) {
+    expect_refused(arguments, "another output of this run");
+  }
+}
+
+TEST_F(Outputs, TakeNoNamesOfUnfinishedOnes) {
+  folder_.write("hidden.csv", "name,size\n.b.lamina-0,1\nb,2\n");
+  before_ = contents();
+  const std::vector<std::vector<std::string>> cases = {
+      {"cube.scad", "-o", ".a.lamina-0", "--export-format", "svg"},
+      {"cube.scad", "-o", ".a.lamina-17/new.slc"},
+      {"cube.scad", "-o", "2.slc", "--report", ".2.slc.lamina-0"},
+      {"batch", "cube.scad", "--table", "hidden.csv", "-o", "{name}",
+       "--export-format", "svg"},
+  };
+  for (const auto& arguments : cases) {
+    expect_refused(arguments, "are kept for unfinished outputs");
+  }
+  // An input that is called so stays, and so does a folder of folders.
+  folder_.write(".m.slc.lamina-0", "cube(1);");
+  fs::create_directories(folder_.file(".m.png.lamina-0/of/mine"));
+  EXPECT_EQ(run(folder_, {".m.slc.lamina-0", "-o", "m.slc"}).status, 0);
+  EXPECT_EQ(run(folder_, {"cube.scad", "-o", "m.png", "--layer", "1"}).status,
+            0);
+  EXPECT_TRUE(fs::exists(folder_.file(".m.slc.lamina-0")));
+  EXPECT_TRUE(fs::exists(folder_.file(".m.png.lamina-0/of/mine")));
+}
+
+// The system is made to say that letters have no case.
+TEST_F(Outputs, WhoseNamesDifferInCaseMayBeOne) {
+  const auto run_folding = [&](const std::string& names,
+                               const std::string& output) {
+    folder_.write("names.csv", names);
+    std::vector<std::string> words = {"env", "LD_PRELOAD=" LAMINA_FOLDING_SHIM,
+                                      "ASAN_OPTIONS=verify_asan_link_order=0"};
+    for (const std::string& word : command(
+             {"batch", "cube.scad", "--table", "names.csv", "-o", output})) {
+      words.push_back(word);
+    }
+    return support::run_process(words, folder_.path());
+  };
+  for (const char* output : {"{name}.slc", "new/{name}.slc", "{name}/x.slc"}) {
+    for (const char* names :
+         {"name,size\nAnna,1\nanna,2\n", "name,size\nÄnne,1\nänne,2\n"}) {
+      const auto result = run_folding(names, output);
+      EXPECT_EQ(result.status, 1) << names << output;
+      EXPECT_TRUE(has(result.errors, "have one output")) << result.errors;
+    }
+  }
+  EXPECT_EQ(run_folding("name,size\nAnna,1\nHanna,2\n", "{name}.slc").status,
+            0);
+  EXPECT_EQ(run_folding("name,size\nAnna,1\nanna,2\n", "{name}.slc").status, 1);
+}
+
+// The system may give the number of an input that is gone to an output.
+TEST_F(Outputs, MayHaveTheNumberOfAnInputThatIsGone) {
+  FileAccess access;
+  access.report_to(std::make_shared<RunFiles>());
+  TemporaryFiles files(access);
+  const std::string path = folder_.file("new");
+  access.run_files()->expect_output(path, access);
+  for (int i = 0; i < 20; ++i) {
+    const std::string name = fmt::format("input{}", i);
+    const std::string input = folder_.file(name);
+    folder_.write(name, "x");
+    EXPECT_TRUE(access.read(input));
+    fs::remove(input);
+    OutputFile output = OutputFile::open(path, files);
+    output.write("y");
+    EXPECT_NO_THROW(output.commit());
+  }
 }
 
 // What a piece has written is no input of the next one.
