@@ -221,7 +221,7 @@ std::string print_line(const compiler::Compilation& compilation) {
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
   return is_any ? fmt::format("\nprint: {}; 'lamina check {}' says where",
-                              counts, compilation.request.design)
+                              counts, on_one_line(compilation.request.design))
                 : fmt::format("\nprint: {}", counts);
 }
 
