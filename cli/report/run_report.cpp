@@ -277,6 +277,7 @@ Json report_json(const compiler::Compilation& compilation) {
 }
 
 std::string size_text(Vec3 size) {
+  if (size.x < 0) return "-";
   return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size.x, size.y, size.z);
 }
 
