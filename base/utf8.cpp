@@ -8,6 +8,23 @@ namespace {
 bool is_continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
+
+// Whether the second byte makes no overlong form, no surrogate and nothing
+// beyond U+10FFFF (Unicode, table 3-7).
+bool can_follow(unsigned char lead, unsigned char second) {
+  switch (lead) {
+    case 0xE0:
+      return second >= 0xA0;
+    case 0xED:
+      return second < 0xA0;
+    case 0xF0:
+      return second >= 0x90;
+    case 0xF4:
+      return second < 0x90;
+    default:
+      return true;
+  }
+}
 }  // namespace
 
 std::size_t character_length(std::string_view text) {
@@ -19,6 +36,7 @@ std::size_t character_length(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if (!is_continuation(text[i])) return 0;
   }
+  if (!can_follow(lead, static_cast<unsigned char>(text[1]))) return 0;
   return length;
 }
 

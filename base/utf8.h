@@ -20,8 +20,8 @@ inline std::uint32_t utf8_length(char lead) {
   return byte < 0xFC ? 5 : 6;
 }
 
-// Bytes of the character at the beginning of `text`, which is not empty; 0
-// where its first byte begins none or bytes are missing.
+// Bytes of the well-formed character at the beginning of `text`, which is not
+// empty; 0 where there is none.
 std::size_t character_length(std::string_view text);
 
 // Whether all of `text` is well-formed (no overlong forms, no surrogates) and

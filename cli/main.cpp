@@ -31,7 +31,7 @@ namespace lamina::cli {
 namespace {
 
 int show_usage_fault(std::string_view message, int status = kUsageFault) {
-  print_error(fmt::format("lamina: {}\n", without_controls(message)));
+  print_error(fmt::format("lamina: {}\n", on_one_line(message)));
   if (status == kUsageFault) {
     print_error("Run 'lamina --help' for the options.\n");
   }

@@ -20,11 +20,15 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
-// Nothing hides a ';' from make, nor a backslash before the end of a line.
+// Nothing hides a ';' from make, a '~' in front that stands for a user's
+// folder, a backslash or a blank before the end of a line, nor a ')' that ends
+// the member of an archive, which may begin in a name before.
 void require_name(const std::string& path) {
-  const bool is_fine = std::none_of(path.begin(), path.end(), is_control) &&
-                       path.find(';') == std::string::npos &&
-                       !path.ends_with('\\');
+  constexpr std::string_view kUnhiddenEnds = "\\ )";
+  const bool is_fine =
+      std::none_of(path.begin(), path.end(), is_control) &&
+      path.find(';') == std::string::npos && !path.starts_with('~') &&
+      (path.empty() || kUnhiddenEnds.find(path.back()) == std::string::npos);
   if (is_fine) return;
   std::string shown = path;
   std::replace_if(shown.begin(), shown.end(), is_control, '?');
@@ -63,7 +67,9 @@ std::string make_rule(const std::string& target,
     names.insert(escaped(file, kMarkedInFile));
   }
   std::string rule =
-      (target == "-" ? "<stdout>" : escaped(target, kMarkedInTarget)) + ":";
+      target == "-" ? "<stdout>" : escaped(target, kMarkedInTarget);
+  // "&:" would stand behind grouped targets.
+  rule += rule.ends_with('&') ? " :" : ":";
   for (const std::string& name : names) rule += " \\\n\t" + name;
   return rule + "\n";
 }

@@ -16,7 +16,8 @@ namespace lamina::compiler {
 // files    each may come up more than once; written in the order in which
 //          OpenSCAD 2021.01 writes them, that of its hash table
 // throws   FileError where make has no way to write a name: one with control
-//          characters, with ';', or with '\\' at its end
+//          characters or ';', with '~' in front, or with '\\', ')' or a blank
+//          at its end
 std::string make_rule(const std::string& target,
                       std::span<const std::string> files);
 

@@ -221,7 +221,7 @@ std::string print_line(const compiler::Compilation& compilation) {
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
   return is_any ? fmt::format("\nprint: {}; 'lamina check {}' says where",
-                              counts, compilation.request.design)
+                              counts, on_one_line(compilation.request.design))
                 : fmt::format("\nprint: {}", counts);
 }
 
@@ -277,6 +277,7 @@ Json report_json(const compiler::Compilation& compilation) {
 }
 
 std::string size_text(Vec3 size) {
+  if (size.x < 0) return "-";
   return fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size.x, size.y, size.z);
 }
 

@@ -21,7 +21,7 @@ std::uint64_t peak_memory_bytes();
 // program has, its total time and memory.
 nlohmann::ordered_json report_json(const compiler::Compilation& compilation);
 
-// "20.6 x 7.52 x 24 mm"
+// "20.6 x 7.52 x 24 mm"; "-" for that of an empty box.
 std::string size_text(Vec3 size);
 
 // One member a line, ended by '\n'. Bytes that are no UTF-8 are replaced: names

@@ -45,7 +45,7 @@ struct WriterOptions {
   // Of formats of images.
   Printer printer = {};
   Exposure exposure = {};
-  std::string material = {};  // its name for people; empty: none was named
+  std::string material = {};  // its title, one line; empty: none was named
   // Bound on the deviation of the contours that the writer takes [mm], if
   // known; noted where the format has a place for it.
   std::optional<double> deviation = {};

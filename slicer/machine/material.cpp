@@ -17,9 +17,9 @@ Material read_material(const json& object) {
                            "first_exposure_s", "printer", "layer_mm",
                            "price_per_litre", "currency"});
   Material material;
-  material.name = object.at("name").get<std::string>();
-  material.title = object.value("title", material.name);
-  material.source = object.value("source", "");
+  material.name = detail::read_line(object, "name");
+  material.title = detail::read_line(object, "title", material.name);
+  material.source = detail::read_line(object, "source", "");
   object.at("density");  // which none can do without
   material.density =
       detail::read_number(object, "density", 0.01, kGreatestDensity, 0);
@@ -27,12 +27,12 @@ Material read_material(const json& object) {
       detail::read_number(object, "exposure_s", 0, kGreatestExposure, 0);
   material.first_exposure = detail::read_number(
       object, "first_exposure_s", 0, kGreatestExposure, material.exposure);
-  material.printer = object.value("printer", "");
+  material.printer = detail::read_line(object, "printer", "");
   material.layer_thickness =
       detail::read_number(object, "layer_mm", 0, 10, 0);
   material.price =
       detail::read_number(object, "price_per_litre", 0, kGreatestPrice, 0);
-  material.currency = object.value("currency", "");
+  material.currency = detail::read_line(object, "currency", "");
   return material;
 }
 

@@ -9,6 +9,7 @@
 
 namespace lamina::slicer {
 
+// Each text is one line.
 struct Material {
   std::string name;
   std::string title;   // as its maker writes it

@@ -60,9 +60,9 @@ Printer read_printer(const json& object) {
       object, {"name", "title", "source", "pixels", "pixel_mm", "right", "up",
                "height_mm", "move_s", "nanodlp_pixels"});
   Printer printer;
-  printer.name = object.at("name").get<std::string>();
-  printer.title = object.value("title", printer.name);
-  printer.source = object.value("source", "");
+  printer.name = detail::read_line(object, "name");
+  printer.title = detail::read_line(object, "title", printer.name);
+  printer.source = detail::read_line(object, "source", "");
   printer.width = read_pixels(object.at("pixels").at(0));
   printer.height = read_pixels(object.at("pixels").at(1));
   printer.pixel = {object.at("pixel_mm").at(0).get<double>(),

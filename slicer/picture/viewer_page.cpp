@@ -203,7 +203,8 @@ class PageMaker {
 
   std::string make() {
     Json facts = describe();
-    facts["title"] = options_.title;
+    const std::string title = on_one_line(options_.title);
+    facts["title"] = title;
     facts["estimate"] = options_.estimate;
     for (const Layer& layer : layers_) add_contours(layer);
     if (options_.print || options_.min_feature > 0) {
@@ -218,7 +219,7 @@ class PageMaker {
       page.append(rest.substr(0, place)).append(text);
       rest.remove_prefix(place + mark.size());
     };
-    put("{{title}}", escape_html(without_controls(options_.title)));
+    put("{{title}}", escape_html(title));
     put("{{style}}", kViewerStyle);
     put("{{facts}}", script_text(facts));
     put("{{contours}}", base64(deflate(numbers_.bytes())));

@@ -228,8 +228,9 @@ class PlyLimits {
   Corners corners_;
 };
 
-// The number of plies of the thickest layer.
-std::uint16_t greatest_multiple(const AdaptiveThickness& thickness) {
+// The number of plies of the thickest layer, where there are `count` of them.
+std::uint16_t greatest_multiple(const AdaptiveThickness& thickness,
+                                double count) {
   constexpr double kUsual = 4;
   constexpr double kRounding = 1e-9;
   constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
@@ -237,7 +238,8 @@ std::uint16_t greatest_multiple(const AdaptiveThickness& thickness) {
       thickness.thickest > 0
           ? thickness.thickest / thickness.thinnest + kRounding
           : kUsual;
-  return static_cast<std::uint16_t>(std::clamp(multiple, 1.0, kMost));
+  return static_cast<std::uint16_t>(
+      std::clamp(std::min(multiple, count), 1.0, kMost));
 }
 
 [[noreturn]] void refuse(const SurfaceHeights& heights, double unit) {
@@ -253,10 +255,10 @@ ldni::LayerGrid adaptive_grid(const csg::Scene& scene,
   const double unit = thickness.thinnest;
   const SurfaceHeights heights = surface_heights(scene);
   if (heights.is_empty()) return ldni::LayerGrid::at_heights({});
-  const std::uint16_t greatest = greatest_multiple(thickness);
   // As many as uniform layers.
   const double count =
       std::max(0.0, std::ceil((heights.high - heights.low) / unit - 0.5));
+  const std::uint16_t greatest = greatest_multiple(thickness, count);
   if (count * greatest > kMostStates) refuse(heights, unit);
   PlyLimits limits(heights, unit, thickness.cusp, greatest,
                    static_cast<std::uint32_t>(count));

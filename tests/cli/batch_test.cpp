@@ -369,6 +369,12 @@ TEST(SeveralDesigns, GoToAFolderOrAPattern) {
   EXPECT_TRUE(fs::exists(folder.file("one/a.cli")));
   EXPECT_EQ(run(folder, {"a.scad", "-o", "{name}-{x}.csg"}).status, 0);
   EXPECT_TRUE(fs::exists(folder.file("a-{x}.csg")));
+  // A tree of modules has no size.
+  const auto trees = run(folder, {"a.scad", "b.scad", "-o", "{name}.csg"});
+  EXPECT_EQ(
+      count_lines(trees.errors, "a.scad         0                         - "),
+      1U)
+      << trees.errors;
 }
 
 TEST(SeveralDesigns, RefuseWhatIsForOne) {

@@ -2,6 +2,7 @@
 
 #include "compiler/make_rule.h"
 
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -92,9 +93,43 @@ TEST(MakeRule, HasATargetOfAnyName) {
   }
 }
 
+// What make takes the name of a file and of a target for.
+std::string understood(const std::string& name) {
+  const TemporaryFolder folder;
+  folder.write(name, "");
+  folder.write("rule", make_rule("all", std::vector{name}) +
+                           make_rule(name, {}) + "\t$(file >seen,$@)\n");
+  const auto result =
+      support::run_process({"make", "-BrRf", "rule"}, folder.path());
+  if (!std::filesystem::exists(folder.file("seen"))) return result.errors;
+  const std::string seen = support::read_file(folder.file("seen"));
+  return seen.substr(0, seen.size() - 1);
+}
+
+TEST(MakeRule, SaysEveryNameOrRefusesIt) {
+  std::string refused;
+  for (char c = ' '; c < 0x7f; ++c) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/') continue;
+    const std::string mark(1, c);
+    for (const std::string& name :
+         {mark + "root", "a" + mark, "a" + mark + "b", "a(" + mark,
+          "a(b" + mark + "c", "a" + mark + "(b"}) {
+      try {
+        EXPECT_EQ(understood(name), name);
+      } catch (const FileError&) {
+        refused += name + "\n";
+      }
+    }
+  }
+  EXPECT_EQ(refused,
+            "a \na( \na)\na()\n;root\na;\na;b\na(;\na(b;c\na;(b\na\\\na(\\\n"
+            "~root\n");
+}
+
 TEST(MakeRule, RefusesWhatMakeCannotHold) {
   for (const std::string name : {"x\nall:\n\ttouch pwned\n.stl", "a\tb", "a\rb",
-                                 "a\x7f", "a;touch pwned", "a\\;b", "a\\"}) {
+                                 "a\x7f", "a;touch pwned", "a\\;b", "a\\",
+                                 "lib(member)", "member)", "~root", "a "}) {
     EXPECT_THROW(make_rule("out.slc", std::vector{name}), FileError) << name;
     EXPECT_THROW(make_rule(name, {}), FileError) << name;
   }

@@ -166,13 +166,15 @@ TEST(Usage, KnownFormatsThatAreNotWrittenSaySo) {
 // In what commands print, in reports and on pages.
 TEST(Usage, NamesAreData) {
   const TemporaryFolder folder;
-  const std::string name = "n\x1b[2J\xff\nerror: forged.scad";
-  folder.write(name, "cube(1);");
+  const std::string name = "n\x1b[2J\xff\u202e\nerror: forged.scad";
+  // Its second cube is an island, of which the closing line speaks.
+  folder.write(name, "cube(1); translate([3, 0, 3]) cube(1);");
   folder.write("table.csv", "name,size\n=1+1,1\n");
   folder.write("size.scad", "size = 1; cube(size);");
   const auto is_clean = [](const std::string& text) {
     return text.find('\x1b') == std::string::npos &&
-           text.find('\xff') == std::string::npos && !has(text, "\nerror: f");
+           text.find('\xff') == std::string::npos && !has(text, "\u202e") &&
+           !has(text, "\nerror: f");
   };
   const auto sliced = run(folder, {name, "-o", "x\x1b.slc"});
   EXPECT_EQ(sliced.status, 0);
@@ -182,7 +184,9 @@ TEST(Usage, NamesAreData) {
   EXPECT_TRUE(is_clean(both.errors)) << both.errors;
   EXPECT_TRUE(is_clean(run(folder, {"--no\x1b[2J"}).errors));
   EXPECT_EQ(run(folder, {"view", name, "-o", "page.html"}).status, 0);
-  EXPECT_TRUE(is_valid_utf8(support::read_file(folder.file("page.html"))));
+  const std::string page = support::read_file(folder.file("page.html"));
+  EXPECT_TRUE(is_valid_utf8(page));
+  EXPECT_TRUE(is_clean(page));
   EXPECT_EQ(run(folder, {"batch", "size.scad", "--table", "table.csv", "-o",
                          "{row}.slc", "--report", "r.csv"})
                 .status,
@@ -192,10 +196,19 @@ TEST(Usage, NamesAreData) {
   std::string layers = support::read_file(folder.file("1.slc"));
   const std::size_t at = layers.find("lamina");
   ASSERT_NE(at, std::string::npos);
-  folder.write("other.slc", layers.replace(at, 2, "\x1b["));
-  const auto inspected = run(folder, {"inspect", "other.slc"});
-  EXPECT_EQ(inspected.status, 0);
-  EXPECT_TRUE(is_clean(inspected.output)) << inspected.output;
+  const std::string forged = "forged\nerror: f.slc";
+  folder.write(forged, layers.replace(at, 2, "\x1b[\nerror: f"));
+  for (const std::string& file : {forged, name}) {
+    const auto inspected = run(folder, {"inspect", file});
+    EXPECT_EQ(inspected.status, 0);
+    EXPECT_TRUE(is_clean(inspected.output)) << inspected.output;
+    const auto compared = run(folder, {"compare", file, forged});
+    EXPECT_NE(compared.output, "");
+    EXPECT_TRUE(is_clean(compared.output)) << compared.output;
+  }
+  const auto refused = run(folder, {forged});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(is_clean(refused.errors)) << refused.errors;
 }
 
 }  // namespace

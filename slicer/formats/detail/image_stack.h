@@ -25,10 +25,12 @@ struct ImageLayer {
 
 struct ImageStack {
   OutputFormat format = OutputFormat::kPng;
-  std::string job;  // name of the design's output, without folder and ending
+  // One line each: the name of the design's output, without folder and ending,
+  // and the material's, empty where none was named.
+  std::string job;
   Printer printer;
   Exposure exposure;
-  std::string material;  // empty: none was named
+  std::string material;
   double layer_thickness = 0;  // [mm]; 0 if layers differ
   double volume = 0;           // of the layers [mm³]
   std::vector<ImageLayer> layers;

@@ -18,6 +18,7 @@
 #include "base/diagnostic.h"
 #include "base/file/output_folder.h"
 #include "base/file/zip_output.h"
+#include "base/text.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/formats/detail/image_stack.h"
 #include "slicer/formats/detail/png_encoder.h"
@@ -31,10 +32,11 @@ namespace {
 constexpr double kSlack = 1e-3;  // [pixels]
 
 // The name of the print job, which printers show: "ring" of "out/ring.sl1".
+// It stands in lines of settings, so it is one line of UTF-8 itself.
 std::string job_name(const std::string& path) {
   std::string name = path.substr(path.rfind('/') + 1);
   name.resize(std::min(name.size(), name.rfind('.')));
-  return name.empty() || name == "-" ? "lamina" : name;
+  return name.empty() || name == "-" ? "lamina" : on_one_line(name);
 }
 
 // The layer's thickness without the rounding of its heights.

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
 #include "base/similar.h"
+#include "base/text.h"
 
 namespace lamina::slicer::detail {
 namespace {
@@ -25,6 +27,12 @@ void require_members(const Json& json,
     throw std::runtime_error(fmt::format("there is no member '{}'{}{}", member,
                                          hint.empty() ? "" : "; ", hint));
   }
+}
+
+std::string read_line(const Json& json, const char* member,
+                      std::optional<std::string> otherwise) {
+  if (otherwise && !json.contains(member)) return *std::move(otherwise);
+  return on_one_line(json.at(member).get<std::string>());
 }
 
 double read_number(const Json& json, const char* member, double least,

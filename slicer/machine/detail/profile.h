@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,11 @@ extern const std::span<const std::string_view> kMaterialProfiles;
 // these.
 void require_members(const nlohmann::json& json,
                      std::initializer_list<std::string_view> known);
+
+// A text as one line: it stands in lines of other files and of messages. Throws
+// where it is absent, unless there is `otherwise`.
+std::string read_line(const nlohmann::json& json, const char* member,
+                      std::optional<std::string> otherwise = {});
 
 // A number from `least` to `greatest`; `otherwise` where it is absent. Throws
 // std::runtime_error.

@@ -14,7 +14,7 @@ class Stacker {
   Stacker(const Plies& plies, std::uint16_t greatest)
       : plies_(plies), greatest_(greatest) {
     const std::size_t borders = plies.limits.size() + 1;
-    costs_.resize(borders * greatest);
+    costs_.resize(borders * greatest, kImpossible);
     goes_on_.resize(borders * greatest);
     best_sizes_.resize(borders);
   }
@@ -29,8 +29,8 @@ class Stacker {
   }
 
  private:
-  std::size_t state(std::uint32_t border, std::uint16_t size) const {
-    return std::size_t{border} * greatest_ + size - 1U;
+  std::size_t state(std::uint32_t border, std::uint32_t size) const {
+    return std::size_t{border} * greatest_ + size - 1;
   }
 
   double best_cost(std::uint32_t border) const {
@@ -39,17 +39,14 @@ class Stacker {
 
   // Prices all layers that end at the border.
   void fill(std::uint32_t border, double price) {
-    std::uint16_t limit = greatest_;
+    std::uint32_t limit = std::min<std::uint32_t>(greatest_, border);
     double best = kImpossible;
-    for (std::uint16_t size = 1; size <= greatest_; ++size) {
-      const std::size_t here = state(border, size);
-      costs_[here] = kImpossible;
-      if (size > border) continue;
+    for (std::uint32_t size = 1; size <= limit; ++size) {
       const std::uint32_t below = border - size;
-      limit = std::min(limit, plies_.limits[below]);
-      // A border that parts a layer parts all larger ones.
-      if (size > 1 && plies_.must_part[below + 1]) limit = 0;
-      if (size > limit) continue;
+      limit = std::min<std::uint32_t>(limit, plies_.limits[below]);
+      // What a limit or a border forbids a layer it forbids all larger ones.
+      if (size > limit || (size > 1 && plies_.must_part[below + 1])) break;
+      const std::size_t here = state(border, size);
       const double after_change = best_cost(below) + price;
       const double after_equal =
           below == 0 ? kImpossible : costs_[state(below, size)];
@@ -57,7 +54,7 @@ class Stacker {
       costs_[here] = 1 + std::min(after_equal, after_change);
       if (costs_[here] > best) continue;
       best = costs_[here];
-      best_sizes_[border] = size;
+      best_sizes_[border] = static_cast<std::uint16_t>(size);
     }
   }
 

@@ -219,6 +219,50 @@ TEST(ImageStackWriter, NamesInArchivesAreUtf8) {
       << listing.errors;
 }
 
+// A file of the archive that the writer makes of one layer.
+std::string text_in_archive(const TemporaryFolder& folder,
+                            const std::string& file, OutputFormat format,
+                            const std::string& entry) {
+  TemporaryFiles files;
+  const std::string path = folder.file(file);
+  const auto writer = make_layer_writer(
+      {.format = format, .printer = small_printer()}, path, files);
+  writer->begin(kBox);
+  writer->take(layer_of(kBar));
+  Diagnostics unheard;
+  writer->finish(unheard);
+  writer->commit();
+  const auto text = support::run_process(
+      {"/usr/bin/python3", "-c",
+       "import sys, zipfile\n"
+       "archive = zipfile.ZipFile(sys.argv[1])\n"
+       "sys.stdout.buffer.write(archive.read(sys.argv[2]))",
+       path, entry});
+  EXPECT_EQ(text.status, 0) << text.errors;
+  return text.output;
+}
+
+TEST(ImageStackWriter, ANameIsNoSetting) {
+  const TemporaryFolder folder;
+  const OutputFormat sl1 = OutputFormat::kSl1;
+  std::string plain = text_in_archive(folder, "ring.sl1", sl1, "config.ini");
+  const std::string line = "jobDir = ring\n";
+  const std::size_t at = plain.find(line);
+  ASSERT_NE(at, std::string::npos);
+  plain.replace(at, line.size(),
+                "jobDir = ring\\u000AexpTime = 1\\u2028hollow = 1\uFFFD\n");
+  EXPECT_EQ(text_in_archive(folder, "ring\nexpTime = 1\u2028hollow = 1\xff.sl1",
+                            sl1, "config.ini"),
+            plain);
+}
+
+TEST(ImageStackWriter, AnyNameIsOneForNanoDlp) {
+  const TemporaryFolder folder;
+  const auto plate = nlohmann::json::parse(text_in_archive(
+      folder, "R\xeeng.zip", OutputFormat::kNanoDlp, "plate.json"));
+  EXPECT_EQ(plate.at("Path"), "R\uFFFDng");
+}
+
 TEST(ImageStackWriter, ReplacesOnlyFoldersOfItsOwn) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.png");

@@ -98,6 +98,24 @@ TEST(Profiles, SayWhatIsWrong) {
             "there is no member 'hight_mm'; did you mean 'height_mm'?");
 }
 
+// Their texts stand in settings of machines, in messages and on pages.
+TEST(Profiles, HaveTextsOfOneLine) {
+  const TemporaryFolder folder;
+  const std::string line = "a\\u000AexpTime = 0.1\\u202E";
+  folder.write("material.json",
+               R"({"name": "a\nexpTime = 0.1\u202e", "density": 1,
+                   "currency": "a\nexpTime = 0.1\u202e"})");
+  const Material material = find_material(folder.file("material.json"));
+  EXPECT_EQ(material.name, line);
+  EXPECT_EQ(material.title, line);
+  EXPECT_EQ(material.currency, line);
+  folder.write("printer.json",
+               R"({"name": "a", "title": "a\nexpTime = 0.1\u202e",
+                   "pixels": [9, 9], "pixel_mm": [1, 1],
+                   "right": "+x", "up": "+y"})");
+  EXPECT_EQ(find_printer(folder.file("printer.json")).title, line);
+}
+
 TEST(Profiles, GuessNames) {
   try {
     find_printer("elego-mars-3");

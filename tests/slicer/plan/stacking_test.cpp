@@ -1,6 +1,7 @@
 #include "slicer/plan/detail/stacking.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -112,6 +113,17 @@ TEST(StackLayers, ThinnestLayersAloneAreTheLastResort) {
   plies.must_part.assign(100, false);
   EXPECT_EQ(stack_layers(plies, 2, 255).size(), 1 + 66U);
   EXPECT_EQ(stack_layers(plies, 2, 1).size(), 1 + 99U);
+}
+
+// All that a layer can have, and more than there are.
+TEST(StackLayers, TakesAllPliesIntoALayerThatMayHaveThem) {
+  constexpr std::uint16_t kMost = std::numeric_limits<std::uint16_t>::max();
+  Plies plies;
+  plies.limits.assign(5, kMost);
+  plies.must_part.assign(6, false);
+  EXPECT_EQ(stack_layers(plies, kMost, 255), (Borders{0, 5}));
+  plies.must_part[2] = true;
+  EXPECT_EQ(stack_layers(plies, kMost, 255), (Borders{0, 2, 5}));
 }
 
 TEST(StackLayers, NoPliesAreNoLayers) {
