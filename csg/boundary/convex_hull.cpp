@@ -69,27 +69,31 @@ Vec3 find_greatest(const std::vector<Vec3>& points, Measure measure) {
 // What points span: a point or line (1), a plane (2) with its normal, space.
 struct Span {
   int dimension = 1;
+  std::array<Vec3, 2> ends{};  // of the line
   Vec3 normal = Vec3(0);
 };
 
 Span find_span(const std::vector<Vec3>& points) {
-  // Each corner of a simplex lies farthest from those before.
-  const Vec3 a = points[0];
-  const Vec3 b =
-      find_greatest(points, [&](Vec3 p) { return glm::distance(p, a); });
+  // Each corner of a simplex lies farthest from those before, and so does the
+  // first from any point.
+  const auto farthest_from = [&](Vec3 a) {
+    return find_greatest(points, [&](Vec3 p) { return glm::distance(p, a); });
+  };
+  const Vec3 b = farthest_from(points[0]);
+  const Vec3 a = farthest_from(b);
   const double length = glm::distance(a, b);
-  if (length == 0) return {};
+  if (length == 0) return {1, {a, b}};
   const Vec3 along = (b - a) / length;
   const auto off_line = [&](Vec3 p) { return glm::cross(along, p - a); };
   const Vec3 c =
       find_greatest(points, [&](Vec3 p) { return glm::length(off_line(p)); });
   const double width = glm::length(off_line(c));
-  if (width <= kFlatness * length) return {};
+  if (width <= kFlatness * length) return {1, {a, b}};
   const Vec3 normal = off_line(c) / width;
   const auto height = [&](Vec3 p) { return std::abs(glm::dot(normal, p - a)); };
   const bool is_flat =
       height(find_greatest(points, height)) <= kFlatness * length;
-  return {is_flat ? 2 : 3, normal};
+  return {is_flat ? 2 : 3, {a, b}, normal};
 }
 
 using Facet = std::vector<std::uint32_t>;
@@ -315,7 +319,7 @@ std::vector<Vec3> extreme_points(std::vector<Vec3> points) {
   const Span span = find_span(points);
   switch (span.dimension) {
     case 1:
-      return {points.front(), points.back()};
+      return {span.ends[0], span.ends[1]};
     case 2:
       return hull_in_plane(points, span.normal).corners;
     default:
@@ -328,12 +332,12 @@ FlatHull flat_hull(std::vector<Vec3> points) {
   if (points.size() < 2) return {points, Vec3(0, 0, 1)};
   const Span span = find_span(points);
   if (span.dimension > 1) return hull_in_plane(points, span.normal);
-  const Vec3 along = points.back() - points.front();
+  const auto [begin, end] = span.ends;
+  const Vec3 along = end - begin;
   const Vec3 size = glm::abs(along);
   Vec3 other(0);
   other[size.x > size.y ? 1 : 0] = 1;
-  return {{points.front(), points.back()},
-          glm::normalize(glm::cross(along, other))};
+  return {{begin, end}, glm::normalize(glm::cross(along, other))};
 }
 
 Mesh convex_hull(Scene scene) {
