@@ -121,9 +121,10 @@ class QhullRun {
   }
 
   // Corners of the facets in order, all counter-clockwise from outside or all
-  // clockwise.
+  // clockwise; none where Qhull finds no volume beyond rounding.
   std::vector<Facet> facets() {
     std::vector<Facet> result;
+    if (exit_code_ == qh_ERRsingular) return result;
     if (exit_code_ == 0) read_facets(result);
     if (exit_code_ != 0) {
       fail_check(__FILE__, __LINE__, "Qhull's messages", messages(), "none");
@@ -210,12 +211,14 @@ FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
   return result;
 }
 
+// Empty as the facets may be.
 Mesh hull_of_solid(std::vector<Vec3>& points) {
   // Qhull judges by the size of coordinates: let it be that of the solid.
   std::vector<Vec3> centred = points;
   const Vec3 centre = 0.5 * (points.front() + points.back());
   for (Vec3& point : centred) point -= centre;
   Mesh mesh = mesh_of(points, QhullRun(centred).facets());
+  if (mesh.triangles.empty()) return mesh;
   // Closed and of one piece.
   LAMINA_CHECK_EQ(mesh.triangles.size() + 4, 2 * mesh.vertices.size());
   if (signed_volume(mesh) < 0) {
@@ -317,14 +320,10 @@ std::vector<Vec3> extreme_points(std::vector<Vec3> points) {
   make_unique(points);
   if (points.size() <= 4) return points;
   const Span span = find_span(points);
-  switch (span.dimension) {
-    case 1:
-      return {span.ends[0], span.ends[1]};
-    case 2:
-      return hull_in_plane(points, span.normal).corners;
-    default:
-      return hull_of_solid(points).vertices;
-  }
+  if (span.dimension == 1) return {span.ends[0], span.ends[1]};
+  if (span.dimension == 2) return hull_in_plane(points, span.normal).corners;
+  const Mesh hull = hull_of_solid(points);
+  return hull.triangles.empty() ? points : hull.vertices;
 }
 
 FlatHull flat_hull(std::vector<Vec3> points) {

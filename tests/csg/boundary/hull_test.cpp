@@ -111,6 +111,35 @@ TEST(ExtremePoints, OfARowAreItsEndsWhateverRoundingDoes) {
   }
 }
 
+// So short that rounding gives it a volume of its own, or nearly.
+TEST(ExtremePoints, OfAShortRowFarAwayReachAsFar) {
+  std::mt19937_64 random(19);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&](double size) {
+    const double x = size * number(random);
+    const double y = size * number(random);
+    return Vec3(x, y, size * number(random));
+  };
+  for (int trial = 0; trial < 3000; ++trial) {
+    SCOPED_TRACE(trial);
+    const double far = std::pow(10, 2.5 * (number(random) + 1));
+    const Vec3 along = vector(std::pow(10, 3 * number(random) - 3));
+    const Vec3 start = vector(far);
+    std::vector<Vec3> row;
+    for (int i = 0; i < 9; ++i) {
+      const Vec3 away = vector(far);
+      row.push_back((start + along * (i * 0.1) + away) - away);
+    }
+    const std::vector<Vec3> found = extreme_points(row);
+    for (const Vec3 end : {row.front(), row.back()}) {
+      double nearest = far;
+      for (const Vec3 p : found)
+        nearest = std::min(nearest, glm::distance(p, end));
+      EXPECT_LE(nearest, 1e-12 * far);
+    }
+  }
+}
+
 TEST_F(Hulls, OfOneConvexLeafIsThatLeaf) {
   EXPECT_NEAR(run_volume({b.node(Hull{}, {b.cube({2, 3, 4})})}), 24, kRounding);
   const double sphere = run_volume({b.sphere(5, 40)});
