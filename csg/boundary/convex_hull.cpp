@@ -69,27 +69,31 @@ Vec3 find_greatest(const std::vector<Vec3>& points, Measure measure) {
 // What points span: a point or line (1), a plane (2) with its normal, space.
 struct Span {
   int dimension = 1;
+  std::array<Vec3, 2> ends{};  // of the line
   Vec3 normal = Vec3(0);
 };
 
 Span find_span(const std::vector<Vec3>& points) {
-  // Each corner of a simplex lies farthest from those before.
-  const Vec3 a = points[0];
-  const Vec3 b =
-      find_greatest(points, [&](Vec3 p) { return glm::distance(p, a); });
+  // Each corner of a simplex lies farthest from those before, and so does the
+  // first from any point.
+  const auto farthest_from = [&](Vec3 a) {
+    return find_greatest(points, [&](Vec3 p) { return glm::distance(p, a); });
+  };
+  const Vec3 b = farthest_from(points[0]);
+  const Vec3 a = farthest_from(b);
   const double length = glm::distance(a, b);
-  if (length == 0) return {};
+  if (length == 0) return {1, {a, b}};
   const Vec3 along = (b - a) / length;
   const auto off_line = [&](Vec3 p) { return glm::cross(along, p - a); };
   const Vec3 c =
       find_greatest(points, [&](Vec3 p) { return glm::length(off_line(p)); });
   const double width = glm::length(off_line(c));
-  if (width <= kFlatness * length) return {};
+  if (width <= kFlatness * length) return {1, {a, b}};
   const Vec3 normal = off_line(c) / width;
   const auto height = [&](Vec3 p) { return std::abs(glm::dot(normal, p - a)); };
   const bool is_flat =
       height(find_greatest(points, height)) <= kFlatness * length;
-  return {is_flat ? 2 : 3, normal};
+  return {is_flat ? 2 : 3, {a, b}, normal};
 }
 
 using Facet = std::vector<std::uint32_t>;
@@ -117,9 +121,10 @@ class QhullRun {
   }
 
   // Corners of the facets in order, all counter-clockwise from outside or all
-  // clockwise.
+  // clockwise; none where Qhull finds no volume beyond rounding.
   std::vector<Facet> facets() {
     std::vector<Facet> result;
+    if (exit_code_ == qh_ERRsingular) return result;
     if (exit_code_ == 0) read_facets(result);
     if (exit_code_ != 0) {
       fail_check(__FILE__, __LINE__, "Qhull's messages", messages(), "none");
@@ -206,12 +211,14 @@ FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
   return result;
 }
 
+// Empty as the facets may be.
 Mesh hull_of_solid(std::vector<Vec3>& points) {
   // Qhull judges by the size of coordinates: let it be that of the solid.
   std::vector<Vec3> centred = points;
   const Vec3 centre = 0.5 * (points.front() + points.back());
   for (Vec3& point : centred) point -= centre;
   Mesh mesh = mesh_of(points, QhullRun(centred).facets());
+  if (mesh.triangles.empty()) return mesh;
   // Closed and of one piece.
   LAMINA_CHECK_EQ(mesh.triangles.size() + 4, 2 * mesh.vertices.size());
   if (signed_volume(mesh) < 0) {
@@ -313,14 +320,10 @@ std::vector<Vec3> extreme_points(std::vector<Vec3> points) {
   make_unique(points);
   if (points.size() <= 4) return points;
   const Span span = find_span(points);
-  switch (span.dimension) {
-    case 1:
-      return {points.front(), points.back()};
-    case 2:
-      return hull_in_plane(points, span.normal).corners;
-    default:
-      return hull_of_solid(points).vertices;
-  }
+  if (span.dimension == 1) return {span.ends[0], span.ends[1]};
+  if (span.dimension == 2) return hull_in_plane(points, span.normal).corners;
+  const Mesh hull = hull_of_solid(points);
+  return hull.triangles.empty() ? points : hull.vertices;
 }
 
 FlatHull flat_hull(std::vector<Vec3> points) {
@@ -328,12 +331,12 @@ FlatHull flat_hull(std::vector<Vec3> points) {
   if (points.size() < 2) return {points, Vec3(0, 0, 1)};
   const Span span = find_span(points);
   if (span.dimension > 1) return hull_in_plane(points, span.normal);
-  const Vec3 along = points.back() - points.front();
+  const auto [begin, end] = span.ends;
+  const Vec3 along = end - begin;
   const Vec3 size = glm::abs(along);
   Vec3 other(0);
   other[size.x > size.y ? 1 : 0] = 1;
-  return {{points.front(), points.back()},
-          glm::normalize(glm::cross(along, other))};
+  return {{begin, end}, glm::normalize(glm::cross(along, other))};
 }
 
 Mesh convex_hull(Scene scene) {

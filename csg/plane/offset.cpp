@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -114,54 +115,42 @@ bool is_convex(const Contour& contour) {
   return turns == 2;
 }
 
-// A line with an inside on its left.
-struct Side {
-  Vec2 at;
-  Vec2 along;  // of length 1
-
-  bool has_inside(Vec2 point) const { return cross(along, point - at) > 0; }
-  Vec2 meet(const Side& other) const {
-    const double t =
-        cross(other.at - at, other.along) / cross(along, other.along);
-    return at + along * t;
-  }
-};
-
-bool are_in_line(const Side& a, const Side& b) {
-  return std::abs(cross(a.along, b.along)) * kGridPerMm < 1 &&
-         glm::dot(a.along, b.along) > 0;
-}
-
-// What lies inside of all sides, which turn once around to the left; nothing if
-// there is no such region.
-Contour enclosed(std::span<const Side> sides) {
-  std::vector<Side> ring;  // those that bound it, so far
-  std::size_t first = 0;
-  for (const Side& side : sides) {
-    while (ring.size() - first >= 2 &&
-           !side.has_inside(ring.back().meet(*(ring.end() - 2)))) {
-      ring.pop_back();
+// What is left of a convex region `amount` inside of all of its sides.
+//
+// The sides cut it off one after the other. Where the ring begins and ends it
+// lies farthest beyond the next side: there the sides that have cut give way to
+// those that have yet to. Every new corner stands between two others, so that
+// rounding moves none farther than it moves the sides, however thin the rest is
+// and however small the angles between them are.
+Contour eroded(const Contour& contour, double amount) {
+  std::deque<Vec2> ring(contour.begin(), contour.end());
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Vec2 along =
+        glm::normalize(contour[(i + 1) % contour.size()] - contour[i]);
+    const auto depth = [&](Vec2 point) {
+      return cross(along, point - contour[i]) - amount;
+    };
+    const auto meet = [&](Vec2 inside, Vec2 outside) {
+      const double height = depth(inside);
+      return inside + (outside - inside) * (height / (height - depth(outside)));
+    };
+    if (depth(ring.front()) >= 0 && depth(ring.back()) >= 0) continue;
+    // The corners that are cut off, in their order.
+    Vec2 first = ring.front();
+    Vec2 last = ring.back();
+    for (; !ring.empty() && depth(ring.front()) < 0; ring.pop_front()) {
+      last = ring.front();
     }
-    while (ring.size() - first >= 2 &&
-           !side.has_inside(ring[first].meet(ring[first + 1]))) {
-      ++first;
+    for (; !ring.empty() && depth(ring.back()) < 0; ring.pop_back()) {
+      first = ring.back();
     }
-    if (ring.size() > first && cross(ring.back().along, side.along) <= 0) {
-      return {};
-    }
-    ring.push_back(side);
+    if (ring.empty()) return {};
+    const Vec2 begin = meet(ring.front(), last);
+    const Vec2 end = meet(ring.back(), first);
+    ring.push_front(begin);
+    ring.push_back(end);
   }
-  while (ring.size() - first >= 3 &&
-         !ring[first].has_inside(ring.back().meet(*(ring.end() - 2)))) {
-    ring.pop_back();
-  }
-  if (ring.size() - first < 3) return {};
-  Contour contour;
-  for (std::size_t i = first; i < ring.size(); ++i) {
-    contour.push_back(
-        ring[i].meet(i + 1 < ring.size() ? ring[i + 1] : ring[first]));
-  }
-  return contour;
+  return {ring.begin(), ring.end()};
 }
 
 // Moves contours, the inside on their left, to their right.
@@ -208,20 +197,10 @@ class Mover {
 
   // A convex region keeps what its moved edges enclose.
   Contour shrink(const Contour& contour) const {
-    std::vector<Side> sides;
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Vec2 along =
-          glm::normalize(contour[(i + 1) % contour.size()] - contour[i]);
-      const Side side{contour[i] + left_of(along) * std::abs(amount_), along};
-      if (sides.empty() || !are_in_line(sides.back(), side)) {
-        sides.push_back(side);
-      }
-    }
-    while (sides.size() > 1 && are_in_line(sides.back(), sides.front())) {
-      sides.pop_back();
-    }
     Contour curve;
-    for (const Vec2 point : enclosed(sides)) add(point, curve);
+    for (const Vec2 point : eroded(contour, std::abs(amount_))) {
+      add(point, curve);
+    }
     return curve;
   }
 

@@ -84,6 +84,30 @@ TEST(Roof, OfAConvexDrawingIsAHippedRoof) {
   EXPECT_NEAR(volume("roof() square(2);", 1), 4.0 / 3, 1e-4);
 }
 
+// Its greatest depth is that which area and border give.
+TEST(Roof, OfATurnedDrawingIsThatOfTheDrawing) {
+  struct Case {
+    std::string text;
+    double volume = 0;
+  };
+  const std::array cases = {
+      Case{"square(2, center = true);", 4.0 / 3},
+      Case{"square([10, 2], center = true);", 10 - 2.0 / 3},
+      Case{"polygon([[-1, -1], [3, -1], [-1, 2]]);", 2.0},
+      Case{"circle(1 / cos(30), $fn = 6);", 2 / std::sqrt(3.0)}};
+  for (int degrees = 0; degrees < 360; degrees += 7) {
+    for (const Case& c : cases) {
+      const std::string drawing =
+          fmt::format("translate([3, 1]) rotate({}) {}", degrees, c.text);
+      for (const std::string method : {"voronoi", "straight"}) {
+        EXPECT_NEAR(volume("roof(method = \"" + method + "\") " + drawing, 1),
+                    c.volume, 1e-4 * c.volume)
+            << method << " " << drawing;
+      }
+    }
+  }
+}
+
 TEST(Roof, StraightMeetsClosedFormulas) {
   EXPECT_NEAR(volume(straight("square([10, 3]); square([3, 10]);"), 1.5), 36,
               1e-3);

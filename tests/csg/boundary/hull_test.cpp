@@ -1,9 +1,11 @@
 // hull(), against volumes known otherwise.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -78,6 +80,66 @@ TEST(ExtremePoints, OfALineAndAPlaneAreTheirCorners) {
   EXPECT_EQ(extreme_points(tilted).size(), 4u);
 }
 
+// Rows along all directions, rounded as sums of products are.
+TEST(ExtremePoints, OfARowAreItsEndsWhateverRoundingDoes) {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&] {
+    return Vec3(number(random), number(random), number(random));
+  };
+  for (int trial = 0; trial < 3000; ++trial) {
+    SCOPED_TRACE(trial);
+    const int axis = trial % 4;
+    Vec3 along = 10.0 * vector();
+    for (int i = 0; axis < 3 && i < 3; ++i) along[i] = i == axis ? 1 : 0;
+    const Vec3 start = vector();
+    std::vector<Vec3> row;
+    for (int i = 0; i < 9; ++i) {
+      const Vec3 away = 10.0 * vector();
+      row.push_back((start + along * (i * 0.1) + away) - away);
+    }
+    const std::vector<Vec3> ends = {row.front(), row.back()};
+    std::ranges::shuffle(row, random);
+    std::vector<Vec3> found = extreme_points(row);
+    ASSERT_EQ(found.size(), 2u);
+    if (glm::dot(found[1] - found[0], along) < 0) std::swap(found[0], found[1]);
+    EXPECT_EQ(found, ends);
+    std::vector<Vec3> flat = flat_hull(row).corners;
+    ASSERT_EQ(flat.size(), 2u);
+    if (glm::dot(flat[1] - flat[0], along) < 0) std::swap(flat[0], flat[1]);
+    EXPECT_EQ(flat, ends);
+  }
+}
+
+// So short that rounding gives it a volume of its own, or nearly.
+TEST(ExtremePoints, OfAShortRowFarAwayReachAsFar) {
+  std::mt19937_64 random(19);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&](double size) {
+    const double x = size * number(random);
+    const double y = size * number(random);
+    return Vec3(x, y, size * number(random));
+  };
+  for (int trial = 0; trial < 3000; ++trial) {
+    SCOPED_TRACE(trial);
+    const double far = std::pow(10, 2.5 * (number(random) + 1));
+    const Vec3 along = vector(std::pow(10, 3 * number(random) - 3));
+    const Vec3 start = vector(far);
+    std::vector<Vec3> row;
+    for (int i = 0; i < 9; ++i) {
+      const Vec3 away = vector(far);
+      row.push_back((start + along * (i * 0.1) + away) - away);
+    }
+    const std::vector<Vec3> found = extreme_points(row);
+    for (const Vec3 end : {row.front(), row.back()}) {
+      double nearest = far;
+      for (const Vec3 p : found)
+        nearest = std::min(nearest, glm::distance(p, end));
+      EXPECT_LE(nearest, 1e-12 * far);
+    }
+  }
+}
+
 TEST_F(Hulls, OfOneConvexLeafIsThatLeaf) {
   EXPECT_NEAR(run_volume({b.node(Hull{}, {b.cube({2, 3, 4})})}), 24, kRounding);
   const double sphere = run_volume({b.sphere(5, 40)});
@@ -103,6 +165,32 @@ TEST_F(Hulls, OfASphereAndItsTranslateIsTheSweptSphere) {
   const double volume = run_volume({b.node(
       Hull{}, {b.sphere(1, n), b.translate({0, 0, 7}, {b.sphere(1, n)})})});
   EXPECT_NEAR(volume, sphere + 7 * shadow * widest * widest, kRounding);
+}
+
+// However rounding orders the leaves, as along a Bézier curve whose control
+// points lie in a row.
+TEST_F(Hulls, OfARowOfEqualLeavesIsThatOfItsEnds) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int trial = 0; trial < 60; ++trial) {
+    SCOPED_TRACE(trial);
+    Vec3 along(number(random), number(random), number(random));
+    if (trial % 4 < 3)
+      along = Vec3(trial % 4 == 0, trial % 4 == 1, trial % 4 == 2);
+    const Vec3 start(number(random), number(random), number(random));
+    const Vec3 middle = start + 5.0 * along;
+    const Vec3 end = start + 10.0 * along;
+    std::vector<const Node*> row;
+    for (int i = 0; i <= 20; ++i) {
+      const double t = i / 20.0;
+      row.push_back(b.translate(
+          (1 - t) * (1 - t) * start + 2 * t * (1 - t) * middle + t * t * end,
+          {b.sphere(1, 16)}));
+    }
+    const std::vector<const Node*> ends = {row.front(), row.back()};
+    EXPECT_NEAR(run_volume({b.node(Hull{}, row)}),
+                run_volume({b.node(Hull{}, ends)}), kRounding);
+  }
 }
 
 TEST_F(Hulls, NestGroupAndMoveAsOne) {
