@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/check.h"
 #include "base/file/format_error.h"
 #include "base/letter_case.h"
 
@@ -96,6 +97,18 @@ std::size_t drop_infinite(RawMesh& raw) {
 
 }  // namespace
 
+std::size_t RawMesh::count_stray_corners() const {
+  std::size_t count = 0;
+  const auto count_in = [&](const auto& face) {
+    for (const std::uint32_t corner : face) {
+      count += corner < mesh.vertices.size() ? 0 : 1;
+    }
+  };
+  for (const auto& triangle : mesh.triangles) count_in(triangle);
+  for (const auto& polygon : polygons) count_in(polygon);
+  return count;
+}
+
 ImportFormat import_format_of(std::string_view extension) {
   if (extension.starts_with('.')) extension.remove_prefix(1);
   static const std::map<std::string_view, ImportFormat> kFormats = {
@@ -152,6 +165,9 @@ std::vector<RawMesh> read_mesh_file(const ImportParams& params,
         range, fmt::format("'{}' shows its part by slices, and its mesh only "
                            "stands in for them, import() at line {}",
                            path, range.openscad_line()));
+  }
+  for (const RawMesh& raw : bodies) {
+    LAMINA_CHECK_EQ(raw.count_stray_corners(), 0U);
   }
   std::size_t dropped = 0;
   for (RawMesh& raw : bodies) dropped += drop_infinite(raw);

@@ -2,6 +2,7 @@
 // import() of meshes: STL, OFF, AMF, 3MF, OBJ, PLY, OM; and a reader for each
 // format, which throws FormatError.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -34,6 +35,9 @@ struct RawMesh {
       polygons.emplace_back(corners.begin(), corners.end());
     }
   }
+
+  // Number of corners that name no vertex; 0, or a reader is at fault.
+  std::size_t count_stray_corners() const;
 };
 
 // STL, as text and as binary.

@@ -280,15 +280,14 @@ class BodyReader {
 
   void read(const Element& element) {
     element_ = &element;
-    // Else a few bytes of header would ask for four billion steps.
-    if (element.properties.empty()) return;
     if (element.name == "vertex") {
       read_vertices(element);
     } else if (element.name == "face") {
       read_faces(element, [&] { raw_.add_face(corners_); });
     } else if (element.name == "tristrips") {
       read_faces(element, [&] { add_strips(); });
-    } else {
+    } else if (!element.properties.empty()) {
+      // Else a few bytes of header would ask for four billion steps.
       for_each_record([&] {
         for (const Property& property : element.properties) skip(property);
       });

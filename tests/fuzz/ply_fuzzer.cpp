@@ -12,7 +12,8 @@ using namespace lamina;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   try {
-    csg::parse_ply(fuzz::as_text(data, size));
+    const csg::RawMesh raw = csg::parse_ply(fuzz::as_text(data, size));
+    fuzz::require(raw.count_stray_corners() == 0, "corners are vertices");
   } catch (const FormatError&) {
   }
   return 0;

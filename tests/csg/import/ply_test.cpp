@@ -140,6 +140,11 @@ TEST(ParsePly, SaysWhatWasExpectedWhere) {
             "PLY header, expected one element 'vertex'");
   EXPECT_EQ(fault(with_header("element vertex 1\nproperty int x\n", "1")),
             "PLY header, expected x, y and z of a vertex, once each");
+  EXPECT_EQ(fault(with_header("element vertex 100\n" + kFace, "3 0 1 2")),
+            "PLY header, expected x, y and z of a vertex, once each");
+  EXPECT_EQ(fault(with_header(kVertex + "element face 100\n", kPoints)),
+            "PLY header, expected a list 'vertex_indices' of whole numbers in "
+            "element 'face'");
   EXPECT_EQ(fault(with_header(kVertex + kFace, "0 0 0\n1 0 a\n")),
             "PLY vertex 2 of 3, expected 'z'");
   EXPECT_EQ(fault(with_header(kVertex + kFace, kPoints + "3 0 1 3\n")),
