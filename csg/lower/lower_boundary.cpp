@@ -1,6 +1,8 @@
+#include <map>
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "csg/boundary/boundary_faces.h"
@@ -45,6 +47,10 @@ Box3 box_of_result(const Scene& scene) {
   });
   return box;
 }
+
+// Other facets make a box larger or smaller by about the chordal error, and the
+// factors of a draft differ by as much from those of the result.
+constexpr double kGrowthSlack = 1.01;
 
 // The factors of resize(), by OpenSCAD's rules. A size of 0 keeps that
 // direction, or with `auto` scales it as the direction of the greatest new
@@ -120,18 +126,42 @@ Shape Lowerer::lower_op(const Hull&, const Place& at) {
   return {Dimension::kSolid};
 }
 
+Vec3 Lowerer::growth_of_resize(const Place& at) {
+  const bool depends = options_.chordal_error > 0 || options_.decimation > 0;
+  if (!depends || shared_.is_draft) return Vec3(1);
+  std::map<const Node*, Vec3>& growths = shared_.growths;
+  if (!growths.contains(&at.node)) {
+    // The draft finds those of all nodes below, too.
+    SharedTables tables;
+    tables.is_draft = true;
+    Diagnostics unheard;
+    LowerOptions options = options_;
+    options.decimation = 0;
+    Lowerer(at.node.children.size(), options, tables, unheard).lower(at);
+    growths.merge(tables.growths);
+  }
+  return growths.try_emplace(&at.node, 1).first->second;
+}
+
 Shape Lowerer::lower_op(const Resize& op, const Place& at) {
-  Apart apart = lower_apart(at);
+  Apart apart =
+      lower_apart({at.node, at.world * scaling(growth_of_resize(at))});
+  const auto note = [&](Vec3 factor) {
+    if (!shared_.is_draft) return;
+    shared_.growths.emplace(&at.node, kGrowthSlack * glm::abs(factor));
+  };
   if (apart.dimension == Dimension::kFlat) {
     if (apart.regions.empty()) return {Dimension::kFlat};
     planar::Region region = planar::unite(apart.regions);
     const Vec3 factor(resize_factor(op, region), 1);
+    note(factor);
     return {Dimension::kFlat,
             transform_region(std::move(region), scaling(factor), at.node.range,
                              diagnostics_)};
   }
   if (apart.scene.instances.empty()) return {apart.dimension};
   const Vec3 factor = resize_factor(op, apart.scene, apart.is_boolean);
+  note(factor);
   place_scene(apart.scene, at.world * scaling(factor));
   return {Dimension::kSolid, {}, apart.is_boolean};
 }

@@ -196,7 +196,9 @@ Shape Lowerer::lower_op(const LinearExtrude& op, const Place& at) {
   // Where the sides are curved they and the outline share the chordal error.
   const bool is_curved = params.has_twist || params.scale.x != params.scale.y;
   const double share = is_curved ? 0.25 : 1;
-  const Shape shape = flatten_finely(at, share);
+  const double growth =
+      std::max({1.0, std::abs(params.scale.x), std::abs(params.scale.y)});
+  const Shape shape = flatten_finely(at, share, growth);
   if (shape.dimension == Dimension::kNone) return {};
   Fineness sides = fineness(params.facets, at.world);
   sides.chordal_error *= 1 - share;
@@ -275,11 +277,13 @@ Fineness Lowerer::fineness(const Facets& facets, const Affine& world) const {
   return fineness;
 }
 
-Shape Lowerer::flatten_finely(const Place& at, double share) {
-  const double whole = options_.chordal_error;
-  options_.chordal_error *= share;
+Shape Lowerer::flatten_finely(const Place& at, double share, double growth) {
+  const LowerOptions whole = options_;
+  options_.chordal_error *= share / growth;
+  options_.chordal_error_of_parts /= growth;
+  options_.decimation /= growth;
   Shape shape = flatten_children(at);
-  options_.chordal_error = whole;
+  options_ = whole;
   return shape;
 }
 

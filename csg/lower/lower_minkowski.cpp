@@ -54,6 +54,9 @@ planar::Region add_regions(std::span<const planar::Region> regions) {
 
 Shape Lowerer::lower_op(const Minkowski&, const Place& at) {
   Lowerer apart = make_inner(at);
+  // The errors of the terms add up.
+  apart.options_.chordal_error /=
+      static_cast<double>(std::max<std::size_t>(at.node.children.size(), 1));
   const Operands operands =
       apart.lower_operands({at.node, Affine(1.0)}, false, Dimension::kNone);
   report_strays(operands);

@@ -77,14 +77,19 @@ Shape Lowerer::lower_op(const Polygon& polygon, const Place& at) {
 }
 
 Shape Lowerer::lower_op(const Offset& op, const Place& at) {
-  const Shape shape = flatten_children(at);
+  // Round corners add to what the outline has of the chordal error.
+  constexpr double kShare = 0.5;
+  const Shape shape = flatten_finely(at, op.is_delta ? 1 : 1 - kShare);
   if (shape.dimension == Dimension::kNone) return {};
   const double distance = std::abs(op.amount);
-  const int n = circle_fragments(distance, fineness(op.facets, at.world));
+  Fineness corners = fineness(op.facets, at.world);
+  corners.chordal_error *= kShare;
+  const int n = circle_fragments(distance, corners);
   const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
-  const auto steps = options_.language == Language::k2021
-                         ? planar::ArcSteps::kNearest
-                         : planar::ArcSteps::kUp;
+  const auto steps =
+      options_.language == Language::k2021 && !corners.is_by_error()
+          ? planar::ArcSteps::kNearest
+          : planar::ArcSteps::kUp;
   return {Dimension::kFlat, planar::offset(shape.region, op.amount, join_of(op),
                                            arc_tolerance, steps)};
 }

@@ -29,7 +29,8 @@ constexpr double kGridPerMm = 1e8;
 static_assert(csg::kGreatestCoordinate * kGridPerMm < 0x1p62);
 
 // Two grid diagonals: closer to the line between its neighbours, or to one of
-// them, a vertex is the clipper's rounding, not the design's.
+// them, a vertex is the clipper's rounding, not the design's, and so is a
+// contour that is no wider.
 constexpr double kCleanDistance = 1.415;
 
 // OpenSCAD's limit for spikes at sharp corners of delta offsets [amounts].
@@ -280,6 +281,7 @@ Region offset(const Region& region, double amount, Join join,
   for (Contour& contour : result.contours) drop_straight(contour);
   std::erase_if(result.contours,
                 [](const Contour& contour) { return contour.size() < 3; });
+  drop_hairlines(result, kCleanDistance / kGridPerMm);
   return result;
 }
 

@@ -97,6 +97,27 @@ const std::vector<Solid>& solids() {
          const double s = 1 - 0.6 * z / 20;
          return to_rectangle(p, 4 * s, 1.5 * s, radians(200 * z / 20));
        }},
+      {"resized_cylinder", "resize([20, 20, 2]) cylinder(h = 3, r = 0.5);", 0,
+       2, [](Vec2 p, double) { return to_circle(p, 10); }},
+      {"resized_circle",
+       "linear_extrude(2) resize([20, 0], auto = true) resize([3, 3]) "
+       "circle(0.5);",
+       0, 2, [](Vec2 p, double) { return to_circle(p, 10); }},
+      {"flaring_rod", "linear_extrude(2, scale = 20) circle(0.5);", 0, 2,
+       [](Vec2 p, double z) { return to_circle(p, 0.5 + 9.5 * z / 2); }},
+      {"flaring_twist", "linear_extrude(2, scale = 10, twist = 90) circle(1);",
+       0, 2, [](Vec2 p, double z) { return to_circle(p, 1 + 9 * z / 2); }},
+      {"grown_circle", "linear_extrude(2) offset(r = 9) circle(1);", 0, 2,
+       [](Vec2 p, double) { return to_circle(p, 10); }},
+      {"grown_square",
+       "linear_extrude(2) offset(r = 5) square(1e-5, center = true);", 0, 2,
+       [](Vec2 p, double) { return to_circle(p, 5); }},
+      {"sum_of_circles",
+       "linear_extrude(2) minkowski() { circle(4); circle(6); }", 0, 2,
+       [](Vec2 p, double) { return to_circle(p, 10); }},
+      {"sum_of_rod_and_ball",
+       "minkowski() { cylinder(h = 2, r = 6); sphere(4); }", 0, 2,
+       [](Vec2 p, double) { return to_circle(p, 10); }},
   };
   return all;
 }
@@ -147,7 +168,7 @@ TEST_P(ChordalError, IsKeptAndNotWasted) {
 
 INSTANTIATE_TEST_SUITE_P(
     Slices, ChordalError,
-    ::testing::Combine(::testing::Range(std::size_t{0}, std::size_t{9}),
+    ::testing::Combine(::testing::Range(std::size_t{0}, std::size_t{17}),
                        ::testing::Values(0.1, 0.01, 0.001, 0.0001)),
     [](const auto& solid_case) {
       return fmt::format(

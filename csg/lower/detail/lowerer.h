@@ -59,6 +59,10 @@ concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
 struct SharedTables {
   HullTable hulls;
   std::map<std::string, Leaf> decimated;  // by file, arguments and tolerance
+  // Of resize(): about how far each makes its subtree larger. They come from a
+  // draft, which does not know them yet and is thrown away.
+  std::map<const Node*, Vec3> growths;
+  bool is_draft = false;
 };
 
 class Lowerer {
@@ -128,8 +132,9 @@ class Lowerer {
 
   // For a node with these $fn, $fa, $fs.
   Fineness fineness(const Facets& facets, const Affine& world) const;
-  // flatten_children with a share of the chordal error.
-  Shape flatten_finely(const Place& at, double share);
+  // flatten_children with a share of the chordal error, for an outline whose
+  // parts become larger by `growth`.
+  Shape flatten_finely(const Place& at, double share, double growth = 1);
 
   void place_leaf(Leaf leaf, const Place& at);
   // Nothing for a leaf without a surface.
@@ -186,6 +191,9 @@ class Lowerer {
   Apart lower_apart(const Place& at, bool takes_corners = false);
   // A lowerer for those children; nothing lowered yet.
   Lowerer make_inner(const Place& at);
+  // Facets below a resize() have to be finer by this. 1 where nothing depends
+  // on it.
+  Vec3 growth_of_resize(const Place& at);
 
   // --- lower_minkowski.cpp --------------------------------------------------
   Shape lower_op(const Minkowski& op, const Place& at);

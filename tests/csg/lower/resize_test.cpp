@@ -111,5 +111,32 @@ TEST_F(Resizes, OfNothingAreNothing) {
   EXPECT_TRUE(messages().empty());
 }
 
+// What is resized is lowered twice, to be as fine as it has to be. Of resizes
+// within each other that must not be twice for each.
+TEST_F(Resizes, WithinEachOtherAreLoweredTwiceInAll) {
+  const Node* node = b.sphere(1, 0);
+  for (int i = 0; i < 100; ++i) {
+    node = b.node(Resize{Vec3(i % 2 == 0 ? 20 : 2), kNone}, {node});
+  }
+  const Node* strange = b.polyhedron({{0, 0, 0}}, {{5}});
+  LowerOptions options;
+  options.chordal_error = 0.01;
+  const Tree tree = b.tree({b.node(Resize{Vec3(20), kNone}, {node, strange})});
+  const Lowered lowered = lower(tree, options, diagnostics);
+  ASSERT_NE(lowered.scene(), nullptr);
+  Diagnostics once;
+  lower(tree, {}, once);
+  EXPECT_EQ(diagnostics.all().size(), once.all().size());
+  EXPECT_FALSE(messages().empty());
+  // As fine as the ball of that size.
+  const Tree ball = b.tree({b.sphere(10, 0)});
+  const Lowered expected = lower(ball, options, diagnostics);
+  const auto count = [](const Lowered& l) {
+    return static_cast<double>(
+        explicit_mesh(l.scene()->leaves.at(0)).vertices.size());
+  };
+  EXPECT_GE(count(lowered), count(expected));
+}
+
 }  // namespace
 }  // namespace lamina::csg

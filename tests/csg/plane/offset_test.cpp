@@ -172,6 +172,43 @@ TEST(Offset, OfAConvexRegionByAboutItsInradiusStaysInsideOfAllMovedEdges) {
   }
 }
 
+// An angle, a fork and a cross.
+TEST(Offset, OfWallsByHalfTheirWidthIsNothing) {
+  const std::vector<Contour> walls = {
+      {{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 8}, {0, 8}},
+      {{0, 0},
+       {10, 0},
+       {10, 2},
+       {8, 2},
+       {8, 10},
+       {6, 10},
+       {6, 2},
+       {2, 2},
+       {2, 10},
+       {0, 10}},
+      {{-1, -5},
+       {1, -5},
+       {1, -1},
+       {5, -1},
+       {5, 1},
+       {1, 1},
+       {1, 5},
+       {-1, 5},
+       {-1, 1},
+       {-5, 1},
+       {-5, -1},
+       {-1, -1}}};
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    for (const Contour& wall : walls) {
+      const Contour contour = turned(wall, degrees, {13.3, -7.1});
+      const Region region = from_contours({&contour, 1});
+      EXPECT_TRUE(offset(region, -1, Join::kMiter, 1e-4).is_empty());
+      EXPECT_NEAR(area(offset(region, -1 + 1e-6, Join::kMiter, 1e-4)),
+                  1e-6 * (area(region) - 4), 2e-7);
+    }
+  }
+}
+
 TEST(Offset, ClosesAGapOfTwiceTheAmount) {
   for (int degrees = 0; degrees < 360; ++degrees) {
     SCOPED_TRACE(degrees);

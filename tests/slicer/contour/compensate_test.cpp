@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/plane.h"
 #include "tests/slicer/contour/simplify_laws.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
@@ -144,6 +145,16 @@ TEST(Compensate, AWallThinnerThanTheBeamVanishes) {
   const auto wall = lost_inwards({box({0, 0}, {5, 0.19}), box({0, 1}, {5, 5})});
   EXPECT_EQ(wall.vanished_regions, 1U);
   EXPECT_EQ(wall.broken_walls, 0U);
+}
+
+TEST(Compensate, AWallJustAsThickAsTheBeamVanishesHoweverItIsTurned) {
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const double angle = degrees * kPi / 180;
+    const Vec2 x(std::cos(angle), std::sin(angle));
+    std::vector<Vec2> wall = box({-2, -0.1}, {2, 0.1});
+    for (Vec2& p : wall) p = p.x * x + p.y * left_of(x);
+    EXPECT_EQ(lost_inwards({wall}).vanished_regions, 1U) << degrees;
+  }
 }
 
 TEST(Compensate, ARingOfThinWallIsOneLoss) {
