@@ -49,8 +49,8 @@ struct Request {
   std::string preview;
   std::string dependencies;  // path of the rule for make (-d); empty: none
   bool has_hard_warnings = false;
-  // A warning ends the run with no output, when its stage is done. Not given:
-  // where the files that may be read are confined.
+  // A warning or an error ends the run with no output, when its stage is done.
+  // Not given: where the files that may be read are confined.
   std::optional<bool> is_strict;
   // A folder where modules (lamina_text.so) are looked for first; empty: none.
   std::string module_folder;

@@ -69,8 +69,8 @@ Design:
   --check-parameter-ranges true|false
                       warn of numbers out of range [false]
   --hardwarnings      stop at the first warning
-  --strict            write nothing where there is a warning, whichever; so do
-                      batches and runs with --root
+  --strict            write nothing where there is a warning or an error,
+                      whichever; so do batches and runs with --root
   --no-strict         but not those with this option
   --language WORD     what OpenSCAD the design is written for: 2021 (2021.01),
                       2026, or auto: 2026 if 2021.01 cannot parse it [auto]
