@@ -373,10 +373,10 @@ class PieceTable : public PieceSource {
  private:
   // "orders.csv:17: ring-17: "
   std::string prefix_of(const Row& row) const {
-    std::string prefix = options_.table;
+    std::string prefix = short_name(options_.table);
     if (row.line > 0) prefix += fmt::format(":{}", row.line);
     prefix += ": ";
-    if (!row.name.empty()) prefix += on_one_line(row.name) + ": ";
+    if (!row.name.empty()) prefix += short_name(row.name) + ": ";
     return prefix;
   }
 

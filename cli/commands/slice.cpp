@@ -260,7 +260,7 @@ class SliceCommand : public Command {
       piece.request.design = design;
       piece.request.output = output_of(design);
       piece.name = design;
-      piece.prefix = fmt::format("{}: ", on_one_line(design));
+      piece.prefix = fmt::format("{}: ", short_name(design));
       piece.number = pieces.size();
     }
     Terminal terminal(is_quiet_);

@@ -194,6 +194,15 @@ TEST(Usage, NamesAreData) {
   ASSERT_NE(at, std::string::npos);
   folder.write("other.slc", layers.replace(at, 2, "\x1b["));
   const auto inspected = run(folder, {"inspect", "other.slc"});
+  const auto refused = run(folder, {"x\x1b\nerror: forged.slc"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(is_clean(refused.errors)) << refused.errors;
+  const std::string table = "t\x1b[2J\xff\nerror: forged.csv";
+  folder.write(table, "size\nx\n1\n");
+  const auto rows =
+      run(folder, {"batch", "size.scad", "--table", table, "-o", "{row}.svg"});
+  EXPECT_EQ(rows.status, 1);
+  EXPECT_TRUE(is_clean(rows.errors)) << rows.errors;
   EXPECT_EQ(inspected.status, 0);
   EXPECT_TRUE(is_clean(inspected.output)) << inspected.output;
 }
