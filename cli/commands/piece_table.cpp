@@ -30,7 +30,7 @@ struct Row {
   std::uint32_t line = 0;    // 0: none
   std::string name;          // empty: it has none
   std::string definitions;
-  std::string parameter_set;
+  std::optional<ParameterSet> parameters;
   std::string output;
   std::string fault;
 };
@@ -292,7 +292,7 @@ class SetRows : public Rows {
  public:
   SetRows(const TableOptions& options, const FileAccess& access,
           Diagnostics& diagnostics)
-      : options_(options), names_(parameter_set_names(options.table, access)) {
+      : options_(options), sets_(ParameterSets::read(options.table, access)) {
     for (const std::string& word : words_of_pattern(options.request.output)) {
       if (word == kRowWord || word == kNameColumn) continue;
       diagnostics.error(
@@ -303,9 +303,9 @@ class SetRows : public Rows {
   }
 
   bool next(Row& row) override {
-    if (number_ == names_.size()) return false;
+    if (number_ == sets_.size()) return false;
     row = {};
-    row.name = row.parameter_set = names_[number_];
+    row.name = sets_.name_of(number_);
     row.number = ++number_;
     complete(row, [&] {
       row.output =
@@ -314,6 +314,7 @@ class SetRows : public Rows {
                                     : require_part_of_name(row.name);
           });
     });
+      row.parameters = sets_.values_of(row.number - 1);
     return true;
   }
 
@@ -321,7 +322,7 @@ class SetRows : public Rows {
 
  private:
   const TableOptions& options_;
-  const std::vector<std::string> names_;
+  const ParameterSets sets_;
   std::uint64_t number_ = 0;
 };
 
@@ -359,7 +360,9 @@ class PieceTable : public PieceSource {
     if (all == 0) {
       diagnostics.error({},
                         options_.table.ends_with(".json")
-                            ? fmt::format("'{}' has no sets", options_.table)
+                            ? fmt::format("'{}' has no sets of OpenSCAD's "
+                                          "customizer",
+                                          options_.table)
                             : fmt::format("'{}' has no rows below its header",
                                           options_.table));
     }
@@ -385,10 +388,7 @@ class PieceTable : public PieceSource {
     piece.request = options_.request;
     piece.request.definitions += row.definitions;
     piece.request.output = row.output;
-    if (!row.parameter_set.empty()) {
-      piece.request.parameter_file = options_.table;
-      piece.request.parameter_set = row.parameter_set;
-    }
+    piece.request.parameters = row.parameters;
     piece.name = row.name.empty() ? fmt::format("{}", row.number) : row.name;
     piece.prefix = prefix_of(row);
     piece.number = row.number;
