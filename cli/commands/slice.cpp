@@ -239,6 +239,7 @@ class SliceCommand : public Command {
       return fmt::format("{}{}.{}", request_.output, stem(design), extension());
     }
     return fill_pattern(request_.output, [&](const std::string& word) {
+    if (!is_pattern()) return request_.output;
       return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
     });
   }
