@@ -13,6 +13,7 @@
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
 #include "cli/options/design_options.h"
+#include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
@@ -177,8 +178,8 @@ class SliceCommand : public Command {
 
   void add_options(CLI::App& app) override {
     app.add_option("design", designs_);
-    app.add_option("-o", request_.output)->type_name("file");
-    app.add_option("-d", request_.dependencies)->type_name("file");
+    add_name(app, "-o", "file", request_.output);
+    add_name(app, "-d", "file", request_.dependencies);
     app.add_flag("--watch", watches_);
     add_output_options(app, request_, output_);
     add_design_options(app, request_, is_quiet_);
@@ -238,8 +239,8 @@ class SliceCommand : public Command {
     if (is_folder()) {
       return fmt::format("{}{}.{}", request_.output, stem(design), extension());
     }
-    return fill_pattern(request_.output, [&](const std::string& word) {
     if (!is_pattern()) return request_.output;
+    return fill_pattern(request_.output, [&](const std::string& word) {
       return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
     });
   }
