@@ -61,16 +61,6 @@ std::string printable(std::string_view text) {
   return result;
 }
 
-// A message whose further lines cannot be taken for messages of their own.
-std::string message_text(std::string_view message) {
-  std::string text = without_controls(message);
-  for (std::size_t at = text.find('\n'); at != std::string::npos;
-       at = text.find('\n', at + 1)) {
-    text.insert(at + 1, "| ");
-  }
-  return text;
-}
-
 // Columns that UTF-8 text takes, double width neglected.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(

@@ -12,6 +12,10 @@ namespace {
 
 constexpr std::uint64_t kFree = 0;
 
+std::string text_of(const XXH128_hash_t& hash) {
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
 // No value is the mark of a free slot.
 std::uint64_t marked(std::uint64_t value) { return value == kFree ? 1 : value; }
 
@@ -22,8 +26,16 @@ std::uint64_t fingerprint(std::string_view bytes) {
 }
 
 std::string digest(std::string_view bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return text_of(XXH3_128bits(bytes.data(), bytes.size()));
+}
+
+std::string digest(const std::function<std::string_view()>& next) {
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  for (std::string_view block = next(); !block.empty(); block = next()) {
+    XXH3_128bits_update(&state, block.data(), block.size());
+  }
+  return text_of(XXH3_128bits_digest(&state));
 }
 
 // The slot of `value`, or the free one where it would stand.

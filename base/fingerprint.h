@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,11 @@ std::uint64_t fingerprint(std::string_view bytes);
 
 // 128 bits in 32 hexadecimal digits: for what is never compared in full.
 std::string digest(std::string_view bytes);
+
+// The same of bytes that come in blocks.
+//
+// next  the next block, which is empty behind the last one
+std::string digest(const std::function<std::string_view()>& next);
 
 // A set of fingerprints in 8 to 16 bytes each; the nodes of std::set take 48.
 class FingerprintSet {

@@ -118,11 +118,37 @@ std::string without_controls(std::string_view text) {
       text, [](std::uint32_t code) { return code == '\n' || code == '\t'; });
 }
 
+std::string message_text(std::string_view message) {
+  std::string text;
+  for (const char c : without_controls(message)) {
+    text += c;
+    if (c == '\n') text += "| ";
+  }
+  return text;
+}
+
 std::string on_one_line(std::string_view text) {
   std::string line =
       visible(text, [](std::uint32_t code) { return code == '\t'; });
   std::replace(line.begin(), line.end(), '\t', ' ');
   return line;
+}
+
+std::string short_name(std::string_view name) {
+  constexpr std::size_t kMost = 100;
+  constexpr std::size_t kMostBytes = 4 * kMost;  // of its characters
+  const bool is_cut = name.size() > kMostBytes;
+  std::string line = on_one_line(name.substr(0, kMostBytes));
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < kMost && end < line.size(); ++i) {
+    end += utf8_length(line[end]);
+  }
+  if (end >= line.size() && !is_cut) return line;
+  return line.substr(0, end) + "…";
+}
+
+std::string first_line(std::string_view text) {
+  return std::string(text.substr(0, text.find('\n')));
 }
 
 std::string in_quotes(std::string_view content) {

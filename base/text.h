@@ -31,8 +31,18 @@ bool is_control(std::uint32_t code_point);
 // that are no UTF-8 as U+FFFD. Tabs and newlines stay.
 std::string without_controls(std::string_view text);
 
-// The same on one line: a newline stands as "\u000A", a tab as a blank.
+// The same as words of a message: further lines begin with "| ", so that they
+// look like no messages of their own.
+std::string message_text(std::string_view message);
+
+// Without controls on one line: a newline stands as "\u000A", a tab as a blank.
 std::string on_one_line(std::string_view text);
+
+// A name among other words of a message: on one line, and of a long one the
+// first 100 characters and "…".
+std::string short_name(std::string_view name);
+
+std::string first_line(std::string_view text);
 
 // Blanks of ASCII: of plain text, not of Unicode.
 inline bool is_blank(char c) {

@@ -31,7 +31,7 @@ namespace lamina::cli {
 namespace {
 
 int show_usage_fault(std::string_view message, int status = kUsageFault) {
-  print_error(fmt::format("lamina: {}\n", on_one_line(message)));
+  print_error(fmt::format("lamina: {}\n", message_text(message)));
   if (status == kUsageFault) {
     print_error("Run 'lamina --help' for the options.\n");
   }
@@ -146,9 +146,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     cli::print_error("lamina: out of memory\n");
   } catch (const std::exception& error) {
-    cli::print_error("lamina: ");
-    cli::print_error(error.what());
-    cli::print_error("\n");
+    cli::print_error(fmt::format("lamina: {}\n", message_text(error.what())));
   }
   return cli::kFault;
 }

@@ -99,7 +99,7 @@ struct Compilation {
     return temporary_files.file_access();
   }
 
-  // Whether a warning ends the run without an output.
+  // Whether a warning or an error ends the run without an output.
   bool is_strict() const {
     return request.is_strict.value_or(file_access().is_confined());
   }

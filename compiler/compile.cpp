@@ -70,10 +70,12 @@ void warn_of_size(Compilation& c, const csg::Lowered& lowered) {
                       size.x, size.y, size.z));
 }
 
-// Whether warnings end the run here, without an output.
+// Whether messages end the run here, without an output.
 bool ends_strictly(Compilation& c) {
+  if (!c.is_strict()) return false;
+  if (c.has_failed || c.diagnostics.has_errors()) return true;
   const std::size_t warnings = c.count(Severity::kWarning);
-  if (!c.is_strict() || warnings == 0) return false;
+  if (warnings == 0) return false;
   c.has_failed = true;
   c.diagnostics.error(
       {}, fmt::format("{}, so nothing is written; with --no-strict it is",
@@ -205,7 +207,8 @@ bool compile(Compilation& c) {
 
   if (ends_strictly(c)) return false;
 
-  // Texts end well even where the design failed, as openscad's do.
+  // Texts end well even where the design failed, as openscad's do; strict runs
+  // have ended.
   if (c.request.format == OutputFormat::kEcho) {
     return finish_text(c, echo_text(c), rule.get()) && !ends_hard(c);
   }

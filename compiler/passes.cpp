@@ -54,6 +54,23 @@ Language choose_language(Compilation& c) {
   return Language::k2026;
 }
 
+// False where the set cannot be applied, which is reported.
+bool apply_parameters(Compilation& c, ast::Program& program) {
+  const Request& request = c.request;
+  const auto apply = [&](const ParameterSet& set) {
+    return apply_parameter_set(set, program, c.language, c.diagnostics);
+  };
+  if (request.parameters) return apply(*request.parameters);
+  if (request.parameter_file.empty()) return true;
+  try {
+    return apply(ParameterSets::read(request.parameter_file, c.file_access())
+                     .values_of(request.parameter_set));
+  } catch (const FileError& fault) {
+    c.diagnostics.report(fault.diagnostic());
+    return false;
+  }
+}
+
 csg::EvaluateOptions evaluate_options(Compilation& c) {
   const Request& request = c.request;
   csg::EvaluateOptions options;
@@ -118,12 +135,7 @@ ast::Program load(Compilation& c) {
       ast::Program program = read_design(request, c.loader);
       c.language = choose_language(c);
       check_definitions(program, c.loader, c.diagnostics);
-      if (!request.parameter_file.empty() &&
-          !apply_parameter_set(request.parameter_file, request.parameter_set,
-                               program, c.language, c.diagnostics,
-                               c.file_access())) {
-        c.has_failed = true;
-      }
+      if (!apply_parameters(c, program)) c.has_failed = true;
       return program;
     });
   } catch (const SyntaxError&) {

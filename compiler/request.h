@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "csg/eval/evaluator.h"
+#include "parser/parameter_set.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/slice/settings.h"
 
@@ -31,6 +32,8 @@ struct Request {
   std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
   std::string parameter_file;     // -p; empty: none
   std::string parameter_set;      // -P
+  // The set itself; no file is read for it then.
+  std::optional<ParameterSet> parameters;
   std::string language = "auto";  // or "2021", "2026"; see load()
   std::string axis = "z";         // of slicer::kAxes, or kAutomaticAxis
   bool is_placed_on_bed = false;
@@ -49,8 +52,8 @@ struct Request {
   std::string preview;
   std::string dependencies;  // path of the rule for make (-d); empty: none
   bool has_hard_warnings = false;
-  // A warning ends the run with no output, when its stage is done. Not given:
-  // where the files that may be read are confined.
+  // A warning or an error ends the run with no output, when its stage is done.
+  // Not given: where the files that may be read are confined.
   std::optional<bool> is_strict;
   // A folder where modules (lamina_text.so) are looked for first; empty: none.
   std::string module_folder;

@@ -44,14 +44,15 @@ std::optional<std::string> read_truth(std::string_view cell) {
   return std::nullopt;
 }
 
-// Whether the cell, and nothing less, is a literal of OpenSCAD.
+// Whether the cell is a literal of OpenSCAD that ends before what follows it in
+// a definition.
 bool is_literal(std::string_view cell) {
   SourceStore sources;
   Diagnostics diagnostics;
   // A cell names no file, and none is opened to find that out.
   const FileAccess no_file = FileAccess::none();
   Loader loader(sources, diagnostics, {}, {}, no_file);
-  const Source& source = sources.add("", fmt::format("x = {}\n;", cell));
+  const Source& source = sources.add("", fmt::format("x={};\n", cell));
   try {
     const ast::Program program = parse(source, nullptr, loader, diagnostics);
     if (program.statements.size() != 1) return false;

@@ -1,6 +1,7 @@
 #include "parser/parameter_set.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -16,23 +17,15 @@
 #include "parser/tree_facts.h"
 
 namespace lamina {
-namespace {
 
-struct Entry {
-  std::string name;
-  std::string text;
-};
-
-// Collects the entries of one set while the file is read. It keeps the texts of
-// numbers as they stand there, which a tree of values would not.
-class SetReader : public nlohmann::json_sax<nlohmann::json> {
+// Fills ParameterSets while the file is read. It keeps the texts of numbers as
+// they stand there, which a tree of values would not.
+class ParameterSets::Reader : public nlohmann::json_sax<nlohmann::json> {
  public:
-  explicit SetReader(const std::string& set)
-      : wanted_({"parameterSets", set}) {}
+  explicit Reader(ParameterSets& sets) : sets_(sets) {}
 
-  bool is_found() const { return is_found_; }
-  std::vector<Entry> take_entries() { return std::move(entries_); }
   const std::string& complaint() const { return complaint_; }
+  std::size_t error_position() const { return position_; }
 
   bool null() override { return add("null"); }
   bool boolean(bool value) override { return add(value ? "true" : "false"); }
@@ -50,8 +43,8 @@ class SetReader : public nlohmann::json_sax<nlohmann::json> {
 
   bool start_object(std::size_t /*size*/) override {
     add("");
-    path_.emplace_back();
-    if (is_in_set()) is_found_ = true;
+    if (is_among_sets()) sets_.sets_.back().is_object = true;
+    path_.push_back({true, ""});
     return true;
   }
   bool end_object() override {
@@ -59,12 +52,15 @@ class SetReader : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool key(string_t& name) override {
-    path_.back() = name;
+    path_.back().name = name;
+    if (is_among_sets()) {
+      sets_.sets_.push_back({name, sets_.values_.size(), false});
+    }
     return true;
   }
   bool start_array(std::size_t /*size*/) override {
     add("");
-    path_.emplace_back();
+    path_.push_back({false, ""});
     return true;
   }
   bool end_array() override { return end_object(); }
@@ -77,57 +73,88 @@ class SetReader : public nlohmann::json_sax<nlohmann::json> {
     complaint_ = what.substr(what.find(": ") + 2);
     return false;
   }
-  std::size_t error_position() const { return position_; }
 
  private:
-  bool is_in_set() const {
-    return path_.size() == 3 &&
-           std::equal(wanted_.begin(), wanted_.end(), path_.begin());
-  }
+  struct Level {
+    bool is_object = false;  // else an array
+    std::string name;        // of the member that is being read
+  };
 
-  bool add(std::string text) {
-    if (is_in_set()) entries_.push_back({path_.back(), std::move(text)});
+  bool is_within_sets(std::size_t depth) const {
+    return path_.size() == depth && path_[0].name == "parameterSets" &&
+           std::all_of(path_.begin(), path_.end(),
+                       [](const Level& level) { return level.is_object; });
+  }
+  bool is_among_sets() const { return is_within_sets(2); }
+  bool is_in_set() const { return is_within_sets(3); }
+
+  bool add(std::string_view text) {
+    if (!is_in_set()) return true;
+    const auto [name, is_new] = numbers_of_names_.try_emplace(
+        path_.back().name, static_cast<std::uint32_t>(sets_.names_.size()));
+    if (is_new) sets_.names_.push_back(name->first);
+    sets_.texts_ += text;
+    sets_.values_.push_back({name->second, sets_.texts_.size()});
     return true;
   }
 
-  std::vector<std::string> wanted_;
-  std::vector<std::string> path_;  // names around what is being read
-  std::vector<Entry> entries_;
-  bool is_found_ = false;
+  ParameterSets& sets_;
+  std::map<std::string, std::uint32_t> numbers_of_names_;
+  std::vector<Level> path_;  // what is around what is being read
   std::string complaint_;
   std::size_t position_ = 0;
 };
 
-std::optional<std::vector<Entry>> read_set(const std::string& path,
-                                           const std::string& set,
-                                           const FileAccess& access,
-                                           Diagnostics& diagnostics) {
+ParameterSets ParameterSets::read(const std::string& path,
+                                  const FileAccess& access) {
   const auto refuse = [&](const std::string& why) {
-    diagnostics.error(
-        {}, fmt::format("Cannot open Parameter Set '{}': {}", path, why));
-    return std::nullopt;
+    throw FileError(
+        fmt::format("Cannot open Parameter Set '{}': {}", path, why));
   };
   access.require(path);
   const std::optional<std::string> text = access.read(path);
-  if (!text) return refuse(path + ": cannot open file");
-  SetReader reader(set);
+  if (!text) refuse(path + ": cannot open file");
+  ParameterSets sets(path);
+  Reader reader(sets);
   if (!nlohmann::json::sax_parse(*text, &reader)) {
     const std::size_t position =
         std::min(reader.error_position(), text->size());
     const auto end =
         text->begin() + static_cast<std::string::difference_type>(position);
-    return refuse(fmt::format("{}({}): {}", path,
-                              std::count(text->begin(), end, '\n') + 1,
-                              reader.complaint()));
+    refuse(fmt::format("{}({}): {}", path,
+                       std::count(text->begin(), end, '\n') + 1,
+                       reader.complaint()));
   }
-  if (!reader.is_found()) {
-    diagnostics.error(
-        {}, fmt::format("Cannot apply Parameter Set '{}': '{}' has no such set",
-                        set, path));
-    return std::nullopt;
-  }
-  return reader.take_entries();
+  return sets;
 }
+
+ParameterSet ParameterSets::values_of(std::size_t index) const {
+  const Set& set = sets_[index];
+  if (!set.is_object) refuse(set.name);
+  const std::size_t end =
+      index + 1 < sets_.size() ? sets_[index + 1].begin : values_.size();
+  ParameterSet values;
+  for (std::size_t i = set.begin; i < end; ++i) {
+    const std::size_t begin = i == 0 ? 0 : values_[i - 1].text_end;
+    values.push_back({names_[values_[i].name],
+                      texts_.substr(begin, values_[i].text_end - begin)});
+  }
+  return values;
+}
+
+ParameterSet ParameterSets::values_of(std::string_view name) const {
+  const auto set = std::find_if(sets_.begin(), sets_.end(),
+                                [&](const Set& s) { return s.name == name; });
+  if (set == sets_.end()) refuse(name);
+  return values_of(static_cast<std::size_t>(set - sets_.begin()));
+}
+
+void ParameterSets::refuse(std::string_view name) const {
+  throw FileError(fmt::format(
+      "Cannot apply Parameter Set '{}': '{}' has no such set", name, path_));
+}
+
+namespace {
 
 std::optional<bool> read_truth(std::string_view text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -220,9 +247,9 @@ Fitted fit(std::string_view text, const ast::Expr& own,
 
 class SetApplier {
  public:
-  SetApplier(const std::vector<Entry>& entries, ast::Program& program,
-             Language language, Diagnostics& diagnostics)
-      : entries_(entries),
+  SetApplier(const ParameterSet& set, ast::Program& program, Language language,
+             Diagnostics& diagnostics)
+      : set_(set),
         program_(program),
         arena_(*program.arena),
         customizer_(Customizer::read(program)),
@@ -238,7 +265,7 @@ class SetApplier {
     bool is_good = true;
     for (const std::size_t place :
          ast::assignments_that_count(program_.statements)) {
-      for (const Entry& entry : entries_) {
+      for (const ParameterValue& entry : set_) {
         const ast::Statement*& statement = statements[place];
         if (std::get<ast::Assignment>(statement->node).name == entry.name) {
           is_good = is_good && apply(entry, statement);
@@ -251,7 +278,7 @@ class SetApplier {
   }
 
  private:
-  bool apply(const Entry& entry, const ast::Statement*& statement) {
+  bool apply(const ParameterValue& entry, const ast::Statement*& statement) {
     const auto& own = *std::get<ast::Assignment>(statement->node).value;
     const auto rule = customizer_.rule_of(*statement);
     Fitted fitted;
@@ -266,7 +293,8 @@ class SetApplier {
     return true;
   }
 
-  void warn(const Entry& entry, const ast::Statement& statement, bool is_set) {
+  void warn(const ParameterValue& entry, const ast::Statement& statement,
+            bool is_set) {
     const std::string values = customizer_.comment_of(statement).values;
     std::string text =
         fmt::format("parameter {} = {} of the set ", entry.name, entry.text);
@@ -293,7 +321,7 @@ class SetApplier {
     statement = arena_.make(replaced);
   }
 
-  const std::vector<Entry>& entries_;
+  const ParameterSet& set_;
   ast::Program& program_;
   Arena& arena_;
   const Customizer customizer_;
@@ -303,35 +331,13 @@ class SetApplier {
 
 }  // namespace
 
-bool apply_parameter_set(const std::string& path, const std::string& set,
-                         ast::Program& program, Language language,
-                         Diagnostics& diagnostics, const FileAccess& access) {
-  const auto entries = read_set(path, set, access, diagnostics);
-  if (!entries) return false;
-  if (SetApplier(*entries, program, language, diagnostics).apply()) return true;
+bool apply_parameter_set(const ParameterSet& set, ast::Program& program,
+                         Language language, Diagnostics& diagnostics) {
+  if (SetApplier(set, program, language, diagnostics).apply()) return true;
   diagnostics.error(
       {},
       "Cannot apply Parameter Set 'conversion of data to type \"b\" failed'");
   return false;
-}
-
-std::vector<std::string> parameter_set_names(const std::string& path,
-                                             const FileAccess& access) {
-  const auto refuse = [&](std::string_view why) {
-    throw FileError(fmt::format("Cannot open '{}': {}", path, why));
-  };
-  access.require(path);
-  const std::optional<std::string> text = access.read(path);
-  if (!text) refuse("no such file");
-  using Json = nlohmann::ordered_json;
-  const Json json = Json::parse(*text, nullptr, false);
-  const auto sets = json.is_object() ? json.find("parameterSets") : json.end();
-  if (sets == json.end() || !sets->is_object()) {
-    refuse("it has no sets of OpenSCAD's customizer");
-  }
-  std::vector<std::string> names;
-  for (const auto& [name, values] : sets->items()) names.push_back(name);
-  return names;
 }
 
 }  // namespace lamina

@@ -18,7 +18,11 @@
 // the design's own values; and only variables whose value is a literal, or
 // arithmetic on literals, can be set.
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -28,19 +32,61 @@
 
 namespace lamina {
 
-// Sets the variables of `program` to the values of `set` in the file `path`.
-//
-// returns  false where the file cannot be read, the set is not there or a value
-//          cannot be used; that is reported, and the values before it stay set
-// throws   AccessError where the file may not be read
-bool apply_parameter_set(const std::string& path, const std::string& set,
-                         ast::Program& program, Language language,
-                         Diagnostics& diagnostics,
-                         const FileAccess& access = kAllFiles);
+struct ParameterValue {
+  std::string name;
+  std::string text;
+};
 
-// The names of all sets of a file, in the order in which they stand there.
-// Throws FileError where it cannot be read, AccessError where it may not be.
-std::vector<std::string> parameter_set_names(
-    const std::string& path, const FileAccess& access = kAllFiles);
+// In the order of the file.
+using ParameterSet = std::vector<ParameterValue>;
+
+// The sets of a file, in the order in which they stand there. A batch makes a
+// piece of each, so the file is read once, and what is kept of it takes no more
+// memory than its text does.
+class ParameterSets {
+ public:
+  // Throws FileError where the file cannot be read or is no JSON, AccessError
+  // where it may not be read.
+  static ParameterSets read(const std::string& path,
+                            const FileAccess& access = kAllFiles);
+
+  std::size_t size() const { return sets_.size(); }
+  const std::string& name_of(std::size_t index) const {
+    return sets_[index].name;
+  }
+
+  // Both throw FileError where what has the name is no set. Of several sets of
+  // one name, the name means the first.
+  ParameterSet values_of(std::size_t index) const;
+  ParameterSet values_of(std::string_view name) const;
+
+ private:
+  class Reader;
+  struct Set {
+    std::string name;
+    std::size_t begin = 0;   // its first value; the next set's is the end
+    bool is_object = false;  // else it is no set
+  };
+  struct Value {
+    std::uint32_t name = 0;    // in names_
+    std::size_t text_end = 0;  // in texts_; it begins where the one before ends
+  };
+
+  explicit ParameterSets(std::string path) : path_(std::move(path)) {}
+  [[noreturn]] void refuse(std::string_view name) const;
+
+  std::string path_;
+  std::vector<std::string> names_;  // of parameters, each once
+  std::string texts_;
+  std::vector<Value> values_;
+  std::vector<Set> sets_;
+};
+
+// Sets the variables of `program` to the values of `set`.
+//
+// returns  false where a value cannot be used; that is reported, and the values
+//          before it stay set
+bool apply_parameter_set(const ParameterSet& set, ast::Program& program,
+                         Language language, Diagnostics& diagnostics);
 
 }  // namespace lamina

@@ -1,27 +1,30 @@
 #include "base/file/output_digest.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "base/file/open_file.h"
 #include "base/fingerprint.h"
 
 namespace lamina {
 namespace {
 
 std::optional<OutputDigest> digest_of_folder(const std::string& path,
-                                             const FileAccess& access) {
+                                             const FileAccess& access,
+                                             std::uint64_t most_bytes) {
   auto names = access.list(path);
   if (!names) return std::nullopt;
   std::sort(names->begin(), names->end());
   OutputDigest all;
   std::string list;
   for (const std::string& name : *names) {
-    const auto file =
-        digest_of_output(fmt::format("{}/{}", path, name), access);
+    const auto file = digest_of_output(fmt::format("{}/{}", path, name), access,
+                                       most_bytes - all.bytes);
     if (!file) return std::nullopt;
     all.bytes += file->bytes;
     list += fmt::format("{} {}\n", file->digest, name);
@@ -33,16 +36,36 @@ std::optional<OutputDigest> digest_of_folder(const std::string& path,
 }  // namespace
 
 std::optional<OutputDigest> digest_of_output(const std::string& path,
-                                             const FileAccess& access) {
+                                             const FileAccess& access,
+                                             std::uint64_t most_bytes) {
   const OutputPlace place = access.find_output(path);
   if (place.error != 0 || !place.there) return std::nullopt;
-  if (S_ISDIR(place.there->st_mode)) return digest_of_folder(path, access);
-  if (!S_ISREG(place.there->st_mode)) return std::nullopt;
+  if (S_ISDIR(place.there->st_mode)) {
+    return digest_of_folder(path, access, most_bytes);
+  }
+  const bool is_read = S_ISREG(place.there->st_mode) &&
+                       std::cmp_less_equal(place.there->st_size, most_bytes);
+  if (!is_read) return std::nullopt;
   const OpenFile file(
       ::open(place.path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  const auto bytes = file ? file.read_all() : std::nullopt;
-  if (!bytes) return std::nullopt;
-  return OutputDigest{bytes->size(), digest(*bytes)};
+  return file ? digest_of_file(file) : std::nullopt;
+}
+
+std::optional<OutputDigest> digest_of_file(const OpenFile& file) {
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  struct stat before {};
+  if (::fstat(file.descriptor(), &before) != 0) return std::nullopt;
+  OutputDigest made;
+  std::optional<std::string> block;
+  made.digest = digest([&]() -> std::string_view {
+    block = file.read_at(made.bytes, kBlock);
+    if (!block) return {};
+    made.bytes += block->size();
+    return *block;
+  });
+  const bool is_whole = block && file.is_unchanged_since(before) &&
+                        std::cmp_equal(made.bytes, before.st_size);
+  return is_whole ? std::optional(std::move(made)) : std::nullopt;
 }
 
 }  // namespace lamina

@@ -99,20 +99,15 @@ class BatchCommand : public Command {
 
   void add_options(CLI::App& app) override {
     app.add_option("design", table_.request.design)->required();
-    app.add_option("--table", table_.table)->type_name("file")->required();
-    app.add_option("-o", table_.request.output)
-        ->type_name("pattern")
-        ->required();
+    add_name(app, "--table", "file", table_.table)->required();
+    add_name(app, "-o", "pattern", table_.request.output)->required();
     make_repeatable(app.add_option("--skip", skipped_)->type_name("column"));
     add_text(app, "--shard", "share", [this](const std::string& text) {
       table_.share = parse_share(text);
     });
-    CLI::Option* ledger = app.add_option("--ledger", ledger_.path);
-    ledger->type_name("file");
+    CLI::Option* ledger = add_name(app, "--ledger", "file", ledger_.path);
     app.add_flag("--resume", ledger_.resumes)->needs(ledger);
-    app.add_option("--collect", ledgers_)
-        ->type_name("ledger")
-        ->excludes(ledger);
+    add_name(app, "--collect", "ledger", ledgers_)->excludes(ledger);
     add_output_options(app, table_.request, output_options_);
     add_design_options(app, table_.request, is_quiet_);
     add_slicing_options(app, table_.request);

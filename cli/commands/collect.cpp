@@ -61,12 +61,12 @@ class Collector {
 
   void judge(const Piece& piece) {
     const LedgerIndex::Entry entry =
-        index_.find(piece, asked_key(piece, options_.asked));
+        index_.find(asked_key(piece, options_.asked));
     ++count_;
     if (entry.times > 1) ++twice_;
     if (entry.state == State::kFailed) {
       ++failed_;
-      return tell(piece, "failed", index_.messages_of(entry));
+      return tell(piece, "failed", index_.failure_of(entry));
     }
     if (entry.state != State::kDone ||
         !is_as_noted(piece.request.output, entry, access_)) {
@@ -78,18 +78,18 @@ class Collector {
     if (entry.times > 1) list(piece, "twice", {});
   }
 
-  // Messages have the piece's prefix already.
   void tell(const Piece& piece, std::string_view what,
-            const std::vector<std::string>& messages) {
+            const LedgerIndex::Failure& failure) {
     if (++told_ <= Outcomes::kMostRows) {
-      terminal_.say(messages.empty() ? fmt::format("{}{}", piece.prefix, what)
-                                     : messages.front());
+      std::string line = fmt::format("{}{}", piece.prefix, what);
+      if (!failure.error.empty()) line += ": " + first_line(failure.error);
+      terminal_.say(line);
     }
-    list(piece, what, messages);
+    list(piece, what, failure);
   }
 
   void list(const Piece& piece, std::string_view what,
-            const std::vector<std::string>& messages) {
+            const LedgerIndex::Failure& failure) {
     if (list_ == nullptr) return;
     list_->add(
         list_element({{"row", piece.number},
@@ -97,7 +97,8 @@ class Collector {
                       {"name", piece.name},
                       {"output", piece.request.output},
                       {"status", what},
-                      {"messages", messages}}));
+                      {"error", failure.error},
+                      {"messages", failure.messages}}));
   }
 
   std::string table() const {

@@ -86,12 +86,12 @@ class CompareCommand : public Command {
     });
     app.add_flag("--align", aligns_);
     app.add_flag("--all", lists_all_);
-    app.add_option("--png", picture_)->type_name("file");
+    add_name(app, "--png", "file", picture_);
     app.add_option("--layer-number", layer_number_)
         ->check(CLI::PositiveNumber)
         ->type_name("number")
         ->needs("--png");
-    app.add_option("--report", report_)->type_name("file");
+    add_name(app, "--report", "file", report_);
     add_choice(app, "--against", {"openscad"},
                [this](const std::string&) { is_against_openscad_ = true; });
     add_text(app, "--time-limit", "seconds", [this](const std::string& text) {

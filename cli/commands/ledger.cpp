@@ -8,6 +8,8 @@
 
 #include "base/file/output_digest.h"
 #include "base/fingerprint.h"
+#include "base/text.h"
+#include "base/utf8.h"
 #include "base/version.h"
 #include "cli/report/run_report.h"
 
@@ -27,6 +29,7 @@ constexpr const char* kChangedMeanwhile = "changed meanwhile";
 
 // Messages of a piece can be endless; a line of the ledger is not.
 constexpr std::size_t kLongestMessages = 4096;
+constexpr std::size_t kLongestError = 1024;
 
 // Digests, 16 bytes in hexadecimal digits.
 constexpr std::size_t kDigestLength = 32;
@@ -35,11 +38,17 @@ std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// What makes a piece known again: its output or, where it has none, its row.
-std::uint64_t piece_fingerprint(std::string_view asked, std::string_view output,
-                                std::uint64_t row) {
-  return fingerprint(output.empty() ? fmt::format("{}\n\n{}", asked, row)
-                                    : fmt::format("{}\n{}", asked, output));
+// JSON holds UTF-8, paths hold any bytes: one that is no UTF-8 is the list of
+// its bytes.
+Json json_of_path(const std::string& path) {
+  if (is_valid_utf8(path)) return path;
+  return std::vector<std::uint8_t>(path.begin(), path.end());
+}
+
+std::string path_of_json(const Json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  const auto bytes = json.get<std::vector<std::uint8_t>>();
+  return {bytes.begin(), bytes.end()};
 }
 
 std::vector<std::string> lines_of(std::string_view text) {
@@ -53,10 +62,16 @@ std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
+bool are_equal(const timespec& a, const timespec& b) {
+  return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
+}
+
+// Whether it is the same file with the same bytes. Anyone can set the time of
+// the last modification back; the time of change is the machine's own.
 bool are_equal(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino &&
-         a.st_size == b.st_size && a.st_mtim.tv_sec == b.st_mtim.tv_sec &&
-         a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+         a.st_size == b.st_size && are_equal(a.st_mtim, b.st_mtim) &&
+         are_equal(a.st_ctim, b.st_ctim);
 }
 
 }  // namespace
@@ -71,12 +86,12 @@ std::string FileDigests::digest_of(const std::string& path) {
       return known->second.digest;
     }
   }
-  const auto bytes = access_.read_regular(path);
-  if (!bytes) return "none";
-  std::string result = digest(*bytes);
+  const OpenFile file = access_.open(path);
+  const auto whole = file ? digest_of_file(file) : std::nullopt;
+  if (!whole) return "none";
   const std::lock_guard lock(mutex_);
-  known_[path] = {*status, result};
-  return result;
+  known_[path] = {*status, whole->digest};
+  return whole->digest;
 }
 
 // --- Reading ----------------------------------------------------------------
@@ -109,7 +124,7 @@ void LedgerIndex::read_line(std::string_view line) {
     const Json json = Json::parse(line);
     if (json.contains("files")) {
       for (const Json& file : json.at("files")) {
-        const auto path = file.at(0).get<std::string>();
+        const std::string path = path_of_json(file.at(0));
         if (files_.digest_of(path) != file.at(1).get<std::string>()) return;
       }
       standing_.insert(json.at("read").get<std::string>());
@@ -118,12 +133,10 @@ void LedgerIndex::read_line(std::string_view line) {
     const auto key = json.at("key").get<std::string>();
     const bool is_done = json.at("status").get<std::string>() == "done";
     Entry entry;
-    entry.piece =
-        piece_fingerprint(std::string_view(key).substr(0, kDigestLength),
-                          json.at("output").get<std::string>(),
-                          json.at("row").get<std::uint64_t>());
+    entry.piece = fingerprint(std::string_view(key).substr(0, kDigestLength));
     entry.bytes = json.at("bytes").get<std::uint64_t>();
     entry.output = fingerprint(json.at("digest").get<std::string>());
+    auto error = json.at("error").get<std::string>();
     auto messages = json.at("messages").get<std::vector<std::string>>();
     seconds_ += json.at("seconds").get<double>();
     peak_memory_bytes_ =
@@ -135,8 +148,8 @@ void LedgerIndex::read_line(std::string_view line) {
       entry.state = State::kDone;
     } else {
       entry.state = State::kFailed;
-      if (messages_.size() < Outcomes::kMostRows) {
-        messages_[entry.piece] = std::move(messages);
+      if (failures_.size() < Outcomes::kMostRows) {
+        failures_[entry.piece] = {std::move(error), std::move(messages)};
       }
     }
     entries_.push_back(entry);
@@ -167,32 +180,38 @@ void LedgerIndex::close() {
   entries_.resize(kept);
 }
 
-LedgerIndex::Entry LedgerIndex::find(const Piece& piece,
-                                     const std::string& asked) const {
-  const std::uint64_t wanted =
-      piece_fingerprint(asked, piece.request.output, piece.number);
+LedgerIndex::Entry LedgerIndex::find(const std::string& asked_key) const {
+  const std::uint64_t wanted = fingerprint(asked_key);
   const auto found = std::lower_bound(
       entries_.begin(), entries_.end(), wanted,
       [](const Entry& a, std::uint64_t value) { return a.piece < value; });
   return found == entries_.end() || found->piece != wanted ? Entry() : *found;
 }
 
-std::vector<std::string> LedgerIndex::messages_of(const Entry& entry) const {
-  const auto found = messages_.find(entry.piece);
-  return found == messages_.end() ? std::vector<std::string>() : found->second;
+LedgerIndex::Failure LedgerIndex::failure_of(const Entry& entry) const {
+  const auto found = failures_.find(entry.piece);
+  return found == failures_.end() ? Failure() : found->second;
 }
 
 bool is_as_noted(const std::string& output, const LedgerIndex::Entry& entry,
                  const FileAccess& access) {
-  const auto stands = digest_of_output(output, access);
+  const auto stands = digest_of_output(output, access, entry.bytes);
   return stands && stands->bytes == entry.bytes &&
          fingerprint(stands->digest) == entry.output;
 }
 
 std::string asked_key(const Piece& piece, const std::string& options) {
-  return digest(fmt::format(
-      "{}\n{}\n{}\n{}\n{}", version(), options, piece.request.definitions,
-      piece.request.parameter_file, piece.request.parameter_set));
+  const compiler::Request& request = piece.request;
+  std::string text =
+      fmt::format("{}\n{}\n{}\n", version(), options, request.definitions);
+  if (request.parameters) {
+    for (const auto& [name, value] : *request.parameters) {
+      text += fmt::format("{}={}\n", in_quotes(name), in_quotes(value));
+    }
+  }
+  text += request.output.empty() ? fmt::format("row {}", piece.number)
+                                 : fmt::format("output {}", request.output);
+  return digest(text);
 }
 
 // --- Writing ----------------------------------------------------------------
@@ -213,7 +232,7 @@ Ledger::Ledger(const LedgerOptions& options, const FileAccess& access)
 bool Ledger::stands(const Piece& piece) const {
   if (!index_) return false;
   const LedgerIndex::Entry entry =
-      index_->find(piece, asked_key(piece, options_.asked));
+      index_->find(asked_key(piece, options_.asked));
   return entry.state == State::kDone &&
          is_as_noted(piece.request.output, entry, access_);
 }
@@ -239,6 +258,7 @@ void Ledger::note(const Piece& piece, const Outcome& outcome,
                {"memory", 0},
                {"bytes", made.bytes},
                {"digest", made.digest},
+               {"error", outcome.error.substr(0, kLongestError)},
                {"messages", lines_of(messages)}};
   const std::lock_guard lock(mutex_);
   json["memory"] = memory_;
@@ -253,7 +273,7 @@ std::string Ledger::read_key(const compiler::Compilation& compilation) {
   Json files = Json::array();
   for (const std::string& path : paths) {
     if (has_changed_since(compilation.begin, path)) return kChangedMeanwhile;
-    files.push_back({path, files_.digest_of(path)});
+    files.push_back({json_of_path(path), files_.digest_of(path)});
   }
   std::string key = digest(line_of(files));
   const std::lock_guard lock(mutex_);

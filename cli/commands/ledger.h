@@ -8,10 +8,10 @@
 //      "key": "3f….9a…", "status": "done", "seconds": 0.025, …}
 //
 // The key of a piece has two halves. What was asked: version, options, the
-// row's values. What was read: the design and all files on which its output
-// depends. Only the run knows which these were, so a line of their own names
-// them, before the first piece that read just these. A piece stands if both
-// halves are those of today and its output is there, byte for byte.
+// row's values, its output. What was read: the design and all files on which
+// its output depends. Only the run knows which these were, so a line of their
+// own names them, before the first piece that read just these. A piece stands
+// if both halves are those of today and its output is there, byte for byte.
 //
 // A ledger only grows. Lines of pieces whose files are others today count no
 // more; of the others of a piece the last one that says "done" counts, or else
@@ -76,7 +76,7 @@ class LedgerIndex {
 
   enum class State : std::uint8_t { kUnknown, kDone, kFailed };
   struct Entry {
-    std::uint64_t piece = 0;   // fingerprint of output and what was asked
+    std::uint64_t piece = 0;   // fingerprint of what was asked
     std::uint64_t output = 0;  // fingerprint of the output's digest
     std::uint64_t bytes = 0;   // of the output
     std::uint32_t times = 0;   // how often it was done
@@ -86,10 +86,15 @@ class LedgerIndex {
   // Of a piece of which there is no line, or whose files are others today, the
   // state is kUnknown.
   //
-  // asked  as of asked_key()
-  Entry find(const Piece& piece, const std::string& asked) const;
+  // asked_key  as of the function
+  Entry find(const std::string& asked_key) const;
+
+  struct Failure {
+    std::string error;
+    std::vector<std::string> messages;
+  };
   // Of a piece that failed; of very many, not all are kept.
-  std::vector<std::string> messages_of(const Entry& entry) const;
+  Failure failure_of(const Entry& entry) const;
 
   std::uint64_t torn_lines() const { return torn_lines_; }
   double seconds() const { return seconds_; }
@@ -101,7 +106,7 @@ class LedgerIndex {
   FileDigests files_;
   std::set<std::string> standing_;  // digests of files that are as they were
   std::vector<Entry> entries_;
-  std::map<std::uint64_t, std::vector<std::string>> messages_;
+  std::map<std::uint64_t, Failure> failures_;  // by pieces
   std::uint64_t torn_lines_ = 0;
   double seconds_ = 0;
   std::uint64_t peak_memory_bytes_ = 0;
@@ -111,7 +116,8 @@ class LedgerIndex {
 bool is_as_noted(const std::string& output, const LedgerIndex::Entry& entry,
                  const FileAccess& access);
 
-// The first half of a piece's key.
+// The first half of a piece's key, by which it is known again. Names in a line
+// are for people: what of them is no UTF-8 is replaced there.
 //
 // options  what was asked of all pieces, as text
 std::string asked_key(const Piece& piece, const std::string& options);

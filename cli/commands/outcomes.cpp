@@ -15,10 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Status = Outcome::Status;
 
-std::string first_line(const std::string& text) {
-  return text.substr(0, text.find('\n'));
-}
-
 // "2 warnings; 1 island": what a row says at its end.
 std::string notes_of(const compiler::Report& report) {
   std::string text;
@@ -99,7 +95,7 @@ Outcomes::Entry Outcomes::describe(const Piece& piece,
   if (outcome.status == Status::kStood) return {outcome.status, "", "", ""};
   Entry entry{outcome.status, "", "", ""};
   if (count_ <= kMostRows || !outcome.is_done()) {
-    entry.name = on_one_line(piece.name);
+    entry.name = short_name(piece.name);
     entry.row = row_of(outcome);
   }
   if (csv_) entry.report = csv_of(piece, outcome);

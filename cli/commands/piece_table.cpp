@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,7 +32,7 @@ struct Row {
   std::uint32_t line = 0;    // 0: none
   std::string name;          // empty: it has none
   std::string definitions;
-  std::string parameter_set;
+  std::optional<ParameterSet> parameters;
   std::string output;
   std::string fault;
 };
@@ -50,7 +52,7 @@ void complete(Row& row, const Work& work) {
   try {
     work();
   } catch (const Error& error) {
-    row.fault = error.what();
+    row.fault = error.diagnostic().message;
     row.output.clear();
   }
 }
@@ -115,6 +117,16 @@ Variables variables_of(const compiler::Request& request,
   return find_variables(loader.load(request.design), loader);
 }
 
+// Whether it is the name of a variable such as $fn, which a design need not
+// mention. What else begins with '$' may be code.
+bool is_special_variable(std::string_view name) {
+  return name.size() > 1 && name[0] == '$' &&
+         std::all_of(name.begin() + 1, name.end(), [](char c) {
+           return c == '_' || (c >= '0' && c <= '9') ||
+                  (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+         });
+}
+
 struct Column {
   std::string name;
   std::optional<ast::ValueType> variable;  // that it sets
@@ -127,7 +139,7 @@ std::string name_fault(const std::string& column, const Work& work) {
   try {
     return work();
   } catch (const FileError& error) {
-    throw FileError(fmt::format("{}: {}", column, error.what()));
+    throw FileError(fmt::format("{}: {}", column, error.diagnostic().message));
   }
 }
 
@@ -179,15 +191,16 @@ class CsvRows : public Rows {
                                            : DecimalSign::kPointOrComma;
     const SourceRange header = reader_->range_of_row();
     for (const std::string& name : cells_.cells) {
-      check_repeated(header, name);
+      const bool is_new = places_.emplace(name, columns_.size()).second;
       columns_.push_back({name, kind_of(name, variables)});
+      if (!is_new) refuse_repeated(header, name);
       const bool is_of_use = columns_.back().variable || name == kNameColumn ||
                              words_.contains(name) ||
                              options_.skipped.contains(name);
       if (!is_of_use) refuse_column(header, name);
     }
     for (const std::string& word : words_) {
-      if (word == kRowWord || find_column(word) != nullptr) continue;
+      if (word == kRowWord || places_.contains(word)) continue;
       diagnostics_.error({},
                          fmt::format("'{}' in '{}' is no column of '{}'", word,
                                      options_.request.output, options_.table));
@@ -200,7 +213,7 @@ class CsvRows : public Rows {
     if (options_.skipped.contains(name)) return std::nullopt;
     const auto variable = variables.find(name);
     if (variable != variables.end()) return variable->second;
-    if (name.starts_with('$')) return ast::ValueType::kAny;
+    if (is_special_variable(name)) return ast::ValueType::kAny;
     return std::nullopt;
   }
 
@@ -215,17 +228,9 @@ class CsvRows : public Rows {
                     name, options_.request.design));
   }
 
-  void check_repeated(SourceRange header, const std::string& name) {
-    if (find_column(name) == nullptr) return;
+  void refuse_repeated(SourceRange header, const std::string& name) {
     diagnostics_.error(header,
                        fmt::format("two columns are called '{}'", name));
-  }
-
-  const Column* find_column(const std::string& name) const {
-    const auto found =
-        std::find_if(columns_.begin(), columns_.end(),
-                     [&](const Column& c) { return c.name == name; });
-    return found == columns_.end() ? nullptr : &*found;
   }
 
   void check_width() const {
@@ -243,10 +248,10 @@ class CsvRows : public Rows {
 
   // Empty where the row has no such cell.
   std::string cell_of(const std::string& name) const {
-    const Column* column = find_column(name);
-    if (column == nullptr) return "";
-    const auto index = static_cast<std::size_t>(column - columns_.data());
-    return index < cells_.cells.size() ? cells_.cells[index] : "";
+    const auto place = places_.find(name);
+    return place != places_.end() && place->second < cells_.cells.size()
+               ? cells_.cells[place->second]
+               : "";
   }
 
   std::string definitions() const {
@@ -266,7 +271,7 @@ class CsvRows : public Rows {
   std::string output() const {
     return fill_pattern(
         options_.request.output, [&](const std::string& word) -> std::string {
-          if (word == kRowWord && find_column(word) == nullptr) {
+          if (word == kRowWord && !places_.contains(word)) {
             return fmt::format("{}", number_);
           }
           return name_fault(
@@ -283,6 +288,7 @@ class CsvRows : public Rows {
   std::optional<CsvReader> reader_;
   DecimalSign decimal_ = DecimalSign::kPoint;
   std::vector<Column> columns_;
+  std::map<std::string, std::size_t> places_;  // of columns, by their names
   CsvRow cells_;  // read last
   std::uint64_t number_ = 0;
 };
@@ -292,7 +298,7 @@ class SetRows : public Rows {
  public:
   SetRows(const TableOptions& options, const FileAccess& access,
           Diagnostics& diagnostics)
-      : options_(options), names_(parameter_set_names(options.table, access)) {
+      : options_(options), sets_(ParameterSets::read(options.table, access)) {
     for (const std::string& word : words_of_pattern(options.request.output)) {
       if (word == kRowWord || word == kNameColumn) continue;
       diagnostics.error(
@@ -303,11 +309,12 @@ class SetRows : public Rows {
   }
 
   bool next(Row& row) override {
-    if (number_ == names_.size()) return false;
+    if (number_ == sets_.size()) return false;
     row = {};
-    row.name = row.parameter_set = names_[number_];
+    row.name = sets_.name_of(number_);
     row.number = ++number_;
     complete(row, [&] {
+      row.parameters = sets_.values_of(row.number - 1);
       row.output =
           fill_pattern(options_.request.output, [&](const std::string& word) {
             return word == kRowWord ? fmt::format("{}", row.number)
@@ -321,7 +328,7 @@ class SetRows : public Rows {
 
  private:
   const TableOptions& options_;
-  const std::vector<std::string> names_;
+  const ParameterSets sets_;
   std::uint64_t number_ = 0;
 };
 
@@ -359,7 +366,9 @@ class PieceTable : public PieceSource {
     if (all == 0) {
       diagnostics.error({},
                         options_.table.ends_with(".json")
-                            ? fmt::format("'{}' has no sets", options_.table)
+                            ? fmt::format("'{}' has no sets of OpenSCAD's "
+                                          "customizer",
+                                          options_.table)
                             : fmt::format("'{}' has no rows below its header",
                                           options_.table));
     }
@@ -373,10 +382,10 @@ class PieceTable : public PieceSource {
  private:
   // "orders.csv:17: ring-17: "
   std::string prefix_of(const Row& row) const {
-    std::string prefix = options_.table;
+    std::string prefix = short_name(options_.table);
     if (row.line > 0) prefix += fmt::format(":{}", row.line);
     prefix += ": ";
-    if (!row.name.empty()) prefix += on_one_line(row.name) + ": ";
+    if (!row.name.empty()) prefix += short_name(row.name) + ": ";
     return prefix;
   }
 
@@ -385,10 +394,7 @@ class PieceTable : public PieceSource {
     piece.request = options_.request;
     piece.request.definitions += row.definitions;
     piece.request.output = row.output;
-    if (!row.parameter_set.empty()) {
-      piece.request.parameter_file = options_.table;
-      piece.request.parameter_set = row.parameter_set;
-    }
+    piece.request.parameters = row.parameters;
     piece.name = row.name.empty() ? fmt::format("{}", row.number) : row.name;
     piece.prefix = prefix_of(row);
     piece.number = row.number;

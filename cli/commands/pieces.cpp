@@ -141,7 +141,9 @@ class Workshop {
     const int status = session.run([&] {
       if (!piece.fault.empty()) throw GeometryError(piece.fault);
       make_folder_of(request.output, context_.file_access());
-      return compiler::compile(compilation) ? kDone : kFault;
+      // Where a design failed, openscad's texts end well; a piece does not.
+      return compiler::compile(compilation) && !compilation.has_failed ? kDone
+                                                                       : kFault;
     });
     Outcome outcome;
     outcome.report = compilation.report;

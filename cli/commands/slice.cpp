@@ -13,6 +13,7 @@
 #include "cli/commands/pieces.h"
 #include "cli/commands/watch.h"
 #include "cli/options/design_options.h"
+#include "cli/options/option_values.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
@@ -69,8 +70,8 @@ Design:
   --check-parameter-ranges true|false
                       warn of numbers out of range [false]
   --hardwarnings      stop at the first warning
-  --strict            write nothing where there is a warning, whichever; so do
-                      batches and runs with --root
+  --strict            write nothing where there is a warning or an error,
+                      whichever; so do batches and runs with --root
   --no-strict         but not those with this option
   --language WORD     what OpenSCAD the design is written for: 2021 (2021.01),
                       2026, or auto: 2026 if 2021.01 cannot parse it [auto]
@@ -177,8 +178,8 @@ class SliceCommand : public Command {
 
   void add_options(CLI::App& app) override {
     app.add_option("design", designs_);
-    app.add_option("-o", request_.output)->type_name("file");
-    app.add_option("-d", request_.dependencies)->type_name("file");
+    add_name(app, "-o", "file", request_.output);
+    add_name(app, "-d", "file", request_.dependencies);
     app.add_flag("--watch", watches_);
     add_output_options(app, request_, output_);
     add_design_options(app, request_, is_quiet_);
@@ -238,6 +239,7 @@ class SliceCommand : public Command {
     if (is_folder()) {
       return fmt::format("{}{}.{}", request_.output, stem(design), extension());
     }
+    if (!is_pattern()) return request_.output;
     return fill_pattern(request_.output, [&](const std::string& word) {
       return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
     });
@@ -260,7 +262,7 @@ class SliceCommand : public Command {
       piece.request.design = design;
       piece.request.output = output_of(design);
       piece.name = design;
-      piece.prefix = fmt::format("{}: ", on_one_line(design));
+      piece.prefix = fmt::format("{}: ", short_name(design));
       piece.number = pieces.size();
     }
     Terminal terminal(is_quiet_);

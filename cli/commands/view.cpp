@@ -293,7 +293,7 @@ class ViewCommand : public Command {
 
   void add_options(CLI::App& app) override {
     app.add_option("file", request_.design)->required();
-    app.add_option("-o", request_.output)->type_name("file")->required();
+    add_name(app, "-o", "file", request_.output)->required();
     add_choice(
         app, "--style", {"sheet", "stack"}, [this](const std::string& style) {
           options_.style = style == "stack" ? Style::kStack : Style::kSheet;

@@ -39,15 +39,9 @@ void add_process_limits(CLI::App& app, ProcessLimits& limits) {
 }
 
 void add_access_limits(CLI::App& app, FileAccess::Limits& access) {
-  CLI::Option* const root = app.add_option("--root", access.root);
-  root->type_name("folder");
-  // An empty name, as of a variable that is not set, must not mean "no root".
-  root->check([](const std::string& folder) {
-    return folder.empty() ? "a folder was expected, not ''" : "";
-  });
-  make_repeatable(app.add_option("--allow-read", access.readable)
-                      ->type_name("folder")
-                      ->needs(root));
+  CLI::Option* const root = add_name(app, "--root", "folder", access.root);
+  make_repeatable(
+      add_name(app, "--allow-read", "folder", access.readable)->needs(root));
   app.add_flag("--no-import", access.refuses_data);
   // --watch looks at folders for as long as it runs, and --against runs a
   // program that knows no root.

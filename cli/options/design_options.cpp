@@ -68,9 +68,9 @@ void add_design_options(CLI::App& app, compiler::Request& request,
       app.add_option_function<std::vector<std::string>>("-D", define)
           ->type_name("NAME=VALUE"));
   CLI::Option* set = app.add_option("-P", request.parameter_set);
-  CLI::Option* file = app.add_option("-p", request.parameter_file);
+  CLI::Option* file = add_name(app, "-p", "file", request.parameter_file);
   set->type_name("set")->needs(file);
-  file->type_name("file")->needs(set);
+  file->needs(set);
   add_switch(app, "--check-parameters", request.checks_parameters);
   add_switch(app, "--check-parameter-ranges", request.checks_parameter_ranges);
   add_count(app, "--max-depth", csg::kMostNestedCalls, request.max_depth);
@@ -146,13 +146,13 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
 }
 
 void add_machine_options(CLI::App& app, compiler::Request& request) {
-  app.add_option("--printer", request.printer)->type_name("printer");
-  app.add_option("--material", request.material)->type_name("material");
+  add_name(app, "--printer", "printer", request.printer);
+  add_name(app, "--material", "material", request.material);
 }
 
 void add_output_options(CLI::App& app, compiler::Request& request,
                         OutputOptions& options) {
-  app.add_option("--export-format", options.export_format)->type_name("format");
+  add_name(app, "--export-format", "format", options.export_format);
   add_choice(
       app, "--cli", {"binary", "ascii"}, [&request](const std::string& word) {
         request.cli_encoding = word == "ascii" ? slicer::CliEncoding::kAscii
@@ -169,7 +169,7 @@ void add_output_options(CLI::App& app, compiler::Request& request,
                request.mirrors_x = axes != "y";
                request.mirrors_y = axes != "x";
              });
-  app.add_option("--report", options.report)->type_name("file");
+  add_name(app, "--report", "file", options.report);
   add_thin_width(app, request.settings.min_feature);
   add_layer_range(app, request.settings.written);
 }

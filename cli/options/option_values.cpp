@@ -45,6 +45,14 @@ slicer::LayerNumbers parse_layers(const std::string& text) {
   return range;
 }
 
+// Lets the option have no empty value.
+CLI::Option* refuse_empty(CLI::Option* option, const std::string& what) {
+  option->type_name(what);
+  return option->check([what](const std::string& text) {
+    return text.empty() ? fmt::format("a {} was expected, not ''", what) : "";
+  });
+}
+
 }  // namespace
 
 double require_number(const std::string& option, std::string_view text) {
@@ -82,6 +90,17 @@ CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
                       const std::function<void(const std::string&)>& use) {
   return app.add_option_function<std::string>(name, use)->type_name(value);
+}
+
+CLI::Option* add_name(CLI::App& app, const std::string& name,
+                      const std::string& what, std::string& target) {
+  return refuse_empty(app.add_option(name, target), what);
+}
+
+CLI::Option* add_name(CLI::App& app, const std::string& name,
+                      const std::string& what,
+                      std::vector<std::string>& targets) {
+  return refuse_empty(app.add_option(name, targets), what);
 }
 
 void make_repeatable(CLI::Option* option) {

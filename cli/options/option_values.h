@@ -52,6 +52,16 @@ CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
                       const std::function<void(const std::string&)>& use);
 
+// Adds an option that names something, such as a file; `what` is what messages
+// call it. An empty name, as of a variable that is not set, must not mean that
+// none was given.
+CLI::Option* add_name(CLI::App& app, const std::string& name,
+                      const std::string& what, std::string& target);
+// The same of names that follow each other.
+CLI::Option* add_name(CLI::App& app, const std::string& name,
+                      const std::string& what,
+                      std::vector<std::string>& targets);
+
 // Lets an option be given more than once, each time with one value.
 void make_repeatable(CLI::Option* option);
 

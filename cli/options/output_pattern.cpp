@@ -67,7 +67,11 @@ std::string fill_pattern(
         value_of_braces(pattern.substr(begin + 1, end - begin - 1), value_of);
     pattern.remove_prefix(end + 1);
   }
-  return text += pattern;
+  text += pattern;
+  if (text == "-") {
+    throw FileError("'-' is standard output and can be no file's name");
+  }
+  return text;
 }
 
 std::vector<std::string> words_of_pattern(std::string_view pattern) {

@@ -20,7 +20,8 @@ namespace lamina::cli {
 std::vector<std::string> words_of_pattern(std::string_view pattern);
 
 // The pattern with its words, and the braces around them, replaced. Throws
-// FileError where a word has a divisor and its value is no whole number.
+// FileError where a word has a divisor and its value is no whole number, or
+// where the result is '-': one of several outputs cannot be standard output.
 std::string fill_pattern(
     std::string_view pattern,
     const std::function<std::string(const std::string& word)>& value_of);

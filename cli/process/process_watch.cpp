@@ -92,12 +92,13 @@ void ProcessWatch::begin_to_look(std::uint64_t resident) {
   constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
   most_bytes_ = limits_.memory.bytes;
   if (most_bytes_ == 0) {
+    const std::uint64_t machine = machine_memory();
+    if (machine == 0) {
+      most_bytes_ = kUnknown;
+      return;
+    }
     most_bytes_ = static_cast<std::uint64_t>(
-        limits_.memory.share * static_cast<double>(machine_memory()));
-  }
-  if (most_bytes_ == 0) {
-    most_bytes_ = kUnknown;
-    return;
+        std::max(1.0, limits_.memory.share * static_cast<double>(machine)));
   }
   const std::uint64_t writable = writable_memory();
   rlimit limit{};

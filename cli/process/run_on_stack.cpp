@@ -165,7 +165,7 @@ int run_on_stack(TemporaryFiles& temporary_files, ProcessWatch& watch,
   if (!is_started) {
     end_process(temporary_files, kFault,
                 "error: the system grants no second thread, or no stack for "
-                "it (ulimit -u, -v)\n");
+                "it (ulimit -u, -d, -v)\n");
   }
   try {
     watch_over(signals, temporary_files, watch);

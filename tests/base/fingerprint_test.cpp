@@ -1,8 +1,10 @@
 #include "base/fingerprint.h"
 
+#include <algorithm>
 #include <random>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +15,21 @@ namespace {
 TEST(Fingerprint, IsThatOfXxh3) {
   EXPECT_EQ(fingerprint(""), 0x2D06800538D394C2U);
   EXPECT_EQ(digest(""), "99aa06d3014798d86001c324468d497f");
+}
+
+TEST(Digest, OfBlocksIsThatOfAllBytes) {
+  std::string bytes;
+  for (int i = 0; i < 10'000; ++i) bytes += static_cast<char>(i * i / 7);
+  for (const std::size_t size : {1U, 7U, 256U, 9'999U, 10'000U, 20'000U}) {
+    std::size_t offset = 0;
+    EXPECT_EQ(digest([&] {
+                const std::string_view block = std::string_view(bytes).substr(
+                    std::min(offset, bytes.size()), size);
+                offset += size;
+                return block;
+              }),
+              digest(bytes));
+  }
 }
 
 TEST(Fingerprint, DiffersForNamesThatDifferInOneDigit) {

@@ -31,6 +31,27 @@ TEST(NumberText, ValuesAndStreamsDifferInExponentsAndZero) {
   EXPECT_EQ(of_value(-999999), "-999999");
 }
 
+TEST(ShortName, IsAsLongAsAHundredCharacters) {
+  const auto times = [](int count, const std::string& word,
+                        std::string text = "") {
+    for (int i = 0; i < count; ++i) text += word;
+    return text;
+  };
+  for (const std::string character : {"a", "é", "€", "😀"}) {
+    EXPECT_EQ(short_name(times(100, character)), times(100, character));
+    EXPECT_EQ(short_name(times(101, character)),
+              times(100, character).append("…"));
+    EXPECT_EQ(short_name(times(100'000, character, "a")),
+              times(99, character, "a").append("…"));
+  }
+  EXPECT_EQ(short_name("a\nb\tc\xff"), "a\\u000Ab c\uFFFD");
+  EXPECT_EQ(short_name(""), "");
+}
+
+TEST(MessageText, HasNoLineThatCouldBeAMessage) {
+  EXPECT_EQ(message_text("a\nerror: b\n\x1b"), "a\n| error: b\n| \\u001B");
+}
+
 TEST(QuotedText, EscapesWhatALiteralCannotHold) {
   EXPECT_EQ(in_quotes("a\t\"b\"\\\n"), R"("a\t\"b\"\\\n")");
 }

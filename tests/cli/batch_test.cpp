@@ -263,6 +263,97 @@ TEST(Batch, MakesAPieceOfEveryParameterSet) {
   EXPECT_EQ(read_file(folder.file("3-thin.echo")), "ECHO: 2\n");
 }
 
+// What a pipe holds can be read once: each piece must know its set from that.
+TEST(Batch, ReadsAFileOfParameterSetsOnce) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; echo(size);");
+  folder.write("sets.json", R"({"parameterSets":
+      {"a": {"size": "4"}, "": {"size": "2"}, "a\u0000b": {}, "x": [1]}})");
+  const auto result = support::run_process(
+      {"bash", "-c",
+       std::string("mkfifo t.json; cat sets.json > t.json & timeout 60 ") +
+           LAMINA_PROGRAM + " batch a.scad --table t.json -o {row}.echo"},
+      folder.path());
+  EXPECT_EQ(result.status, 1) << result.errors;
+  EXPECT_TRUE(has(result.errors, "3 of 4 pieces done, 1 failed"))
+      << result.errors;
+  EXPECT_TRUE(has(result.errors,
+                  "t.json: x: error: Cannot apply Parameter Set 'x': 't.json' "
+                  "has no such set"))
+      << result.errors;
+  EXPECT_EQ(read_file(folder.file("1.echo")), "ECHO: 4\n");
+  EXPECT_EQ(read_file(folder.file("2.echo")), "ECHO: 2\n");
+  EXPECT_EQ(read_file(folder.file("3.echo")), "ECHO: 1\n");
+}
+
+TEST(Batch, TellsAllOfANameThatIsNone) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  folder.write("sets.json", R"({"parameterSets": {"a\u0000b": {}}})");
+  const auto result = run(
+      folder, {"batch", "a.scad", "--table", "sets.json", "-o", "{name}.echo"});
+  EXPECT_TRUE(has(result.errors,
+                  "'a\\u0000b' has a line break or another control character"))
+      << result.errors;
+}
+
+TEST(Batch, ALongNameLengthensNoMessageOfOthers) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; cube(size); if (size > 2) oops();");
+  std::string table = "name,size\n" + std::string(100'000, 'A') + ",3\n";
+  for (int i = 0; i < 50; ++i) table += fmt::format("n{},1\n", i);
+  folder.write("t.csv", table);
+  const auto result =
+      run(folder, {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc"});
+  EXPECT_TRUE(has(result.errors, "50 of 51 pieces done")) << result.errors;
+  EXPECT_LT(result.errors.size(), 20'000U);
+}
+
+TEST(Batch, NoneOfSeveralOutputsIsStandardOutput) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; cube(size);");
+  folder.write("-.scad", "cube(1);");
+  folder.write("t.csv", "name,size\n-,1\nb,2\n");
+  folder.write("s.json", R"({"parameterSets": {"-": {}, "c": {}}})");
+  for (const char* table : {"t.csv", "s.json"}) {
+    const auto result = run(folder, {"batch", "a.scad", "--table", table, "-o",
+                                     "{name}", "--export-format", "svg"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.output, "");
+    EXPECT_TRUE(has(result.errors, "-: error: '-' is standard output"))
+        << result.errors;
+    EXPECT_TRUE(has(result.errors, "1 of 2 pieces done")) << result.errors;
+  }
+  const auto result = run(
+      folder, {"./-.scad", "a.scad", "-o", "{name}", "--export-format", "svg"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.output, "");
+}
+
+TEST(Batch, AColumnIsNamedAndNoCode) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "size = 1; echo(size, $fn, $a);");
+  for (const char* column : {"$a=1;size=9;$b", "$", "$a b", "$fn\n", "$é"}) {
+    folder.write("t.csv", fmt::format("\"{}\"\n5\n", column));
+    const auto result = run(
+        folder, {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.echo"});
+    EXPECT_TRUE(has(result.errors, "is no variable of 'a.scad'"))
+        << result.errors;
+    EXPECT_FALSE(fs::exists(folder.file("1.echo")));
+  }
+  EXPECT_EQ(Echoes("echo($fn, $_a1);", "$fn,$_a1\n5,6\n").of_row(1),
+            "ECHO: 5, 6\n");
+}
+
+TEST(Batch, ColumnsMayFillARow) {
+  std::string header = "size";
+  for (int i = 0; i < 140'000; ++i) header += fmt::format(",${}", i);
+  EXPECT_EQ(Echoes("size = 1; echo(size, $139999);",
+                   header + "\n2" + std::string(139'999, ',') + ",3\n")
+                .of_row(1),
+            "ECHO: 2, 3\n");
+}
+
 // Makes a piece and fails at another. Returns the report.
 std::string report_of_two(const std::string& report) {
   const TemporaryFolder folder;

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -243,17 +244,47 @@ TEST_F(Ledgers, WhatWasAskedCounts) {
   EXPECT_EQ(count_standing(), 2);
 }
 
-TEST_F(Ledgers, ASetCountsByItsFile) {
+TEST_F(Ledgers, ASetCountsByItsValues) {
   folder_.write("a.scad", "size = 1; cube(size);");
   for (const char* size : {"6", "9"}) {
-    folder_.write(fmt::format("{}.json", size),
-                  fmt::format(R"({{"parameterSets": {{"s": {{"size": "{}"}}}},)"
-                              R"( "fileFormatVersion": "1"}})",
+    folder_.write("t.json",
+                  fmt::format(R"({{"parameterSets": {{"s": {{"size": "{}"}},)"
+                              R"( "other": {{"size": "3"}}}}}})",
                               size));
-    run(folder_, {"batch", "a.scad", "--table", fmt::format("{}.json", size),
-                  "-o", "out/{name}.csg", "--ledger", "l", "--resume"});
+    const auto result =
+        run(folder_, {"batch", "a.scad", "--table", "t.json", "-o",
+                      "out/{name}.csg", "--ledger", "l", "--resume"});
     EXPECT_TRUE(has(outputs("out")["s.csg"], size));
+    EXPECT_EQ(has(result.errors, "(1 of them before)"),
+              std::string(size) == "9")
+        << result.errors;
   }
+}
+
+TEST_F(Ledgers, KnowNamesThatAreNoUtf8) {
+  write_orders(3);
+  folder_.write("caf\xe9.scad", "module part(s) { cube(s); }");
+  folder_.write("a.scad", "include <caf\xe9.scad>\nsize = 1; part(size);");
+  const Words out = {"-o", "caf\xe9/{name}.csg"};
+  count_standing(out);
+  EXPECT_EQ(count_standing(out), 3);
+  EXPECT_EQ(batch({"-o", out[1], "--collect", "l"}).status, 0);
+  // Another folder of the same letters, once what is no UTF-8 is replaced.
+  EXPECT_EQ(count_standing({"-o", "caf\xe8/{name}.csg"}), 0);
+  folder_.write("caf\xe9.scad", "module part(s) { sphere(s); }");
+  EXPECT_EQ(count_standing(out), 0);
+}
+
+TEST_F(Ledgers, AFileIsReadAgainThoughItsTimeWasSetBack) {
+  const std::string path = folder_.write("a", "1");
+  FileDigests digests(kAllFiles);
+  const std::string before = digests.digest_of(path);
+  const auto time = fs::last_write_time(path);
+  // Longer than the system's clock of files stands still.
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  folder_.write("a", "2");
+  fs::last_write_time(path, time);
+  EXPECT_NE(digests.digest_of(path), before);
 }
 
 TEST_F(Ledgers, AFolderOfImagesStandsWithAllOfThem) {
@@ -344,7 +375,7 @@ TEST_F(Ledgers, TogetherTellWhatIsMissingFailedAndTwice) {
                                               {9, "missing"}}));
   const auto result = batch({"--collect", "1", "2"});
   EXPECT_TRUE(has(result.errors, "t.csv:4: p3: missing\n")) << result.errors;
-  EXPECT_TRUE(has(result.errors, "t.csv:6: p5: error: size: a number"));
+  EXPECT_TRUE(has(result.errors, "t.csv:6: p5: failed: size: a number"));
 
   write_orders(9);
   batch({"--shard", "3/3", "--ledger", "3"});
@@ -367,6 +398,32 @@ TEST_F(Ledgers, TogetherSeeOutputsThatHoldSomethingElse) {
   EXPECT_EQ(collect({"l"}, 1).at("missing"), 1);
 }
 
+TEST_F(Ledgers, TogetherReadNoOutputThatIsLongerThanNoted) {
+  write_orders(2);
+  batch({"--ledger", "l"});
+  fs::resize_file(folder_.file("out/p2.csg"), std::uintmax_t{1} << 36);
+  EXPECT_EQ(collect({"l"}, 1).at("missing"), 1);
+  EXPECT_EQ(count_standing(), 1);
+  EXPECT_EQ(collect({"l"}, 0).at("done"), 2);
+}
+
+TEST_F(Ledgers, TogetherTellTheFaultAndNotWhatWasSaidBefore) {
+  write_orders(2);
+  folder_.write("a.scad",
+                "size = 1; for (i = [0 : 500]) echo(str(\"all is well\", i));"
+                "cube(size); assert(size < 2, \"too big\");");
+  batch({"--ledger", "loud"});
+  batch({"--ledger", "quiet", "-q"});
+  for (const char* ledger : {"loud", "quiet"}) {
+    const auto sum = collect({ledger}, 1);
+    EXPECT_TRUE(has(sum.at("pieces")[0].at("error"), "too big")) << sum;
+    const auto result = batch({"--collect", ledger});
+    EXPECT_TRUE(has(result.errors, "t.csv:3: p2: failed: Assertion"))
+        << result.errors;
+    EXPECT_FALSE(has(result.errors, "well")) << result.errors;
+  }
+}
+
 TEST_F(Ledgers, LinesOfAnEarlierDesignHideNoneOfTodays) {
   write_orders(2);
   batch({"--ledger", "z"});
@@ -384,17 +441,12 @@ TEST_F(Ledgers, TornAtAnyByteKeepTheirWholeLines) {
   write_orders(3);
   batch({"--ledger", "l"});
   const std::string whole = read_file(folder_.file("l"));
-  std::vector<Piece> pieces(3);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    pieces[i].request.output = fmt::format("out/p{}.csg", i + 1);
-    pieces[i].number = i + 1;
-  }
-  std::map<std::string, std::string> asked;  // by output
+  std::set<std::string> asked;  // of all pieces
   std::istringstream lines(whole);
   for (std::string line; std::getline(lines, line);) {
     const auto json = nlohmann::json::parse(line);
     if (json.contains("key")) {
-      asked[json["output"]] = json["key"].get<std::string>().substr(0, 32);
+      asked.insert(json["key"].get<std::string>().substr(0, 32));
     }
   }
   fs::current_path(folder_.path());  // where the files of the ledger lie
@@ -402,10 +454,10 @@ TEST_F(Ledgers, TornAtAnyByteKeepTheirWholeLines) {
     LedgerIndex index(kAllFiles);
     index.read("torn", kAllFiles.open("torn"));
     index.close();
-    return std::count_if(pieces.begin(), pieces.end(), [&](const Piece& piece) {
-      return index.find(piece, asked.at(piece.request.output)).state ==
-             LedgerIndex::State::kDone;
-    });
+    return std::count_if(
+        asked.begin(), asked.end(), [&](const std::string& key) {
+          return index.find(key).state == LedgerIndex::State::kDone;
+        });
   };
   for (std::size_t size = 0; size <= whole.size(); ++size) {
     folder_.write("torn", whole.substr(0, size));

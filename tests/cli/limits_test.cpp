@@ -317,6 +317,15 @@ TEST(MaxMemory, LeavesStacksToManyThreads) {
   }
 }
 
+TEST(MaxMemory, OfAnyShareIsALimit) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", kEndless);
+  const auto result = run(folder, {"a.scad", "--max-memory", "0.0000000000001%",
+                                   "--max-time", "60"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "out of memory")) << result.errors;
+}
+
 // What the system grants is never exceeded for them.
 TEST(MaxMemory, OfTheSystemStaysForManyThreads) {
   const TemporaryFolder folder;
@@ -348,14 +357,15 @@ TEST(MaxMemory, OfTheSystemIsNamed) {
 TEST(MaxMemory, OfTheSystemMayDenyAThreadItsStack) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");
-  for (const int kib : {36000, 40000, 72000, 140000}) {
+  for (const int kib : {1000, 36000, 40000, 72000, 140000}) {
     const auto result = support::run_process(
         {"bash", "-c",
          fmt::format("ulimit -d {}; exec {} a.scad -o a.slc --threads 2", kib,
                      LAMINA_PROGRAM)},
         folder.path());
     EXPECT_LE(result.status, 1);
-    EXPECT_EQ(result.status == 1, has(result.errors, "(ulimit -"))
+    EXPECT_EQ(result.status == 1,
+              has(result.errors, "(ulimit -") && has(result.errors, "-d"))
         << result.errors;
     EXPECT_FALSE(has(result.errors, "internal error")) << result.errors;
   }

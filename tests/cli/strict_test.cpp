@@ -142,6 +142,62 @@ TEST_F(Strict, IsTheRuleInBatches) {
             0);
 }
 
+// A design's error, which is no warning, in each of the formats.
+TEST_F(Strict, WhatFailedIsWrittenInNoFormat) {
+  const auto expect_nothing = [&](std::vector<std::string> words) {
+    const std::string output = words.back();
+    words.insert(words.end(), {"-q", "--strict"});
+    const ProcessResult result = run(folder_, words);
+    EXPECT_EQ(result.status, 1) << output << result.errors;
+    EXPECT_NE(result.errors.find("error: "), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder_.file(output))) << output;
+  };
+  folder_.write("d.scad", "x = 1; cube(x); assert(false);");
+  folder_.write("s.json", R"({"parameterSets": {"s": 5}})");
+  for (const char* format : {"csg", "echo", "ast", "param", "slc"}) {
+    const std::string output = std::string("d.") + format;
+    for (const char* set : {"s", "nope"}) {
+      expect_nothing({"d.scad", "-p", "s.json", "-P", set, "-o", output});
+    }
+    if (output == "d.ast" || output == "d.param") continue;
+    expect_nothing({"d.scad", "-o", output});
+  }
+  folder_.write("broken.dxf", "0\nSECTION\n2\nENTITIES\nx\n");
+  folder_.write("d.scad", "cube(1); linear_extrude(1) import(\"broken.dxf\");");
+  expect_nothing({"d.scad", "-o", "d.slc"});
+}
+
+TEST_F(Strict, WhatFailedIsNoPieceThatIsDone) {
+  folder_.write("b.scad", "n = 1; cube(n); assert(n < 2, \"too big\");");
+  folder_.write("t.csv", "n\n1\n2\n");
+  folder_.write("t.json", R"({"parameterSets": {"1": {"n": "1"}, "2": 5}})");
+  for (const char* table : {"t.csv", "t.json"}) {
+    for (const char* format : {"csg", "echo"}) {
+      for (const char* strictness : {"--strict", "--no-strict"}) {
+        const std::string output = std::string("{row}.") + format;
+        const std::string ledger = output + table + strictness;
+        const auto make = [&] {
+          return run(folder_,
+                     {"batch", "b.scad", "--table", table, "-o", output,
+                      strictness, "--ledger", ledger, "--resume"});
+        };
+        ProcessResult result = make();
+        EXPECT_EQ(result.status, 1) << ledger;
+        EXPECT_NE(result.errors.find("1 of 2 pieces done, 1 failed"),
+                  std::string::npos)
+            << result.errors;
+        result = make();
+        EXPECT_NE(
+            result.errors.find("1 of 2 pieces done (1 of them before), 1 fail"),
+            std::string::npos)
+            << result.errors;
+        std::filesystem::remove(folder_.file(std::string("1.") + format));
+        std::filesystem::remove(folder_.file(std::string("2.") + format));
+      }
+    }
+  }
+}
+
 TEST_F(Strict, FilesInOtherUnits) {
   folder_.write("d.scad", "scale(0.001) cube([20, 10, 200]);\n");
   expect_warning({"d.scad", "--layer", "0.01"},

@@ -136,6 +136,19 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.abc"},
       {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc", "-p", "s.json",
        "-P", "a"},
+      {"a.scad", "-o", ""},
+      {"a.scad", "-d", ""},
+      {"a.scad", "--report", ""},
+      {"a.scad", "--printer", ""},
+      {"a.scad", "--material", ""},
+      {"a.scad", "--export-format", ""},
+      {"a.scad", "--root", ""},
+      {"compare", "a.scad", "--png", ""},
+      {"view", "a.scad", "-o", ""},
+      {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc", "--ledger",
+       ""},
+      {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc", "--collect",
+       ""},
       {"view", "a.scad", "-o", "a.jpg"},
       {"view", "a.scad"},
       {"inspect"},
@@ -183,6 +196,15 @@ TEST(Usage, NamesAreData) {
   EXPECT_EQ(both.status, 0);
   EXPECT_TRUE(is_clean(both.errors)) << both.errors;
   EXPECT_TRUE(is_clean(run(folder, {"--no\x1b[2J"}).errors));
+  const auto refused = run(folder, {"x\x1b\nerror: forged.slc"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(is_clean(refused.errors)) << refused.errors;
+  const std::string table = "t\x1b[2J\xff\nerror: forged.csv";
+  folder.write(table, "size\nx\n1\n");
+  const auto rows =
+      run(folder, {"batch", "size.scad", "--table", table, "-o", "{row}.svg"});
+  EXPECT_EQ(rows.status, 1);
+  EXPECT_TRUE(is_clean(rows.errors)) << rows.errors;
   EXPECT_EQ(run(folder, {"view", name, "-o", "page.html"}).status, 0);
   const std::string page = support::read_file(folder.file("page.html"));
   EXPECT_TRUE(is_valid_utf8(page));

@@ -20,13 +20,13 @@ constexpr const char* kDesign =
     "text = \"a\";\ntruth = true;\nnumber = 1;\nvector = [1, 2];\n"
     "range = [0 : 1 : 2];\n";
 
-void set_parameters(const std::string& path, const std::string& set) {
+void set_parameters(const ParameterSet& set) {
   SourceStore sources;
   Diagnostics diagnostics;
   Loader loader(sources, diagnostics, {});
   ast::Program program = loader.load_text("x.scad", kDesign);
   for (const Language language : {Language::k2021, Language::k2026}) {
-    apply_parameter_set(path, set, program, language, diagnostics);
+    apply_parameter_set(set, program, language, diagnostics);
   }
   ast::print(program);
 }
@@ -37,10 +37,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   const std::string path =
       fuzz::write_input("input.json", fuzz::as_text(data, size));
-  set_parameters(path, "");
   try {
-    for (const std::string& set : parameter_set_names(path))
-      set_parameters(path, set);
+    const ParameterSets sets = ParameterSets::read(path);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      try {
+        set_parameters(sets.values_of(i));
+      } catch (const FileError&) {  // it is no set
+      }
+    }
   } catch (const FileError&) {
   }
   return 0;

@@ -48,6 +48,7 @@ TEST(Cell, IsTextElse) {
   EXPECT_EQ(value("undef"), "\"undef\"");
   EXPECT_EQ(value("1,5"), "\"1,5\"");
   EXPECT_EQ(value("\"Ada\" and \"Bea\""), R"("\"Ada\" and \"Bea\"")");
+  EXPECT_EQ(value("\"a\"//\""), R"("\"a\"//\"")");
   EXPECT_EQ(value("a\\b\n"), R"("a\\b\n")");
   EXPECT_EQ(value("\"a\"; cube(1); x = \"b\""),
             R"("\"a\"; cube(1); x = \"b\"")");
@@ -75,7 +76,8 @@ TEST(Cell, HasTheKindOfTheVariable) {
 
 TEST(Cell, IsAVectorAsAWholeOrNotAtAll) {
   for (const char* const cell :
-       {"[1", "[1]]", "[x]", "[1] + [2]", "[1]; cube(1); y = [2]"}) {
+       {"[1", "[1]]", "[x]", "[1] + [2]", "[1]; cube(1); y = [2]", "[1, 2]//",
+        "[1, 2] // c", "[1] /*"}) {
     EXPECT_TRUE(is_refused(cell, kAny, "a vector such as [1, 2.5] was"))
         << cell;
   }

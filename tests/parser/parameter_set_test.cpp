@@ -19,8 +19,13 @@ class Applied {
           const std::string& set = "s", Language language = Language::k2021)
       : parsed_(design), program_(parsed_.program()) {
     folder_.write("f.json", file);
-    is_good_ = apply_parameter_set(folder_.file("f.json"), set, program_,
-                                   language, messages_);
+    try {
+      is_good_ = apply_parameter_set(
+          ParameterSets::read(folder_.file("f.json")).values_of(set), program_,
+          language, messages_);
+    } catch (const FileError& fault) {
+      messages_.report(fault.diagnostic());
+    }
   }
 
   bool is_good() const { return is_good_; }
@@ -97,7 +102,9 @@ TEST(ParameterSet, MustBeThere) {
   EXPECT_TRUE(Applied("x = 1;", set_of("")).is_good());
   for (const char* file :
        {"{}", "[]", "1", R"({"parameterSets": {}})",
-        R"({"parameterSets": [{"s": {"x": 1}}]})", R"({"s": {"x": 1}})"}) {
+        R"({"parameterSets": [{"s": {"x": 1}}]})", R"({"s": {"x": 1}})",
+        R"([{"s": {"x": 1}}])", R"({"parameterSets": {"s": ["x"]}})",
+        R"({"parameterSets": {"a": {"s": {"x": 1}}, "s": 1}})"}) {
     const Applied applied("x = 1;", file);
     EXPECT_FALSE(applied.is_good()) << file;
     EXPECT_NE(applied.message().find("has no such set"), std::string::npos)
@@ -111,6 +118,32 @@ TEST(ParameterSet, NamesTheLineOfBadJson) {
   EXPECT_NE(applied.message().find("f.json(2): syntax error"),
             std::string::npos)
       << applied.message();
+}
+
+TEST(ParameterSets, AreThoseOfTheFileInItsOrder) {
+  const support::TemporaryFolder folder;
+  folder.write("f.json", R"({"fileFormatVersion": "1", "parameterSets": {
+      "z": {"b": "", "a": 1.50, "n": {"b": "no"}, "v": ["no", {"b": "no"}]},
+      "five": 5, "": {}, "a": {"a": true, "b": "c\u0000d"}, "z": {"b": "2"}},
+      "other": {"x": {"y": "z"}}})");
+  const ParameterSets sets = ParameterSets::read(folder.file("f.json"));
+  const auto values = [&](const auto& which) {
+    std::string text;
+    for (const auto& [name, value] : sets.values_of(which)) {
+      text += name + "=" + value + ";";
+    }
+    return text;
+  };
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    names.push_back(sets.name_of(i));
+  EXPECT_EQ(names, (std::vector<std::string>{"z", "five", "", "a", "z"}));
+  EXPECT_EQ(values(std::size_t{0}), "b=;a=1.50;n=;v=;");
+  EXPECT_THROW(values(std::size_t{1}), FileError);
+  EXPECT_EQ(values(std::size_t{2}), "");
+  EXPECT_EQ(values("a"), std::string("a=true;b=c\0d;", 13));
+  EXPECT_EQ(values(std::size_t{4}), "b=2;");
+  EXPECT_EQ(values("z"), values(std::size_t{0}));
 }
 
 // --- Rules of the customizer -------------------------------------------------
