@@ -319,18 +319,24 @@ bool Reader::is_group(const Object& object) {
 }
 
 Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
-  if (is_flat(object) || document_.boundary_entry(object).empty())
-    return std::nullopt;
+  if (is_flat(object)) return std::nullopt;
+  const std::string_view stored = document_.boundary_entry(object);
+  if (stored.empty()) return std::nullopt;
   if (object.value("Solid") && makes_surface(object)) return std::nullopt;
   model_.notes.push_back(fmt::format("{} is taken by its boundary{}{}",
                                      shown(object), why.empty() ? "" : ": ",
                                      why));
-  ImportParams params;
-  params.path = options_.path;
-  params.format = ImportFormat::kFcstd;
-  params.entry = maker_.keep_text(document_.boundary_entry(object));
-  params.csg_text = maker_.keep_text(options_.boundary_text(object.name()));
-  return maker_.leaf(Import{maker_.keep(params)});
+  const auto [found, is_new] = boundaries_.try_emplace(stored);
+  if (is_new) {
+    ImportParams params;
+    params.path = options_.path;
+    params.format = ImportFormat::kFcstd;
+    params.entry = maker_.keep_text(stored);
+    params.boundary = maker_.keep_text(document_.unpack(stored));
+    params.csg_text = maker_.keep_text(options_.boundary_text(object.name()));
+    found->second = maker_.leaf(Import{maker_.keep(params)});
+  }
+  return found->second;
 }
 
 // --- Groups and links -------------------------------------------------------

@@ -120,6 +120,7 @@ class Reader {
   SolidMaker maker_;
   FreecadModel model_;
   std::map<const Object*, Entry> entries_;
+  std::map<std::string_view, Solid> boundaries_;  // by their entries
   std::vector<const Object*> hidden_;    // of those that were left out
   std::vector<const Object*> flat_;      // likewise
   std::vector<const Object*> used_;      // likewise, and visible
