@@ -91,8 +91,10 @@ TEST(ImportOfFreecadFiles, ShowsNamesOnOneLine) {
     const std::string path = folder.write("a.FCStd", document.bytes());
     const std::string message =
         message_of(fmt::format("import(\"{}\");", path));
-    const std::string words = message.substr(0, message.find(", importing"));
-    EXPECT_NE(words.find("error: FCStd"), std::string::npos) << message;
+    const std::size_t begin = message.find("error: FCStd");
+    ASSERT_NE(begin, std::string::npos) << message;
+    const std::string words =
+        message.substr(begin, message.find(", importing") - begin);
     EXPECT_EQ(words.find('\n'), std::string::npos) << message;
     EXPECT_EQ(words.find('\r'), std::string::npos) << message;
   }
