@@ -36,12 +36,19 @@ enum ExtrusionType { kLength = 0, kThrough = 1, kTwoLengths = 4 };
 // --- Chains -----------------------------------------------------------------
 
 Reader::Made Reader::make_body(const Object& object, std::string& why) {
-  const Made tip = make(object.link("Tip"));
-  if (!tip) {
-    why = "its tip is no solid";
+  const Object* const tip = document_.find(object.link("Tip"));
+  if (tip == nullptr) {
+    why = "it has no tip";
     return std::nullopt;
   }
-  return maker_.place(object.placement(), *tip);
+  const Made solid = make(*tip);
+  if (!solid) {
+    const std::string& its_why = entries_[tip].why;
+    why = fmt::format("its tip '{}' is no solid{}{}", tip->label(),
+                      its_why.empty() ? "" : ": ", its_why);
+    return std::nullopt;
+  }
+  return maker_.place(object.placement(), *solid);
 }
 
 Reader::Made Reader::make_base(const Object& object, std::string& why) {

@@ -150,7 +150,8 @@ TEST(Triangulate, NothingComesOpenWhereThePolygonCutsItself) {
   }
 }
 
-// A search for ears all around, for each of the corners, would take an hour.
+// A search for ears all around, for each of the corners, would take half an
+// hour.
 TEST(Triangulate, APolygonThatCutsItselfOften) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(0, 100);
