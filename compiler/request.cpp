@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/text.h"
 #include "slicer/formats/output_format.h"
 
 namespace lamina::compiler {
@@ -20,12 +21,8 @@ bool is_imported(const std::string& path) {
 }
 
 std::string import_of(const std::string& path) {
-  std::string text = "import(\"";
-  for (const char c : std::filesystem::path(path).filename().string()) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\");\n";
+  const std::string name = std::filesystem::path(path).filename().string();
+  return "import(" + in_quotes(name) + ");\n";
 }
 
 }  // namespace lamina::compiler

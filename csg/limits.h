@@ -27,8 +27,20 @@ constexpr double kMostHeights = 1 << 23;
 // Of a feature in a pattern of a FreeCAD file, which says so with one number.
 constexpr double kMostOccurrences = 100'000;
 
-// Of a region of the plane. A star of 3,001 points crosses itself 4.5 million
-// times.
+// Of groups that hold one object of a FreeCAD file; FreeCAD allows two.
+constexpr std::size_t kMostGroups = 100;
+
+// Of all entries of a FreeCAD file, unpacked: so many bytes, and no more for
+// each byte of the file. FreeCAD's own files swell to ten times their size.
+constexpr double kMostUnpackedBytes = 2147483648;
+constexpr double kMostSwelling = 50;
+
+// Elements and attributes of a text in a FreeCAD file; each takes up to 72
+// bytes of memory. Ten thousand objects have a million.
+constexpr std::size_t kMostXmlParts = 1 << 23;
+
+// Of a region of the plane, and of all outlines of a FreeCAD file together. A
+// star of 3,001 points crosses itself 4.5 million times.
 constexpr double kMostCorners = 1 << 22;
 
 // Up to here doubles are ten times finer than the distance at which faces tie,

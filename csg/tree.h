@@ -202,7 +202,8 @@ struct ImportParams {
   Language rules = Language::k2021;  // by which the file is read
   std::optional<std::string_view> id = std::nullopt;
   std::optional<std::string_view> layer = std::nullopt;
-  std::string_view entry;  // of a FreeCAD file: where a boundary is
+  std::string_view entry;     // of a FreeCAD file: where a boundary is
+  std::string_view boundary;  // and its bytes: the file is read once
   Vec2 origin = Vec2(0);
   bool center = false;
   double dpi = 72;

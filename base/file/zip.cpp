@@ -9,6 +9,7 @@
 #include <minizip/unzip.h>
 
 #include "base/file/format_error.h"
+#include "base/text.h"
 
 namespace lamina {
 namespace {
@@ -78,33 +79,42 @@ Archive open_archive(Stream& stream) {
 }  // namespace
 
 ZipArchive ZipArchive::open(std::string_view bytes) {
-  std::vector<std::string> names;
+  ZipArchive opened(bytes);
   Stream stream{bytes};
   const Archive archive = open_archive(stream);
   std::vector<char> name(UINT16_MAX);  // as long as any can be
   for (int status = unzGoToFirstFile(archive.get()); status == UNZ_OK;
        status = unzGoToNextFile(archive.get())) {
     unz_file_info64 info = {};
+    unz64_file_pos place = {};
     if (unzGetCurrentFileInfo64(archive.get(), &info, name.data(), name.size(),
-                                nullptr, 0, nullptr, 0) != UNZ_OK) {
+                                nullptr, 0, nullptr, 0) != UNZ_OK ||
+        unzGetFilePos64(archive.get(), &place) != UNZ_OK) {
       throw FormatError("ZIP archive has a broken directory");
     }
-    names.emplace_back(name.data(), info.size_filename);
+    opened.names_.emplace_back(name.data(), info.size_filename);
+    opened.places_.try_emplace(
+        opened.names_.back(),
+        Place{place.pos_in_zip_directory, place.num_of_file});
+    opened.unpacked_bytes_ += static_cast<double>(info.uncompressed_size);
   }
-  return {bytes, std::move(names)};
+  return opened;
 }
 
 std::optional<std::string> ZipArchive::read(const std::string& name) const {
+  const auto found = places_.find(name);
+  if (found == places_.end()) return std::nullopt;
+  const auto fail = [&name](std::string_view fault) {
+    throw FormatError(
+        fmt::format("ZIP entry '{}' {}", on_one_line(name), fault));
+  };
   Stream stream{bytes_};
   const Archive archive = open_archive(stream);
-  constexpr int kCaseCounts = 1;
-  if (unzLocateFile(archive.get(), name.c_str(), kCaseCounts) != UNZ_OK) {
-    return std::nullopt;
+  const unz64_file_pos place = {found->second.byte, found->second.number};
+  if (unzGoToFilePos64(archive.get(), &place) != UNZ_OK ||
+      unzOpenCurrentFile(archive.get()) != UNZ_OK) {
+    fail("cannot be unpacked");
   }
-  const auto fail = [&name](std::string_view fault) {
-    throw FormatError(fmt::format("ZIP entry '{}' {}", name, fault));
-  };
-  if (unzOpenCurrentFile(archive.get()) != UNZ_OK) fail("cannot be unpacked");
   const std::size_t most =
       std::min(kMostBytes, kChunk + kMostSwelling * bytes_.size());
   std::string contents;

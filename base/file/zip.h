@@ -1,10 +1,11 @@
 #pragma once
 // ZIP archives, which zipped AMF and 3MF files are.
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace lamina {
@@ -23,19 +24,30 @@ class ZipArchive {
   // The names of the entries, folders included, in the order of the directory.
   const std::vector<std::string>& names() const { return names_; }
 
+  // What all entries take unpacked, as the directory says; none unpacks to
+  // more.
+  double unpacked_bytes() const { return unpacked_bytes_; }
+
   // The contents of an entry; nothing where there is none of that name. Case
-  // counts.
+  // counts; of equal names the first one does.
   //
   // throws  FormatError where the entry is broken, or swells beyond what a
   //         model does: a few bytes may unpack to gigabytes
   std::optional<std::string> read(const std::string& name) const;
 
  private:
-  ZipArchive(std::string_view bytes, std::vector<std::string> names)
-      : bytes_(bytes), names_(std::move(names)) {}
+  // Where the directory lists an entry, in words of minizip.
+  struct Place {
+    std::uint64_t byte = 0;
+    std::uint64_t number = 0;
+  };
+
+  explicit ZipArchive(std::string_view bytes) : bytes_(bytes) {}
 
   std::string_view bytes_;
   std::vector<std::string> names_;
+  std::map<std::string, Place> places_;
+  double unpacked_bytes_ = 0;
 };
 
 }  // namespace lamina

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/file/format_error.h"
-#include "base/file/zip.h"
+#include "base/text.h"
 
 namespace lamina::csg {
 namespace {
@@ -19,30 +19,29 @@ cad::Format cad_format(ImportFormat format) {
 
 // With the entry of an archive as if that were a folder.
 std::string shown_name(const ImportParams& params) {
-  return params.entry.empty() ? std::string(params.path)
-                              : fmt::format("{}/{}", params.path, params.entry);
+  return params.entry.empty()
+             ? std::string(params.path)
+             : fmt::format("{}/{}", params.path, on_one_line(params.entry));
 }
 
-std::string unpack(std::string_view archive, const std::string& entry) {
-  auto bytes = ZipArchive::open(archive).read(entry);
-  if (!bytes) throw FormatError(fmt::format("FCStd holds no '{}'", entry));
-  return std::move(*bytes);
+// Of a file that is to be opened.
+std::string read_bytes(const ImportParams& params, const FileAccess& access,
+                       SourceRange range) {
+  auto bytes = access.read_regular(std::string(params.path));
+  if (bytes) return std::move(*bytes);
+  throw FileError({Severity::kError, range,
+                   fmt::format("Can't open import file '{}'", params.path)});
 }
 
 cad::Part read_part(const ImportParams& params, double chordal_error,
                     cad::Reader& reader, const FileAccess& access,
                     SourceRange range) {
-  const std::string path(params.path);
-  auto bytes = access.read_regular(path);
-  if (!bytes) {
-    throw FileError({Severity::kError, range,
-                     fmt::format("Can't open import file '{}'", path)});
-  }
+  const bool is_kept = params.format == ImportFormat::kFcstd;
+  const std::string file =
+      is_kept ? std::string() : read_bytes(params, access, range);
   try {
-    if (params.format == ImportFormat::kFcstd) {
-      bytes = unpack(*bytes, std::string(params.entry));
-    }
-    return reader.read(*bytes, cad_format(params.format),
+    return reader.read(is_kept ? params.boundary : file,
+                       cad_format(params.format),
                        {.chordal_error = chordal_error});
   } catch (const FormatError& fault) {
     throw GeometryError({Severity::kError, range,

@@ -3,10 +3,11 @@
 // The contours become one ring by walking from every hole to a visible vertex
 // and back; then convex corners without a vertex inside are cut off one by
 // one. Corners that could stand inside are looked for by place. Quadratic at
-// worst, linear where the outline is convex. What matters more: whatever the
-// ring looks like, n - 2 triangles leave it with every edge matched, so a
-// rounding error can misplace a triangle but never open a surface.
-// Source: Meisters 1975 (ears), Eberly 2002 (bridges to holes).
+// worst, linear where the outline is convex; of a ring that crosses itself
+// corners are cut untested once that has taken long. What matters more:
+// whatever the ring looks like, n - 2 triangles leave it with every edge
+// matched, so a rounding error can misplace a triangle but never open a
+// surface. Source: Meisters 1975 (ears), Eberly 2002 (bridges to holes).
 
 #include "csg/plane/triangulate.h"
 
@@ -77,9 +78,17 @@ class EarClipper {
     std::uint32_t left = count_and_find_reflex(start);
     std::uint32_t corner = start;
     std::uint32_t since_last_ear = 0;
+    // A ring that crosses itself has few ears, and to look for each round the
+    // whole ring would take the cube of its corners.
+    constexpr std::size_t kTestsOfACorner = 16;
+    std::size_t tests_left = kTestsOfACorner * left;
+    bool crosses_itself = false;
     while (left > 3) {
-      const bool is_stuck = since_last_ear > left;
-      if (is_stuck) corner = least_bad(corner);
+      const bool is_stuck = since_last_ear > left || tests_left == 0;
+      if (is_stuck && tests_left > 0) {
+        corner = least_bad(corner);
+        crosses_itself = crosses_itself || !is_flat(corner);
+      }
       if (is_stuck || is_spike(corner) || is_ear(corner)) {
         corner = cut(corner);
         --left;
@@ -87,6 +96,7 @@ class EarClipper {
       } else {
         corner = corners_[corner].next;
         ++since_last_ear;
+        if (crosses_itself) --tests_left;
       }
     }
     if (left == 3) cut(corner);
@@ -207,6 +217,12 @@ class EarClipper {
     const Corner& c = corners_[corner];
     return orientation(corners_[c.previous].point, c.point,
                        corners_[c.next].point) < 0;
+  }
+
+  bool is_flat(std::uint32_t corner) const {
+    const Corner& c = corners_[corner];
+    return orientation(corners_[c.previous].point, c.point,
+                       corners_[c.next].point) == 0;
   }
 
   std::uint32_t count_and_find_reflex(std::uint32_t start) {

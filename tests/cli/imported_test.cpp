@@ -15,15 +15,18 @@ constexpr char kTetrahedron[] =
     "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 
 TEST(Imported, AMeshIsSlicedAsTheDesignThatImportsIt) {
-  const TemporaryFolder folder;
-  folder.write("a \"b\".OFF", kTetrahedron);
-  folder.write("design.scad", R"(import("a \"b\".OFF");)");
-  const auto mesh = run(folder, {"a \"b\".OFF", "--scale", "1.5"});
-  ASSERT_EQ(mesh.status, 0) << mesh.errors;
-  EXPECT_EQ(mesh.errors.find("warning"), std::string::npos) << mesh.errors;
-  ASSERT_EQ(run(folder, {"design.scad", "--scale", "1.5"}).status, 0);
-  EXPECT_EQ(read_file(folder.file("a \"b\".slc")),
-            read_file(folder.file("design.slc")));
+  for (const std::string name : {"a \"b\"", "a\\b", "a\n\r\tb"}) {
+    const TemporaryFolder folder;
+    folder.write(name + ".OFF", kTetrahedron);
+    folder.write("plain.off", kTetrahedron);
+    folder.write("design.scad", R"(import("plain.off");)");
+    const auto mesh = run(folder, {name + ".OFF", "--scale", "1.5"});
+    ASSERT_EQ(mesh.status, 0) << mesh.errors;
+    EXPECT_EQ(mesh.errors.find("warning"), std::string::npos) << mesh.errors;
+    ASSERT_EQ(run(folder, {"design.scad", "--scale", "1.5"}).status, 0);
+    EXPECT_EQ(read_file(folder.file(name + ".slc")),
+              read_file(folder.file("design.slc")));
+  }
 }
 
 TEST(Imported, CommandsThatTakeDesignsTakeMeshes) {

@@ -25,7 +25,8 @@ FreecadModel read_file(std::string_view bytes, const FreecadOptions& options,
     fault = error.diagnostic().message;
   }
   call.in.fail(call.code.range,
-               fmt::format("{}, importing file {}", fault, file), nullptr);
+               fmt::format("{}, importing file {}", on_one_line(fault), file),
+               nullptr);
 }
 
 }  // namespace
@@ -53,9 +54,11 @@ void import_freecad(const std::string& path,
                        in_quotes(name), timestamp_text(path, call.frame));
   };
   const FreecadModel model = read_file(*bytes, options, call);
-  for (const std::string& note : model.notes) in.note(note);
+  // Whatever names objects, types and entries have.
+  for (const std::string& note : model.notes) in.note(on_one_line(note));
   for (const std::string& warning : model.warnings) {
-    call.warn("{}, import() at line {}", warning, range.openscad_line());
+    call.warn("{}, import() at line {}", on_one_line(warning),
+              range.openscad_line());
   }
   if (model.nodes.empty()) call.warn("File {} shows nothing to import", file);
   in.add_nodes(model.nodes, model.leaves, range);

@@ -33,18 +33,26 @@ double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   return glm::length(p - a - t * along);
 }
 
+Vec2 require_near(Vec2 point) {
+  if (is_too_far(point.x) || is_too_far(point.y)) fail_too_far();
+  return point;
+}
+
 struct CurvePoint {
   double at;
   Vec2 point;
 };
+
+CurvePoint point_at(const Curve& curve, double t) {
+  return {t, require_near(curve(t))};
+}
 
 // Appends the chords from `a` to `b`, without the corner at `a`.
 void append_chords(const Curve& curve, CurvePoint a, CurvePoint b, double error,
                    int depth, Polyline& chords) {
   constexpr int kDeepest = 14;
   const auto at = [&](double share) {
-    const double t = a.at + share * (b.at - a.at);
-    return CurvePoint{t, curve(t)};
+    return point_at(curve, a.at + share * (b.at - a.at));
   };
   const CurvePoint middle = at(0.5);
   const auto is_near = [&](const CurvePoint& p) {
@@ -64,10 +72,12 @@ void append_chords(const Curve& curve, CurvePoint a, CurvePoint b, double error,
 //         them it is smooth and turns by less than half a turn
 Polyline chords_of(const Curve& curve, std::span<const double> breaks,
                    double error) {
-  Polyline chords = {curve(breaks.front())};
-  for (std::size_t i = 1; i < breaks.size(); ++i) {
-    append_chords(curve, {breaks[i - 1], curve(breaks[i - 1])},
-                  {breaks[i], curve(breaks[i])}, error, 0, chords);
+  CurvePoint last = point_at(curve, breaks.front());
+  Polyline chords = {last.point};
+  for (const double at : breaks.subspan(1)) {
+    const CurvePoint next = point_at(curve, at);
+    append_chords(curve, last, next, error, 0, chords);
+    last = next;
   }
   return chords;
 }
@@ -119,7 +129,7 @@ Frame read_frame(const pugi::xml_node& conic) {
 
 Polyline placed(const pugi::xml_node& conic, Polyline chords) {
   const Frame frame = read_frame(conic);
-  std::transform(chords.begin(), chords.end(), chords.begin(), frame);
+  for (Vec2& corner : chords) corner = require_near(frame(corner));
   return chords;
 }
 
@@ -234,8 +244,12 @@ std::vector<Vec3> read_poles(const pugi::xml_node& curve) {
   std::vector<Vec3> poles;
   for (const pugi::xml_node pole : curve.children("Pole")) {
     const double weight = read_number(pole, "Weight");
-    if (!(weight > 0)) {
-      throw FormatError("FCStd, a weight of a BSplineCurve is not above 0");
+    // Coordinates are divided by weights, and much less leaves no digits.
+    constexpr double kLeastWeight = 1e-12;
+    if (!(weight >= kLeastWeight)) {
+      throw FormatError(fmt::format(
+          "FCStd, a weight of a BSplineCurve is {:g}, not 1e-12 or more",
+          weight));
     }
     poles.emplace_back(weight * read_number(pole, "X"),
                        weight * read_number(pole, "Y"), weight);

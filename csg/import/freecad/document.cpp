@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/gtc/quaternion.hpp>
 
 #include "base/file/format_error.h"
@@ -18,11 +19,32 @@ ZipArchive open_archive(std::string_view bytes) {
   if (!ZipArchive::is_zip(bytes)) {
     throw FormatError("FCStd, expected a ZIP archive");
   }
-  return ZipArchive::open(bytes);
+  ZipArchive archive = ZipArchive::open(bytes);
+  constexpr double kSlack = 1 << 20;
+  const double most =
+      std::min(kMostUnpackedBytes,
+               kSlack + kMostSwelling * static_cast<double>(bytes.size()));
+  if (archive.unpacked_bytes() > most) {
+    throw LimitExceeded(fmt::format(
+        "FCStd of {} bytes unpacks to {:.7g}, at most {:.7g} can be",
+        bytes.size(), archive.unpacked_bytes(), most));
+  }
+  return archive;
+}
+
+// Before anything is made of it: elements take several times their text.
+void require_few_parts(std::string_view bytes, std::string_view entry) {
+  const auto count = static_cast<std::size_t>(std::count_if(
+      bytes.begin(), bytes.end(), [](char c) { return c == '<' || c == '='; }));
+  if (count <= kMostXmlParts) return;
+  throw LimitExceeded(
+      fmt::format("FCStd {} has {} elements and attributes, at most {} can be",
+                  entry, count, kMostXmlParts));
 }
 
 void parse_xml(std::string_view bytes, std::string_view entry,
                pugi::xml_document& document) {
+  require_few_parts(bytes, entry);
   if (const auto fault = load_xml(bytes, document)) {
     throw FormatError(
         fmt::format("FCStd {} byte {}, {}", entry, fault->place, fault->words));
@@ -205,14 +227,33 @@ void Document::read_objects() {
   for (const pugi::xml_node object : root.child("Objects").children("Object")) {
     types[object.attribute("name").value()] = object.attribute("type").value();
   }
+  std::vector<std::string_view> repeated;
+  std::vector<std::string_view> without_type;
   for (const pugi::xml_node data :
        root.child("ObjectData").children("Object")) {
     const std::string_view name = data.attribute("name").value();
     const auto type = types.find(name);
-    if (type == types.end()) continue;
-    if (!by_name_.try_emplace(name, objects_.size()).second) continue;
-    objects_.emplace_back(data, name, type->second);
+    if (type == types.end()) {
+      without_type.push_back(name);
+    } else if (by_name_.try_emplace(name, objects_.size()).second) {
+      objects_.emplace_back(data, name, type->second);
+    } else {
+      repeated.push_back(name);
+    }
   }
+  std::vector<std::string_view> without_data;
+  for (const auto& [name, type] : types) {
+    if (!by_name_.contains(name)) without_data.push_back(name);
+  }
+  const auto warn = [&](std::string_view what,
+                        const std::vector<std::string_view>& names) {
+    if (names.empty()) return;
+    warnings_.push_back(
+        fmt::format("{}: '{}'", what, fmt::join(names, "', '")));
+  };
+  warn("left out, as the file has no type of them", without_type);
+  warn("left out, as the file has no data of them", without_data);
+  warn("left out, as others have their names", repeated);
 }
 
 void Document::read_visibility() {
@@ -248,15 +289,24 @@ const Object* Document::find_part(std::string_view name_or_label) const {
 std::string_view Document::boundary_entry(const Object& object) const {
   const std::string_view entry = object.file("Shape");
   if (entry.empty()) return {};
-  return has_faces(boundary(entry)) ? entry : std::string_view();
+  return look_into(entry).has_faces ? entry : std::string_view();
 }
 
 bool Document::has_stored_solid(const Object& object) const {
   const std::string_view entry = object.file("Shape");
-  return !entry.empty() && boundary(entry).find("\nSo") != std::string::npos;
+  return !entry.empty() && look_into(entry).has_solids;
 }
 
-std::string Document::boundary(std::string_view entry) const {
+const Document::Boundary& Document::look_into(std::string_view entry) const {
+  const auto found = boundaries_.find(entry);
+  if (found != boundaries_.end()) return found->second;
+  const std::string bytes = unpack(entry);
+  const Boundary boundary = {has_faces(bytes),
+                             bytes.find("\nSo") != std::string::npos};
+  return boundaries_.try_emplace(entry, boundary).first->second;
+}
+
+std::string Document::unpack(std::string_view entry) const {
   auto bytes = archive_.read(std::string(entry));
   if (!bytes) throw FormatError(fmt::format("FCStd holds no '{}'", entry));
   return *std::move(bytes);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -62,14 +63,24 @@ class CurveEnds {
     std::optional<End> best;
     double least = kJoinDistance;
     const Cell center = cell_of(place);
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
+    // Its own cell first: an end at the very place is found at once.
+    for (const int dx : {0, -1, 1}) {
+      for (const int dy : {0, -1, 1}) {
         const auto cell = cells_.find({center[0] + dx, center[1] + dy});
         if (cell == cells_.end()) continue;
         std::vector<End>& ends = cell->second;
-        std::erase_if(ends, [&](End end) { return is_taken_[index(end)]; });
-        for (const End end : ends) {
+        for (std::size_t i = ends.size(); i-- > 0;) {
+          const End end = ends[i];
+          if (is_taken_[index(end)]) {
+            ends[i] = ends.back();
+            ends.pop_back();
+            continue;
+          }
           const double distance = glm::length(point(end) - place);
+          if (distance == 0) {
+            take(end);
+            return end;
+          }
           if (distance > least) continue;
           least = distance;
           best = end;
@@ -161,13 +172,30 @@ std::vector<Polyline> one_contour(Polyline chords) {
   return {std::move(chords)};
 }
 
+// Why there is no outline: one of these lengths is none.
+bool are_lengths(const Object& object,
+                 std::initializer_list<std::string_view> names,
+                 std::string& why) {
+  for (const std::string_view name : names) {
+    if (object.number(name) > 0) continue;
+    why = fmt::format("the {} of '{}' makes no outline", name, object.label());
+    return false;
+  }
+  return true;
+}
+
 bool is_full(const Object& object) {
   return object.number("Angle1", 0) == 0 && object.number("Angle2", 360) == 360;
 }
 
-std::optional<Outline> read_regular_polygon(const Object& object) {
+std::optional<Outline> read_regular_polygon(const Object& object,
+                                            std::string& why) {
+  if (!are_lengths(object, {"Circumradius"}, why)) return std::nullopt;
   const int corners = object.count("Polygon");
-  if (corners < 3) return std::nullopt;
+  if (corners < 3) {
+    why = fmt::format("'{}' has {} sides", object.label(), corners);
+    return std::nullopt;
+  }
   require_fragments(corners);
   Polyline contour;
   for (int i = 0; i < corners; ++i) {
@@ -214,17 +242,24 @@ std::optional<Outline> read_outline(const Object& object, double error,
   if (object.type().starts_with("Sketcher::SketchObject")) {
     return read_sketch(object, error, why);
   }
-  if (object.is_a("Part::RegularPolygon")) return read_regular_polygon(object);
+  if (object.is_a("Part::RegularPolygon")) {
+    return read_regular_polygon(object, why);
+  }
   if (object.is_a("Part::Plane")) {
+    if (!are_lengths(object, {"Length", "Width"}, why)) return std::nullopt;
     const Vec2 size(object.number("Length"), object.number("Width"));
     return Outline{object.placement(),
                    {{{0, 0}, {size.x, 0}, size, {0, size.y}}}};
   }
   if (object.is_a("Part::Circle") && is_full(object)) {
+    if (!are_lengths(object, {"Radius"}, why)) return std::nullopt;
     return Outline{object.placement(),
                    one_contour(arc(object.number("Radius"), 0, 2 * pi, error))};
   }
   if (object.is_a("Part::Ellipse") && is_full(object)) {
+    if (!are_lengths(object, {"MajorRadius", "MinorRadius"}, why)) {
+      return std::nullopt;
+    }
     const Vec2 radii(object.number("MajorRadius"),
                      object.number("MinorRadius"));
     return Outline{object.placement(),

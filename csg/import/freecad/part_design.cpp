@@ -15,6 +15,7 @@
 
 #include "csg/import/freecad/detail/primitives.h"
 #include "csg/import/freecad/detail/reader.h"
+#include "csg/limits.h"
 
 namespace lamina::csg::freecad {
 namespace {
@@ -35,12 +36,19 @@ enum ExtrusionType { kLength = 0, kThrough = 1, kTwoLengths = 4 };
 // --- Chains -----------------------------------------------------------------
 
 Reader::Made Reader::make_body(const Object& object, std::string& why) {
-  const Made tip = make(object.link("Tip"));
-  if (!tip) {
-    why = "its tip is no solid";
+  const Object* const tip = document_.find(object.link("Tip"));
+  if (tip == nullptr) {
+    why = "it has no tip";
     return std::nullopt;
   }
-  return maker_.place(object.placement(), *tip);
+  const Made solid = make(*tip);
+  if (!solid) {
+    const std::string& its_why = entries_[tip].why;
+    why = fmt::format("its tip '{}' is no solid{}{}", tip->label(),
+                      its_why.empty() ? "" : ": ", its_why);
+    return std::nullopt;
+  }
+  return maker_.place(object.placement(), *solid);
 }
 
 Reader::Made Reader::make_base(const Object& object, std::string& why) {
@@ -102,6 +110,14 @@ bool Reader::adds(const Object& object) {
 }
 
 Reader::Made Reader::make_tool(const Object& object, std::string& why) {
+  const auto [found, is_new] = tools_.try_emplace(&object);
+  Entry& entry = found->second;
+  if (is_new) entry.solid = make_tool_anew(object, entry.why);
+  why = entry.why;
+  return entry.solid;
+}
+
+Reader::Made Reader::make_tool_anew(const Object& object, std::string& why) {
   const std::string_view type = object.type();
   if (object.flag("Suppressed")) {
     why = "it is suppressed";
@@ -126,12 +142,11 @@ Reader::Made Reader::make_tool(const Object& object, std::string& why) {
   return std::nullopt;
 }
 
-std::optional<Outline> Reader::profile_of(const Object& object,
-                                          std::string& why) {
+const Outline* Reader::profile_of(const Object& object, std::string& why) {
   const SubLink profile = object.sub_link("Profile");
   if (!profile.subs.empty()) {
     why = "its profile is a part of a shape";
-    return std::nullopt;
+    return nullptr;
   }
   return outline_of(profile.object, why);
 }
@@ -139,8 +154,8 @@ std::optional<Outline> Reader::profile_of(const Object& object,
 // --- Pad and Pocket ---------------------------------------------------------
 
 Reader::Made Reader::make_prism_tool(const Object& object, std::string& why) {
-  const auto outline = profile_of(object, why);
-  if (!outline) return std::nullopt;
+  const Outline* const outline = profile_of(object, why);
+  if (outline == nullptr) return std::nullopt;
   if (object.number("TaperAngle", 0) != 0 ||
       object.number("TaperAngle2", 0) != 0) {
     why = "it tapers";
@@ -193,8 +208,8 @@ Reader::Made Reader::make_prism_tool(const Object& object, std::string& why) {
 
 Reader::Made Reader::make_revolution_tool(const Object& object,
                                           std::string& why) {
-  const auto outline = profile_of(object, why);
-  if (!outline) return std::nullopt;
+  const Outline* const outline = profile_of(object, why);
+  if (outline == nullptr) return std::nullopt;
   if (object.choice("Type") != 0) {
     why = "it ends at a face or has two angles";
     return std::nullopt;
@@ -266,7 +281,8 @@ std::optional<Polyline> hole_profile(const Object& hole, std::string& why) {
     profile.emplace_back(0, depth);
   }
   for (std::size_t i = 1; i < profile.size(); ++i) {
-    if (profile[i].x < 0 || profile[i].y < profile[i - 1].y) {
+    const bool goes_down = profile[i].y >= profile[i - 1].y;  // no NaN does
+    if (!(profile[i].x >= 0) || !goes_down || is_too_far(profile[i].y)) {
       why = "its measures make no hole";
       return std::nullopt;
     }

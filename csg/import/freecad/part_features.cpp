@@ -10,6 +10,7 @@
 
 #include "csg/import/freecad/detail/primitives.h"
 #include "csg/import/freecad/detail/reader.h"
+#include "csg/limits.h"
 
 namespace lamina::csg::freecad {
 namespace {
@@ -94,14 +95,25 @@ Reader::Made Reader::make_mirroring(const Object& object, std::string& why) {
 
 // --- Extrusions -------------------------------------------------------------
 
-std::optional<Outline> Reader::outline_of(std::string_view name,
-                                          std::string& why) {
+const Outline* Reader::outline_of(std::string_view name, std::string& why) {
   const Object* const object = document_.find(name);
   if (object == nullptr) {
     why = "it has no outline";
-    return std::nullopt;
+    return nullptr;
   }
-  return read_outline(*object, maker_.chordal_error(), why);
+  const auto [found, is_new] = outlines_.try_emplace(object);
+  auto& [outline, its_why] = found->second;
+  if (is_new) {
+    outline = read_outline(*object, maker_.chordal_error(), its_why);
+    if (outline) {
+      for (const Polyline& contour : outline->contours) {
+        corners_ += contour.size();
+      }
+      require_corners(corners_);
+    }
+  }
+  why = its_why;
+  return outline ? &*outline : nullptr;
 }
 
 Reader::Made Reader::make_extrusion(const Object& object, std::string& why) {
@@ -114,8 +126,8 @@ Reader::Made Reader::make_extrusion(const Object& object, std::string& why) {
     why = "it tapers";
     return std::nullopt;
   }
-  const auto outline = outline_of(object.link("Base"), why);
-  if (!outline) return std::nullopt;
+  const Outline* const outline = outline_of(object.link("Base"), why);
+  if (outline == nullptr) return std::nullopt;
   if (object.text("FaceMakerClass") == "Part::FaceMakerSimple" &&
       outline->contours.size() > 1) {
     why = "it fills each wire by itself";
@@ -216,8 +228,8 @@ Reader::Made Reader::make_part_revolution(const Object& object,
     why = "an edge gives its axis";
     return std::nullopt;
   }
-  const auto outline = outline_of(object.link("Source"), why);
-  if (!outline) return std::nullopt;
+  const Outline* const outline = outline_of(object.link("Source"), why);
+  if (outline == nullptr) return std::nullopt;
   Turn spin;
   spin.base = object.vector("Base").value_or(Vec3(0));
   spin.axis = object.vector("Axis").value_or(Vec3(0, 0, 1));

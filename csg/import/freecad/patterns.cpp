@@ -16,9 +16,8 @@ int read_occurrences(const Object& object) {
   const double count = object.number("Occurrences");
   if (count > kMostOccurrences) {
     throw LimitExceeded(
-        fmt::format("Too many occurrences: {:.7g} in '{}', at most {:.7g} can "
-                    "be",
-                    count, object.label(), kMostOccurrences));
+        fmt::format("Too many occurrences: {:.7g}, at most {:.7g} can be",
+                    count, kMostOccurrences));
   }
   return std::max(static_cast<int>(count), 1);
 }
@@ -130,9 +129,8 @@ Reader::Places Reader::product_of_places(const Object& object,
         static_cast<double>(places.size()) * static_cast<double>(more->size());
     if (count > kMostOccurrences) {
       throw LimitExceeded(
-          fmt::format("Too many occurrences: {:.7g} in '{}', at most {:.7g} "
-                      "can be",
-                      count, object.label(), kMostOccurrences));
+          fmt::format("Too many occurrences: {:.7g}, at most {:.7g} can be",
+                      count, kMostOccurrences));
     }
     std::vector<Mat4> all;
     for (const Mat4& outer : *more) {

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <map>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/matrix.hpp>
 
 #include "base/file/format_error.h"
-#include "base/text.h"
 #include "csg/limits.h"
 
 namespace lamina::csg::freecad {
@@ -22,7 +24,7 @@ constexpr std::array<std::string_view, 10> kOperandProperties = {
     "Spine", "Faces", "Profile", "Sections", "BaseFeature"};
 
 std::string shown(const Object& object) {
-  return fmt::format("'{}' ({})", on_one_line(object.label()), object.type());
+  return fmt::format("'{}' ({})", object.label(), object.type());
 }
 
 // Curves, faces and helps to draw, which enclose nothing.
@@ -57,20 +59,9 @@ bool has_geometry(const Object& object) {
          object.value("Points");
 }
 
-// The members of a group, a body, an array of links.
-std::vector<std::string_view> held_by(const Object& object) {
-  return object.links(object.value("Group") ? "Group" : "ElementList");
-}
-
-std::vector<std::string_view> operands_of(const Object& object) {
-  std::vector<std::string_view> names;
-  if (object.type().starts_with("PartDesign::")) names = object.links("Group");
-  for (const std::string_view property : kOperandProperties) {
-    names.push_back(object.link(property));
-    const auto listed = object.links(property);
-    names.insert(names.end(), listed.begin(), listed.end());
-  }
-  return names;
+[[noreturn]] void fail_made_from_itself(const Object& object) {
+  throw FormatError(
+      fmt::format("FCStd, {} is made from itself", shown(object)));
 }
 
 }  // namespace
@@ -83,49 +74,130 @@ Reader::Reader(const Document& document, const FreecadOptions& options,
              options.most_leaves) {}
 
 FreecadModel Reader::read() {
-  find_operands();
-  std::vector<Solid> solids;
-  if (options_.part) {
-    const Object* const part = document_.find_part(*options_.part);
-    if (part == nullptr) {
-      throw FormatError(
-          fmt::format("FCStd, there is no part '{}'", *options_.part));
+  try {
+    find_operands();
+    const std::vector<Solid> solids =
+        options_.part ? make_part(*options_.part) : make_all_shown();
+    note_all("left out, as others that are shown are made of them", used_);
+    note_all("hidden, so left out", hidden_);
+    note_all("left out, as they enclose nothing", flat_);
+    for (const Solid& solid : solids) {
+      model_.nodes.push_back(solid.node);
+      model_.leaves += solid.leaves;
     }
-    const Made solid = make(*part);
-    if (!solid) {
-      throw FormatError(fmt::format("FCStd, {} is no solid{}{}", shown(*part),
-                                    entries_[part].why.empty() ? "" : ": ",
-                                    entries_[part].why));
-    }
-    solids.push_back(*solid);
-  } else {
-    std::vector<const Object*> top;
-    for (const Object& object : document_.objects()) {
-      if (!members_.contains(object.name())) top.push_back(&object);
-    }
-    make_shown(top, solids);
-  }
-  note_all("left out, as others that are shown are made of them", used_);
-  note_all("hidden, so left out", hidden_);
-  note_all("left out, as they enclose nothing", flat_);
-  for (const Solid& solid : solids) {
-    model_.nodes.push_back(solid.node);
-    model_.leaves += solid.leaves;
+  } catch (const LimitExceeded& fault) {
+    if (open_.empty()) throw;
+    throw LimitExceeded(fmt::format("{}, in {}", fault.diagnostic().message,
+                                    shown(*open_.back())));
   }
   return std::move(model_);
 }
 
+std::vector<Solid> Reader::make_part(std::string_view name) {
+  const Object* const part = document_.find_part(name);
+  if (part == nullptr) {
+    throw FormatError(fmt::format("FCStd, there is no part '{}'", name));
+  }
+  if (const Made solid = make(*part)) return {*solid};
+  const std::string& why = entries_[part].why;
+  throw FormatError(fmt::format("FCStd, {} is no solid{}{}", shown(*part),
+                                why.empty() ? "" : ": ", why));
+}
+
+std::vector<Solid> Reader::make_all_shown() {
+  model_.warnings = document_.warnings();
+  require_no_ring();
+  std::vector<const Object*> top;
+  for (const Object& object : document_.objects()) {
+    if (!members_.contains(object.name())) top.push_back(&object);
+  }
+  std::vector<Solid> solids;
+  make_shown(top, solids);
+  return solids;
+}
+
 // --- Which objects count ----------------------------------------------------
+
+std::vector<std::string_view> Reader::members_of(const Object& object) {
+  if (is_group(object)) {
+    return object.links(object.value("Group") ? "Group" : "ElementList");
+  }
+  if (object.is_a("App::Link")) return object.links("ElementList");
+  if (object.type().starts_with("PartDesign::")) return object.links("Group");
+  return {};
+}
+
+// A primitive is made of its parameters, whatever else it names.
+std::vector<std::string_view> Reader::operands_of(const Object& object) {
+  if (is_flat(object) || !is_part(object) || is_group(object) ||
+      maker_of(object) == &Reader::make_part_primitive) {
+    return {};
+  }
+  std::vector<std::string_view> names;
+  if (object.type().starts_with("PartDesign::")) names = object.links("Group");
+  for (const std::string_view property : kOperandProperties) {
+    names.push_back(object.link(property));
+    const auto listed = object.links(property);
+    names.insert(names.end(), listed.begin(), listed.end());
+  }
+  return names;
+}
+
+// Walks from each object to what it holds and is made of.
+void Reader::require_no_ring() const {
+  struct Step {
+    const Object* object;
+    std::vector<std::string_view> parts;  // that are still to be walked to
+  };
+  std::vector<Step> way;
+  std::map<const Object*, bool> is_on_way;  // of those that were walked to
+  const auto walk_to = [&](const Object& object) {
+    const auto [found, is_new] = is_on_way.try_emplace(&object, true);
+    if (!is_new) {
+      if (found->second) fail_made_from_itself(object);
+      return;
+    }
+    std::vector<std::string_view> parts = members_of(object);
+    const auto operands = operands_of(object);
+    parts.insert(parts.end(), operands.begin(), operands.end());
+    way.push_back({&object, std::move(parts)});
+  };
+  for (const Object& start : document_.objects()) {
+    walk_to(start);
+    while (!way.empty()) {
+      Step& last = way.back();
+      if (last.parts.empty()) {
+        is_on_way[last.object] = false;
+        way.pop_back();
+        continue;
+      }
+      const Object* const part = document_.find(last.parts.back());
+      last.parts.pop_back();
+      if (part != nullptr) walk_to(*part);
+    }
+  }
+}
 
 // Drawings and views of a part are not made of it, and what is hidden leaves
 // its operands to be shown, unless something shown is made of it in turn.
 void Reader::find_operands() {
   std::set<std::string_view> features;  // of bodies
   for (const Object& object : document_.objects()) {
-    if (maker_of(object) == nullptr) continue;
-    for (const std::string_view name : held_by(object)) {
+    for (const std::string_view name : members_of(object)) {
       members_.insert(name);
-      if (!is_group(object)) features.insert(name);
+      if (!is_group(object)) {
+        features.insert(name);
+        continue;
+      }
+      const Object* const member = document_.find(name);
+      if (member == nullptr) continue;
+      std::vector<const Object*>& groups = groups_[member];
+      if (!groups.empty() && groups.back() == &object) continue;
+      groups.push_back(&object);
+      if (groups.size() > kMostGroups) {
+        throw LimitExceeded(fmt::format("Too many groups: more than {} hold {}",
+                                        kMostGroups, shown(*member)));
+      }
     }
   }
   for (const Object& object : document_.objects()) {
@@ -140,7 +212,6 @@ void Reader::claim_operands(const Object& shown) {
   while (!open.empty()) {
     const Object& object = *open.back();
     open.pop_back();
-    if (is_flat(object) || !is_part(object) || is_group(object)) continue;
     for (const std::string_view name : operands_of(object)) {
       const Object* const operand = document_.find(name);
       if (operand != nullptr && operands_.insert(name).second) {
@@ -151,25 +222,33 @@ void Reader::claim_operands(const Object& shown) {
 }
 
 std::vector<const Object*> Reader::objects_of(const Object& group) {
-  const std::vector<std::string_view> names = held_by(group);
+  const std::vector<std::string_view> names = members_of(group);
   // A group of links tells itself which of them it shows, the last one first.
   const std::string_view shows = group.text("VisibilityList");
   std::vector<const Object*> objects;
+  std::vector<std::string_view> missing;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Object* const object = document_.find(names[i]);
-    if (object == nullptr) continue;
+    if (object == nullptr) {
+      if (!names[i].empty()) missing.push_back(names[i]);
+      continue;
+    }
     const bool is_hidden =
         i < shows.size() && shows[shows.size() - 1 - i] == '0';
     (is_hidden ? hidden_ : objects).push_back(object);
   }
-  // A part names the members of its plain groups, too.
-  std::set<std::string_view> of_groups;
-  for (const Object* const object : objects) {
-    if (!is_group(*object) || !object->is_visible()) continue;
-    for (const std::string_view name : held_by(*object)) of_groups.insert(name);
+  if (!missing.empty()) {
+    model_.warnings.push_back(
+        fmt::format("{} holds objects that the file lacks: '{}'", shown(group),
+                    fmt::join(missing, "', '")));
   }
+  // A part names the members of its plain groups, too.
+  const std::set<const Object*> all(objects.begin(), objects.end());
   std::erase_if(objects, [&](const Object* object) {
-    return of_groups.contains(object->name());
+    const std::vector<const Object*>& groups = groups_[object];
+    return std::any_of(groups.begin(), groups.end(), [&](const Object* other) {
+      return other != &group && other->is_visible() && all.contains(other);
+    });
   });
   return objects;
 }
@@ -227,21 +306,18 @@ Reader::Made Reader::make(const Object& object) {
   const auto [found, is_new] = entries_.try_emplace(&object);
   Entry& entry = found->second;
   if (is_new) {
-    constexpr int kDeepest = 1000;
-    if (depth_ == kDeepest) {
+    constexpr std::size_t kDeepest = 1000;
+    if (open_.size() == kDeepest) {
       throw LimitExceeded(fmt::format(
           "Too deep: {} objects are made of one another, at most {} can be",
-          depth_, kDeepest));
+          open_.size(), kDeepest));
     }
-    ++depth_;
+    open_.push_back(&object);
     entry.solid = make_anew(object, entry.why);
-    --depth_;
+    open_.pop_back();
     entry.is_done = true;
   }
-  if (!entry.is_done) {
-    throw FormatError(
-        fmt::format("FCStd, {} is made from itself", shown(object)));
-  }
+  if (!entry.is_done) fail_made_from_itself(object);
   return entry.solid;
 }
 
@@ -319,18 +395,24 @@ bool Reader::is_group(const Object& object) {
 }
 
 Reader::Made Reader::by_boundary(const Object& object, const std::string& why) {
-  if (is_flat(object) || document_.boundary_entry(object).empty())
-    return std::nullopt;
+  if (is_flat(object)) return std::nullopt;
+  const std::string_view stored = document_.boundary_entry(object);
+  if (stored.empty()) return std::nullopt;
   if (object.value("Solid") && makes_surface(object)) return std::nullopt;
   model_.notes.push_back(fmt::format("{} is taken by its boundary{}{}",
                                      shown(object), why.empty() ? "" : ": ",
                                      why));
-  ImportParams params;
-  params.path = options_.path;
-  params.format = ImportFormat::kFcstd;
-  params.entry = maker_.keep_text(document_.boundary_entry(object));
-  params.csg_text = maker_.keep_text(options_.boundary_text(object.name()));
-  return maker_.leaf(Import{maker_.keep(params)});
+  const auto [found, is_new] = boundaries_.try_emplace(stored);
+  if (is_new) {
+    ImportParams params;
+    params.path = options_.path;
+    params.format = ImportFormat::kFcstd;
+    params.entry = maker_.keep_text(stored);
+    params.boundary = maker_.keep_text(document_.unpack(stored));
+    params.csg_text = maker_.keep_text(options_.boundary_text(object.name()));
+    found->second = maker_.leaf(Import{maker_.keep(params)});
+  }
+  return found->second;
 }
 
 // --- Groups and links -------------------------------------------------------
@@ -375,6 +457,10 @@ Reader::Made Reader::make_link(const Object& object, std::string& why) {
   Mat4 scale(1);
   if (const auto factors = object.vector("ScaleVector")) {
     for (int i = 0; i < 3; ++i) scale[i][i] = (*factors)[i];
+    if (factors->x == 0 || factors->y == 0 || factors->z == 0) {
+      why = "its ScaleVector leaves no volume";
+      return std::nullopt;
+    }
   }
   const Mat4 from_target = object.flag("LinkTransform")
                                ? Mat4(1)

@@ -94,9 +94,10 @@ Solid SolidMaker::polygon(const std::vector<Polyline>& contours) {
     std::vector<std::uint32_t> path;
     for (const Vec2 corner : contour) {
       path.push_back(static_cast<std::uint32_t>(points.size()));
+      if (is_too_far(corner.x) || is_too_far(corner.y)) fail_too_far();
       points.push_back(corner);
     }
-    require_corners(points.size());
+    require_corners(corners_ += contour.size());
     paths.push_back(arena_.copy(std::span<const std::uint32_t>(path)));
   }
   PolygonParams params;
@@ -126,6 +127,7 @@ Solid SolidMaker::extrude(const Outline& outline, Vec3 way, double from,
   matrix[3] += Vec4(low * step, 0);
   LinearExtrudeParams params;
   params.height = (high - low) * rise;
+  if (is_too_far(params.height)) fail_too_far();
   const Solid base = polygon(outline.contours);
   return place(matrix, make(LinearExtrude{keep(params)}, {&base, 1}));
 }

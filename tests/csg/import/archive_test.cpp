@@ -129,6 +129,14 @@ TEST(ZipArchive, KeepsOfNamesWhatTheyTake) {
   EXPECT_LT(archive.names()[1].capacity(), 1000U);
 }
 
+TEST(ZipArchive, ReadsTheFirstOfEqualNamesAndCountsAll) {
+  const std::string bytes = make_zip({{"a", "one"}, {"b", ""}, {"a", "three"}});
+  const ZipArchive archive = ZipArchive::open(bytes);
+  EXPECT_EQ(archive.read("a"), "one");
+  EXPECT_EQ(archive.read("A"), std::nullopt);
+  EXPECT_EQ(archive.unpacked_bytes(), 8);
+}
+
 TEST(ZipArchive, RefusesToSwellWithoutEnd) {
   const std::string bytes =
       make_zip({{"bomb", std::string(std::size_t{400} << 20, 'x')}});

@@ -150,6 +150,21 @@ TEST(Triangulate, NothingComesOpenWhereThePolygonCutsItself) {
   }
 }
 
+// A search for ears all around, for each of the corners, would take half an
+// hour.
+TEST(Triangulate, APolygonThatCutsItselfOften) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(0, 100);
+  Contour contour;
+  for (int i = 0; i < 50'000; ++i) {
+    contour.push_back({coordinate(random), coordinate(random)});
+  }
+  const Region region{{contour}};
+  const auto triangles = triangulate(region);
+  EXPECT_EQ(triangles.size(), contour.size() - 2);
+  EXPECT_TRUE(covers_edges(region, triangles));
+}
+
 TEST(MakeDelaunay, TakesTheShortDiagonalOfAKite) {
   const std::vector<Vec2> kite{{0, 0}, {2, -1}, {9, 0}, {2, 1}};
   std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}, {0, 2, 3}};

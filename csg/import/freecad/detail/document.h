@@ -86,8 +86,11 @@ class Document {
  public:
   // bytes  must stay as long as the document
   //
-  // throws  FormatError
+  // throws  FormatError; LimitExceeded
   explicit Document(std::string_view bytes);
+
+  // Of what stands in the file and is no object all the same.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   const std::vector<Object>& objects() const { return objects_; }
   // Null where there is none.
@@ -103,8 +106,17 @@ class Document {
   // Whether that boundary is one of solids, and as text, so that it says so.
   bool has_stored_solid(const Object& object) const;
 
+  // The bytes of an entry, unpacked anew. Throws FormatError likewise.
+  std::string unpack(std::string_view entry) const;
+
  private:
-  std::string boundary(std::string_view entry) const;
+  // What is known of an entry with a boundary.
+  struct Boundary {
+    bool has_faces = false;
+    bool has_solids = false;
+  };
+
+  const Boundary& look_into(std::string_view entry) const;
   void read_objects();
   void read_visibility();
 
@@ -113,6 +125,9 @@ class Document {
   pugi::xml_document view_;
   std::vector<Object> objects_;
   std::map<std::string_view, std::size_t> by_name_;
+  std::vector<std::string> warnings_;
+  // Of the entries that were looked into: each is unpacked for it once.
+  mutable std::map<std::string_view, Boundary> boundaries_;
 };
 
 }  // namespace lamina::csg::freecad

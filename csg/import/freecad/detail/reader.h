@@ -6,6 +6,7 @@
 // its maker can, and else by its boundary. Makers give nothing where there is
 // no CSG form, and say why.
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -36,6 +37,8 @@ class Reader {
   Made make(const Object& object);
   Made make(std::string_view name);
   Made make_anew(const Object& object, std::string& why);
+  std::vector<Solid> make_part(std::string_view name);
+  std::vector<Solid> make_all_shown();
   static Make maker_of(const Object& object);
   static bool is_part(const Object& object);
   static bool is_group(const Object& object);
@@ -49,10 +52,16 @@ class Reader {
   // One note that names all of them, if there are any.
   void note_all(std::string_view what,
                 const std::vector<const Object*>& objects);
+  // What a group, a body or an array of links holds.
+  static std::vector<std::string_view> members_of(const Object& object);
+  static std::vector<std::string_view> operands_of(const Object& object);
+  // Throws FormatError where an object holds itself or is made of itself, over
+  // whatever others: none of these would be shown, nor what else they hold.
+  void require_no_ring() const;
   void find_operands();
   // What the object is made of and, of that, in turn.
   void claim_operands(const Object& shown);
-  // What the group shows. Names what it hides.
+  // What the group shows. Names what it hides and what is not there.
   std::vector<const Object*> objects_of(const Object& group);
 
   Made make_group(const Object& object, std::string& why);
@@ -69,7 +78,8 @@ class Reader {
   // All or, where one has no volume, nothing.
   std::optional<std::vector<Solid>> make_operands(
       const std::vector<std::string_view>& names, std::string& why);
-  std::optional<Outline> outline_of(std::string_view name, std::string& why);
+  // Stays; null where there is none. Each is read once.
+  const Outline* outline_of(std::string_view name, std::string& why);
   struct Turn {
     Vec3 base;
     Vec3 axis;
@@ -85,13 +95,15 @@ class Reader {
   Made make_body_boolean(const Object& object, std::string& why);
   // What stands before the feature, and what it adds or takes away.
   Made make_feature(const Object& object, std::string& why);
+  // Made once, however many patterns repeat it.
   Made make_tool(const Object& object, std::string& why);
+  Made make_tool_anew(const Object& object, std::string& why);
   // Whether the feature adds its tool; else it takes it away.
   static bool adds(const Object& object);
   Made make_prism_tool(const Object& object, std::string& why);
   Made make_revolution_tool(const Object& object, std::string& why);
   Made make_hole_tool(const Object& object, std::string& why);
-  std::optional<Outline> profile_of(const Object& object, std::string& why);
+  const Outline* profile_of(const Object& object, std::string& why);
 
   // --- patterns.cpp ---------------------------------------------------------
   using Places = std::optional<std::vector<Mat4>>;
@@ -115,17 +127,28 @@ class Reader {
     std::string why;  // there is none
   };
 
+  struct OutlineEntry {
+    std::optional<Outline> outline;
+    std::string why;  // there is none
+  };
+
   const Document& document_;
   const FreecadOptions& options_;
   SolidMaker maker_;
   FreecadModel model_;
   std::map<const Object*, Entry> entries_;
+  std::map<const Object*, Entry> tools_;
+  std::map<const Object*, OutlineEntry> outlines_;
+  std::size_t corners_ = 0;                       // of outlines_
+  std::map<std::string_view, Solid> boundaries_;  // by their entries
   std::vector<const Object*> hidden_;    // of those that were left out
   std::vector<const Object*> flat_;      // likewise
   std::vector<const Object*> used_;      // likewise, and visible
   std::set<std::string_view> operands_;  // of other objects that are shown
   std::set<std::string_view> members_;   // of groups and bodies
-  int depth_ = 0;
+  std::map<const Object*, std::vector<const Object*>> groups_;  // that hold it
+  // What is being made, each for the one before it.
+  std::vector<const Object*> open_;
 };
 
 }  // namespace lamina::csg::freecad

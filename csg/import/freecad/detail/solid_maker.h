@@ -76,12 +76,14 @@ class SolidMaker {
 
  private:
   Solid make(decltype(Node::op) op, std::span<const Solid> children);
+  // All polygons together may have csg::kMostCorners corners.
   Solid polygon(const std::vector<Polyline>& contours);
 
   Arena& arena_;
   NodeOrigin origin_;
   double error_;
   std::size_t most_leaves_;
+  std::size_t corners_ = 0;  // of all polygons
 };
 
 // --- Matrices ---------------------------------------------------------------

@@ -10,6 +10,7 @@
 
 #include "base/file/format_error.h"
 #include "csg/import/freecad/detail/outline.h"
+#include "csg/limits.h"
 
 namespace lamina::csg::freecad {
 namespace {
@@ -77,6 +78,44 @@ TEST(Curve, SplinesThatLackPolesAreRejected) {
       "<Knot Value=\"0\" Mult=\"2\"/><Knot Value=\"1\" Mult=\"3\"/>"
       "</BSplineCurve>";
   EXPECT_THROW(read("BSplineCurve", head + knots), FormatError);
+}
+
+TEST(Curve, CurvesThatRunBeyondAllCoordinatesAreRejected) {
+  EXPECT_THROW(read("ArcOfParabola",
+                    "<ArcOfParabola CenterX=\"0\" CenterY=\"0\" "
+                    "Focal=\"1e-300\" StartAngle=\"-1e9\" EndAngle=\"1e9\"/>"),
+               LimitExceeded);
+  EXPECT_THROW(read("ArcOfHyperbola",
+                    "<ArcOfHyperbola CenterX=\"0\" CenterY=\"0\" "
+                    "MajorRadius=\"1e9\" MinorRadius=\"1e9\" "
+                    "StartAngle=\"-20\" EndAngle=\"20\"/>"),
+               LimitExceeded);
+  EXPECT_THROW(
+      read("Circle", "<Circle CenterX=\"1e9\" CenterY=\"0\" Radius=\"1\"/>"),
+      LimitExceeded);
+}
+
+TEST(Curve, WeightsThatLeaveNoDigitsAreRejected) {
+  const auto spline = [](const std::string& weight) {
+    return "<BSplineCurve Degree=\"1\" IsPeriodic=\"0\"><Pole X=\"0.3\" "
+           "Y=\"0\" Weight=\"" +
+           weight +
+           "\"/><Pole X=\"2\" Y=\"0\" Weight=\"1\"/><Knot Value=\"0\" "
+           "Mult=\"2\"/><Knot Value=\"1\" Mult=\"2\"/></BSplineCurve>";
+  };
+  EXPECT_THROW(read("BSplineCurve", spline("5e-324")), FormatError);
+  EXPECT_THROW(read("BSplineCurve", spline("0")), FormatError);
+  EXPECT_NEAR(read("BSplineCurve", spline("1e-9")).front().x, 0.3, 1e-15);
+}
+
+// Whose ends were compared with one another, 4e10 pairs.
+TEST(JoinCurves, JoinsManyCurvesInTheSamePlace) {
+  const std::vector<Polyline> lines(200'000, {{0, 0}, {1, 0}});
+  const auto contours = join_curves(lines);
+  ASSERT_TRUE(contours.has_value());
+  for (const Polyline& contour : *contours) {
+    EXPECT_EQ(contour.size() % 2, 0U);
+  }
 }
 
 TEST(JoinCurves, JoinsCurvesOfAnyOrderAndDirection) {

@@ -4,9 +4,12 @@
 
 #include "csg/import/freecad/freecad_file.h"
 
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -51,6 +54,14 @@ std::string limit_of(const std::function<void()>& parse) {
     return fault.diagnostic().message;
   }
   return "";
+}
+
+// Bytes that no archive makes shorter: they keep its swelling low.
+std::string noise_of(std::size_t size) {
+  std::mt19937 random(1);
+  std::string noise(size, ' ');
+  for (char& c : noise) c = static_cast<char>(random() >> 24);
+  return noise;
 }
 
 const std::string kBox = "cube(size = [3, 4, 5], center = false);\n";
@@ -252,6 +263,156 @@ TEST(FreecadFile, SaysWhyAFeatureIsTakenByItsBoundary) {
                                "its Length makes no solid"});
 }
 
+TEST(FreecadFile, MakesPrimitivesWhateverTheyName) {
+  FreecadDocument document;
+  document.box("A", "3", links("Group", {"B"}) + link("Base", "A"))
+      .box("B", "2", link("Base", "A"));
+  const Read all = read(document.bytes());
+  EXPECT_EQ(all.csg, kBox + "cube(size = [2, 4, 5], center = false);\n\n");
+  EXPECT_TRUE(all.notes.empty());
+}
+
+TEST(FreecadFile, NamesMembersThatTheFileLacks) {
+  FreecadDocument document;
+  document.box("A").add("App::Part", "P", links("Group", {"A", "B", "C"}));
+  const Read all = read(document.bytes());
+  EXPECT_EQ(all.csg, kBox + "\n");
+  EXPECT_EQ(all.warnings,
+            std::vector<std::string>{"'P' (App::Part) holds objects that the "
+                                     "file lacks: 'B', 'C'"});
+}
+
+TEST(FreecadFile, NamesObjectsThatAreListedInPart) {
+  std::string xml = FreecadDocument().box("A").box("B").box("C").xml();
+  const std::string typed = "<Object type=\"Part::Box\" name=\"B\"/>";
+  xml.replace(xml.find(typed), typed.size(), "");
+  const std::string data = "<Object name=\"C\">";
+  xml.replace(xml.find(data), data.size(), "<Object name=\"A\">");
+  const Read all = read(make_zip({{"Document.xml", xml}}));
+  EXPECT_EQ(all.csg, kBox + "\n");
+  EXPECT_EQ(all.warnings, (std::vector<std::string>{
+                              "left out, as the file has no type of them: 'B'",
+                              "left out, as the file has no data of them: 'C'",
+                              "left out, as others have their names: 'A'"}));
+}
+
+TEST(FreecadFile, NamesLinksWithoutVolume) {
+  FreecadDocument document;
+  document.box("A").add(
+      "App::Link", "L",
+      link("LinkedObject", "A") +
+          property("ScaleVector",
+                   "<PropertyVector valueX=\"0\" valueY=\"1\" "
+                   "valueZ=\"1\"/>"));
+  EXPECT_EQ(read(document.bytes()).warnings,
+            std::vector<std::string>{"'L' (App::Link) is left out: its "
+                                     "ScaleVector leaves no volume"});
+}
+
+TEST(FreecadFile, KeepsTheBytesOfABoundaryOnceForAllThatNameIt) {
+  FreecadDocument document;
+  document.add("New::Twist", "A", shape("a.brp"))
+      .add("New::Twist", "B", shape("a.brp"))
+      .entry("a.brp", kBoundary);
+  Arena arena;
+  FreecadOptions options;
+  options.boundary_text = [](std::string_view name) {
+    return std::string(name);
+  };
+  const std::string bytes = document.bytes();
+  const FreecadModel model = read_freecad(bytes, options, arena);
+  ASSERT_EQ(model.nodes.size(), 2U);
+  EXPECT_EQ(model.nodes[0], model.nodes[1]);
+  const auto* const import = std::get_if<Import>(&model.nodes[0]->op);
+  ASSERT_NE(import, nullptr);
+  EXPECT_EQ(import->params->boundary, kBoundary);
+}
+
+std::string sketch(const std::string& geometry) {
+  return property("Geometry", "<GeometryList>" + geometry + "</GeometryList>");
+}
+
+std::string line(double x, double y, double end_x, double end_y) {
+  return fmt::format(
+      "<Geometry type=\"Part::GeomLineSegment\"><LineSegment StartX=\"{}\" "
+      "StartY=\"{}\" EndX=\"{}\" EndY=\"{}\"/></Geometry>",
+      x, y, end_x, end_y);
+}
+
+// An extrusion of an object 'Base'.
+std::string extrusion() {
+  return link("Base", "Base") + number("DirMode", "2") +
+         number("LengthFwd", "5") + flag("Solid", true);
+}
+
+TEST(FreecadFile, MakesNoOutlineOfLengthsThatAreNone) {
+  struct Case {
+    std::string type;
+    std::string properties;
+    std::string fault;
+  };
+  for (const Case& each :
+       {Case{"Circle", number("Radius", "-50"), "Radius"},
+        Case{"Ellipse", number("MajorRadius", "5") + number("MinorRadius", "0"),
+             "MinorRadius"},
+        Case{"Plane", number("Length", "5") + number("Width", "-1"), "Width"},
+        Case{"RegularPolygon",
+             number("Circumradius", "-1") + number("Polygon", "6"),
+             "Circumradius"}}) {
+    FreecadDocument document;
+    document.add("Part::" + each.type, "Base", each.properties)
+        .add("Part::Extrusion", "E", extrusion());
+    const Read all = read(document.bytes());
+    EXPECT_EQ(all.csg, "\n");
+    EXPECT_EQ(all.warnings, std::vector<std::string>{
+                                "'E' (Part::Extrusion) is left out: the " +
+                                each.fault + " of 'Base' makes no outline"});
+  }
+}
+
+// A hole of these measures in a box.
+Read read_hole(const std::string& measures) {
+  FreecadDocument document;
+  document
+      .add("Sketcher::SketchObject", "S",
+           sketch("<Geometry type=\"Part::GeomCircle\"><Circle CenterX=\"1\" "
+                  "CenterY=\"1\" Radius=\"1\"/></Geometry>"))
+      .add("PartDesign::AdditiveBox", "Box",
+           number("Length", "9") + number("Width", "9") +
+               number("Height", "9") + link("BaseFeature", ""))
+      .add("PartDesign::Hole", "H",
+           property("Profile", "<LinkSub value=\"S\" count=\"0\"/>") +
+               link("BaseFeature", "Box") + measures)
+      .add("PartDesign::Body", "Body",
+           links("Group", {"Box", "S", "H"}) + link("Tip", "H"));
+  return read(document.bytes());
+}
+
+TEST(FreecadFile, MakesNoHoleOfMeasuresThatAreNoNumbers) {
+  const std::string whole = number("Depth", "5") + number("HoleCutType", "0");
+  const std::string fine =
+      whole + number("Diameter", "4") + number("DrillPoint", "0");
+  EXPECT_TRUE(read_hole(fine).warnings.empty());
+  const std::string endless = whole + number("Diameter", "4") +
+                              number("DrillPoint", "1") +
+                              number("DrillPointAngle", "0");
+  const std::string nan = whole + number("Diameter", "0") +
+                          number("DrillPoint", "1") +
+                          number("DrillPointAngle", "0");
+  const std::string cut = number("Depth", "5") + number("HoleCutType", "2") +
+                          number("Diameter", "4") + number("DrillPoint", "0") +
+                          number("HoleCutDiameter", "4") +
+                          number("HoleCutCountersinkAngle", "0");
+  for (const std::string& measures : {endless, nan, cut}) {
+    const Read all = read_hole(measures);
+    EXPECT_EQ(all.csg, "\n");
+    EXPECT_EQ(all.warnings,
+              std::vector<std::string>{
+                  "'Body' (PartDesign::Body) is left out: its tip 'H' is no "
+                  "solid: its measures make no hole"});
+  }
+}
+
 // An extrusion of a face that was told to make no solid.
 std::string extrusion_of_plane(const std::string& boundary) {
   FreecadDocument document;
@@ -303,12 +464,6 @@ TEST(FreecadFile, SurvivesEveryCutAndChangedByteOfItsDocument) {
   });
 }
 
-TEST(FreecadFile, DoesNotUnpackBombs) {
-  const std::string bomb =
-      make_zip({{"Document.xml", std::string(std::size_t{4} << 20, ' ')}});
-  EXPECT_EQ(fault_of_bytes(bomb), "ZIP entry 'Document.xml' is too large");
-}
-
 TEST(FreecadFile, DoesNotExpandEntities) {
   std::string xml =
       "<?xml version='1.0'?><!DOCTYPE d [<!ENTITY a0 \"aaaaaaaa\">";
@@ -351,6 +506,27 @@ TEST(FreecadFile, RejectsWhatIsMadeFromItself) {
             "FCStd, 'P' (App::Part) is made from itself");
 }
 
+TEST(FreecadFile, RejectsWhatHoldsOrUsesItself) {
+  FreecadDocument itself;
+  itself.box("A").box("B").add("App::Part", "P", links("Group", {"P", "B"}));
+  EXPECT_EQ(fault_of_bytes(itself.bytes()),
+            "FCStd, 'P' (App::Part) is made from itself");
+  FreecadDocument each_other;
+  each_other.box("A")
+      .box("B")
+      .add("App::Part", "P", links("Group", {"Q"}))
+      .add("App::Part", "Q", links("Group", {"P", "B"}));
+  EXPECT_EQ(fault_of_bytes(each_other.bytes()),
+            "FCStd, 'P' (App::Part) is made from itself");
+  FreecadDocument shapes;
+  shapes.box("A")
+      .add("Part::Fillet", "F", link("Base", "G") + shape("a.brp"))
+      .add("Part::Fillet", "G", link("Base", "F") + shape("a.brp"))
+      .entry("a.brp", kBoundary);
+  EXPECT_EQ(fault_of_bytes(shapes.bytes()),
+            "FCStd, 'F' (Part::Fillet) is made from itself");
+}
+
 TEST(FreecadFile, RejectsAMissingBoundary) {
   FreecadDocument document;
   document.add("Part::Fillet", "A", shape("PartShape9.brp"));
@@ -367,7 +543,7 @@ TEST(FreecadFile, RejectsNestingBeyondAThousand) {
   }
   EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
             "Too deep: 1000 objects are made of one another, at most 1000 can "
-            "be");
+            "be, in 'O201' (Part::MultiFuse)");
 }
 
 TEST(FreecadFile, CountsLeavesOfObjectsThatDouble) {
@@ -379,7 +555,8 @@ TEST(FreecadFile, CountsLeavesOfObjectsThatDouble) {
                  links("Shapes", {last, last}));
   }
   EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
-            "Too many leaves: more than the 10000000 that --max-leaves allows");
+            "Too many leaves: more than the 10000000 that --max-leaves allows, "
+            "in 'O24' (Part::MultiFuse)");
 }
 
 TEST(FreecadFile, LimitsOccurrences) {
@@ -394,7 +571,112 @@ TEST(FreecadFile, LimitsOccurrences) {
                property("Direction", "<LinkSub value=\"Axis\" count=\"0\"/>") +
                number("Length", "9") + number("Occurrences", "1e9"));
   EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
-            "Too many occurrences: 1e+09 in 'Row', at most 100000 can be");
+            "Too many occurrences: 1e+09, at most 100000 can be, in 'Row' "
+            "(PartDesign::LinearPattern)");
+}
+
+// A circle of many edges.
+std::string ring_of_lines(int count) {
+  std::string lines;
+  for (int i = 0; i < count; ++i) {
+    const double a = i * 6.283 / count;
+    const double b = (i + 1) % count * 6.283 / count;
+    lines += line(std::cos(a), std::sin(a), std::cos(b), std::sin(b));
+  }
+  return lines;
+}
+
+// Of 20,000 times 10,000 edges, if each were made anew.
+TEST(FreecadFile, MakesOnceWhatAPatternListsOften) {
+  FreecadDocument document;
+  document.add("Sketcher::SketchObject", "S", sketch(ring_of_lines(10'000)))
+      .add("PartDesign::Pad", "Pad",
+           property("Profile", "<LinkSub value=\"S\" count=\"0\"/>") +
+               link("BaseFeature", "") + number("Length", "1"))
+      .add("App::Line", "Axis", "")
+      .add("PartDesign::LinearPattern", "Row",
+           links("Originals", std::vector<std::string>(20'000, "Pad")) +
+               link("BaseFeature", "Pad") +
+               property("Direction", "<LinkSub value=\"Axis\" count=\"0\"/>") +
+               number("Length", "9") + number("Occurrences", "2"));
+  EXPECT_EQ(limit_of([&] {
+              FreecadOptions options;
+              options.boundary_text = [](std::string_view) { return ""; };
+              Arena arena;
+              const std::string bytes = document.bytes();
+              EXPECT_EQ(read_freecad(bytes, options, arena).leaves, 20'001U);
+            }),
+            "");
+}
+
+TEST(FreecadFile, LimitsTheCornersOfAllOutlinesTogether) {
+  FreecadDocument document;
+  document.add("Sketcher::SketchObject", "Base", sketch(ring_of_lines(10'000)));
+  for (int i = 0; i < 1'000; ++i) {
+    document.add("Part::Extrusion", fmt::format("E{}", i), extrusion());
+  }
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
+            "Too many corners: 4200000 of an outline, at most 4194304 can be, "
+            "in 'E419' (Part::Extrusion)");
+}
+
+// Of 20,000 times 20 MB, if each were unpacked anew.
+TEST(FreecadFile, LooksOnceIntoWhatManyObjectsStore) {
+  FreecadDocument document;
+  for (int i = 0; i < 20'000; ++i) {
+    document.add("New::Twist", fmt::format("T{}", i), shape("a.brp"));
+  }
+  document.entry("a.brp", "Edges" + std::string(std::size_t{20} << 20, ' '))
+      .entry("noise", noise_of(400'000));
+  EXPECT_EQ(read(document.bytes()).warnings.size(), 20'000U);
+}
+
+// One large entry, or many that are not.
+TEST(FreecadFile, DoesNotUnpackBombs) {
+  const std::size_t size = std::size_t{4} << 20;
+  FreecadDocument many;
+  for (int i = 0; i < 8; ++i) {
+    many.entry(fmt::format("{}.brp", i), std::string(size / 8, ' '));
+  }
+  for (const std::string& bytes :
+       {make_zip({{"Document.xml", std::string(size, ' ')}}), many.bytes()}) {
+    const std::string limit = limit_of([&] { read(bytes); });
+    EXPECT_EQ(limit.substr(0, limit.find(" to 4")),
+              fmt::format("FCStd of {} bytes unpacks", bytes.size()));
+  }
+}
+
+TEST(FreecadFile, LimitsElementsBeforeTheyTakeMemory) {
+  std::string xml = "<Document>";
+  for (int i = 0; i < 9'000'000; ++i) xml += "<a/>";
+  xml += "</Document>";
+  const std::string bytes =
+      make_zip({{"Document.xml", xml}, {"x", noise_of(800'000)}});
+  EXPECT_EQ(limit_of([&] { read(bytes); }),
+            "FCStd Document.xml has 9000002 elements and attributes, at most "
+            "8388608 can be");
+}
+
+TEST(FreecadFile, LimitsTheGroupsOfAnObject) {
+  FreecadDocument document;
+  document.box("A");
+  for (int i = 0; i < 101; ++i) {
+    document.add("App::Part", fmt::format("G{}", i), links("Group", {"A"}));
+  }
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
+            "Too many groups: more than 100 hold 'A' (Part::Box)");
+}
+
+TEST(FreecadFile, NamesTheObjectBeyondAllCoordinates) {
+  FreecadDocument document;
+  document
+      .add("Sketcher::SketchObject", "Base",
+           sketch("<Geometry type=\"Part::GeomCircle\"><Circle "
+                  "CenterX=\"1e9\" CenterY=\"0\" Radius=\"5\"/></Geometry>"))
+      .add("Part::Extrusion", "E", extrusion());
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
+            "Coordinates beyond 1e9 mm: too large for exact layers, in 'E' "
+            "(Part::Extrusion)");
 }
 
 TEST(FreecadFile, LimitsSidesAndCorners) {

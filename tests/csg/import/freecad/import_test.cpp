@@ -78,6 +78,28 @@ TEST(ImportOfFreecadFiles, FailsAtItsPlaceInTheDesign) {
       << message;
 }
 
+TEST(ImportOfFreecadFiles, ShowsNamesOnOneLine) {
+  const support::TemporaryFolder folder;
+  const std::string name = "a&#10;error: fake&#13;";
+  FreecadDocument ring;
+  ring.add("App::Part", name, links("Group", {name}));
+  FreecadDocument lost;
+  lost.add("Part::Box&#10;", name, shape(name));
+  FreecadDocument fewer;
+  fewer.box(name, "1&#10;");
+  for (const FreecadDocument& document : {ring, lost, fewer}) {
+    const std::string path = folder.write("a.FCStd", document.bytes());
+    const std::string message =
+        message_of(fmt::format("import(\"{}\");", path));
+    const std::size_t begin = message.find("error: FCStd");
+    ASSERT_NE(begin, std::string::npos) << message;
+    const std::string words =
+        message.substr(begin, message.find(", importing") - begin);
+    EXPECT_EQ(words.find('\n'), std::string::npos) << message;
+    EXPECT_EQ(words.find('\r'), std::string::npos) << message;
+  }
+}
+
 TEST(ImportOfFreecadFiles, FailsWhereThereIsNoFile) {
   const std::string message = message_of("import(\"none.FCStd\");");
   EXPECT_NE(message.find("error: Can't open import file \"none.FCStd\""),
