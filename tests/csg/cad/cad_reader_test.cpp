@@ -8,13 +8,17 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <new>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "base/file/format_error.h"
 #include "tests/support/temporary_folder.h"
@@ -69,9 +73,10 @@ class CadReader : public ::testing::Test {
   }
 
   std::string failure(const std::string& bytes, Format format,
-                      unsigned most_seconds = 60) {
+                      unsigned most_seconds = 60,
+                      const Fineness& fineness = {}) {
     try {
-      read(bytes, format, {}, most_seconds);
+      read(bytes, format, fineness, most_seconds);
     } catch (const FormatError& fault) {
       return fault.what();
     }
@@ -171,6 +176,34 @@ TEST_F(CadReader, SurvivesWhatEndsOpenCascade) {
       "OpenCASCADE fails on this BREP");
   EXPECT_EQ(failure(bytes_of(LAMINA_CRASHES "/brep/endless"), Format::kBrep, 1),
             "OpenCASCADE takes more than 1 s for this BREP");
+}
+
+// OpenCASCADE hides a lack of memory and goes on with less.
+TEST_F(CadReader, LacksMemoryOrReadsTheWhole) {
+  Reader reader({LAMINA_MODULES}, diagnostics_);
+  expect_cylinder(reader.read(seed("step/cylinder"), Format::kStep, {}), 0.01);
+  rlimit before{};
+  ::getrlimit(RLIMIT_DATA, &before);
+  int lacking = 0;
+  int whole = 0;
+  for (rlim_t size = 4 << 20; whole < 3; size += size / 64) {
+    const rlimit less{size, before.rlim_max};
+    ::setrlimit(RLIMIT_DATA, &less);
+    std::optional<Part> part;
+    try {
+      part = reader.read(seed("step/cylinder"), Format::kStep,
+                         {.chordal_error = 0.0002});
+    } catch (const std::bad_alloc&) {
+    }
+    ::setrlimit(RLIMIT_DATA, &before);
+    if (part) {
+      ++whole;
+      expect_cylinder(*part, 0.0002);
+    } else {
+      ++lacking;
+    }
+  }
+  EXPECT_GT(lacking, 0);
 }
 
 TEST_F(CadReader, IsDeafToLocaleAndEnvironment) {
