@@ -174,8 +174,29 @@ TEST_F(CadReader, SurvivesWhatEndsOpenCascade) {
   EXPECT_EQ(
       failure(bytes_of(LAMINA_CRASHES "/brep/segmentation"), Format::kBrep),
       "OpenCASCADE fails on this BREP");
-  EXPECT_EQ(failure(bytes_of(LAMINA_CRASHES "/brep/endless"), Format::kBrep, 1),
-            "OpenCASCADE takes more than 1 s for this BREP");
+  EXPECT_EQ(failure(bytes_of(LAMINA_CRASHES "/brep/endless"), Format::kBrep),
+            "BREP that ends too early, or has words for numbers");
+}
+
+TEST_F(CadReader, EndsWhatTakesTooLong) {
+  EXPECT_EQ(
+      failure(seed("step/cylinder"), Format::kStep, 1, {.chordal_error = 1e-7}),
+      "OpenCASCADE takes more than 1 s for this STEP");
+}
+
+// In time, too: a file that is cut off kept OpenCASCADE busy for ever.
+TEST_F(CadReader, SaysThatABrepIsCutOff) {
+  for (const char* name : {"brep/cylinder", "brep/binary"}) {
+    const std::string whole = seed(name);
+    constexpr std::size_t kParts = 30;
+    for (std::size_t i = 1; i < kParts; ++i) {
+      const std::string words =
+          failure(whole.substr(0, whole.size() * i / kParts), Format::kBrep);
+      EXPECT_NE(words, "") << name << i;
+      EXPECT_EQ(words.find("OpenCASCADE takes"), std::string::npos)
+          << name << i << words;
+    }
+  }
 }
 
 // OpenCASCADE hides a lack of memory and goes on with less.
