@@ -21,6 +21,7 @@ Part make_part(std::string_view bytes, Format format,
                const Fineness& fineness) {
   const ShapeFile file = read_shape(bytes, format);
   Part part;
+  if (!file.loss.empty()) part.warnings.push_back(file.loss);
   for (const Solid& solid : find_solids(file, fineness.chordal_error, part)) {
     part.bodies.push_back(
         {solid.name, tessellate(solid, fineness, part.warnings)});

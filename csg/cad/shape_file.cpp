@@ -35,6 +35,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "csg/cad/detail/loss.h"
+
 namespace lamina::cad {
 namespace {
 
@@ -137,6 +139,7 @@ ShapeFile read_step(std::string_view bytes) {
   reader.TransferRoots();
   ShapeFile file;
   file.shape = reader.OneShape();
+  file.loss = loss_of(*reader.WS());
   name_solids(*reader.WS(), file);
   return file;
 }
@@ -167,7 +170,7 @@ ShapeFile read_iges(std::string_view bytes) {
     throw Unreadable{"IGES without its sections"};
   }
   reader.TransferRoots();
-  return {reader.OneShape(), {}, {}};
+  return {reader.OneShape(), {}, {}, loss_of(*reader.WS())};
 }
 
 // Which of the shapes of a binary file is meant stands at its end: as
@@ -218,6 +221,7 @@ ShapeFile read_brep(std::string_view bytes) {
   stream.exceptions(std::ios::failbit | std::ios::badbit);
   try {
     return {is_binary ? read_binary(stream, bytes.size()) : read_text(stream),
+            {},
             {},
             {}};
   } catch (const std::ios::failure&) {

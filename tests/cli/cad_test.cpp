@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -112,6 +113,21 @@ TEST(Cad, ABrokenFileIsAnErrorWithItsPlace) {
   EXPECT_TRUE(has(crash.errors, "OpenCASCADE fails on this STEP"))
       << crash.errors;
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.slc")));
+}
+
+TEST(Cad, ASolidThatIsLostEndsAStrictRun) {
+  const TemporaryFolder folder;
+  add_seed(folder, "step/cylinder", "part.step");
+  std::ifstream file(folder.file("part.step"));
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text.replace(text.find("(#11,#15)"), 9, "(#11,#15,#999)");
+  folder.write("lost.step", text);
+  const auto lost = run(folder, {"lost.step", "-o", "a.slc", "--strict"});
+  EXPECT_EQ(lost.status, 1);
+  EXPECT_TRUE(has(lost.errors, "warning: OpenCASCADE can't use 1 of "))
+      << lost.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.slc")));
+  EXPECT_EQ(run(folder, {"part.step", "-o", "a.slc", "--strict"}).status, 0);
 }
 
 TEST(Cad, AProgramWithoutItsModuleSaysWhatHelps) {

@@ -153,9 +153,9 @@ TEST_F(CadReader, ReportsWhatIsOpen) {
   const Part part = read(step, Format::kStep);
   ASSERT_EQ(part.bodies.size(), 1U);
   EXPECT_FALSE(is_closed(part.bodies[0].mesh));
-  ASSERT_EQ(part.warnings.size(), 1U);
-  EXPECT_NE(part.warnings[0].find("1 of 1 shells are open"), std::string::npos)
-      << part.warnings[0];
+  EXPECT_EQ(part.warnings,
+            (std::vector<std::string>{"OpenCASCADE can't use 1 of 3 faces",
+                                      "1 of 1 shells are open"}));
 }
 
 TEST_F(CadReader, SaysWhatIsNoSuchFile) {
@@ -197,6 +197,52 @@ TEST_F(CadReader, SaysThatABrepIsCutOff) {
           << name << i << words;
     }
   }
+}
+
+std::string replaced(std::string text, const std::string& from,
+                     const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+// A cylinder, and `second` for a further solid beside it.
+std::string step_of_two(const std::string& second) {
+  return replaced(
+      replaced(seed("step/cylinder"), "(#11,#15)", "(#11,#15,#900)"),
+      "#15 =", "#900 = " + second + ";\n#15 =");
+}
+
+TEST_F(CadReader, CountsWhatOpenCascadeLeavesOut) {
+  const auto warnings = [&](const std::string& bytes, Format format) {
+    const Part part = read(bytes, format);
+    return part.warnings.empty() ? std::string() : part.warnings[0];
+  };
+  const std::pair<std::string, std::string> kSteps[] = {
+      {step_of_two("MANIFOLD_SOLID_BREP('',#16)"), ""},
+      {step_of_two("MANIFOLD_SOLID_BREP('',#999)"),
+       "1 of 2 solids, 1 of 116 entities of shapes or units"},
+      {step_of_two("MANIFOLD_SOLID_BRAP('',#16)"),
+       "1 of 115 entities of shapes or units"},
+      {step_of_two(
+           "MANIFOLD_SOLID_BREP('',#901);\n#901 = CLOSED_SHELL('',(#902));"
+           "\n#902 = ADVANCED_FACE('',(#18),#999,.T.)"),
+       "1 of 2 solids, 1 of 4 faces, 1 of 118 entities of shapes or units"},
+      {replaced(seed("step/cylinder"), "CYLINDRICAL_SURFACE('',#32,5.)",
+                "CYLINDRICAL_SURFACE('',#32,-5.)"),
+       "1 of 3 faces, 1 of 115 entities of shapes or units"},
+      {replaced(seed("step/cylinder"), "SI_UNIT(.MILLI.,.METRE.)",
+                "SI_UNIT(.MILLE.,.METRE.)"),
+       "1 of 115 entities of shapes or units"}};
+  for (const auto& [bytes, words] : kSteps) {
+    EXPECT_EQ(warnings(bytes, Format::kStep),
+              words.empty() ? words : "OpenCASCADE can't use " + words);
+  }
+  std::string iges = seed("iges/cylinder");
+  for (int i = 0; i < 2; ++i)
+    iges = replaced(iges, "\n     144 ", "\n     145 ");
+  EXPECT_EQ(warnings(iges, Format::kIges),
+            "OpenCASCADE can't use 1 of 26 entities of shapes or units");
 }
 
 // OpenCASCADE hides a lack of memory and goes on with less.
