@@ -9,6 +9,7 @@
 #include <Message_Messenger.hxx>
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
+#include <fmt/format.h>
 
 #include "csg/cad/detail/shape_file.h"
 #include "csg/cad/detail/solids.h"
@@ -19,6 +20,12 @@ namespace {
 
 Part make_part(std::string_view bytes, Format format,
                const Fineness& fineness) {
+  if (fineness.chordal_error < kLeastChordalError) {
+    throw Unreadable{fmt::format(
+        "OpenCASCADE keeps no chordal error of {:.3g} mm, only {:g} "
+        "mm and more: the part is scaled too much",
+        fineness.chordal_error, kLeastChordalError)};
+  }
   const ShapeFile file = read_shape(bytes, format);
   Part part;
   if (!file.loss.empty()) part.warnings.push_back(file.loss);

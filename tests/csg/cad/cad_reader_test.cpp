@@ -184,6 +184,13 @@ TEST_F(CadReader, EndsWhatTakesTooLong) {
       "OpenCASCADE takes more than 1 s for this STEP");
 }
 
+TEST_F(CadReader, RefusesWhatIsFinerThanOpenCascade) {
+  EXPECT_EQ(failure(seed("step/cylinder"), Format::kStep, 60,
+                    {.chordal_error = 1e-8}),
+            "OpenCASCADE keeps no chordal error of 1e-08 mm, only 1e-07 mm and "
+            "more: the part is scaled too much");
+}
+
 // In time, too: a file that is cut off kept OpenCASCADE busy for ever.
 TEST_F(CadReader, SaysThatABrepIsCutOff) {
   for (const char* name : {"brep/cylinder", "brep/binary"}) {
