@@ -4,12 +4,14 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <exception>
 #include <mutex>
 #include <new>
 #include <vector>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -17,16 +19,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace lamina {
+#include "base/check.h"
+#include "base/diagnostic.h"
 
-// What both processes see.
-struct ChildProcess::SharedPage {
-  std::atomic<std::uint64_t> bytes = 0;  // that the child takes
-};
+namespace lamina {
 
 namespace {
 
-// The pages of all children, for whoever watches over the process's memory.
+// What the children take, for whoever watches over the process's memory.
 struct Children {
   std::mutex mutex;
   std::vector<const std::atomic<std::uint64_t>*> bytes;
@@ -35,6 +35,9 @@ Children& children() {
   static Children all;
   return all;
 }
+
+// The status of a child whose memory ended.
+constexpr int kOutOfMemoryStatus = 112;
 
 // From pipe() until the child's end of it is closed here. A child that another
 // thread makes meanwhile would hold it open.
@@ -73,7 +76,7 @@ void drop_handlers() {
     if (signal != SIGPIPE) ::signal(signal, SIG_DFL);
   }
   std::set_terminate([] { ::_exit(1); });
-  std::set_new_handler(nullptr);
+  std::set_new_handler([] { ::_exit(kOutOfMemoryStatus); });
 }
 
 void drop_streams() {
@@ -87,13 +90,18 @@ void drop_streams() {
   }
 }
 
-void limit(int resource, rlim_t value) {
+// Lowers what the process may take, or leaves what is less.
+void limit(__rlimit_resource_t resource, rlim_t value) {
   rlimit now{};
-  if (::getrlimit(static_cast<__rlimit_resource_t>(resource), &now) != 0) {
-    return;
-  }
-  now.rlim_cur = std::min(now.rlim_max, value);
-  ::setrlimit(static_cast<__rlimit_resource_t>(resource), &now);
+  if (::getrlimit(resource, &now) != 0) return;
+  now.rlim_cur = std::min(now.rlim_cur, value);
+  ::setrlimit(resource, &now);
+}
+
+unsigned processor_seconds(unsigned most) {
+  rlimit now{};
+  if (::getrlimit(RLIMIT_CPU, &now) != 0) return most;
+  return static_cast<unsigned>(std::min<rlim_t>(now.rlim_cur, most));
 }
 
 [[noreturn]] void run_child(
@@ -111,7 +119,40 @@ void limit(int resource, rlim_t value) {
   ::_exit(0);
 }
 
+[[noreturn]] void fail_without_process(int error) {
+  if (error == ENOMEM) throw std::bad_alloc();
+  throw Error(
+      fmt::format("the system grants no further process, or no pipe to it "
+                  "(ulimit -u, -n): {}",
+                  std::strerror(error)));
+}
+
 }  // namespace
+
+// A page that both processes see: what the child takes.
+class ChildProcess::SharedPage {
+ public:
+  SharedPage() {
+    void* const page = ::mmap(nullptr, sizeof *bytes_, PROT_READ | PROT_WRITE,
+                              MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (page == MAP_FAILED) throw std::bad_alloc();
+    bytes_ = new (page) std::atomic<std::uint64_t>(0);
+    const std::lock_guard lock(children().mutex);
+    children().bytes.push_back(bytes_);
+  }
+  ~SharedPage() {
+    const std::lock_guard lock(children().mutex);
+    std::erase(children().bytes, bytes_);
+    ::munmap(bytes_, sizeof *bytes_);
+  }
+  SharedPage(const SharedPage&) = delete;
+  SharedPage& operator=(const SharedPage&) = delete;
+
+  std::atomic<std::uint64_t>* bytes() { return bytes_; }
+
+ private:
+  std::atomic<std::uint64_t>* bytes_ = nullptr;
+};
 
 void ChildOutput::write(const void* bytes, std::size_t size) const {
   const char* next = static_cast<const char*>(bytes);
@@ -125,25 +166,25 @@ void ChildOutput::write(const void* bytes, std::size_t size) const {
 }
 
 ChildProcess::ChildProcess(const std::function<void(const ChildOutput&)>& work,
-                           unsigned most_seconds) {
-  void* const page = ::mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE,
-                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (page == MAP_FAILED) throw std::bad_alloc();
-  page_ = new (page) SharedPage;
-  {
-    const std::lock_guard lock(children().mutex);
-    children().bytes.push_back(&page_->bytes);
-  }
+                           unsigned most_seconds)
+    : page_(std::make_unique<SharedPage>()),
+      most_seconds_(processor_seconds(most_seconds)) {
   const pid_t parent = ::getpid();
   const std::lock_guard lock(pipe_mutex);
   int ends[2] = {-1, -1};
-  if (::pipe2(ends, O_CLOEXEC) == 0) process_ = ::fork();
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail_without_process(errno);
+  process_ = ::fork();
   if (process_ == 0) {
-    told_bytes = &page_->bytes;
-    run_child(parent, ends[1], most_seconds, work);
+    told_bytes = page_->bytes();
+    run_child(parent, ends[1], most_seconds_, work);
+  }
+  const int error = errno;
+  ::close(ends[1]);
+  if (process_ < 0) {
+    ::close(ends[0]);
+    fail_without_process(error);
   }
   pipe_ = ends[0];
-  if (ends[1] >= 0) ::close(ends[1]);
 }
 
 ChildProcess::~ChildProcess() {
@@ -151,10 +192,7 @@ ChildProcess::~ChildProcess() {
     ::kill(process_, SIGKILL);
     wait();
   }
-  if (pipe_ >= 0) ::close(pipe_);
-  const std::lock_guard lock(children().mutex);
-  std::erase(children().bytes, &page_->bytes);
-  ::munmap(page_, sizeof(SharedPage));
+  ::close(pipe_);
 }
 
 bool ChildProcess::read(void* bytes, std::size_t size) const {
@@ -170,6 +208,8 @@ bool ChildProcess::read(void* bytes, std::size_t size) const {
 }
 
 ChildFault ChildProcess::wait() {
+  // -1 would stand for any child.
+  LAMINA_CHECK_EQ(process_ > 0, true);
   int status = 0;
   pid_t ended = -1;
   do {
@@ -189,7 +229,14 @@ ChildFault ChildProcess::wait() {
         return ChildFault::kCrashed;
     }
   }
-  return WEXITSTATUS(status) == 0 ? ChildFault::kNone : ChildFault::kCrashed;
+  switch (WEXITSTATUS(status)) {
+    case 0:
+      return ChildFault::kNone;
+    case kOutOfMemoryStatus:
+      return ChildFault::kOutOfMemory;
+    default:
+      return ChildFault::kCrashed;
+  }
 }
 
 std::uint64_t memory_of_children() {

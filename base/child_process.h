@@ -8,11 +8,13 @@
 //
 // It may use what this process may, but its standard streams lead nowhere. It
 // has the limits that this process has now, and what it takes is counted
-// (memory_of_children()).
+// (memory_of_children()). Where operator new finds no memory it ends: libraries
+// that hide a lack of memory would go on with half of their work.
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include <sys/types.h>
 
@@ -30,14 +32,15 @@ class ChildOutput {
 };
 
 // How a child ended that did not end by itself.
-enum class ChildFault { kNone, kCrashed, kOutOfTime, kKilled };
+enum class ChildFault { kNone, kCrashed, kOutOfTime, kOutOfMemory, kKilled };
 
 class ChildProcess {
  public:
   // Starts the child, which calls `work` and ends.
   //
-  // most_seconds  of processor time
-  // throws        std::bad_alloc where the system grants no process
+  // most_seconds  of processor time, or fewer where this process may take fewer
+  // throws        Error where the system grants no process, or no pipe to it;
+  //               std::bad_alloc
   ChildProcess(const std::function<void(const ChildOutput&)>& work,
                unsigned most_seconds);
   // Ends it.
@@ -48,15 +51,19 @@ class ChildProcess {
   // Reads so many bytes of its output; false if it ended before.
   bool read(void* bytes, std::size_t size) const;
 
-  // Waits until it has ended.
+  // How long it may work [s of processor time].
+  unsigned most_seconds() const { return most_seconds_; }
+
+  // Waits until it has ended. To be called once.
   ChildFault wait();
 
  private:
-  struct SharedPage;
+  class SharedPage;
 
-  pid_t process_ = -1;
+  std::unique_ptr<SharedPage> page_;
+  unsigned most_seconds_;
+  pid_t process_ = -1;  // -1: it has ended
   int pipe_ = -1;
-  SharedPage* page_ = nullptr;
 };
 
 // Memory that the children of this process take [bytes], beyond what they share

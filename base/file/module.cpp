@@ -22,6 +22,16 @@ namespace fs = std::filesystem;
   throw GeometryError(std::move(error));
 }
 
+// Libraries set themselves up as they are opened, and throw what is their own
+// where there is no memory for it.
+void* open_library(const std::string& path) {
+  try {
+    return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  } catch (...) {
+    throw std::bad_alloc();
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> module_folders() {
@@ -43,7 +53,7 @@ void* open_module(const Module& module, const std::vector<std::string>& folders,
     const std::string path = folder + "/" + module.file;
     std::error_code error;
     if (!fs::exists(path, error)) continue;
-    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const library = open_library(path);
     void* symbol = library ? dlsym(library, module.function) : nullptr;
     if (symbol) return symbol;
     fail(fmt::format("Can't open the module for {}: {}", module.purpose,

@@ -151,20 +151,23 @@ Result read_result(const Source& source) {
   return result;
 }
 
-std::string failure_text(ChildFault fault, Format format,
-                         unsigned most_seconds) {
+[[noreturn]] void fail(ChildFault fault, Format format, unsigned most_seconds) {
   switch (fault) {
     case ChildFault::kOutOfTime:
-      return fmt::format("OpenCASCADE takes more than {} s for this {}",
-                         most_seconds, name_of(format));
+      throw FormatError(
+          fmt::format("OpenCASCADE takes more than {} s for this {}",
+                      most_seconds, name_of(format)));
     case ChildFault::kKilled:
-      return fmt::format("OpenCASCADE was killed when it read this {}",
-                         name_of(format));
+      throw FormatError(fmt::format(
+          "OpenCASCADE was killed when it read this {}", name_of(format)));
+    case ChildFault::kOutOfMemory:
+      throw std::bad_alloc();
     case ChildFault::kNone:
     case ChildFault::kCrashed:
       break;
   }
-  return fmt::format("OpenCASCADE fails on this {}", name_of(format));
+  throw FormatError(
+      fmt::format("OpenCASCADE fails on this {}", name_of(format)));
 }
 
 Result read_apart(Engine& engine, std::string_view bytes, Format format,
@@ -177,7 +180,7 @@ Result read_apart(Engine& engine, std::string_view bytes, Format format,
   try {
     return read_result(Source(child));
   } catch (const ChildFailed&) {
-    throw FormatError(failure_text(child.wait(), format, most_seconds));
+    fail(child.wait(), format, child.most_seconds());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <Message_Messenger.hxx>
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
+#include <fmt/format.h>
 
 #include "csg/cad/detail/shape_file.h"
 #include "csg/cad/detail/solids.h"
@@ -19,8 +20,15 @@ namespace {
 
 Part make_part(std::string_view bytes, Format format,
                const Fineness& fineness) {
+  if (fineness.chordal_error < kLeastChordalError) {
+    throw Unreadable{fmt::format(
+        "OpenCASCADE keeps no chordal error of {:.3g} mm, only {:g} "
+        "mm and more: the part is scaled too much",
+        fineness.chordal_error, kLeastChordalError)};
+  }
   const ShapeFile file = read_shape(bytes, format);
   Part part;
+  if (!file.loss.empty()) part.warnings.push_back(file.loss);
   for (const Solid& solid : find_solids(file, fineness.chordal_error, part)) {
     part.bodies.push_back(
         {solid.name, tessellate(solid, fineness, part.warnings)});

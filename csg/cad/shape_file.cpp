@@ -35,6 +35,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "csg/cad/detail/loss.h"
+
 namespace lamina::cad {
 namespace {
 
@@ -137,6 +139,7 @@ ShapeFile read_step(std::string_view bytes) {
   reader.TransferRoots();
   ShapeFile file;
   file.shape = reader.OneShape();
+  file.loss = loss_of(*reader.WS());
   name_solids(*reader.WS(), file);
   return file;
 }
@@ -144,16 +147,16 @@ ShapeFile read_step(std::string_view bytes) {
 // OpenCASCADE reads IGES from a path, or from standard input where the path is
 // empty. This process has no other use for that, and no path is in its way.
 void put_into_standard_input(std::string_view bytes) {
-  const int file = ::memfd_create("iges", MFD_CLOEXEC);
-  if (file < 0) throw std::bad_alloc();
+  ::close(STDIN_FILENO);
+  // Takes the least number that is free: that of standard input.
+  const int file = ::memfd_create("iges", 0);
+  if (file != STDIN_FILENO) throw std::bad_alloc();
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written <= 0) throw std::bad_alloc();
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
   ::lseek(file, 0, SEEK_SET);
-  ::dup2(file, STDIN_FILENO);
-  ::close(file);
 }
 
 ShapeFile read_iges(std::string_view bytes) {
@@ -167,19 +170,18 @@ ShapeFile read_iges(std::string_view bytes) {
     throw Unreadable{"IGES without its sections"};
   }
   reader.TransferRoots();
-  return {reader.OneShape(), {}, {}};
+  return {reader.OneShape(), {}, {}, loss_of(*reader.WS())};
 }
 
 // Which of the shapes of a binary file is meant stands at its end: as
 // OpenCASCADE writes it, or, in three numbers, as FreeCAD does.
-TopoDS_Shape read_binary(std::string_view bytes) {
+TopoDS_Shape read_binary(std::istringstream& stream, std::size_t size) {
   constexpr std::size_t kFreeCadEnd = 12;
-  std::istringstream stream = stream_of(bytes);
   BinTools_ShapeSet shapes;
   shapes.Read(stream);
   TopoDS_Shape shape;
   const auto at = static_cast<std::size_t>(std::max<long>(stream.tellg(), 0));
-  if (at + kFreeCadEnd != bytes.size()) {
+  if (at + kFreeCadEnd != size) {
     shapes.ReadSubs(shape, stream, shapes.NbShapes());
     return shape;
   }
@@ -197,8 +199,7 @@ TopoDS_Shape read_binary(std::string_view bytes) {
   return shape;
 }
 
-TopoDS_Shape read_text(std::string_view bytes) {
-  std::istringstream stream = stream_of(bytes);
+TopoDS_Shape read_text(std::istringstream& stream) {
   TopoDS_Shape shape;
   BRepTools::Read(shape, stream, BRep_Builder());
   return shape;
@@ -210,13 +211,22 @@ ShapeFile read_brep(std::string_view bytes) {
   constexpr std::string_view kBinary = "Open CASCADE Topology V";
   constexpr std::size_t kHead = 200;
   const std::string_view head = bytes.substr(0, kHead);
-  if (head.find(kBinary) != std::string_view::npos) {
-    return {read_binary(bytes), {}, {}};
+  const bool is_binary = head.find(kBinary) != std::string_view::npos;
+  if (!is_binary && head.find(kText) == std::string_view::npos) {
+    throw Unreadable{"BREP that does not begin with 'CASCADE Topology'"};
   }
-  if (head.find(kText) != std::string_view::npos) {
-    return {read_text(bytes), {}, {}};
+  std::istringstream stream = stream_of(bytes);
+  // OpenCASCADE does not look whether it read anything, and may wait for a word
+  // for ever.
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    return {is_binary ? read_binary(stream, bytes.size()) : read_text(stream),
+            {},
+            {},
+            {}};
+  } catch (const std::ios::failure&) {
+    throw Unreadable{"BREP that ends too early, or has words for numbers"};
   }
-  throw Unreadable{"BREP that does not begin with 'CASCADE Topology'"};
 }
 
 }  // namespace

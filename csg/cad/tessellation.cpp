@@ -154,12 +154,13 @@ double mesh(const TopoDS_Shape& shape, double deflection, double angle) {
   return deviation_of_edges(shape);
 }
 
-// Meshes until the chords of edges are as near as they have to be; returns how
-// far they are.
+// Meshes until the chords of edges are as near as they have to be, or as near
+// as OpenCASCADE makes them; returns how far they are.
 double mesh_edges_within(const TopoDS_Shape& shape, const Fineness& fineness) {
   double deflection = fineness.chordal_error;
   double deviation = mesh(shape, deflection, fineness.angle);
-  while (deviation > fineness.chordal_error) {
+  while (deviation > fineness.chordal_error &&
+         deflection / 2 >= kLeastChordalError) {
     const double finer = mesh(shape, deflection / 2, fineness.angle);
     // In some files the ends of chords are off their edge, which no finer ones
     // cure.

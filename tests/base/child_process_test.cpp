@@ -2,11 +2,16 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <new>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include "base/diagnostic.h"
 
 namespace lamina {
 namespace {
@@ -42,6 +47,73 @@ TEST(ChildProcess, TellsHowItEnded) {
       },
       1);
   EXPECT_EQ(endless.wait(), ChildFault::kOutOfTime);
+}
+
+// Even where a library hides it.
+TEST(ChildProcess, EndsWhereItsMemoryDoes) {
+  ChildProcess child(
+      [](const ChildOutput&) {
+        try {
+          ::operator delete(::operator new (std::size_t{1} << 60));
+        } catch (const std::bad_alloc&) {
+        }
+      },
+      kMostSeconds);
+  EXPECT_EQ(child.wait(), ChildFault::kOutOfMemory);
+}
+
+// Lowers what this process may take while it lives.
+class Limit {
+ public:
+  Limit(__rlimit_resource_t resource, rlim_t value) : resource_(resource) {
+    ::getrlimit(resource, &before_);
+    const rlimit now{value, before_.rlim_max};
+    ::setrlimit(resource, &now);
+  }
+  ~Limit() { ::setrlimit(resource_, &before_); }
+  Limit(const Limit&) = delete;
+  Limit& operator=(const Limit&) = delete;
+
+ private:
+  __rlimit_resource_t resource_;
+  rlimit before_{};
+};
+
+TEST(ChildProcess, HasNoMoreTimeThanItsParent) {
+  constexpr unsigned kLess = 5000;
+  const Limit limit(RLIMIT_CPU, kLess);
+  ChildProcess child(
+      [](const ChildOutput& output) {
+        rlimit now{};
+        ::getrlimit(RLIMIT_CPU, &now);
+        output.write(&now.rlim_cur, sizeof now.rlim_cur);
+      },
+      2 * kLess);
+  rlim_t seconds = 0;
+  EXPECT_TRUE(child.read(&seconds, sizeof seconds));
+  EXPECT_EQ(seconds, kLess);
+  EXPECT_EQ(child.most_seconds(), kLess);
+}
+
+// And leaves other children of its program alone.
+TEST(ChildProcess, SaysThatTheSystemGrantsNone) {
+  const pid_t other = ::fork();
+  if (other == 0) ::_exit(7);
+  {
+    const Limit limit(RLIMIT_NOFILE, 1);
+    try {
+      const ChildProcess child([](const ChildOutput&) {}, kMostSeconds);
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.diagnostic().message,
+                "the system grants no further process, or no pipe to it "
+                "(ulimit -u, -n): Too many open files");
+    }
+  }
+  EXPECT_EQ(memory_of_children(), 0U);
+  int status = 0;
+  EXPECT_EQ(::waitpid(other, &status, 0), other);
+  EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
 TEST(ChildProcess, HasNoStreams) {

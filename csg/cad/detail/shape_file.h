@@ -12,7 +12,7 @@
 
 namespace lamina::cad {
 
-// Thrown for bytes that are no such file.
+// Thrown for bytes that are no such file, or none that can be meshed.
 struct Unreadable {
   std::string reason;
 };
@@ -22,6 +22,7 @@ struct ShapeFile {
   // The names of solids, by their shape without its place.
   TopTools_DataMapOfShapeInteger name_of_solid;
   std::vector<std::string> names;
+  std::string loss;  // of what is not in the shape: words for a warning, or ""
 };
 
 // Throws Unreadable, or one of OpenCASCADE's own.

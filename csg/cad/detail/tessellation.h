@@ -18,6 +18,9 @@
 
 namespace lamina::cad {
 
+// BRepMesh takes points this near for one [mm], and no less for a deflection.
+constexpr double kLeastChordalError = 1e-7;
+
 // There are more than csg/limits.h allows.
 struct TooManyTriangles {
   double triangles;
