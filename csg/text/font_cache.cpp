@@ -118,11 +118,34 @@ void require_room() {
   ::munmap(room, kRoom);
 }
 
-Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
+bool parse(FcConfig& config, const char* rules) {
+  return FcConfigParseAndLoadFromMemory(&config, to_fc(rules), FcTrue) ==
+         FcTrue;
+}
+
+// The machine's rules of which font stands for which, and where fonts are,
+// without any font yet.
+Owned<FcConfig> load_rules() {
   require_room();
   errno = 0;
-  Owned<FcConfig> config(FcInitLoadConfig());
+  Owned<FcConfig> config(FcConfigCreate());
   require(config != nullptr);
+  // Fontconfig keeps what it finds for all programs of the user: where files
+  // could not be opened, that there are no fonts. It would write to the first
+  // of its folders that may be written, and this one takes no files.
+  require(parse(*config,
+                "<fontconfig><cachedir>/dev/null</cachedir>"
+                "</fontconfig>"));
+  if (FcConfigParseAndLoad(config.get(), nullptr, FcTrue) != FcTrue) {
+    require(
+        parse(*config, "<fontconfig><dir>/usr/share/fonts</dir></fontconfig>"));
+  }
+  require(errno != ENOMEM);
+  return config;
+}
+
+Owned<FcConfig> load_fonts(const std::vector<std::string>& folders) {
+  Owned<FcConfig> config = load_rules();
   for (const std::string& path : folders) {
     std::error_code error;
     const fs::path folder = fs::absolute(path, error);
@@ -134,17 +157,10 @@ Owned<FcConfig> load_config(const std::vector<std::string>& folders) {
   return config;
 }
 
-// Fontconfig's rules of which font stands for which, without any font. They are
-// the machine's: others may be able to write to HOME.
-Owned<FcConfig> load_rules() {
-  require_room();
+// Without the rules of HOME, to which others may be able to write.
+Owned<FcConfig> load_confined_rules() {
   FcConfigEnableHome(FcFalse);
-  Owned<FcConfig> config(FcConfigCreate());
-  require(config != nullptr);
-  errno = 0;
-  FcConfigParseAndLoad(config.get(), nullptr, FcTrue);
-  require(errno != ENOMEM);
-  return config;
+  return load_rules();
 }
 
 // Looking for all fonts takes longer than many a design, and finds the same for
@@ -156,7 +172,7 @@ Owned<FcConfig> shared_config() {
   const std::lock_guard lock(mutex);
   std::vector<std::string> folders = font_folders();
   if (!config || folders != known_folders) {
-    config = load_config(folders);
+    config = load_fonts(folders);
     known_folders = std::move(folders);
   }
   return Owned<FcConfig>(FcConfigReference(config.get()));
@@ -219,7 +235,7 @@ std::vector<hb_feature_t> read_features(const FcPattern& pattern) {
 
 FontCache FontCache::open(const FontFiles& files) {
   FontCache cache(files);
-  cache.config_ = files.is_confined() ? load_rules() : shared_config();
+  cache.config_ = files.is_confined() ? load_confined_rules() : shared_config();
   cache.own_fonts_.reset(FcFontSetCreate());
   require(cache.own_fonts_ != nullptr);
   FT_Library library = nullptr;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -115,6 +116,29 @@ TEST(Text, NeedsNoProc) {
   EXPECT_EQ(run_without_proc("a.scad -o b.slc --root . 2>&1").output,
             "lamina: --root needs /proc, which is not there\n"
             "Run 'lamina --help' for the options.\n");
+}
+
+// What a run finds of fonts, or fails to find, it keeps from all other
+// programs.
+TEST(Text, LeavesTheCacheOfFontsAlone) {
+  const TemporaryFolder folder;
+  const std::string cache = folder.file("cache");
+  std::filesystem::create_directory(cache);
+  folder.write("fonts.conf",
+               "<fontconfig><dir>/usr/share/fonts/truetype/liberation</dir>"
+               "<cachedir>" +
+                   cache + "</cachedir></fontconfig>");
+  folder.write("a.scad", "text(\"A\", font = \"Liberation Sans\");");
+  std::vector<std::string> words = {
+      "env", "FONTCONFIG_FILE=" + folder.file("fonts.conf"),
+      "XDG_CACHE_HOME=" + cache};
+  for (const std::string& word : command({"a.scad", "-o", "a.svg"})) {
+    words.push_back(word);
+  }
+  const auto result = support::run_process(words, folder.path());
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_FALSE(has(result.errors, "not found")) << result.errors;
+  EXPECT_TRUE(std::filesystem::is_empty(cache));
 }
 
 TEST(Text, UnderHardWarningsAMissingFontEndsTheRun) {
