@@ -289,7 +289,7 @@ class CsvRows : public Rows {
   DecimalSign decimal_ = DecimalSign::kPoint;
   std::vector<Column> columns_;
   std::map<std::string, std::size_t> places_;  // of columns, by their names
-  CsvRow cells_;  // read last
+  CsvRow cells_;                               // read last
   std::uint64_t number_ = 0;
 };
 

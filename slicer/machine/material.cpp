@@ -12,10 +12,9 @@ constexpr double kGreatestExposure = 1000;
 constexpr double kGreatestPrice = 1e9;
 
 Material read_material(const json& object) {
-  detail::require_members(object,
-                          {"name", "title", "source", "density", "exposure_s",
-                           "first_exposure_s", "printer", "layer_mm",
-                           "price_per_litre", "currency"});
+  detail::require_members(object, {"name", "title", "source", "density",
+                                   "exposure_s", "first_exposure_s", "printer",
+                                   "layer_mm", "price_per_litre", "currency"});
   Material material;
   material.name = detail::read_line(object, "name");
   material.title = detail::read_line(object, "title", material.name);
@@ -28,8 +27,7 @@ Material read_material(const json& object) {
   material.first_exposure = detail::read_number(
       object, "first_exposure_s", 0, kGreatestExposure, material.exposure);
   material.printer = detail::read_line(object, "printer", "");
-  material.layer_thickness =
-      detail::read_number(object, "layer_mm", 0, 10, 0);
+  material.layer_thickness = detail::read_number(object, "layer_mm", 0, 10, 0);
   material.price =
       detail::read_number(object, "price_per_litre", 0, kGreatestPrice, 0);
   material.currency = detail::read_line(object, "currency", "");

@@ -88,10 +88,9 @@ Printer read_printer(const json& object) {
 }
 
 std::string volume_text(Vec3 size) {
-  return std::isinf(size.z)
-             ? fmt::format("{:.6g} x {:.6g} mm", size.x, size.y)
-             : fmt::format("{:.6g} x {:.6g} x {:.6g} mm", size.x, size.y,
-                           size.z);
+  return std::isinf(size.z) ? fmt::format("{:.6g} x {:.6g} mm", size.x, size.y)
+                            : fmt::format("{:.6g} x {:.6g} x {:.6g} mm", size.x,
+                                          size.y, size.z);
 }
 
 bool fits(Vec3 size, Vec3 volume) {
@@ -102,8 +101,8 @@ bool fits(Vec3 size, Vec3 volume) {
 
 Vec3 Printer::build_volume() const {
   const Vec2 panel = Vec2(width, height) * pixel;
-  const double z = build_height > 0 ? build_height
-                                    : std::numeric_limits<double>::infinity();
+  const double z =
+      build_height > 0 ? build_height : std::numeric_limits<double>::infinity();
   return right.x != 0 ? Vec3(panel.x, panel.y, z) : Vec3(panel.y, panel.x, z);
 }
 
@@ -128,7 +127,8 @@ GeometryError too_large(const Printer& printer, Vec3 size) {
   std::string words = fmt::format(
       "The design is {:.6g} x {:.6g} x {:.6g} mm, larger than what {} builds: "
       "{}",
-      size.x, size.y, size.z, printer.name, volume_text(printer.build_volume()));
+      size.x, size.y, size.z, printer.name,
+      volume_text(printer.build_volume()));
   const Vec3 turned(size.y, size.x, size.z);
   if (fits(turned, printer.build_volume())) {
     return GeometryError(words + "; turned by 90° it fits");
@@ -143,13 +143,16 @@ GeometryError too_large(const Printer& printer, Vec3 size) {
     return volume.x * volume.y * volume.z;
   });
   if (larger.empty()) {
-    return GeometryError(words + "; lamina knows no printer that is large enough");
+    return GeometryError(words +
+                         "; lamina knows no printer that is large enough");
   }
   if (larger.size() > kMostNamed) larger.resize(kMostNamed);
   words += "; it fits";
   for (std::size_t i = 0; i < larger.size(); ++i) {
     words += fmt::format("{} {} ({})",
-                         i == 0 ? "" : i + 1 == larger.size() ? " or" : ",",
+                         i == 0                   ? ""
+                         : i + 1 == larger.size() ? " or"
+                                                  : ",",
                          larger[i].name, volume_text(larger[i].build_volume()));
   }
   return GeometryError(words);

@@ -64,7 +64,8 @@ TEST(Imported, PicturesAreRefused) {
   }
   const auto result = run(folder, {"inspect", "b.png"});
   EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.errors.find("inspect reads files of layers"), std::string::npos)
+  EXPECT_NE(result.errors.find("inspect reads files of layers"),
+            std::string::npos)
       << result.errors;
 }
 

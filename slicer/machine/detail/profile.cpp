@@ -61,9 +61,10 @@ void read_profile(std::string_view kind, const std::string& name_or_file,
   if (!name_or_file.ends_with(".json")) {
     const std::vector<std::string_view> views(names.begin(), names.end());
     const std::string hint = did_you_mean(name_or_file, views);
-    fail(fmt::format("{}{}'lamina {}s' lists those that lamina knows, and a "
-                     "file of your own ends in .json",
-                     hint, hint.empty() ? "" : " ", kind));
+    fail(
+        fmt::format("{}{}'lamina {}s' lists those that lamina knows, and a "
+                    "file of your own ends in .json",
+                    hint, hint.empty() ? "" : " ", kind));
   }
   access.require(name_or_file);
   const std::optional<std::string> text = access.read(name_or_file);

@@ -138,7 +138,8 @@ TEST(ImageStackWriter, APartAsLargeAsThePanelFits) {
   for (const char* const name : {"plain", "prusa-sl1", "elegoo-mars-3"}) {
     const Printer printer = find_printer(name);
     const bool is_turned = printer.right.x == 0;
-    const Vec2 size(printer.width * printer.pixel.x, printer.height * printer.pixel.y);
+    const Vec2 size(printer.width * printer.pixel.x,
+                    printer.height * printer.pixel.y);
     const Vec2 low(33.3, 17.7);
     const Vec2 high = low + (is_turned ? Vec2(size.y, size.x) : size);
     write_folder(folder.file(name), printer,
@@ -168,8 +169,9 @@ TEST(ImageStackWriter, ArchivesHoldLayersOfOneThickness) {
   const std::vector<Layer> layers = {layer_of(kBar), thicker};
   for (const auto format : {OutputFormat::kSl1, OutputFormat::kNanoDlp}) {
     TemporaryFiles files;
-    const auto writer = make_layer_writer(
-        {.format = format, .printer = small_printer()}, folder.file("a"), files);
+    const auto writer =
+        make_layer_writer({.format = format, .printer = small_printer()},
+                          folder.file("a"), files);
     writer->begin(kBox);
     writer->take(layers[0]);
     EXPECT_THROW(writer->take(layers[1]), GeometryError);
@@ -192,8 +194,9 @@ TEST(ImageStackWriter, FollowsLinksToFolders) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("real/00000.png")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("real/00001.png")));
   std::filesystem::create_directory_symlink("none", folder.file("b.png"));
-  EXPECT_THROW(write_folder(folder.file("b.png"), small_printer(), {layer}, kBox),
-               FileError);
+  EXPECT_THROW(
+      write_folder(folder.file("b.png"), small_printer(), {layer}, kBox),
+      FileError);
   EXPECT_EQ(folder.entry_count(), 3U);
 }
 
@@ -284,8 +287,9 @@ TEST(ImageStackWriter, ReplacesOnlyFoldersOfItsOwn) {
 
   std::filesystem::create_directory(folder.file("mine"));
   std::ofstream(folder.file("mine/letter.txt")) << "dear";
-  EXPECT_THROW(write_folder(folder.file("mine"), small_printer(), {layer}, kBox),
-               FileError);
+  EXPECT_THROW(
+      write_folder(folder.file("mine"), small_printer(), {layer}, kBox),
+      FileError);
   EXPECT_EQ(read_file(folder.file("mine/letter.txt")), "dear");
   std::ofstream(folder.file("file.png")) << "picture";
   EXPECT_THROW(
@@ -300,10 +304,10 @@ TEST(ImageStackWriter, AnInterruptLeavesNothing) {
   // Never destroyed: after discard_all nothing can be, as in a process that
   // is about to end.
   static auto* const files = new TemporaryFiles;
-  static auto* const writer =
-      make_layer_writer({.format = OutputFormat::kPng, .printer = small_printer()},
-                        folder.file("a.png"), *files)
-          .release();
+  static auto* const writer = make_layer_writer({.format = OutputFormat::kPng,
+                                                 .printer = small_printer()},
+                                                folder.file("a.png"), *files)
+                                  .release();
   writer->begin(kBox);
   writer->take(layer_of(kBar));
   EXPECT_EQ(folder.entry_count(), 1U);

@@ -159,8 +159,9 @@ TEST(BuildVolumeSink, TakesWhatFitsToTheLastMicrometre) {
   BuildVolumeSink sink(mars, drain);
   sink.begin({Vec3(0), volume});
   EXPECT_NO_THROW(sink.take(layer_of({volume.x, volume.y}, 0, volume.z)));
-  EXPECT_THROW(sink.take(layer_of({volume.x, volume.y}, volume.z, volume.z + 1)),
-               GeometryError);
+  EXPECT_THROW(
+      sink.take(layer_of({volume.x, volume.y}, volume.z, volume.z + 1)),
+      GeometryError);
   EXPECT_THROW(sink.take(layer_of({volume.x + 0.01, 1}, 0, 1)), GeometryError);
 }
 

@@ -141,9 +141,9 @@ class Reader {
   std::map<const Object*, OutlineEntry> outlines_;
   std::size_t corners_ = 0;                       // of outlines_
   std::map<std::string_view, Solid> boundaries_;  // by their entries
-  std::vector<const Object*> hidden_;    // of those that were left out
-  std::vector<const Object*> flat_;      // likewise
-  std::vector<const Object*> used_;      // likewise, and visible
+  std::vector<const Object*> hidden_;             // of those that were left out
+  std::vector<const Object*> flat_;               // likewise
+  std::vector<const Object*> used_;               // likewise, and visible
   std::set<std::string_view> operands_;  // of other objects that are shown
   std::set<std::string_view> members_;   // of groups and bodies
   std::map<const Object*, std::vector<const Object*>> groups_;  // that hold it
