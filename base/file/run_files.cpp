@@ -154,7 +154,7 @@ bool RunFiles::expect_one_of_many(const std::string& path,
   const std::string place = place_of(path, there.has_value(), access);
   if (there) expect_files(path, there, access);
   const std::lock_guard lock(mutex_);
-  check_place(place, path);
+  claim_place(place, path);
   return many_places_.insert(fingerprint(place));
 }
 
@@ -162,7 +162,7 @@ bool RunFiles::expect_of_another_run(const std::string& path,
                                      const FileAccess& access) {
   const std::string place = place_of(path, false, access);
   const std::lock_guard lock(mutex_);
-  check_place(place, path);
+  claim_place(place, path);
   return many_places_.insert(fingerprint(place));
 }
 
@@ -204,11 +204,11 @@ void RunFiles::check_unread(const std::string& path,
 
 void RunFiles::expect_place(const std::string& place, const std::string& path) {
   const std::lock_guard lock(mutex_);
-  check_place(place, path);
+  claim_place(place, path);
   places_.emplace(place, path);
 }
 
-void RunFiles::check_place(const std::string& place, const std::string& path) {
+void RunFiles::claim_place(const std::string& place, const std::string& path) {
   const auto refuse = [&](std::string_view why) {
     throw FileError(fmt::format("Can't write '{}': {}", shown_path(path), why));
   };

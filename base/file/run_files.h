@@ -85,7 +85,8 @@ class RunFiles {
   // With the mutex held.
   void check_unread(const std::string& path,
                     const std::vector<std::uint64_t>& files) const;
-  void check_place(const std::string& place, const std::string& path);
+  // Keeps the folders around the place from being outputs, too.
+  void claim_place(const std::string& place, const std::string& path);
 
   std::mutex mutex_;
   // Fingerprints of device and inode: of what a file is, whatever it is called.
