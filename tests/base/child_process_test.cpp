@@ -49,6 +49,19 @@ TEST(ChildProcess, TellsHowItEnded) {
   EXPECT_EQ(endless.wait(), ChildFault::kOutOfTime);
 }
 
+// A shell's `ulimit -t` sets both limits; at the hard one the system kills.
+TEST(ChildProcess, IsOutOfTimeAtAHardLimit) {
+  ChildProcess endless(
+      [](const ChildOutput&) {
+        const rlimit both{1, 1};
+        ::setrlimit(RLIMIT_CPU, &both);
+        while (::getppid() != 0) {
+        }
+      },
+      1);
+  EXPECT_EQ(endless.wait(), ChildFault::kOutOfTime);
+}
+
 // Even where a library hides it.
 TEST(ChildProcess, EndsWhereItsMemoryDoes) {
   ChildProcess child(
