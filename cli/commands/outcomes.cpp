@@ -51,8 +51,11 @@ std::string csv_of(const Piece& piece, const Outcome& outcome) {
     const compiler::Report& report = outcome.report;
     const Vec3 size = report.slice.box.size();
     figures = fmt::format(
-        "{},{:.6g},{:.6g},{:.6g},{},{},{},{},{},", report.slice.layers, size.x,
-        size.y, size.z, report.slice.volume,
+        "{},{},{},{},{},{},", report.slice.layers,
+        report.slice.box.is_empty()
+            ? ",,"
+            : fmt::format("{:.6g},{:.6g},{:.6g}", size.x, size.y, size.z),
+        report.slice.volume,
         report.estimate.grams > 0 ? fmt::format("{}", report.estimate.grams)
                                   : "",
         report.wall_seconds, report.warnings,

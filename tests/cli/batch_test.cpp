@@ -466,6 +466,11 @@ TEST(SeveralDesigns, GoToAFolderOrAPattern) {
       count_lines(trees.errors, "a.scad         0                         - "),
       1U)
       << trees.errors;
+  // Nor have layers above it.
+  run(folder, {"a.scad", "b.scad", "-o", "{name}.slc", "--heights", "1000",
+               "--report", "above.csv"});
+  const std::string report = read_file(folder.file("above.csv"));
+  EXPECT_TRUE(has(report, ",a.scad,a.slc,1,,,,0,,")) << report;
 }
 
 TEST(SeveralDesigns, RefuseWhatIsForOne) {
