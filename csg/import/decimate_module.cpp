@@ -232,13 +232,21 @@ class ModMovesT : public OpenMesh::Decimater::ModBaseT<Mesh> {
   }
 
   float collapse_priority(const Collapse& collapse) override {
-    const std::optional<double> moved = look(collapse);
+    if (!take_ring(collapse)) return Base::ILLEGAL_COLLAPSE;
+    // v1 must not become a fan too wide for what comes later.
+    if (ring_.size() + valence_of(collapse.v1v0) > kMostSpokes + 4) {
+      return Base::ILLEGAL_COLLAPSE;
+    }
+    const std::optional<double> moved = ring_.collapse();
     if (!moved || *moved > tolerance_) return Base::ILLEGAL_COLLAPSE;
     return static_cast<float>(*moved);
   }
 
+  // The fan is still as it was when its priority was asked for: else that is
+  // asked for again. v1 may have become wider.
   void preprocess_collapse(const Collapse& collapse) override {
-    look(collapse);
+    take_ring(collapse);
+    ring_.collapse();
   }
 
   // The new fan stands from vl to vr around v1.
@@ -274,23 +282,19 @@ class ModMovesT : public OpenMesh::Decimater::ModBaseT<Mesh> {
     return valence;
   }
 
-  std::optional<double> look(const Collapse& collapse) {
+  // False where the triangles around v0 are no fan, or too many.
+  bool take_ring(const Collapse& collapse) {
     Mesh& mesh = Base::mesh();
     ring_.clear();
     HalfEdge at = collapse.v0v1;
     do {
       const auto face = mesh.face_handle(at);
-      if (!face.is_valid() || ring_.size() == kMostSpokes) return std::nullopt;
+      if (!face.is_valid() || ring_.size() == kMostSpokes) return false;
       ring_.add(mesh.point(mesh.to_vertex_handle(at)) - collapse.p0,
                 move(face));
       at = next_around(at);
     } while (at != collapse.v0v1);
-    // v1 must not become a fan too wide for what comes later.
-    if (ring_.size() < 3 ||
-        ring_.size() + valence_of(collapse.v1v0) > kMostSpokes + 4) {
-      return std::nullopt;
-    }
-    return ring_.collapse();
+    return ring_.size() >= 3;
   }
 
   double tolerance_ = 0;
