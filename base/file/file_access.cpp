@@ -79,13 +79,39 @@ bool is_of_kernel(const OpenFile& file) {
          system.f_type == PROC_SUPER_MAGIC || system.f_type == SYSFS_MAGIC;
 }
 
+bool is_a_symlink(const fs::path& path) {
+  std::error_code error;
+  return fs::is_symlink(fs::symlink_status(path, error));
+}
+
+// The path without links and dots, and in words behind what is not there. Links
+// that lead to what is not there are followed, too.
+fs::path without_links(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as many as the kernel follows
+  std::error_code error;
+  // Where not even the first part is there, only what is absolute becomes so.
+  fs::path found = fs::weakly_canonical(fs::absolute(path, error), error);
+  for (int links = 0; links < kMostLinks; ++links) {
+    fs::path begun;
+    auto part = found.begin();
+    while (part != found.end() && !is_a_symlink(begun / *part))
+      begun /= *part++;
+    if (part == found.end()) break;
+    fs::path target = begun / fs::read_symlink(begun / *part, error);
+    while (++part != found.end()) target /= *part;
+    found = fs::weakly_canonical(target, error);
+  }
+  return found;
+}
+
 // The path that a rename must take: that of the file itself, behind symbolic
 // links.
 std::string follow_links(const std::string& path) {
   const std::unique_ptr<char, void (*)(void*)> resolved(
       ::realpath(path.c_str(), nullptr), ::free);
   if (!resolved && errno == ENOMEM) throw std::bad_alloc();
-  return resolved ? resolved.get() : path;  // not there yet
+  if (resolved) return resolved.get();
+  return is_a_symlink(path) ? without_links(path).string() : path;
 }
 
 bool begins_with(const std::vector<std::string>& parts,
@@ -201,6 +227,18 @@ bool FileAccess::is_regular_file(const std::string& path) const {
   return status && S_ISREG(status->st_mode);
 }
 
+bool FileAccess::is_link(const std::string& path) const {
+  if (!is_confined()) return is_a_symlink(path);
+  const std::size_t slash = path.rfind('/');
+  const Destination folder =
+      find(slash == std::string::npos ? "." : path.substr(0, slash + 1));
+  struct stat status {};
+  return folder.state == State::kThere &&
+         ::fstatat(folder.file.descriptor(), path.c_str() + slash + 1, &status,
+                   AT_SYMLINK_NOFOLLOW) == 0 &&
+         S_ISLNK(status.st_mode);
+}
+
 std::string FileAccess::canonical(const std::string& path) const {
   if (is_confined()) {
     Destination found = find(path);
@@ -213,13 +251,10 @@ std::string FileAccess::canonical(const std::string& path) const {
 }
 
 std::string FileAccess::weakly_canonical(const std::string& path) const {
-  std::error_code error;
-  if (!is_confined()) {
-    // Where not even the first part is there, only what is absolute becomes so.
-    return fs::weakly_canonical(fs::absolute(path, error), error).string();
-  }
+  if (!is_confined()) return without_links(path).string();
   const Destination found = find(path);
   if (found.state != State::kOutside) return found.path;
+  std::error_code error;
   return fs::absolute(path, error).lexically_normal().string();
 }
 

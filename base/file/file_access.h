@@ -102,10 +102,13 @@ class FileAccess {
   // Something other than a folder.
   bool is_file(const std::string& path) const;
   bool is_regular_file(const std::string& path) const;
+  // A symbolic link, to whatever.
+  bool is_link(const std::string& path) const;
 
   // The path without links and dots; empty for what is not there.
   std::string canonical(const std::string& path) const;
-  // The same as far as it is there, and in words behind that.
+  // The same as far as it is there, and in words behind that. Links to what is
+  // not there are followed, too.
   std::string weakly_canonical(const std::string& path) const;
 
   // Names of what stands in a folder, in no order, without "." and ".."; no

@@ -44,8 +44,10 @@ std::vector<std::uint64_t> files_at(const std::string& path,
   return files;
 }
 
-// The same for all ways of writing a path where letters have no case: small
-// ones, and no points at the end of a name, which FAT leaves out.
+// The same for paths that are one where letters have no case: small ones, and
+// no points at the end of a name, which FAT leaves out. (Letter by letter:
+// where a file system takes two spellings of a letter for one, or "ß" for "ss",
+// these stay different.)
 std::string without_case(std::string_view path) {
   static const locale_t unicode =
       ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
@@ -117,7 +119,7 @@ std::string RunFiles::place_of(const std::string& path, bool is_there,
   const std::lock_guard lock(mutex_);
   std::string place;
   bool folds_case = false;
-  if (is_plain && !is_there) {
+  if (is_plain && !is_there && !access.is_link(path)) {
     const Folder& found = folder_of(folder);
     place = found.path + name;
     folds_case = found.folds_case;

@@ -43,7 +43,6 @@ const std::map<std::string, std::string> kMayTouch = {
     {"base/file/output_digest.cpp", "the same"},
     {"base/file/output_file.cpp",
      "what FileAccess::find_output found; devices without --root"},
-    {"base/file/output_folder.cpp", "the same"},
     {"base/file/module.cpp", "the program's own modules"},
     {"base/child_process.cpp", "/dev/null"},
     {"csg/text/font_cache.cpp",
