@@ -109,7 +109,7 @@ void OutputFile::commit() {
     const int error = copy_bytes(temporary_.file, target);
     if (error != 0) fail(path_, error);
     if (target != STDOUT_FILENO && ::close(target) != 0) fail(path_, errno);
-  } else if (!temporary_files_.commit_file(temporary_, place_)) {
+  } else if (!temporary_files_.commit_file(temporary_, place_, path_)) {
     fail(path_, errno);
   }
   temporary_files_.discard_file(temporary_);

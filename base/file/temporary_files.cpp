@@ -322,19 +322,20 @@ bool TemporaryFiles::put_at(File& file, const std::string& target) {
   return true;
 }
 
-bool TemporaryFiles::commit_file(File& file, const OutputPlace& target) {
+bool TemporaryFiles::commit_file(File& file, const OutputPlace& target,
+                                 const std::string& path) {
   const Lock lock(mutex_);
   RunFiles* const run = access_.run_files();
   std::vector<std::uint64_t> before;
   if (run != nullptr) {
-    before = run->require_unread(target.path, target.there, access_);
+    before = run->require_unread(path, target.there, access_);
   }
   if (target.there) take_after(file.file, *target.there);
   errno = end_writing(file.file);
   if (errno != 0 || !put_at(file, target.path)) return false;
   struct stat now {};
   if (run != nullptr && ::fstat(file.file, &now) == 0) {
-    run->note_written(before, target.path, now, access_);
+    run->note_written(before, path, now, access_);
   }
   return true;
 }

@@ -51,8 +51,10 @@ class TemporaryFiles {
   File open_file(const std::string& target);
   // Puts the file in the place of `target`, with mode and owner of what stands
   // there as far as that may be. False if it cannot (errno). Either way the
-  // file stays open. Throws FileError where the run has read what it replaces.
-  bool commit_file(File& file, const OutputPlace& target);
+  // file stays open. Throws FileError, which names `path`, where the run has
+  // read what it replaces.
+  bool commit_file(File& file, const OutputPlace& target,
+                   const std::string& path);
   // Closes the file and removes it if it was not committed.
   void discard_file(File& file);
 
