@@ -58,12 +58,20 @@ void remove_all(const std::string& path) {
   ::rmdir(path.c_str());
 }
 
-bool holds_folders(const std::string& path) {
+// Whether this is, or is a folder that holds, what no ended run has left:
+// something that this run reads, or folders.
+bool holds_others(const std::string& path, const struct stat& status,
+                  RunFiles* run) {
+  if (run != nullptr && run->is_input(status)) return true;
+  if (!S_ISDIR(status.st_mode)) return false;
   std::error_code error;
   std::filesystem::directory_iterator entry(path, error);
   for (; !error && entry != std::filesystem::directory_iterator();
        entry.increment(error)) {
-    if (entry->is_directory(error)) return true;
+    struct stat inside {};
+    if (::lstat(entry->path().c_str(), &inside) != 0) continue;
+    if (S_ISDIR(inside.st_mode)) return true;
+    if (run != nullptr && run->is_input(inside)) return true;
   }
   return false;
 }
@@ -105,8 +113,7 @@ bool stands_at(const std::string& path, const struct stat& open) {
          open.st_ino == named.st_ino;
 }
 
-// Removes what an ended run left under this name; false if there is no such:
-// what this run reads, and folders in folders, are none.
+// Removes what an ended run left under this name; false if there is no such.
 bool remove_abandoned(const std::string& path, RunFiles* run) {
   int file =
       ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -114,9 +121,8 @@ bool remove_abandoned(const std::string& path, RunFiles* run) {
   struct stat status = {};
   const bool is_abandoned =
       ::fstat(file, &status) == 0 && status.st_uid == ::geteuid() &&
-      (S_ISREG(status.st_mode) ||
-       (S_ISDIR(status.st_mode) && !holds_folders(path))) &&
-      (run == nullptr || !run->is_input(status)) &&
+      (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+      !holds_others(path, status, run) &&
       ::flock(file, LOCK_EX | LOCK_NB) == 0 && stands_at(path, status);
   if (is_abandoned) remove_all(path);
   close_quietly(file);
@@ -220,7 +226,8 @@ bool is_hidden_name(std::string_view path) {
     const std::size_t mark = name.rfind(kMark);
     if (!name.starts_with('.') || mark == std::string_view::npos) continue;
     const std::string_view number = name.substr(mark + kMark.size());
-    if (number.find_first_not_of("0123456789") == std::string_view::npos) {
+    if (!number.empty() &&
+        number.find_first_not_of("0123456789") == std::string_view::npos) {
       return true;
     }
   }
