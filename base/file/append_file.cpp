@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file/run_files.h"
+#include "base/diagnostic.h"
 
 namespace lamina {
 namespace {
@@ -40,13 +40,10 @@ AppendFile AppendFile::open(const std::string& path, const FileAccess& access) {
     if (!last) fail(path, errno);
     is_torn = *last != "\n";
   }
-  return {path, access, std::move(file), status, is_torn};
+  return {path, std::move(file), is_torn};
 }
 
 void AppendFile::append(std::string_view line) {
-  if (RunFiles* const run = access_.run_files(); run != nullptr) {
-    run->require_unread(path_, status_, access_);
-  }
   std::string bytes = is_torn_ ? "\n" : "";
   bytes += line;
   bytes += '\n';

@@ -8,8 +8,7 @@
 
 #include <string>
 #include <string_view>
-
-#include <sys/stat.h>
+#include <utility>
 
 #include "base/file/file_access.h"
 #include "base/file/open_file.h"
@@ -26,26 +25,18 @@ class AppendFile {
   const OpenFile& file() const { return file_; }
 
   // line  without '\n'
-  // Throws FileError, as does sync(), also where the run has read the file as
-  // an input. What is torn then is no line.
+  // Throws FileError, as does sync(). What is torn then is no line.
   void append(std::string_view line);
 
   // Returns when the machine may stop without losing lines.
   void sync();
 
  private:
-  AppendFile(std::string path, const FileAccess& access, OpenFile file,
-             const struct stat& status, bool is_torn)
-      : path_(std::move(path)),
-        access_(access),
-        file_(std::move(file)),
-        status_(status),
-        is_torn_(is_torn) {}
+  AppendFile(std::string path, OpenFile file, bool is_torn)
+      : path_(std::move(path)), file_(std::move(file)), is_torn_(is_torn) {}
 
   std::string path_;
-  FileAccess access_;
   OpenFile file_;
-  struct stat status_;
   bool is_torn_;  // its last line lacks the end
 };
 

@@ -344,7 +344,7 @@ OpenFile FileAccess::open(const std::string& path) const {
   }
   const bool is_refused = is_confined() && is_of_kernel(file);
   if (S_ISREG(status.st_mode) && !is_refused) {
-    if (run_) run_->note_input(path, status);
+    if (run_) run_->note_input(path, status, *this);
     return file;
   }
   errno = 0;
@@ -361,7 +361,7 @@ std::optional<std::string> FileAccess::read(const std::string& path) const {
       errno = 0;
       return std::nullopt;
     }
-    if (run_ && S_ISREG(status.st_mode)) run_->note_input(path, status);
+    if (run_ && S_ISREG(status.st_mode)) run_->note_input(path, status, *this);
   }
   return read_open(file, path);
 }

@@ -240,15 +240,23 @@ void RunFiles::claim_place(const std::string& place, const std::string& path) {
   for (const std::uint64_t folder : folders) around_.insert(folder);
 }
 
-void RunFiles::note_input(const std::string& path, const struct stat& status) {
+void RunFiles::note_input(const std::string& path, const struct stat& status,
+                          const FileAccess& access) {
+  const std::uint64_t file = identity_of(status);
   const std::lock_guard lock(mutex_);
-  inputs_.insert(identity_of(status));
-  if (outputs_.contains(identity_of(status))) refuse_input(path);
+  const bool is_output = outputs_.contains(file);
+  if (!is_output || !access.is_confined()) inputs_.insert(file);
+  if (is_output) refuse_input(path);
 }
 
 bool RunFiles::is_input(const struct stat& status) {
   const std::lock_guard lock(mutex_);
   return inputs_.contains(identity_of(status));
+}
+
+void RunFiles::forget_inputs() {
+  const std::lock_guard lock(mutex_);
+  inputs_ = {};
 }
 
 void RunFiles::note_written(const std::vector<std::uint64_t>& before,

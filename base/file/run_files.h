@@ -4,8 +4,8 @@
 //
 // Outputs are told before the work begins. Inputs make themselves known as they
 // are opened (FileAccess), many of them while the design runs. Whichever comes
-// second is the error. What the run has read, or tried to read, it does not
-// write after that: the outputs ask once more when they are written.
+// second is the error. What the run has read it does not write after that: the
+// outputs ask once more when they are written.
 
 #include <cstdint>
 #include <mutex>
@@ -46,8 +46,8 @@ class RunFiles {
   // Says that all of these have been told: their names are compared no more.
   void end_of_many();
 
-  // Throws FileError where the run has read, or tried to read, what an output
-  // is about to replace. Returns that for note_written().
+  // Throws FileError where the run has read what an output is about to replace.
+  // Returns that for note_written().
   //
   // there  what stands at `path`
   std::vector<std::uint64_t> require_unread(
@@ -56,9 +56,14 @@ class RunFiles {
   void require_unread(const std::string& path, const FileAccess& access);
 
   // Says that the run has opened `path` for reading. Throws FileError where
-  // that is one of its outputs.
-  void note_input(const std::string& path, const struct stat& status);
+  // that is one of its outputs. That output is not written any more, but where
+  // strangers name inputs (--root): else they could keep others' from being
+  // written.
+  void note_input(const std::string& path, const struct stat& status,
+                  const FileAccess& access);
   bool is_input(const struct stat& status);
+  // Says that all inputs are about to be read once more.
+  void forget_inputs();
 
   // Says that an output has got its name: where the files `before` stood
   // stands `now`, or what is in that folder.

@@ -62,6 +62,19 @@ std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
+// Throws FileError for a file that has not been begun as a ledger: nothing is
+// to be added to it.
+void require_ledger(const std::string& path, const OpenFile& file) {
+  constexpr std::string_view kRead = R"({"read":)";
+  constexpr std::string_view kPiece = R"({"row":)";
+  const std::string begin = file.read_at(0, kRead.size()).value_or("");
+  const auto begins = [&](std::string_view line) {
+    return line.starts_with(begin) || begin.starts_with(line);
+  };
+  if (begins(kRead) || begins(kPiece)) return;
+  throw FileError(fmt::format("Can't write '{}': it is no ledger", path));
+}
+
 bool are_equal(const timespec& a, const timespec& b) {
   return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
 }
@@ -223,6 +236,7 @@ Ledger::Ledger(const LedgerOptions& options, const FileAccess& access)
       file_(AppendFile::open(options.path, access)),
       last_sync_(std::chrono::steady_clock::now()),
       memory_(peak_memory_bytes()) {
+  require_ledger(options.path, file_.file());
   if (!options.resumes) return;
   index_.emplace(access);
   index_->read(options.path, file_.file());

@@ -101,16 +101,18 @@ TEST_F(Outputs, AreNoInputs) {
       {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.scad",
        "--export-format", "slc"},
       {"batch", "ring.scad", "--table", "table.csv", "-o", "{name}.svg",
-       "--ledger", "plan.svg"},
-      {"batch", "ring.scad", "--table", "table.csv", "-o", "{name}.svg",
        "--report", "plan.svg"},
-      {"batch", "ring.scad", "--table", "table.csv", "-o", "{name}.svg",
-       "--ledger", "font.ttf"},
       {"compare", "a.svg", "a.svg", "--report", "a.svg"},
       {"compare", "a.svg", "b.svg", "--report", "b.svg"},
   };
   for (const auto& arguments : cases) {
     expect_refused(arguments, "this run reads it, too");
+  }
+  for (const char* input : {"plan.svg", "font.ttf", "table.csv"}) {
+    expect_refused({"batch", "ring.scad", "--table", "table.csv", "-o",
+                    "{name}.svg", "--ledger", input},
+                   input == std::string("table.csv") ? "this run reads it, too"
+                                                     : "it is no ledger");
   }
 }
 
@@ -146,6 +148,66 @@ TEST_F(Outputs, AreDifferentFiles) {
                  "another output of this run, is the same file");
 }
 
+// Links are followed, also where nothing stands yet.
+TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
+  fs::create_symlink("later.slc", folder_.file("later.json"));
+  fs::create_symlink("later.slc", folder_.file("another.slc"));
+  fs::create_symlink("another.slc", folder_.file("ring.slc"));
+  fs::create_symlink("new", folder_.file("old"));
+  folder_.write("files.csv", "name,size\nlater,1\nring,2\n");
+  folder_.write("folders.csv", "name,size\nnew,1\nold,2\n");
+  before_ = contents();
+  for (const std::vector<std::string>& root :
+       {std::vector<std::string>(), {"--root", "."}}) {
+    const auto expect = [&](std::vector<std::string> words,
+                            const std::string& fault) {
+      words.insert(words.end(), root.begin(), root.end());
+      expect_refused(words, fault);
+    };
+    for (const char* option : {"--report", "-d"}) {
+      expect({"cube.scad", "-o", "later.slc", option, "later.json"},
+             "another output of this run, is the same file");
+    }
+    expect({"cube.scad", "-o", "new/x.slc", "--report", "old/x.slc"},
+           "another output of this run, is the same file");
+    expect({"batch", "cube.scad", "--table", "files.csv", "-o", "{name}.slc"},
+           "have one output");
+    expect(
+        {"batch", "cube.scad", "--table", "folders.csv", "-o", "{name}/x.slc"},
+        "have one output");
+    expect({"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.slc",
+            "--ledger", "later.json", "--report", "ring.slc"},
+           "another output of this run, is the same file");
+  }
+  // By itself such a link is written through.
+  EXPECT_EQ(run(folder_, {"cube.scad", "-o", "ring.slc"}).status, 0);
+  EXPECT_TRUE(
+      fs::is_regular_file(fs::symlink_status(folder_.file("later.slc"))));
+  EXPECT_TRUE(fs::is_symlink(folder_.file("ring.slc")));
+}
+
+// One order's cell names what is written of the others.
+TEST_F(Outputs, AreWrittenThoughAStrangersPieceTriesToReadThem) {
+  folder_.write("relief.scad", "relief = \"flat.dat\"; surface(relief);");
+  folder_.write("flat.dat", "1 1\n1 1\n");
+  const auto make = [&](const std::string& cell) {
+    folder_.write("t.csv", "name,relief\na,flat.dat\nb," + cell +
+                               "\nc,flat.dat\nd,flat.dat\n");
+    return run(folder_, {"batch", "relief.scad", "--table", "t.csv", "-o",
+                         "out/{name}.slc", "--ledger", "run.ledger", "--report",
+                         "run.csv", "--root", "."});
+  };
+  ASSERT_EQ(make("flat.dat").status, 0);
+  for (const char* cell : {"run.ledger", "run.csv", "out/d.slc"}) {
+    const auto result = make(cell);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(has(result.errors, "3 of 4 pieces done")) << result.errors;
+    EXPECT_TRUE(has(result.errors, "this run reads it, too")) << result.errors;
+    EXPECT_TRUE(has(support::read_file(folder_.file("run.csv")), "out/d.slc,2"))
+        << support::read_file(folder_.file("run.csv"));
+  }
+}
+
 TEST_F(Outputs, LieInNoOther) {
   const std::vector<std::vector<std::string>> cases = {
       {"cube.scad", "-o", "new.png", "--report", "new.png/00001.png"},
@@ -179,6 +241,15 @@ TEST_F(Outputs, TakeNoNamesOfUnfinishedOnes) {
   EXPECT_EQ(run(folder_, {"cube.scad", "-o", "m.png", "--layer", "1"}).status,
             0);
   EXPECT_TRUE(fs::exists(folder_.file(".m.slc.lamina-0")));
+  fs::create_directory(folder_.file(".n.slc.lamina-0"));
+  folder_.write(".n.slc.lamina-0/n.scad", "cube(1);");
+  EXPECT_EQ(run(folder_, {".n.slc.lamina-0/n.scad", "-o", "n.slc"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder_.file(".n.slc.lamina-0/n.scad")));
+  // Such a name ends with a number.
+  EXPECT_EQ(
+      run(folder_, {"cube.scad", "-o", ".a.lamina-", "--export-format", "slc"})
+          .status,
+      0);
   EXPECT_TRUE(fs::exists(folder_.file(".m.png.lamina-0/of/mine")));
 }
 

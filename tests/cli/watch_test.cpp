@@ -122,6 +122,18 @@ TEST(Watch, KeepsTheOutputWhereTheDesignFails) {
   ASSERT_TRUE(watched.comes_to("cube(size = [3, 3, 3], center = false);\n\n"));
 }
 
+// What an earlier save has tried to read is no input of a later one.
+TEST(Watch, WritesAgainAfterASaveThatReadsTheOutput) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "echo(1);");
+  Watched watched(folder, "a.json", {"--export-format", "echo"});
+  ASSERT_TRUE(watched.comes_to("ECHO: 1\n"));
+  folder.write("a.scad", "echo(import(\"a.json\"));");
+  ASSERT_TRUE(watched.comes_to_say("this run reads it, too"));
+  folder.write("a.scad", "echo(3);");
+  ASSERT_TRUE(watched.comes_to("ECHO: 3\n"));
+}
+
 TEST(Watch, IsForOneDesignAndAFile) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");
