@@ -33,7 +33,8 @@ struct LowerOptions {
   // Greatest distance in the world of facets from the round surface that they
   // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
   double chordal_error = 0;
-  // The same for files of CAD programs, which have no $fn, where that is 0.
+  // The same for files of CAD programs, which have no $fn, where that is 0;
+  // lower() sets it to 0 where the tree names none.
   double chordal_error_of_parts = kChordalErrorOfParts;
   // Greatest distance in the world of decimated meshes from those that import()
   // read, where it does not say itself [mm]; 0: meshes stay as they are.

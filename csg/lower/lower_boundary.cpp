@@ -208,6 +208,7 @@ Lowerer::Resized Lowerer::resize_finely(const Resize& op, const Place& at) {
 
 Shape Lowerer::lower_op(const Resize& op, const Place& at) {
   const bool depends = options_.chordal_error > 0 ||
+                       options_.chordal_error_of_parts > 0 ||
                        options_.decimation > 0;
   Resized resized =
       depends && !shared_.is_resizing ? resize_finely(op, at) : resize(op, at);

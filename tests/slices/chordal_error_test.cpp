@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -18,6 +19,7 @@
 
 #include "base/vec.h"
 #include "tests/support/design.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lamina {
 namespace {
@@ -208,6 +210,32 @@ INSTANTIATE_TEST_SUITE_P(
           "{}_{}", solids()[std::get<0>(solid_case.param)].name,
           -std::lround(std::log10(std::get<1>(solid_case.param))));
     });
+
+// A cylinder of radius 5 and height 12, as a CAD program keeps it.
+class Part : public ::testing::Test {
+ protected:
+  Part() {
+    std::filesystem::copy_file(
+        std::filesystem::path(LAMINA_SEEDS) / "brep/cylinder", path_);
+  }
+
+  // With the error that files have where none is asked for.
+  void expect_cylinder(const std::string& text, double height, double r) {
+    const Solid solid = {"part", text, 0, height,
+                         [r](Vec2 p, double) { return to_circle(p, r); }};
+    const double measured = measure(solid, 0);
+    EXPECT_LE(measured, 0.01);
+    EXPECT_GE(measured, 0.001);
+  }
+
+  support::TemporaryFolder folder_;
+  std::string path_ = folder_.file("part.brep");
+  std::string import_ = fmt::format("import(\"{}\");", path_);
+};
+
+TEST_F(Part, KeepsItsErrorBelowResize) {
+  expect_cylinder("resize([1000, 1000, 1]) " + import_, 1, 500);
+}
 
 TEST(ChordalErrorRule, HasNoSayWhereFnIsGiven) {
   const auto points = [](const std::string& text) {
