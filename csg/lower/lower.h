@@ -36,6 +36,9 @@ struct LowerOptions {
   // The same for files of CAD programs, which have no $fn, where that is 0;
   // lower() sets it to 0 where the tree names none.
   double chordal_error_of_parts = kChordalErrorOfParts;
+  // The share of that error which a part's mesh may lie below its hull, which
+  // then stands for it. minkowski() sets it, for the sake of its cost.
+  double hull_share = 0;
   // Greatest distance in the world of decimated meshes from those that import()
   // read, where it does not say itself [mm]; 0: meshes stay as they are.
   double decimation = 0;

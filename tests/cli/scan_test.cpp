@@ -198,6 +198,17 @@ TEST(Scan, BrokenFilesEndWithAMessage) {
   }
 }
 
+TEST(Scan, SharesTheDistanceWithTheOtherTermOfASum) {
+  const TemporaryFolder folder;
+  folder.write("a.ply", torus());
+  folder.write("b.scad", "minkowski() { import(\"a.ply\"); cube(1); }");
+  const auto result = run(folder, {"b.scad", "--decimate", "0.1"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.errors.find("triangles, within 0.05 of the "),
+            std::string::npos)
+      << result.errors;
+}
+
 TEST(Scan, IsDecimatedInARootToo) {
   const TemporaryFolder folder;
   folder.write("a.ply", torus(20));

@@ -211,6 +211,81 @@ INSTANTIATE_TEST_SUITE_P(
           -std::lround(std::log10(std::get<1>(solid_case.param))));
     });
 
+// A ball of radius 5, as OpenCASCADE writes it.
+constexpr const char* kBall = R"(DBRep_DrawableShape
+
+CASCADE Topology V1, (c) Matra-Datavision
+Locations 0
+Curve2ds 4
+1 0 1.5707963267948966 1 0 
+1 6.2831853071795862 -6.2831853071795862 0 1 
+1 0 -6.2831853071795862 0 1 
+1 0 -1.5707963267948966 1 0 
+Curves 1
+2 0 0 0 -2.4492935982947064e-16 -1 0 1 -2.4492935982947064e-16 0 0 0 1 5
+Polygon3D 0
+PolygonOnTriangulations 0
+Surfaces 1
+4 0 0 0 0 0 1 1 0 -0 -0 1 0 5
+Triangulations 0
+
+TShapes 9
+Ve
+1e-07
+3.06161699786838e-16 -7.49879891330929e-32 5
+0 0
+
+0101101
+*
+Ed
+ 1e-07 1 1 1
+2  1 1 0 0 6.28318530717959
+0
+
+0101000
++9 0 -9 0 *
+Ve
+1e-07
+3.06161699786838e-16 -7.49879891330929e-32 -5
+0 0
+
+0101101
+*
+Ed
+ 1e-07 1 1 0
+1  1 0 4.71238898038469 7.85398163397448
+3  2 3CN 1 0 4.71238898038469 7.85398163397448
+0
+
+0101000
+-9 0 +7 0 *
+Ed
+ 1e-07 1 1 1
+2  4 1 0 0 6.28318530717959
+0
+
+0101000
++7 0 -7 0 *
+Wi
+
+0101100
+-8 0 +6 0 +5 0 -6 0 *
+Fa
+0  1e-07 1 0
+
+0111000
++4 0 *
+Sh
+
+0101100
++3 0 *
+So
+
+1100000
++2 0 *
+
++1 0 )";
+
 // A cylinder of radius 5 and height 12, as a CAD program keeps it.
 class Part : public ::testing::Test {
  protected:
@@ -235,6 +310,27 @@ class Part : public ::testing::Test {
 
 TEST_F(Part, KeepsItsErrorBelowResize) {
   expect_cylinder("resize([1000, 1000, 1]) " + import_, 1, 500);
+}
+
+TEST_F(Part, KeepsItsErrorInSums) {
+  const std::string two = "minkowski() { " + import_ + " " + import_ + " }";
+  expect_cylinder(two, 24, 10);
+  const std::string three =
+      "minkowski() { " + import_ + " " + import_ + " " + import_ + " }";
+  expect_cylinder(three, 36, 15);
+}
+
+// Meshes of balls are not convex at each edge. Taken for what is not convex,
+// they have sums that take minutes.
+TEST_F(Part, IsConvexInSumsWhereOnlyItsMeshIsNot) {
+  const std::string ball =
+      fmt::format("import(\"{}\");", folder_.write("ball.brep", kBall));
+  const Solid solid = {
+      "balls", "minkowski() { " + ball + " " + ball + " }", -10, 10,
+      [](Vec2 p, double z) { return std::abs(std::hypot(p.x, p.y, z) - 10); }};
+  for (const double error : {0.02, 0.005}) {
+    EXPECT_LE(measure(solid, error), error);
+  }
 }
 
 TEST(ChordalErrorRule, HasNoSayWhereFnIsGiven) {

@@ -175,9 +175,9 @@ class Lowerer {
   double decimation_of(const ImportParams& params, const Affine& world) const;
   FileShape read_import(const ImportParams& params, const Fineness& fine,
                         double decimation, const Node& node);
-  // The bodies of a file of meshes or of a CAD program.
+  // The bodies of a file of meshes or, with this error, of a CAD program.
   std::vector<RawMesh> read_bodies(const ImportParams& params,
-                                   const Fineness& fine, const Node& node);
+                                   double chordal_error, const Node& node);
   Shape place_file(const FileShape& shape, const Place& at);
   // --- lower_boundary.cpp ---------------------------------------------------
   Shape lower_op(const Hull& op, const Place& at);
