@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -174,7 +176,13 @@ Lowerer::Resized Lowerer::resize(const Resize& op, const Place& at) {
 }
 
 Lowerer::Resized Lowerer::resize_finely(const Resize& op, const Place& at) {
+  std::set<std::string> known;
+  for (const auto& [key, leaf] : shared_.decimated) known.insert(key);
   const auto lower_with = [&](const LowerOptions& options, Diagnostics& heard) {
+    // What files have to say is said when they are read.
+    std::erase_if(shared_.decimated, [&](const auto& entry) {
+      return !known.contains(entry.first);
+    });
     shared_.has_grown = false;
     shared_.has_lost = false;
     return Lowerer(at.node.children.size(), options, shared_, heard)
