@@ -44,20 +44,22 @@ std::optional<std::string> read_truth(std::string_view cell) {
   return std::nullopt;
 }
 
-// Whether the cell is a literal of OpenSCAD that ends before what follows it in
-// a definition.
+// Whether the cell is a literal of OpenSCAD and no more: a definition of it
+// then reaches to the semicolon behind it, where its only statement ends.
 bool is_literal(std::string_view cell) {
   SourceStore sources;
   Diagnostics diagnostics;
   // A cell names no file, and none is opened to find that out.
   const FileAccess no_file = FileAccess::none();
   Loader loader(sources, diagnostics, {}, {}, no_file);
-  const Source& source = sources.add("", fmt::format("x={};\n", cell));
+  const std::string definition = fmt::format("x={};", cell);
+  const Source& source = sources.add("", definition + '\n');
   try {
     const ast::Program program = parse(source, nullptr, loader, diagnostics);
     if (program.statements.size() != 1) return false;
-    const auto* assignment =
-        std::get_if<ast::Assignment>(&program.statements[0]->node);
+    const ast::Statement& statement = *program.statements[0];
+    if (statement.range.text() != definition) return false;
+    const auto* assignment = std::get_if<ast::Assignment>(&statement.node);
     return assignment != nullptr && ast::is_literal(*assignment->value);
   } catch (const SyntaxError&) {
     return false;

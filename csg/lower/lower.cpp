@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "csg/limits.h"
+#include "csg/lower/detail/cad_file.h"
 #include "csg/lower/detail/lowerer.h"
 
 namespace lamina::csg {
@@ -17,10 +19,13 @@ namespace {
 struct Survey {
   const Node* root_modifier = nullptr;  // first node with `!`
   std::size_t childless = 0;            // most of these are leaves
+  bool has_parts = false;               // of CAD programs
 };
 
 void survey(const Node& node, Survey& result) {
   if (node.children.empty()) ++result.childless;
+  const auto* import = std::get_if<Import>(&node.op);
+  if (import && is_cad_format(import->params->format)) result.has_parts = true;
   for (const Node* child : node.children) {
     if (child->is_root && !result.root_modifier) result.root_modifier = child;
     survey(*child, result);
@@ -105,6 +110,7 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   SharedTables shared;
   LowerOptions of_tree = options;
   of_tree.language = tree.language;
+  if (!found.has_parts) of_tree.chordal_error_of_parts = 0;
   Lowerer lowerer(found.childless, of_tree, shared, diagnostics);
   Shape shape = lowerer.lower(
       {*root, options.world_from_design * Mat4(glm::dmat3(options.scale))});

@@ -33,8 +33,12 @@ struct LowerOptions {
   // Greatest distance in the world of facets from the round surface that they
   // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
   double chordal_error = 0;
-  // The same for files of CAD programs, which have no $fn, where that is 0.
+  // The same for files of CAD programs, which have no $fn, where that is 0;
+  // lower() sets it to 0 where the tree names none.
   double chordal_error_of_parts = kChordalErrorOfParts;
+  // The share of that error which a part's mesh may lie below its hull, which
+  // then stands for it. minkowski() sets it, for the sake of its cost.
+  double hull_share = 0;
   // Greatest distance in the world of decimated meshes from those that import()
   // read, where it does not say itself [mm]; 0: meshes stay as they are.
   double decimation = 0;

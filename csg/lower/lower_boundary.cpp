@@ -1,5 +1,9 @@
-#include <map>
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -49,8 +53,23 @@ Box3 box_of_result(const Scene& scene) {
 }
 
 // Other facets make a box larger or smaller by about the chordal error, and the
-// factors of a draft differ by as much from those of the result.
+// factors differ by as much from one lowering to the next.
 constexpr double kGrowthSlack = 1.01;
+
+// How often what is resized is lowered until its factors settle. They do at
+// once unless it is about as small as the chordal error; each lowering after
+// the draft then brings a factor nearer to what it comes to, by as much as the
+// result is larger than the error.
+constexpr int kMostLowerings = 4;
+
+// Whether a Boolean below may take away all there is.
+bool removes_something(const Node& node) {
+  return std::holds_alternative<Difference>(node.op) ||
+         std::holds_alternative<Intersection>(node.op) ||
+         std::any_of(
+             node.children.begin(), node.children.end(),
+             [](const Node* child) { return removes_something(*child); });
+}
 
 // The factors of resize(), by OpenSCAD's rules. A size of 0 keeps that
 // direction, or with `auto` scales it as the direction of the greatest new
@@ -82,15 +101,20 @@ glm::vec<kDimensions, double> factor_for(
   return factor;
 }
 
-Vec2 resize_factor(const Resize& op, const planar::Region& region) {
+// None of what is empty.
+std::optional<Vec3> resize_factor(const Resize& op,
+                                  const planar::Region& region) {
+  if (region.is_empty()) return std::nullopt;
   Box2 box;
   for (const planar::Contour& contour : region.contours) box.add(contour);
-  return factor_for<2>(op, box.size(), false);
+  return Vec3(factor_for<2>(op, box.size(), false), 1);
 }
 
-Vec3 resize_factor(const Resize& op, const Scene& scene, bool is_boolean) {
+std::optional<Vec3> resize_factor(const Resize& op, const Scene& scene,
+                                  bool is_boolean) {
+  if (scene.instances.empty()) return std::nullopt;
   const Box3 box = box_of_result(scene);
-  if (box.is_empty()) return Vec3(1);
+  if (box.is_empty()) return std::nullopt;
   return factor_for<3>(op, box.size(), is_boolean);
 }
 
@@ -126,43 +150,85 @@ Shape Lowerer::lower_op(const Hull&, const Place& at) {
   return {Dimension::kSolid};
 }
 
-Vec3 Lowerer::growth_of_resize(const Place& at) {
-  const bool depends = options_.chordal_error > 0 || options_.decimation > 0;
-  if (!depends || shared_.is_draft) return Vec3(1);
-  std::map<const Node*, Vec3>& growths = shared_.growths;
-  if (!growths.contains(&at.node)) {
-    // The draft finds those of all nodes below, too.
-    SharedTables tables;
-    tables.is_draft = true;
-    Diagnostics unheard;
-    LowerOptions options = options_;
-    options.decimation = 0;
-    Lowerer(at.node.children.size(), options, tables, unheard).lower(at);
-    growths.merge(tables.growths);
+Lowerer::Resized Lowerer::resize(const Resize& op, const Place& at) {
+  const auto [entry, is_first] = shared_.growths.try_emplace(&at.node, 1);
+  const Vec3 growth = entry->second;
+  Resized resized{lower_apart({at.node, at.world * scaling(growth)}), {}};
+  Apart& apart = resized.apart;
+  if (apart.dimension == Dimension::kFlat) {
+    apart.regions = {apart.regions.empty() ? planar::Region()
+                                           : planar::unite(apart.regions)};
+    resized.factor = resize_factor(op, apart.regions[0]);
+  } else {
+    resized.factor = resize_factor(op, apart.scene, apart.is_boolean);
   }
-  return growths.try_emplace(&at.node, 1).first->second;
+  const Vec3 needed = glm::abs(resized.factor.value_or(Vec3(1)));
+  if (is_first || glm::any(glm::greaterThan(needed, growth))) {
+    shared_.growths[&at.node] = is_first
+                                    ? kGrowthSlack * needed
+                                    : glm::max(kGrowthSlack * needed, growth);
+    shared_.has_grown = true;
+  }
+  if (!resized.factor && removes_something(at.node)) {
+    shared_.has_lost = true;
+  }
+  return resized;
+}
+
+Lowerer::Resized Lowerer::resize_finely(const Resize& op, const Place& at) {
+  std::set<std::string> known;
+  for (const auto& [key, leaf] : shared_.decimated) known.insert(key);
+  const auto lower_with = [&](const LowerOptions& options, Diagnostics& heard) {
+    // What files have to say is said when they are read.
+    std::erase_if(shared_.decimated, [&](const auto& entry) {
+      return !known.contains(entry.first);
+    });
+    shared_.has_grown = false;
+    shared_.has_lost = false;
+    return Lowerer(at.node.children.size(), options, shared_, heard)
+        .resize(op, at);
+  };
+  shared_.is_resizing = true;
+  if (!shared_.growths.contains(&at.node)) {
+    // Decimation is slow, and a size changes little by it.
+    LowerOptions draft = options_;
+    draft.decimation = 0;
+    Diagnostics unheard;
+    lower_with(draft, unheard);
+  }
+  Resized resized;
+  Diagnostics heard;
+  for (int i = 0; i < kMostLowerings; ++i) {
+    heard = Diagnostics();
+    resized = lower_with(options_, heard);
+    if (!shared_.has_grown) break;
+  }
+  shared_.is_resizing = false;
+  for (const Diagnostic& message : heard.all()) diagnostics_.report(message);
+  if (shared_.has_grown || shared_.has_lost) {
+    diagnostics_.own_warning(
+        at.node.range,
+        "The size of what resize() scales changes with its facets, which may "
+        "be farther off than asked for");
+  }
+  return resized;
 }
 
 Shape Lowerer::lower_op(const Resize& op, const Place& at) {
-  Apart apart =
-      lower_apart({at.node, at.world * scaling(growth_of_resize(at))});
-  const auto note = [&](Vec3 factor) {
-    if (!shared_.is_draft) return;
-    shared_.growths.emplace(&at.node, kGrowthSlack * glm::abs(factor));
-  };
+  const bool depends = options_.chordal_error > 0 ||
+                       options_.chordal_error_of_parts > 0 ||
+                       options_.decimation > 0;
+  Resized resized =
+      depends && !shared_.is_resizing ? resize_finely(op, at) : resize(op, at);
+  Apart& apart = resized.apart;
+  const Mat4 scale = scaling(resized.factor.value_or(Vec3(1)));
   if (apart.dimension == Dimension::kFlat) {
-    if (apart.regions.empty()) return {Dimension::kFlat};
-    planar::Region region = planar::unite(apart.regions);
-    const Vec3 factor(resize_factor(op, region), 1);
-    note(factor);
     return {Dimension::kFlat,
-            transform_region(std::move(region), scaling(factor), at.node.range,
+            transform_region(std::move(apart.regions[0]), scale, at.node.range,
                              diagnostics_)};
   }
   if (apart.scene.instances.empty()) return {apart.dimension};
-  const Vec3 factor = resize_factor(op, apart.scene, apart.is_boolean);
-  note(factor);
-  place_scene(apart.scene, at.world * scaling(factor));
+  place_scene(apart.scene, at.world * scale);
   return {Dimension::kSolid, {}, apart.is_boolean};
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/file/file_access.h"
 #include "base/file/format_error.h"
+#include "csg/boundary/near_hull.h"
 #include "csg/import/decimate.h"
 #include "csg/import/dxf.h"
 #include "csg/import/mesh_file.h"
@@ -83,14 +84,19 @@ void report(const Decimation& done, double tolerance, std::string_view path,
   diagnostics.report(std::move(told));
 }
 
+// depth      to which a mesh may lie below its hull, which then stands for it
 // tolerance  of decimation, in the file's lengths; 0: none
 Leaf make_import_leaf(std::vector<RawMesh> bodies, const ImportParams& params,
-                      double tolerance, const LowerOptions& options,
-                      SourceRange range, Diagnostics& diagnostics) {
+                      double depth, double tolerance,
+                      const LowerOptions& options, SourceRange range,
+                      Diagnostics& diagnostics) {
   Leaf leaf;
   leaf.may_overlap_itself = true;
   for (RawMesh& raw : bodies) {
     Mesh mesh = make_sound(std::move(raw), range, diagnostics);
+    if (depth > 0) {
+      if (auto hull = near_hull(mesh, depth)) mesh = std::move(*hull);
+    }
     if (tolerance > 0 && !mesh.triangles.empty()) {
       report(decimate(mesh, tolerance, options.module_folders, diagnostics),
              tolerance, params.path, diagnostics);
@@ -352,9 +358,13 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kFcstd:
       break;
   }
+  const double depth = is_cad_format(params.format)
+                           ? options_.hull_share * fine.chordal_error
+                           : 0;
   const auto make = [&] {
-    return make_import_leaf(read_bodies(params, fine, node), params, decimation,
-                            options_, range, diagnostics_);
+    return make_import_leaf(
+        read_bodies(params, fine.chordal_error - depth, node), params, depth,
+        decimation, options_, range, diagnostics_);
   };
   if (decimation == 0) return {Dimension::kSolid, {}, add_leaf(make())};
   const auto [kept, is_new] = shared_.decimated.try_emplace(
@@ -365,14 +375,14 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
 }
 
 std::vector<RawMesh> Lowerer::read_bodies(const ImportParams& params,
-                                          const Fineness& fine,
+                                          double chordal_error,
                                           const Node& node) {
   const FileAccess& access = *options_.file_access;
   if (!is_cad_format(params.format)) {
     return read_mesh_file(params, access, node.range, diagnostics_);
   }
   if (!options_.cad_reader) fail_unsupported(node, "import");
-  return read_cad_file(params, fine.chordal_error, *options_.cad_reader, access,
+  return read_cad_file(params, chordal_error, *options_.cad_reader, access,
                        node.range, diagnostics_);
 }
 

@@ -37,6 +37,10 @@ bool is_lost(const std::vector<Operand>& terms) {
                      });
 }
 
+// The mesh of a convex part lies in it, and no deeper than its error, which is
+// the other half: so what is convex always passes for that.
+constexpr double kHullShare = 0.5;
+
 // The sum of all regions that are not empty; empty where the first one is, or
 // all others are.
 planar::Region add_regions(std::span<const planar::Region> regions) {
@@ -55,8 +59,12 @@ planar::Region add_regions(std::span<const planar::Region> regions) {
 Shape Lowerer::lower_op(const Minkowski&, const Place& at) {
   Lowerer apart = make_inner(at);
   // The errors of the terms add up.
-  apart.options_.chordal_error /=
+  const auto shares =
       static_cast<double>(std::max<std::size_t>(at.node.children.size(), 1));
+  apart.options_.chordal_error /= shares;
+  apart.options_.chordal_error_of_parts /= shares;
+  apart.options_.decimation /= shares;
+  apart.options_.hull_share = kHullShare;
   const Operands operands =
       apart.lower_operands({at.node, Affine(1.0)}, false, Dimension::kNone);
   report_strays(operands);

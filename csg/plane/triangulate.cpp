@@ -82,21 +82,23 @@ class EarClipper {
     // whole ring would take the cube of its corners.
     constexpr std::size_t kTestsOfACorner = 16;
     std::size_t tests_left = kTestsOfACorner * left;
-    bool crosses_itself = false;
+    bool was_stuck = false;
     while (left > 3) {
-      const bool is_stuck = since_last_ear > left || tests_left == 0;
-      if (is_stuck && tests_left > 0) {
-        corner = least_bad(corner);
-        crosses_itself = crosses_itself || !is_flat(corner);
+      const bool has_no_ear = since_last_ear > left;
+      if (has_no_ear) {
+        was_stuck = true;
+        since_last_ear = 0;
+        if (cut_flat_corners(corner, left)) continue;
+        corner = find_convex(corner);
       }
-      if (is_stuck || is_spike(corner) || is_ear(corner)) {
+      if (has_no_ear || tests_left == 0 || is_spike(corner) || is_ear(corner)) {
         corner = cut(corner);
         --left;
         since_last_ear = 0;
       } else {
         corner = corners_[corner].next;
         ++since_last_ear;
-        if (crosses_itself) --tests_left;
+        if (was_stuck) --tests_left;
       }
     }
     if (left == 3) cut(corner);
@@ -291,19 +293,32 @@ class EarClipper {
     return orientation(a, tip, p) > 0 && orientation(tip, b, p) > 0;
   }
 
-  // Nothing is an ear: the ring is flat here or overlaps itself. A flat corner
-  // costs nothing, else take the first convex one.
-  std::uint32_t least_bad(std::uint32_t start) const {
-    std::uint32_t convex = kNone;
-    for (std::uint32_t c = start;;) {
-      const Corner& corner = corners_[c];
-      const int turn = orientation(corners_[corner.previous].point,
-                                   corner.point, corners_[corner.next].point);
-      if (turn == 0) return c;
-      if (turn > 0 && convex == kNone) convex = c;
-      c = corner.next;
-      if (c == start) return convex == kNone ? start : convex;
+  // Cuts off all corners that are flat, which costs no area, in one walk around
+  // the ring but down to a triangle. Returns whether there was one.
+  //
+  // corner  where to begin, and then where to look next
+  // left    of the ring
+  bool cut_flat_corners(std::uint32_t& corner, std::uint32_t& left) {
+    const std::uint32_t before = left;
+    for (std::uint32_t i = 0; i < before && left > 3; ++i) {
+      const std::uint32_t next = corners_[corner].next;
+      if (is_flat(corner)) {
+        cut(corner);
+        --left;
+      }
+      corner = next;
     }
+    return left < before;
+  }
+
+  // The first one; `start` where none is.
+  std::uint32_t find_convex(std::uint32_t start) const {
+    std::uint32_t c = start;
+    do {
+      if (!is_flat(c) && !is_reflex(c)) return c;
+      c = corners_[c].next;
+    } while (c != start);
+    return start;
   }
 
   // Cuts the corner off; returns where to look next.

@@ -146,6 +146,19 @@ TEST(Scan, IsDecimatedOnceForTheWholeDesign) {
       << result.errors;
 }
 
+// What is resized is lowered more than once.
+TEST(Scan, SaysWhatDecimationDidBelowResizeToo) {
+  const TemporaryFolder folder;
+  folder.write("a.ply", torus(50));
+  folder.write("a.scad",
+               "resize([60, 0, 0], auto = true) {\n"
+               "  import(\"a.ply\", decimate = 0.1);\n  sphere(9);\n}\n");
+  const auto result = run(folder, {"a.scad", "--chordal-error", "0.05"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.errors.find("triangles, within 0.1 of"), std::string::npos)
+      << result.errors;
+}
+
 TEST(Scan, DecimateStandsInCsgOnlyWhereItWasGiven) {
   const TemporaryFolder folder;
   folder.write("a.ply", torus(20));
@@ -196,6 +209,17 @@ TEST(Scan, BrokenFilesEndWithAMessage) {
     EXPECT_NE(result.errors.find("importing file '"), std::string::npos)
         << result.errors;
   }
+}
+
+TEST(Scan, SharesTheDistanceWithTheOtherTermOfASum) {
+  const TemporaryFolder folder;
+  folder.write("a.ply", torus());
+  folder.write("b.scad", "minkowski() { import(\"a.ply\"); cube(1); }");
+  const auto result = run(folder, {"b.scad", "--decimate", "0.1"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.errors.find("triangles, within 0.05 of the "),
+            std::string::npos)
+      << result.errors;
 }
 
 TEST(Scan, IsDecimatedInARootToo) {

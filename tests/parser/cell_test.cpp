@@ -38,6 +38,7 @@ TEST(Cell, LooksLikeWhatItIs) {
   EXPECT_EQ(value("[1, -2.5, [true, \"a]\"]]"), "[1, -2.5, [true, \"a]\"]]");
   EXPECT_EQ(value("\"57\""), "\"57\"");
   EXPECT_EQ(value("\"a\\\"b\""), "\"a\\\"b\"");
+  EXPECT_EQ(value("[1, /* c */ 2] /* c */"), "[1, /* c */ 2] /* c */");
 }
 
 TEST(Cell, IsTextElse) {
@@ -49,6 +50,7 @@ TEST(Cell, IsTextElse) {
   EXPECT_EQ(value("1,5"), "\"1,5\"");
   EXPECT_EQ(value("\"Ada\" and \"Bea\""), R"("\"Ada\" and \"Bea\"")");
   EXPECT_EQ(value("\"a\"//\""), R"("\"a\"//\"")");
+  EXPECT_EQ(value(R"("a"; x = "b")"), R"("\"a\"; x = \"b\"")");
   EXPECT_EQ(value("a\\b\n"), R"("a\\b\n")");
   EXPECT_EQ(value("\"a\"; cube(1); x = \"b\""),
             R"("\"a\"; cube(1); x = \"b\"")");
@@ -77,7 +79,8 @@ TEST(Cell, HasTheKindOfTheVariable) {
 TEST(Cell, IsAVectorAsAWholeOrNotAtAll) {
   for (const char* const cell :
        {"[1", "[1]]", "[x]", "[1] + [2]", "[1]; cube(1); y = [2]", "[1, 2]//",
-        "[1, 2] // c", "[1] /*"}) {
+        "[1, 2] // c", "[1] /*", "[1];", "[1];;", "[1];{}", "[1];*cube(1)",
+        "[1]; x = [2]"}) {
     EXPECT_TRUE(is_refused(cell, kAny, "a vector such as [1, 2.5] was"))
         << cell;
   }

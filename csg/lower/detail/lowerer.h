@@ -59,10 +59,13 @@ concept Grouping = std::same_as<Op, Group> || std::same_as<Op, Union> ||
 struct SharedTables {
   HullTable hulls;
   std::map<std::string, Leaf> decimated;  // by file, arguments and tolerance
-  // Of resize(): about how far each makes its subtree larger. They come from a
-  // draft, which does not know them yet and is thrown away.
+  // Of resize(): how far each makes its subtree larger, as far as is known. Its
+  // facets are finer by that; the factor depends on the facets in turn, so the
+  // outermost resize() has all below lowered until none grows any more.
   std::map<const Node*, Vec3> growths;
-  bool is_draft = false;
+  bool is_resizing = false;
+  bool has_grown = false;
+  bool has_lost = false;  // all that a resize() has
 };
 
 class Lowerer {
@@ -172,9 +175,9 @@ class Lowerer {
   double decimation_of(const ImportParams& params, const Affine& world) const;
   FileShape read_import(const ImportParams& params, const Fineness& fine,
                         double decimation, const Node& node);
-  // The bodies of a file of meshes or of a CAD program.
+  // The bodies of a file of meshes or, with this error, of a CAD program.
   std::vector<RawMesh> read_bodies(const ImportParams& params,
-                                   const Fineness& fine, const Node& node);
+                                   double chordal_error, const Node& node);
   Shape place_file(const FileShape& shape, const Place& at);
   // --- lower_boundary.cpp ---------------------------------------------------
   Shape lower_op(const Hull& op, const Place& at);
@@ -191,9 +194,15 @@ class Lowerer {
   Apart lower_apart(const Place& at, bool takes_corners = false);
   // A lowerer for those children; nothing lowered yet.
   Lowerer make_inner(const Place& at);
-  // Facets below a resize() have to be finer by this. 1 where nothing depends
-  // on it.
-  Vec3 growth_of_resize(const Place& at);
+  // What is resized, not scaled yet: one region, or a scene.
+  struct Resized {
+    Apart apart;
+    std::optional<Vec3> factor;  // none of what is empty
+  };
+  // With facets finer by the growth known so far; notes it where it is greater.
+  Resized resize(const Resize& op, const Place& at);
+  // Of an outermost resize(): with facets that are fine enough.
+  Resized resize_finely(const Resize& op, const Place& at);
 
   // --- lower_minkowski.cpp --------------------------------------------------
   Shape lower_op(const Minkowski& op, const Place& at);

@@ -138,5 +138,21 @@ TEST_F(Resizes, WithinEachOtherAreLoweredTwiceInAll) {
   EXPECT_GE(count(lowered), count(expected));
 }
 
+TEST_F(Resizes, SayWhereFacetsHideWhatThereIs) {
+  // Of 5 sides no corner is at the left end of the circle.
+  const Tree tree = b.tree({b.node(
+      Resize{{10, 10, 0}, kNone},
+      {b.node(Intersection{},
+              {b.node(Circle{10}),
+               b.translate({-10, -10, 0}, {b.node(Square{{0.5, 20}})})})})});
+  LowerOptions options;
+  options.chordal_error = 2;
+  EXPECT_TRUE(lower(tree, options, diagnostics).is_empty());
+  EXPECT_EQ(messages(),
+            std::vector<std::string>{
+                "The size of what resize() scales changes with its facets, "
+                "which may be farther off than asked for"});
+}
+
 }  // namespace
 }  // namespace lamina::csg

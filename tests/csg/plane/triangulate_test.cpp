@@ -165,6 +165,21 @@ TEST(Triangulate, APolygonThatCutsItselfOften) {
   EXPECT_TRUE(covers_edges(region, triangles));
 }
 
+// The same for each of the corners that stand in line.
+TEST(Triangulate, APolygonThatCutsItselfAndHasCornersInLine) {
+  constexpr int kCount = 200'000;
+  Contour contour;
+  for (int i = 0; i <= kCount; ++i) {
+    contour.push_back({-1, -1 + 2.0 * i / kCount});
+  }
+  contour.push_back({10, -10});
+  contour.push_back({10, 10});
+  const Region region{{contour}};
+  const auto triangles = triangulate(region);
+  EXPECT_EQ(triangles.size(), contour.size() - 2);
+  EXPECT_TRUE(covers_edges(region, triangles));
+}
+
 TEST(MakeDelaunay, TakesTheShortDiagonalOfAKite) {
   const std::vector<Vec2> kite{{0, 0}, {2, -1}, {9, 0}, {2, 1}};
   std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}, {0, 2, 3}};
