@@ -104,13 +104,7 @@ const Outline* Reader::outline_of(std::string_view name, std::string& why) {
   const auto [found, is_new] = outlines_.try_emplace(object);
   auto& [outline, its_why] = found->second;
   if (is_new) {
-    outline = read_outline(*object, maker_.chordal_error(), its_why);
-    if (outline) {
-      for (const Polyline& contour : outline->contours) {
-        corners_ += contour.size();
-      }
-      require_corners(corners_);
-    }
+    outline = read_outline(*object, maker_.chordal_error(), corners_, its_why);
   }
   why = its_why;
   return outline ? &*outline : nullptr;

@@ -114,6 +114,9 @@ class Reader {
   Places circle_places(const Object& object, std::string& why);
   Places mirror_places(const Object& object, std::string& why);
   Places product_of_places(const Object& object, std::string& why);
+  // Both count the places that are to be made, before they are made.
+  int read_occurrences(const Object& object);
+  void count_places(double count);
   struct Axis {
     Vec3 base;
     Vec3 way;
@@ -139,7 +142,8 @@ class Reader {
   std::map<const Object*, Entry> entries_;
   std::map<const Object*, Entry> tools_;
   std::map<const Object*, OutlineEntry> outlines_;
-  std::size_t corners_ = 0;                       // of outlines_
+  std::size_t corners_ = 0;  // cut for outlines, also for none
+  std::size_t places_ = 0;   // of patterns
   std::map<std::string_view, Solid> boundaries_;  // by their entries
   std::vector<const Object*> hidden_;             // of those that were left out
   std::vector<const Object*> flat_;               // likewise
