@@ -172,8 +172,7 @@ bool begins_shapes(const Entity& entity) {
 
 // Whether shapes of an IGES may depend on it.
 bool is_iges_shape(const Entity& entity) {
-  // Geometry is numbered 100 to 199 and 500 to 599; what places it again is
-  // not.
+  // Geometry is numbered 100 to 199 and 500 to 599, what repeats it is not.
   constexpr int kHundred = 100;
   constexpr int kSubfigure = 308;
   constexpr int kSubfigureInstance = 408;
