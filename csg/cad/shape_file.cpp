@@ -139,7 +139,7 @@ ShapeFile read_step(std::string_view bytes) {
   reader.TransferRoots();
   ShapeFile file;
   file.shape = reader.OneShape();
-  file.loss = loss_of(*reader.WS());
+  file.loss = loss_of(reader);
   name_solids(*reader.WS(), file);
   return file;
 }
@@ -170,7 +170,7 @@ ShapeFile read_iges(std::string_view bytes) {
     throw Unreadable{"IGES without its sections"};
   }
   reader.TransferRoots();
-  return {reader.OneShape(), {}, {}, loss_of(*reader.WS())};
+  return {reader.OneShape(), {}, {}, loss_of(reader)};
 }
 
 // Which of the shapes of a binary file is meant stands at its end: as

@@ -282,6 +282,7 @@ class Reader {
     if (block == blocks_.end()) return true;
     const auto place = point(0);
     if (!place) return false;
+    if (!is_drawn() && !is_kept()) return true;
     const double cos = cos_deg(entity_.angle_deg);
     const double sin = sin_deg(entity_.angle_deg);
     const auto moved = [&](std::uint32_t i) {
@@ -289,10 +290,14 @@ class Reader {
       return *place + Vec2(cos * p.x - sin * p.y, sin * p.x + cos * p.y) *
                           options_.scale;
     };
-    // A copy: a block may be inserted into itself.
-    const std::vector<DxfLine> lines = block->second;
-    if (is_drawn() || is_kept()) require_room_for(lines.size());
-    for (const auto [from, to] : lines) add_line(moved(from), moved(to));
+    // A block that is inserted into itself grows meanwhile.
+    const std::vector<DxfLine>& lines = block->second;
+    const std::size_t count = lines.size();
+    require_room_for(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [from, to] = lines[i];
+      add_line(moved(from), moved(to));
+    }
     return true;
   }
 

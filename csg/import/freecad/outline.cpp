@@ -27,16 +27,17 @@ constexpr double kJoinDistance = 1e-6;
 
 // --- Joining ----------------------------------------------------------------
 
-// Ends of curves, in cells of twice the distance at which they join.
+// Ends of curves, by the vertex at which they join. Vertices are farther apart
+// than the distance at which ends join, so that a cell has a few of them,
+// however many ends crowd there.
 class CurveEnds {
  public:
   explicit CurveEnds(const std::vector<Polyline>& curves)
-      : curves_(curves), is_taken_(2 * curves.size()) {
+      : vertex_of_(2 * curves.size()), is_taken_(2 * curves.size()) {
     for (std::uint32_t i = 0; i < curves.size(); ++i) {
       if (is_closed(curves[i])) continue;
-      for (const bool is_end : {false, true}) {
-        cells_[cell_of(point({i, is_end}))].push_back({i, is_end});
-      }
+      add({i, false}, curves[i].front());
+      add({i, true}, curves[i].back());
     }
   }
 
@@ -53,48 +54,28 @@ class CurveEnds {
     return curve.front() == curve.back();
   }
 
-  Vec2 point(End end) const {
-    const Polyline& curve = curves_[end.curve];
-    return end.is_end ? curve.back() : curve.front();
-  }
-
-  // Takes the end nearest to the point, if one is near enough.
-  std::optional<End> take_near(Vec2 place) {
-    std::optional<End> best;
-    double least = kJoinDistance;
-    const Cell center = cell_of(place);
-    // Its own cell first: an end at the very place is found at once.
-    for (const int dx : {0, -1, 1}) {
-      for (const int dy : {0, -1, 1}) {
-        const auto cell = cells_.find({center[0] + dx, center[1] + dy});
-        if (cell == cells_.end()) continue;
-        std::vector<End>& ends = cell->second;
-        for (std::size_t i = ends.size(); i-- > 0;) {
-          const End end = ends[i];
-          if (is_taken_[index(end)]) {
-            ends[i] = ends.back();
-            ends.pop_back();
-            continue;
-          }
-          const double distance = glm::length(point(end) - place);
-          if (distance == 0) {
-            take(end);
-            return end;
-          }
-          if (distance > least) continue;
-          least = distance;
-          best = end;
-        }
-      }
+  // Takes an end that joins this one, if one is left.
+  std::optional<End> take_joined(End end) {
+    std::vector<End>& ends = vertices_[vertex_of_[index(end)]].ends;
+    while (!ends.empty()) {
+      const End next = ends.back();
+      ends.pop_back();
+      if (is_taken_[index(next)]) continue;
+      take(next);
+      return next;
     }
-    if (best) take(*best);
-    return best;
+    return std::nullopt;
   }
 
   void take(End end) { is_taken_[index(end)] = true; }
 
  private:
   using Cell = std::array<std::int64_t, 2>;
+
+  struct Vertex {
+    Vec2 place;
+    std::vector<End> ends;
+  };
 
   static Cell cell_of(Vec2 place) {
     constexpr double kCell = 2 * kJoinDistance;
@@ -105,9 +86,39 @@ class CurveEnds {
     return 2 * std::size_t{end.curve} + (end.is_end ? 1 : 0);
   }
 
-  const std::vector<Polyline>& curves_;
-  std::vector<bool> is_taken_;
-  std::map<Cell, std::vector<End>> cells_;
+  void add(End end, Vec2 place) {
+    const std::size_t vertex = vertex_at(place);
+    vertices_[vertex].ends.push_back(end);
+    vertex_of_[index(end)] = vertex;
+  }
+
+  // The nearest vertex that is near enough, else a new one.
+  std::size_t vertex_at(Vec2 place) {
+    const Cell center = cell_of(place);
+    std::optional<std::size_t> best;
+    double least = kJoinDistance;
+    for (const int dx : {-1, 0, 1}) {
+      for (const int dy : {-1, 0, 1}) {
+        const auto cell = cells_.find({center[0] + dx, center[1] + dy});
+        if (cell == cells_.end()) continue;
+        for (const std::size_t vertex : cell->second) {
+          const double distance = glm::length(vertices_[vertex].place - place);
+          if (distance > least) continue;
+          least = distance;
+          best = vertex;
+        }
+      }
+    }
+    if (best) return *best;
+    vertices_.push_back({place, {}});
+    cells_[center].push_back(vertices_.size() - 1);
+    return vertices_.size() - 1;
+  }
+
+  std::vector<Vertex> vertices_;
+  std::vector<std::size_t> vertex_of_;  // by the index of an end
+  std::vector<bool> is_taken_;          // likewise
+  std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
 // Appends a curve that begins where the contour ends.
@@ -135,9 +146,9 @@ bool is_construction(const pugi::xml_node& geometry) {
 
 std::optional<std::vector<Polyline>> read_curves(const Object& sketch,
                                                  double error,
+                                                 std::size_t& corners,
                                                  std::string& why) {
   std::vector<Polyline> curves;
-  std::size_t corners = 0;
   for (const pugi::xml_node geometry :
        sketch.value("Geometry").children("Geometry")) {
     const std::string_view type = geometry.attribute("type").value();
@@ -147,16 +158,15 @@ std::optional<std::vector<Polyline>> read_curves(const Object& sketch,
       why = fmt::format("{} in '{}' is not known", type, sketch.label());
       return std::nullopt;
     }
-    corners += curve->size();
-    require_corners(corners);
+    require_corners(corners += curve->size() - 1);
     curves.push_back(std::move(*curve));
   }
   return curves;
 }
 
 std::optional<Outline> read_sketch(const Object& sketch, double error,
-                                   std::string& why) {
-  auto curves = read_curves(sketch, error, why);
+                                   std::size_t& corners, std::string& why) {
+  auto curves = read_curves(sketch, error, corners, why);
   if (!curves) return std::nullopt;
   auto contours = join_curves(std::move(*curves));
   if (!contours || contours->empty()) {
@@ -167,8 +177,9 @@ std::optional<Outline> read_sketch(const Object& sketch, double error,
 }
 
 // The corners of a closed polyline.
-std::vector<Polyline> one_contour(Polyline chords) {
+std::vector<Polyline> one_contour(Polyline chords, std::size_t& corners) {
   chords.pop_back();
+  require_corners(corners += chords.size());
   return {std::move(chords)};
 }
 
@@ -189,19 +200,21 @@ bool is_full(const Object& object) {
 }
 
 std::optional<Outline> read_regular_polygon(const Object& object,
+                                            std::size_t& corners,
                                             std::string& why) {
   if (!are_lengths(object, {"Circumradius"}, why)) return std::nullopt;
-  const int corners = object.count("Polygon");
-  if (corners < 3) {
-    why = fmt::format("'{}' has {} sides", object.label(), corners);
+  const int sides = object.count("Polygon");
+  if (sides < 3) {
+    why = fmt::format("'{}' has {} sides", object.label(), sides);
     return std::nullopt;
   }
-  require_fragments(corners);
+  require_fragments(sides);
+  require_corners(corners += static_cast<std::size_t>(sides));
+  const double radius = object.number("Circumradius");
   Polyline contour;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * pi * i / corners;
-    contour.push_back(object.number("Circumradius") *
-                      Vec2(std::cos(angle), std::sin(angle)));
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * pi * i / sides;
+    contour.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
   }
   return Outline{object.placement(), {std::move(contour)}};
 }
@@ -221,7 +234,7 @@ std::optional<std::vector<Polyline>> join_curves(std::vector<Polyline> curves) {
       ends.take({i, true});
       CurveEnds::End last = {i, true};
       for (;;) {
-        const auto next = ends.take_near(ends.point(last));
+        const auto next = ends.take_joined(last);
         if (!next) return std::nullopt;
         if (*next == CurveEnds::End{i, false}) break;
         is_used[next->curve] = true;
@@ -231,19 +244,18 @@ std::optional<std::vector<Polyline>> join_curves(std::vector<Polyline> curves) {
       }
     }
     contour.pop_back();
-    require_corners(contour.size());
     if (contour.size() > 2) contours.push_back(std::move(contour));
   }
   return contours;
 }
 
 std::optional<Outline> read_outline(const Object& object, double error,
-                                    std::string& why) {
+                                    std::size_t& corners, std::string& why) {
   if (object.type().starts_with("Sketcher::SketchObject")) {
-    return read_sketch(object, error, why);
+    return read_sketch(object, error, corners, why);
   }
   if (object.is_a("Part::RegularPolygon")) {
-    return read_regular_polygon(object, why);
+    return read_regular_polygon(object, corners, why);
   }
   if (object.is_a("Part::Plane")) {
     if (!are_lengths(object, {"Length", "Width"}, why)) return std::nullopt;
@@ -253,8 +265,9 @@ std::optional<Outline> read_outline(const Object& object, double error,
   }
   if (object.is_a("Part::Circle") && is_full(object)) {
     if (!are_lengths(object, {"Radius"}, why)) return std::nullopt;
-    return Outline{object.placement(),
-                   one_contour(arc(object.number("Radius"), 0, 2 * pi, error))};
+    return Outline{
+        object.placement(),
+        one_contour(arc(object.number("Radius"), 0, 2 * pi, error), corners)};
   }
   if (object.is_a("Part::Ellipse") && is_full(object)) {
     if (!are_lengths(object, {"MajorRadius", "MinorRadius"}, why)) {
@@ -263,7 +276,7 @@ std::optional<Outline> read_outline(const Object& object, double error,
     const Vec2 radii(object.number("MajorRadius"),
                      object.number("MinorRadius"));
     return Outline{object.placement(),
-                   one_contour(elliptic_arc(radii, 0, 2 * pi, error))};
+                   one_contour(elliptic_arc(radii, 0, 2 * pi, error), corners)};
   }
   why = fmt::format("'{}' is a {}", object.label(), object.type());
   return std::nullopt;

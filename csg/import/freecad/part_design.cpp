@@ -142,19 +142,21 @@ Reader::Made Reader::make_tool_anew(const Object& object, std::string& why) {
   return std::nullopt;
 }
 
-const Outline* Reader::profile_of(const Object& object, std::string& why) {
+const Outline* Reader::profile_of(const Object& object, double error,
+                                  std::string& why) {
   const SubLink profile = object.sub_link("Profile");
   if (!profile.subs.empty()) {
     why = "its profile is a part of a shape";
     return nullptr;
   }
-  return outline_of(profile.object, why);
+  return outline_of(profile.object, error, why);
 }
 
 // --- Pad and Pocket ---------------------------------------------------------
 
 Reader::Made Reader::make_prism_tool(const Object& object, std::string& why) {
-  const Outline* const outline = profile_of(object, why);
+  const Outline* const outline =
+      profile_of(object, maker_.chordal_error(), why);
   if (outline == nullptr) return std::nullopt;
   if (object.number("TaperAngle", 0) != 0 ||
       object.number("TaperAngle2", 0) != 0) {
@@ -208,7 +210,8 @@ Reader::Made Reader::make_prism_tool(const Object& object, std::string& why) {
 
 Reader::Made Reader::make_revolution_tool(const Object& object,
                                           std::string& why) {
-  const Outline* const outline = profile_of(object, why);
+  const Outline* const outline =
+      profile_of(object, maker_.chordal_error_of_turned(), why);
   if (outline == nullptr) return std::nullopt;
   if (object.choice("Type") != 0) {
     why = "it ends at a face or has two angles";

@@ -95,22 +95,17 @@ Reader::Made Reader::make_mirroring(const Object& object, std::string& why) {
 
 // --- Extrusions -------------------------------------------------------------
 
-const Outline* Reader::outline_of(std::string_view name, std::string& why) {
+const Outline* Reader::outline_of(std::string_view name, double error,
+                                  std::string& why) {
   const Object* const object = document_.find(name);
   if (object == nullptr) {
     why = "it has no outline";
     return nullptr;
   }
-  const auto [found, is_new] = outlines_.try_emplace(object);
+  const auto [found, is_new] = outlines_.try_emplace({object, error});
   auto& [outline, its_why] = found->second;
   if (is_new) {
-    outline = read_outline(*object, maker_.chordal_error(), its_why);
-    if (outline) {
-      for (const Polyline& contour : outline->contours) {
-        corners_ += contour.size();
-      }
-      require_corners(corners_);
-    }
+    outline = read_outline(*object, error, corners_, its_why);
   }
   why = its_why;
   return outline ? &*outline : nullptr;
@@ -126,7 +121,8 @@ Reader::Made Reader::make_extrusion(const Object& object, std::string& why) {
     why = "it tapers";
     return std::nullopt;
   }
-  const Outline* const outline = outline_of(object.link("Base"), why);
+  const Outline* const outline =
+      outline_of(object.link("Base"), maker_.chordal_error(), why);
   if (outline == nullptr) return std::nullopt;
   if (object.text("FaceMakerClass") == "Part::FaceMakerSimple" &&
       outline->contours.size() > 1) {
@@ -228,7 +224,8 @@ Reader::Made Reader::make_part_revolution(const Object& object,
     why = "an edge gives its axis";
     return std::nullopt;
   }
-  const Outline* const outline = outline_of(object.link("Source"), why);
+  const Outline* const outline =
+      outline_of(object.link("Source"), maker_.chordal_error_of_turned(), why);
   if (outline == nullptr) return std::nullopt;
   Turn spin;
   spin.base = object.vector("Base").value_or(Vec3(0));

@@ -12,16 +12,6 @@
 namespace lamina::csg::freecad {
 namespace {
 
-int read_occurrences(const Object& object) {
-  const double count = object.number("Occurrences");
-  if (count > kMostOccurrences) {
-    throw LimitExceeded(
-        fmt::format("Too many occurrences: {:.7g}, at most {:.7g} can be",
-                    count, kMostOccurrences));
-  }
-  return std::max(static_cast<int>(count), 1);
-}
-
 // From one place to the next: the whole is given, or, in newer files, the step.
 double read_step(const Object& object, std::string_view whole, double parts) {
   constexpr int kByStep = 1;
@@ -39,11 +29,10 @@ Reader::Made Reader::make_pattern(const Object& object, std::string& why) {
     why = "it repeats no feature";
     return std::nullopt;
   }
-  const auto places = places_of(object, why);
-  if (!places) return std::nullopt;
   const auto base = make_operands({object.link("BaseFeature")}, why);
   if (!base) return std::nullopt;
-  Solid result = base->front();
+  std::vector<const Object*> features;
+  std::vector<Solid> tools;
   for (const std::string_view name : originals) {
     const Object* const original = document_.find(name);
     if (original == nullptr) {
@@ -52,14 +41,39 @@ Reader::Made Reader::make_pattern(const Object& object, std::string& why) {
     }
     const Made tool = make_tool(*original, why);
     if (!tool) return std::nullopt;
+    features.push_back(original);
+    tools.push_back(*tool);
+  }
+  const auto places = places_of(object, why);
+  if (!places) return std::nullopt;
+  Solid result = base->front();
+  for (std::size_t k = 0; k < tools.size(); ++k) {
     std::vector<Solid> operands = {result};
     for (std::size_t i = 1; i < places->size(); ++i) {
-      operands.push_back(maker_.place((*places)[i], *tool));
+      operands.push_back(maker_.place((*places)[i], tools[k]));
     }
     result =
-        adds(*original) ? maker_.unite(operands) : maker_.subtract(operands);
+        adds(*features[k]) ? maker_.unite(operands) : maker_.subtract(operands);
   }
   return result;
+}
+
+int Reader::read_occurrences(const Object& object) {
+  const double count = object.number("Occurrences");
+  count_places(count);
+  return std::max(static_cast<int>(count), 1);
+}
+
+void Reader::count_places(double count) {
+  if (count > kMostOccurrences) {
+    throw LimitExceeded(
+        fmt::format("Too many occurrences: {:.7g}, at most {:.7g} can be",
+                    count, kMostOccurrences));
+  }
+  places_ += static_cast<std::size_t>(std::max(count, 1.0));
+  if (places_ <= kMostPlaces) return;
+  throw LimitExceeded(fmt::format(
+      "Too many places in all patterns: more than {}", kMostPlaces));
 }
 
 Reader::Places Reader::places_of(const Object& object, std::string& why) {
@@ -125,13 +139,9 @@ Reader::Places Reader::product_of_places(const Object& object,
     }
     const Places more = places_of(*step, why);
     if (!more) return std::nullopt;
-    const double count =
-        static_cast<double>(places.size()) * static_cast<double>(more->size());
-    if (count > kMostOccurrences) {
-      throw LimitExceeded(
-          fmt::format("Too many occurrences: {:.7g}, at most {:.7g} can be",
-                      count, kMostOccurrences));
-    }
+    if (more->size() == 1) continue;  // where it stands
+    count_places(static_cast<double>(places.size()) *
+                 static_cast<double>(more->size()));
     std::vector<Mat4> all;
     for (const Mat4& outer : *more) {
       for (const Mat4& inner : places) all.push_back(outer * inner);

@@ -140,7 +140,8 @@ Solid SolidMaker::revolve(const std::vector<Polyline>& contours,
   }
   RotateExtrude op;
   op.angle_deg = angle_deg;
-  op.facets = facets_of(circle_chords(radius, error_ / 2));
+  op.facets =
+      facets_of(circle_chords(radius, error_ - chordal_error_of_turned()));
   if (angle_deg == 360) op.start_deg = 180;
   const Solid base = polygon(contours);
   return make(op, {&base, 1});

@@ -83,6 +83,12 @@ class CadReader : public ::testing::Test {
     return "";
   }
 
+  // The first warning; empty if there is none.
+  std::string warning(const std::string& bytes, Format format) {
+    const Part part = read(bytes, format);
+    return part.warnings.empty() ? std::string() : part.warnings[0];
+  }
+
   Diagnostics diagnostics_;
 };
 
@@ -221,35 +227,196 @@ std::string step_of_two(const std::string& second) {
 }
 
 TEST_F(CadReader, CountsWhatOpenCascadeLeavesOut) {
-  const auto warnings = [&](const std::string& bytes, Format format) {
-    const Part part = read(bytes, format);
-    return part.warnings.empty() ? std::string() : part.warnings[0];
-  };
   const std::pair<std::string, std::string> kSteps[] = {
       {step_of_two("MANIFOLD_SOLID_BREP('',#16)"), ""},
       {step_of_two("MANIFOLD_SOLID_BREP('',#999)"),
-       "1 of 2 solids, 1 of 116 entities of shapes or units"},
+       "1 of 2 solids, 1 of 111 entities of shapes or units"},
       {step_of_two("MANIFOLD_SOLID_BRAP('',#16)"),
-       "1 of 115 entities of shapes or units"},
+       "1 of 111 entities of shapes or units"},
       {step_of_two(
            "MANIFOLD_SOLID_BREP('',#901);\n#901 = CLOSED_SHELL('',(#902));"
            "\n#902 = ADVANCED_FACE('',(#18),#999,.T.)"),
-       "1 of 2 solids, 1 of 4 faces, 1 of 118 entities of shapes or units"},
+       "1 of 2 solids, 1 of 4 faces, 1 of 113 entities of shapes or units"},
       {replaced(seed("step/cylinder"), "CYLINDRICAL_SURFACE('',#32,5.)",
                 "CYLINDRICAL_SURFACE('',#32,-5.)"),
-       "1 of 3 faces, 1 of 115 entities of shapes or units"},
+       "1 of 3 faces, 1 of 110 entities of shapes or units"},
       {replaced(seed("step/cylinder"), "SI_UNIT(.MILLI.,.METRE.)",
                 "SI_UNIT(.MILLE.,.METRE.)"),
-       "1 of 115 entities of shapes or units"}};
+       "1 of 110 entities of shapes or units"}};
   for (const auto& [bytes, words] : kSteps) {
-    EXPECT_EQ(warnings(bytes, Format::kStep),
+    EXPECT_EQ(warning(bytes, Format::kStep),
               words.empty() ? words : "OpenCASCADE can't use " + words);
   }
   std::string iges = seed("iges/cylinder");
   for (int i = 0; i < 2; ++i)
     iges = replaced(iges, "\n     144 ", "\n     145 ");
-  EXPECT_EQ(warnings(iges, Format::kIges),
+  EXPECT_EQ(warning(iges, Format::kIges),
             "OpenCASCADE can't use 1 of 26 entities of shapes or units");
+}
+
+// Lines of a STEP more.
+std::string with_lines(const std::string& step, const std::string& lines) {
+  return replaced(step, "ENDSEC;\nEND-ISO", lines + "ENDSEC;\nEND-ISO");
+}
+
+// The cylinder as a part of an assembly that has it twice, once 30 mm aside.
+std::string step_of_assembly() {
+  return with_lines(seed("step/cylinder"), R"(
+#200 = SHAPE_DEFINITION_REPRESENTATION(#201,#204);
+#201 = PRODUCT_DEFINITION_SHAPE('','',#202);
+#202 = PRODUCT_DEFINITION('design','',#203,#9);
+#203 = PRODUCT_DEFINITION_FORMATION('','',#7);
+#204 = SHAPE_REPRESENTATION('',(#11,#205),#113);
+#205 = AXIS2_PLACEMENT_3D('',#206,#13,#14);
+#206 = CARTESIAN_POINT('',(30.,0.,0.));
+#210 = CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#211,#213);
+#211 = ( REPRESENTATION_RELATIONSHIP('','',#10,#204)
+REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#212)
+SHAPE_REPRESENTATION_RELATIONSHIP() );
+#212 = ITEM_DEFINED_TRANSFORMATION('','',#11,#11);
+#213 = PRODUCT_DEFINITION_SHAPE('','',#214);
+#214 = NEXT_ASSEMBLY_USAGE_OCCURRENCE('1','','',#202,#5,$);
+#220 = CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#221,#223);
+#221 = ( REPRESENTATION_RELATIONSHIP('','',#10,#204)
+REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#222)
+SHAPE_REPRESENTATION_RELATIONSHIP() );
+#222 = ITEM_DEFINED_TRANSFORMATION('','',#11,#205);
+#223 = PRODUCT_DEFINITION_SHAPE('','',#224);
+#224 = NEXT_ASSEMBLY_USAGE_OCCURRENCE('2','','',#202,#5,$);
+)");
+}
+
+// The same assembly with mapped items.
+std::string step_of_mapped_items() {
+  return with_lines(seed("step/cylinder"), R"(
+#200 = SHAPE_DEFINITION_REPRESENTATION(#201,#204);
+#201 = PRODUCT_DEFINITION_SHAPE('','',#202);
+#202 = PRODUCT_DEFINITION('design','',#203,#9);
+#203 = PRODUCT_DEFINITION_FORMATION('','',#7);
+#204 = SHAPE_REPRESENTATION('',(#11,#210,#220),#113);
+#205 = AXIS2_PLACEMENT_3D('',#206,#13,#14);
+#206 = CARTESIAN_POINT('',(30.,0.,0.));
+#207 = REPRESENTATION_MAP(#11,#10);
+#208 = NEXT_ASSEMBLY_USAGE_OCCURRENCE('1','','',#202,#5,$);
+#209 = PRODUCT_DEFINITION_SHAPE('','',#208);
+#210 = MAPPED_ITEM('',#207,#11);
+#220 = MAPPED_ITEM('',#207,#205);
+)");
+}
+
+// The cylinder as a subfigure, and two instances of it.
+std::string iges_of_instances() {
+  std::string iges = seed("iges/cylinder");
+  for (int i = 0; i < 2; ++i) iges = replaced(iges, "     402 ", "     308 ");
+  iges = replaced(iges, "402,3,3,35,45;      ", "308,0,1HA,3,3,35,45;");
+  for (const std::string at : {"55", "57"}) {
+    const std::string next = at == "55" ? "56" : "58";
+    const std::string row = at == "55" ? "28" : "29";
+    const std::string directory =
+        "     408      " + row +
+        "       0       0       0       0       0       000000000D00000" + at +
+        "\n     408       0       0       1       0                         "
+        "      0D00000" +
+        next + "\n";
+    iges.insert(iges.find("308,0,1HA"), directory);
+    iges.insert(iges.rfind("\nS ") + 1,
+                "408,1," + std::string(at == "55" ? "00" : "30") +
+                    ".,0.,0.,1.;                                              "
+                    "00000" +
+                    at + "P00000" + row + "\n");
+  }
+  return replaced(iges, "D     54P     27", "D     58P     29");
+}
+
+TEST_F(CadReader, CountsInstancesAndPartsWithoutTheirShape) {
+  for (const auto& [bytes, format] :
+       {std::pair(step_of_assembly(), Format::kStep),
+        {step_of_mapped_items(), Format::kStep},
+        {iges_of_instances(), Format::kIges}}) {
+    const Part part = read(bytes, format);
+    EXPECT_EQ(part.bodies.size(), 2U) << bytes;
+    EXPECT_EQ(part.warnings, std::vector<std::string>());
+  }
+  const auto broken = [&](const std::string& from, const std::string& to) {
+    return warning(replaced(step_of_assembly(), from, to), Format::kStep);
+  };
+  EXPECT_EQ(broken("#220 = CONTEXT", "#220 = KONTEXT"),
+            "OpenCASCADE can't use 1 of 4 shapes of parts, 1 of 2 instances");
+  EXPECT_EQ(broken("#3 = SHAPE_D", "#3 = SHAPE_X"),
+            "OpenCASCADE can't use 1 of 4 shapes of parts");
+  EXPECT_EQ(broken("'2','','',#202,#5", "'2','','',#202,#999"),
+            "OpenCASCADE can't use 1 of 125 entities of shapes or units");
+  EXPECT_EQ(broken("#222 = ITEM", "#225 = ITEM"),
+            "OpenCASCADE can't use 1 of 124 entities of shapes or units");
+  EXPECT_EQ(warning(replaced(step_of_mapped_items(), "#207,#205", "#207,#999"),
+                    Format::kStep),
+            "OpenCASCADE can't use 1 of 117 entities of shapes or units");
+  EXPECT_EQ(warning(replaced(iges_of_instances(), "408,1,30.", "408,5,30."),
+                    Format::kIges),
+            "OpenCASCADE can't use 1 of 2 instances, 1 of 29 entities of "
+            "shapes or units");
+  EXPECT_EQ(
+      warning(replaced(iges_of_instances(), "30.,0.,0.,1.;", "30.,0.,0.,0.;"),
+              Format::kIges),
+      "OpenCASCADE can't use 1 of 2 instances");
+}
+
+// A unit of no size that OpenCASCADE knows is a millimetre to it.
+TEST_F(CadReader, CountsUnitsWithoutASize) {
+  const auto inch = [](const std::string& unit) {
+    return replaced(seed("step/cylinder"),
+                    "#114 = ( LENGTH_UNIT() NAMED_UNIT(*) "
+                    "SI_UNIT(.MILLI.,.METRE.) );",
+                    "#114 = ( CONVERSION_BASED_UNIT('INCH',#200) LENGTH_UNIT() "
+                    "NAMED_UNIT(#201) );\n"
+                    "#200 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4)," +
+                        unit +
+                        ");\n#201 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,"
+                        "0.);\n#202 = ( LENGTH_UNIT() NAMED_UNIT(*) "
+                        "SI_UNIT(.MILLI.,.METRE.) );");
+  };
+  const Part sound = read(inch("#202"), Format::kStep);
+  EXPECT_EQ(sound.warnings, std::vector<std::string>());
+  EXPECT_NEAR(volume_of(sound.bodies[0].mesh) / kVolume, std::pow(25.4, 3), 20);
+  EXPECT_EQ(warning(inch("#999"), Format::kStep),
+            "OpenCASCADE can't use 1 of 112 entities of shapes or units");
+}
+
+// Whether OpenCASCADE knows them or not, shapes do not depend on them.
+TEST_F(CadReader, CountsNoDimensionsTolerancesAndProperties) {
+  const char* const kLines[] = {
+      "#200 = DIMENSIONAL_SIZE(#201,'diameter');\n"
+      "#201 = CONTACT_FEATURE('','',#4,.T.);\n",
+      "#200 = DIMENSIONAL_CHARACTERISTIC_REPRESENTATION(#201,#203);\n"
+      "#201 = DIMENSIONAL_SIZE(#202,'diameter');\n"
+      "#202 = SHAPE_ASPECT('','',#4,.T.);\n"
+      "#203 = SHAPE_DIMENSION_REPRESENTATION('',(#204),#113);\n"
+      "#204 = UNKNOWN_ITEM('',5.);\n",
+      "#200 = PLUS_MINUS_TOLERANCE(#202,#201);\n"
+      "#201 = DIMENSIONAL_SIZE(#203,'diameter');\n"
+      "#202 = UNKNOWN_TOLERANCE(0.1);\n"
+      "#203 = SHAPE_ASPECT('','',#4,.T.);\n",
+      "#200 = PROPERTY_DEFINITION_REPRESENTATION(#201,#202);\n"
+      "#201 = PROPERTY_DEFINITION('','',#4);\n"
+      "#202 = REPRESENTATION('',(),#203);\n"
+      "#203 = UNKNOWN_CONTEXT('','');\n",
+      "#200 = SHAPE_DEFINITION_REPRESENTATION(#201,#203);\n"
+      "#201 = PROPERTY_DEFINITION('','',#202);\n"
+      "#202 = UNKNOWN_ASPECT('','',#4,.T.);\n"
+      "#203 = SHAPE_REPRESENTATION('',(#11,#204),#113);\n"
+      "#204 = UNKNOWN_ITEM('');\n",
+      "#200 = PROPERTY_DEFINITION('','',#201);\n"
+      "#201 = UNKNOWN_PROPERTY('','');\n",
+      "#200 = PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#7,#201));\n"
+      "#201 = UNKNOWN_PRODUCT('');\n",
+      "#200 = DRAUGHTING_MODEL('',(#201),#113);\n"
+      "#201 = MAPPED_ITEM('',#202,#11);\n"
+      "#202 = REPRESENTATION_MAP(#11,#10);\n"};
+  for (const char* lines : kLines) {
+    EXPECT_EQ(warning(with_lines(seed("step/cylinder"), lines), Format::kStep),
+              "")
+        << lines;
+  }
 }
 
 // OpenCASCADE hides a lack of memory and goes on with less.

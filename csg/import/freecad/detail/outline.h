@@ -6,6 +6,7 @@
 // does not depend on how wires are parted where several meet in a point, so
 // curves are joined as they come.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +25,12 @@ struct Outline {
 // The outline that an object has for others to extrude: a sketch, a regular
 // polygon, a circle, an ellipse, a rectangle.
 //
+// corners  counts those that were cut for all outlines of a file, also for what
+//          turns out to be none; more than csg::kMostCorners throw
 // why      gets the reason where there is none
 // returns  nothing where the object is none of these, or not closed
 std::optional<Outline> read_outline(const Object& object, double error,
-                                    std::string& why);
+                                    std::size_t& corners, std::string& why);
 
 // Joins curves at their ends. Nothing where an end meets no other.
 std::optional<std::vector<Polyline>> join_curves(std::vector<Polyline> curves);

@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "csg/import/freecad/detail/document.h"
@@ -78,8 +79,9 @@ class Reader {
   // All or, where one has no volume, nothing.
   std::optional<std::vector<Solid>> make_operands(
       const std::vector<std::string_view>& names, std::string& why);
-  // Stays; null where there is none. Each is read once.
-  const Outline* outline_of(std::string_view name, std::string& why);
+  // Stays; null where there is none. Each is read once for an error.
+  const Outline* outline_of(std::string_view name, double error,
+                            std::string& why);
   struct Turn {
     Vec3 base;
     Vec3 axis;
@@ -103,7 +105,8 @@ class Reader {
   Made make_prism_tool(const Object& object, std::string& why);
   Made make_revolution_tool(const Object& object, std::string& why);
   Made make_hole_tool(const Object& object, std::string& why);
-  const Outline* profile_of(const Object& object, std::string& why);
+  const Outline* profile_of(const Object& object, double error,
+                            std::string& why);
 
   // --- patterns.cpp ---------------------------------------------------------
   using Places = std::optional<std::vector<Mat4>>;
@@ -114,6 +117,9 @@ class Reader {
   Places circle_places(const Object& object, std::string& why);
   Places mirror_places(const Object& object, std::string& why);
   Places product_of_places(const Object& object, std::string& why);
+  // Both count the places that are to be made, before they are made.
+  int read_occurrences(const Object& object);
+  void count_places(double count);
   struct Axis {
     Vec3 base;
     Vec3 way;
@@ -138,8 +144,10 @@ class Reader {
   FreecadModel model_;
   std::map<const Object*, Entry> entries_;
   std::map<const Object*, Entry> tools_;
-  std::map<const Object*, OutlineEntry> outlines_;
-  std::size_t corners_ = 0;                       // of outlines_
+  // By the chordal error, too.
+  std::map<std::pair<const Object*, double>, OutlineEntry> outlines_;
+  std::size_t corners_ = 0;  // cut for outlines, also for none
+  std::size_t places_ = 0;   // of patterns
   std::map<std::string_view, Solid> boundaries_;  // by their entries
   std::vector<const Object*> hidden_;             // of those that were left out
   std::vector<const Object*> flat_;               // likewise

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +118,33 @@ TEST(JoinCurves, JoinsManyCurvesInTheSamePlace) {
   for (const Polyline& contour : *contours) {
     EXPECT_EQ(contour.size() % 2, 0U);
   }
+}
+
+// Likewise, where the ends are nearly in one place.
+TEST(JoinCurves, JoinsManyCurvesInNearlyTheSamePlace) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, 7e-7);
+  const auto end = [&] { return Vec2(place(random), place(random)); };
+  std::vector<Polyline> lines(100'000);
+  for (Polyline& line : lines) line = {end(), {1, 0}, end()};
+  EXPECT_TRUE(join_curves(lines).has_value());
+}
+
+TEST(JoinCurves, JoinsEndsThatAreAMillionthApartAndNoMore) {
+  const auto contours = [](double gap) {
+    std::size_t count = 0;
+    // Wherever it lies in the cells.
+    for (int i = 0; i < 100; ++i) {
+      const Vec2 at(i * 3.1e-8, i * 1.7e-8);
+      const Vec2 beside = at + gap * Vec2(0.6, -0.8);
+      if (join_curves({{at, {1, 0}}, {{0, 1}, {1, 0}}, {beside, {0, 1}}})) {
+        ++count;
+      }
+    }
+    return count;
+  };
+  EXPECT_EQ(contours(0.99e-6), 100U);
+  EXPECT_EQ(contours(1.01e-6), 0U);
 }
 
 TEST(JoinCurves, JoinsCurvesOfAnyOrderAndDirection) {

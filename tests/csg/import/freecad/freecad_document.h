@@ -38,6 +38,12 @@ inline std::string placement_at_x(const std::string& x) {
                               "Q0=\"0\" Q1=\"0\" Q2=\"0\" Q3=\"1\"/>",
                               x));
 }
+inline std::string vector(const std::string& name, const std::string& x,
+                          const std::string& y, const std::string& z) {
+  return property(name, fmt::format("<PropertyVector valueX=\"{}\" "
+                                    "valueY=\"{}\" valueZ=\"{}\"/>",
+                                    x, y, z));
+}
 inline std::string extension(const std::string& type) {
   return fmt::format("<Extensions><Extension type=\"{}\"/></Extensions>", type);
 }

@@ -575,6 +575,67 @@ TEST(FreecadFile, LimitsOccurrences) {
             "(PartDesign::LinearPattern)");
 }
 
+std::string row(int occurrences, const std::string& base,
+                const std::vector<std::string>& originals) {
+  return links("Originals", originals) + link("BaseFeature", base) +
+         property("Direction", "<LinkSub value=\"Axis\" count=\"0\"/>") +
+         number("Length", "9") +
+         number("Occurrences", std::to_string(occurrences));
+}
+
+FreecadDocument box_and_axis() {
+  FreecadDocument document;
+  document
+      .add("PartDesign::AdditiveBox", "Box",
+           number("Length", "1") + number("Width", "1") +
+               number("Height", "1") + link("BaseFeature", ""))
+      .add("App::Line", "Axis", "");
+  return document;
+}
+
+TEST(FreecadFile, LimitsThePlacesOfAllPatternsTogether) {
+  FreecadDocument document = box_and_axis();
+  for (int i = 0; i < 11; ++i) {
+    document.add("PartDesign::LinearPattern", fmt::format("Row{}", i),
+                 row(100'000, "Box", {"Box"}));
+  }
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
+            "Too many places in all patterns: more than 1000000, in 'Row10' "
+            "(PartDesign::LinearPattern)");
+}
+
+// 100,000 of them with each, if they were made anew.
+TEST(FreecadFile, MakesPlacesOnceForManyPatternsOfOne) {
+  FreecadDocument document = box_and_axis();
+  std::vector<std::string> steps(100'000, "One");
+  steps[0] = "Row";
+  document
+      .add("PartDesign::LinearPattern", "Row",
+           row(100'000, "Box", {}) + flag("Visibility", false))
+      .add("PartDesign::LinearPattern", "One",
+           row(1, "Box", {}) + flag("Visibility", false))
+      .add("PartDesign::MultiTransform", "All",
+           row(1, "Box", {"Box"}) + links("Transformations", steps))
+      .entry("noise", noise_of(100'000));
+  EXPECT_EQ(limit_of([&] {
+              FreecadOptions options;
+              options.boundary_text = [](std::string_view) { return ""; };
+              Arena arena;
+              const std::string bytes = document.bytes();
+              EXPECT_EQ(read_freecad(bytes, options, arena).leaves, 100'000U);
+            }),
+            "");
+}
+
+TEST(FreecadFile, MakesNoPlacesForNothing) {
+  FreecadDocument document = box_and_axis();
+  for (int i = 0; i < 1'000; ++i) {
+    document.add("PartDesign::LinearPattern", fmt::format("Row{}", i),
+                 row(100'000, "", {"Box"}));
+  }
+  EXPECT_EQ(read(document.bytes()).warnings.size(), 1'000U);
+}
+
 // A circle of many edges.
 std::string ring_of_lines(int count) {
   std::string lines;
@@ -618,6 +679,38 @@ TEST(FreecadFile, LimitsTheCornersOfAllOutlinesTogether) {
   EXPECT_EQ(limit_of([&] { read(document.bytes()); }),
             "Too many corners: 4200000 of an outline, at most 4194304 can be, "
             "in 'E419' (Part::Extrusion)");
+}
+
+// Each of 220,000 corners.
+TEST(FreecadFile, CountsTheCornersOfOutlinesThatAreOpen) {
+  FreecadDocument document;
+  for (int i = 0; i < 20; ++i) {
+    document
+        .add("Sketcher::SketchObject", fmt::format("S{}", i),
+             sketch("<Geometry type=\"Part::GeomCircle\"><Circle "
+                    "CenterX=\"0\" CenterY=\"0\" Radius=\"99999999\"/>"
+                    "</Geometry>" +
+                    line(0, 0, 1, 1)))
+        .add("Part::Extrusion", fmt::format("E{}", i),
+             link("Base", fmt::format("S{}", i)) + flag("Solid", true));
+  }
+  EXPECT_EQ(limit_of([&] { read(document.bytes()); }).substr(0, 17),
+            "Too many corners:");
+}
+
+// Of 1,000,000 times 20,000 properties, if each corner looked.
+TEST(FreecadFile, LooksOnceForTheMeasuresOfAPolygon) {
+  std::string properties;
+  for (int i = 0; i < 20'000; ++i) {
+    properties += number(fmt::format("A{}", i), "1");
+  }
+  FreecadDocument document;
+  document
+      .add("Part::RegularPolygon", "Base",
+           properties + number("Polygon", "1000000") +
+               number("Circumradius", "10"))
+      .add("Part::Extrusion", "E", extrusion());
+  EXPECT_NE(read(document.bytes()).csg, "");
 }
 
 // Of 20,000 times 20 MB, if each were unpacked anew.

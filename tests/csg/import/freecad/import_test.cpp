@@ -1,9 +1,11 @@
 // import() of FreeCAD files, from the text of a design to its layers.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -65,6 +67,60 @@ TEST(ImportOfFreecadFiles, DividesCurvesByTheChordalError) {
     EXPECT_LE(missing, error * 20 * std::numbers::pi);
   }
   EXPECT_LE(circle - area_at_two(text), 0.01 * 20 * std::numbers::pi);
+}
+
+// Greatest distance of contours from a torus about the y axis, whose tube of
+// radius 5 runs 20 mm from it.
+double distance_from_torus(const std::string& text, double chordal_error) {
+  std::vector<double> heights;
+  for (double z = -24; z < 24; z += 0.1) heights.push_back(z);
+  const auto design = support::Design::from_text(text, chordal_error);
+  double greatest = 0;
+  const auto judge = [&](Vec2 p, double z) {
+    const double from_ring = std::hypot(std::hypot(p.x, z) - 20, p.y);
+    greatest = std::max(greatest, std::abs(from_ring - 5));
+  };
+  const auto layers = support::slice_heights(design.scene(), heights);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const auto& contours = layers[k].contours;
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const auto loop = contours.loop(i);
+      for (std::size_t j = 0; j < loop.size(); ++j) {
+        judge(0.5 * (loop[j] + loop[(j + 1) % loop.size()]), heights[k]);
+      }
+    }
+  }
+  return greatest;
+}
+
+// The chords of the outline and those of the turn are off together.
+TEST(ImportOfFreecadFiles, DividesTheChordalErrorBetweenOutlineAndTurn) {
+  const support::TemporaryFolder folder;
+  const std::string turn = vector("Axis", "0", "1", "0") +
+                           vector("Base", "0", "0", "0") +
+                           number("Angle", "360");
+  FreecadDocument part;
+  part.add("Part::Circle", "C", number("Radius", "5") + placement_at_x("20"))
+      .add("Part::Revolution", "A",
+           link("Source", "C") + turn + flag("Solid", true));
+  FreecadDocument body;
+  body.add("Sketcher::SketchObject", "S",
+           property("Geometry",
+                    "<GeometryList><Geometry type=\"Part::GeomCircle\"><Circle "
+                    "CenterX=\"20\" CenterY=\"0\" Radius=\"5\"/></Geometry>"
+                    "</GeometryList>"))
+      .add("PartDesign::Revolution", "A",
+           property("Profile", "<LinkSub value=\"S\" count=\"0\"/>") +
+               link("BaseFeature", "") + turn);
+  for (const FreecadDocument& document : {part, body}) {
+    const std::string text = fmt::format(
+        "import(\"{}\");", folder.write("a.FCStd", document.bytes()));
+    for (const double error : {0.5, 0.1, 0.02}) {
+      const double distance = distance_from_torus(text, error);
+      EXPECT_LE(distance, error);
+      EXPECT_GT(distance, error / 2);
+    }
+  }
 }
 
 TEST(ImportOfFreecadFiles, FailsAtItsPlaceInTheDesign) {
