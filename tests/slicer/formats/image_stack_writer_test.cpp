@@ -193,11 +193,12 @@ TEST(ImageStackWriter, FollowsLinksToFolders) {
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("a.png")));
   EXPECT_TRUE(std::filesystem::exists(folder.file("real/00000.png")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("real/00001.png")));
-  std::filesystem::create_directory_symlink("none", folder.file("b.png"));
-  EXPECT_THROW(
-      write_folder(folder.file("b.png"), small_printer(), {layer}, kBox),
-      FileError);
-  EXPECT_EQ(folder.entry_count(), 3U);
+  // Also to one that is not there yet.
+  std::filesystem::create_directory_symlink("new", folder.file("b.png"));
+  write_folder(folder.file("b.png"), small_printer(), {layer}, kBox);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("b.png")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("new/00000.png")));
+  EXPECT_EQ(folder.entry_count(), 4U);
 }
 
 TEST(ImageStackWriter, NamesInArchivesAreUtf8) {
