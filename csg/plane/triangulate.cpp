@@ -25,8 +25,6 @@
 namespace lamina::planar {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
 // A corner of the ring; a point that ends a bridge stands there twice.
 struct Corner {
   Vec2 point;
