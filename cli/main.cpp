@@ -70,6 +70,7 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
     app.parse(argc, argv);
     command.check();
     access = make_file_access(access_limits);
+    if (access.is_confined()) name_files_from(access_limits.root);
     access.report_to(std::make_shared<RunFiles>());
   } catch (const CLI::CallForHelp&) {
     print_out(command.help());

@@ -16,6 +16,7 @@
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/run_on_stack.h"
+#include "cli/process/streams.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
@@ -105,8 +106,9 @@ class Workshop {
     while (const std::optional<Numbered> next = next_piece()) {
       const Piece& piece = next->piece;
       // Its time includes that of its messages, which may find no reader.
-      const ProcessWatch::Part timed(context_.watch, piece.prefix);
-      Inbox inbox{piece.prefix, worker_count_ == 1, "", ""};
+      const std::string prefix = with_short_paths(piece.prefix);
+      const ProcessWatch::Part timed(context_.watch, prefix);
+      Inbox inbox{prefix, worker_count_ == 1, "", ""};
       const Outcome outcome = outcome_of(piece, stack, inbox);
       take(next->turn,
            {outcomes_.describe(piece, outcome), std::move(inbox.text)});
@@ -157,7 +159,8 @@ class Workshop {
     // Under hard warnings the last warning is the fault.
     outcome.error = inbox.first_error;
     if (status != kDone && outcome.error.empty()) {
-      outcome.error = compilation.diagnostics.all().back().message;
+      outcome.error =
+          with_short_paths(compilation.diagnostics.all().back().message);
     }
     if (options_.ledger != nullptr) {
       session.terminal.finish();

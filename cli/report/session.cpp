@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/process_watch.h"
+#include "cli/process/streams.h"
 
 namespace lamina::cli {
 namespace {
@@ -115,9 +116,12 @@ void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
   if (is_quiet_ && !is_loud) return;
   std::string text = caret_text(with_folded_notes(diagnostic));
   if (text.empty()) return;
+  if (diagnostic.severity != Severity::kEcho) {
+    text = with_short_paths(std::move(text));
+  }
   if (inbox_ != nullptr && inbox_->first_error.empty() &&
       diagnostic.severity == Severity::kError) {
-    inbox_->first_error = diagnostic.message;
+    inbox_->first_error = with_short_paths(diagnostic.message);
   }
   if (diagnostic.severity == Severity::kEcho) {
     if (echo_count_ > 0 && text == last_echo_) {
@@ -137,7 +141,7 @@ void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
 void Terminal::say(std::string_view line) {
   if (is_quiet_) return;
   end_echoes();
-  write(fmt::format("{}\n", line));
+  write(with_short_paths(fmt::format("{}\n", line)));
 }
 
 void Terminal::finish() {

@@ -199,6 +199,39 @@ struct Words {
   bool is_output = false;
 };
 
+// Messages may reach the stranger, who need not know where the root is.
+TEST_F(Root, IsNamedInNoMessage) {
+  all_.write(
+      "root/a.scad",
+      "include <b.scad>\nimport(\"none.stl\");\nsurface(\"none.dat\");\n"
+      "import(\"bad.stl\");\nx = import(\"none.json\");\nuse <none.ttf>\n"
+      "cube(1);\n");
+  all_.write("root/b.scad", "n = 0;\ninclude <none.scad>\nunknown();\n");
+  all_.write("root/bad.stl", "solid\nfacet\n");
+  all_.write("root/t.csv", "name,n\na,1\nb,2\n");
+  fs::create_directory_symlink("root", all_.file("link"));
+  for (const std::string folder : {"root", "link"}) {
+    const std::string root = all_.file(folder);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{root + "/a.scad", "-o", root + "/a.slc"},
+          {root + "/c.scad", "-o", root + "/c.slc"},
+          {root + "/a.scad", root + "/b.scad", "-o", root + "/{name}.slc"},
+          {"batch", root + "/b.scad", "--table", root + "/t.csv", "-o",
+           root + "/{name}.slc"}}) {
+      std::vector<std::string> all = words;
+      all.insert(all.end(), {"--root", root});
+      const auto result =
+          support::run_process(command(all), all_.file("beyond"));
+      EXPECT_EQ(result.status, 1);
+      const std::string text = result.errors + result.output;
+      EXPECT_EQ(text.find(all_.path()), std::string::npos) << text;
+      EXPECT_NE(text.find(words[0] == "batch" ? "none.scad" : ".scad"),
+                std::string::npos)
+          << text;
+    }
+  }
+}
+
 class RootWords : public Root, public testing::WithParamInterface<Words> {
  protected:
   support::ProcessResult run_words(const std::string& file) const {
