@@ -2,6 +2,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
