@@ -135,9 +135,8 @@ TEST_P(RootNaming, LeadsNowhereElseAndTellsNothing) {
     const auto there = run_naming(file, output);
     EXPECT_EQ(there.status, 1) << file << "\n" << there.errors;
     // Messages name files from the root.
-    const std::string shown = file.starts_with(inside(""))
-                                  ? file.substr(inside("").size())
-                                  : file;
+    const std::string shown =
+        file.starts_with(inside("")) ? file.substr(inside("").size()) : file;
     EXPECT_NE(there.errors.find(
                   fmt::format("error: '{}' is outside of --root", shown)),
               std::string::npos)
