@@ -87,7 +87,6 @@ bool is_a_symlink(const fs::path& path) {
 // The path without links and dots, and in words behind what is not there. Links
 // that lead to what is not there are followed, too.
 fs::path without_links(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as many as the kernel follows
   std::error_code error;
   // Where not even the first part is there, only what is absolute becomes so.
   fs::path found = fs::weakly_canonical(fs::absolute(path, error), error);

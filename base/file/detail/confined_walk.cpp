@@ -16,9 +16,6 @@
 namespace lamina {
 namespace {
 
-// As many as the kernel follows.
-constexpr int kMostLinks = 40;
-
 class Walker {
  public:
   explicit Walker(std::span<const PermittedFolder> folders)

@@ -18,7 +18,6 @@ bool is_planted(const struct stat& link, const struct stat& folder) {
 }
 
 std::optional<std::string> find_planted_link(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as many as the kernel follows
   fs::path here;                  // through no link
   std::vector<fs::path> waiting;  // parts to walk, the next one last
   const auto push = [&](const fs::path& parts) {

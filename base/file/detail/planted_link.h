@@ -15,6 +15,9 @@
 
 namespace lamina {
 
+// As many links as the kernel follows on the way of a path.
+constexpr int kMostLinks = 40;
+
 // Whether the rule forbids to follow a link in that folder.
 bool is_planted(const struct stat& link, const struct stat& folder);
 
