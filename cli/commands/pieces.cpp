@@ -105,8 +105,8 @@ class Workshop {
   void work(std::size_t stack) {
     while (const std::optional<Numbered> next = next_piece()) {
       const Piece& piece = next->piece;
-      // Its time includes that of its messages, which may find no reader.
       const std::string prefix = with_short_paths(piece.prefix);
+      // Its time includes that of its messages, which may find no reader.
       const ProcessWatch::Part timed(context_.watch, prefix);
       Inbox inbox{prefix, worker_count_ == 1, "", ""};
       const Outcome outcome = outcome_of(piece, stack, inbox);

@@ -116,9 +116,6 @@ void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
   if (is_quiet_ && !is_loud) return;
   std::string text = caret_text(with_folded_notes(diagnostic));
   if (text.empty()) return;
-  if (diagnostic.severity != Severity::kEcho) {
-    text = with_short_paths(std::move(text));
-  }
   if (inbox_ != nullptr && inbox_->first_error.empty() &&
       diagnostic.severity == Severity::kError) {
     inbox_->first_error = with_short_paths(diagnostic.message);
@@ -135,6 +132,7 @@ void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
     return;
   }
   end_echoes();
+  text = with_short_paths(std::move(text));
   if (++counts_[text] == 1) write(text);
 }
 
