@@ -216,13 +216,12 @@ struct Design::State {
                                            compiler::Request request) {
     auto state = std::make_unique<State>(options, std::move(request));
     state->messages.run([&](Diagnostics&) {
-      compiler::Compilation& compilation = state->compilation;
       // Errors of files that the design uses end it here, too.
-      if (!compiler::make_tree(compilation) ||
-          compilation.diagnostics.has_errors()) {
+      if (!compiler::make_tree(state->compilation) ||
+          state->compilation.diagnostics.has_errors()) {
         state->messages.fail();
       }
-      state->lowered = compiler::lower_tree(compilation);
+      state->lowered = compiler::lower_tree(state->compilation);
     });
     for (const CustomizerEntry& entry :
          list_parameters(state->compilation.program)) {
