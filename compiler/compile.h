@@ -46,7 +46,8 @@ struct LayerList : slicer::LayerSink {
 };
 
 // What a request says of the print: the profiles that it names, and of images
-// the format's usual printer. Throws FileError where a profile cannot be opened.
+// the format's usual printer. Throws FileError where a profile cannot be
+// opened.
 Machine choose_machine(const Request& request, const FileAccess& access);
 
 // The output of layers that a request asks for.
@@ -60,8 +61,8 @@ class LayerOutput {
 
   // Takes the layers. Throws GeometryError where the printer cannot build them.
   slicer::LayerSink& sink() {
-    return build_volume_ ? static_cast<slicer::LayerSink&>(*build_volume_)
-                         : *writer_;
+    if (build_volume_) return *build_volume_;
+    return *writer_;
   }
 
   // Ends the file, gives it its name, and completes the report.

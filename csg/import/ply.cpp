@@ -167,7 +167,8 @@ class HeaderReader {
 
   // What follows the line that `line` is a part of.
   std::string_view behind(std::string_view line) const {
-    const auto at = static_cast<std::size_t>(line.end() - bytes_.begin());
+    const auto at =
+        static_cast<std::size_t>(line.data() + line.size() - bytes_.data());
     const std::size_t end = bytes_.find('\n', at);
     return end == std::string_view::npos ? std::string_view()
                                          : bytes_.substr(end + 1);

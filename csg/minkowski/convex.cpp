@@ -212,6 +212,7 @@ void find_edges(Convex& body) {
       return;
     }
     for (std::size_t i = 0; i < rising.size(); ++i) {
+      // cppcheck-suppress containerOutOfBounds ; as many as those that rise
       body.edges.push_back({low, sides[0].high, rising[i], falling[i]});
     }
   });

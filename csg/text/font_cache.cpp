@@ -373,6 +373,7 @@ FontCache::Match FontCache::shared_match(const std::string& name) const {
   static Owned<FcConfig> config;
   static std::map<std::string, Match> matches;
   const std::lock_guard lock(mutex);
+  // cppcheck-suppress mismatchingContainers ; two pointers to one type
   if (config.get() != config_.get()) {
     matches.clear();
     config.reset(FcConfigReference(config_.get()));
