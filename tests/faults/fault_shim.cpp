@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <type_traits>
 
 #include <dirent.h>
 #include <dlfcn.h>
@@ -132,11 +133,17 @@ Function* next(const char* name) {
 }  // namespace
 
 // One function that fails with `failed` and else does what the next one does.
+// That one is found before main(): later the loader's lock may be another
+// thread's for good, as where memory ends while GLib is loaded.
 #define LAMINA_CALL(result, name, failed, parameters, arguments, ...) \
+  static std::add_pointer_t<result parameters> next_##name() {        \
+    static auto* const call = next<result parameters>(#name);         \
+    return call;                                                      \
+  }                                                                   \
+  [[maybe_unused]] static auto* const found_##name = next_##name();   \
   extern "C" result name parameters __VA_ARGS__ {                     \
     if (must_fail(#name)) return failed;                              \
-    static auto* const call = next<result parameters>(#name);         \
-    return call arguments;                                            \
+    return next_##name() arguments;                                   \
   }
 
 LAMINA_CALL(ssize_t, write, -1, (int f, const void* b, size_t n), (f, b, n))
