@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <new>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -104,6 +105,7 @@ class QhullRun {
   // points  span space; they stay where they are
   explicit QhullRun(std::vector<Vec3>& points)
       : points_(points), messages_(open_memstream(&text_, &text_size_)) {
+    if (messages_ == nullptr) throw std::bad_alloc();
     qh_zero(&qh_, messages_);
     char options[] = "qhull";
     exit_code_ = qh_new_qhull(&qh_, 3, static_cast<int>(points.size()),
@@ -126,6 +128,7 @@ class QhullRun {
     std::vector<Facet> result;
     if (exit_code_ == qh_ERRsingular) return result;
     if (exit_code_ == 0) read_facets(result);
+    if (exit_code_ == qh_ERRmem) throw std::bad_alloc();
     if (exit_code_ != 0) {
       fail_check(__FILE__, __LINE__, "Qhull's messages", messages(), "none");
     }
