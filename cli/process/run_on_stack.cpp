@@ -87,7 +87,12 @@ void exit_soon(int status) {
 // not even for lack of memory.
 [[noreturn]] void end_process(TemporaryFiles& temporary_files, int status,
                               std::string_view message) noexcept {
-  std::set_terminate([] { ::_exit(kFault); });
+  static const pthread_t ending_thread = ::pthread_self();
+  std::set_terminate([] {
+    // Others leave it the time to say why.
+    if (::pthread_equal(::pthread_self(), ending_thread) == 0) ::sleep(2);
+    ::_exit(kFault);
+  });
   // First what counts: the words may find nobody to take them.
   try {
     temporary_files.discard_all();
