@@ -12,8 +12,9 @@
 // Calls are counted from the program's first function on, over all threads.
 // They are those of the program and its libraries; what the C library calls by
 // itself is not seen. A close() that fails has closed all the same, as in
-// Linux.
+// Linux. A crash tells on standard error where it was.
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -24,6 +25,7 @@
 
 #include <dirent.h>
 #include <dlfcn.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
@@ -102,9 +104,24 @@ Function* next(const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
 }
 
+// Tells on standard error in which libraries the program crashes.
+void tell_crash(int signal) {
+  is_inside = true;
+  std::array<void*, 12> frames{};
+  const int depth = ::backtrace(frames.data(), static_cast<int>(frames.size()));
+  ::backtrace_symbols_fd(frames.data(), depth, STDERR_FILENO);
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
 [[gnu::constructor]] void read_environment() {
   const char* text = std::getenv("LAMINA_FAULT");
   if (text == nullptr) return;
+  void* frame = nullptr;
+  ::backtrace(&frame, 1);  // takes memory the first time
+  for (const int signal : {SIGSEGV, SIGABRT, SIGTRAP}) {
+    ::signal(signal, tell_crash);
+  }
   fault.names = text;
   fault.names_length = std::strcspn(text, " ");
   char* at = nullptr;
