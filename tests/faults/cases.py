@@ -91,7 +91,8 @@ def failing_memory(harness):
                 # Without memory a good word may look like a bad one: 2.
                 runs.append((f"{job.name}, {fault}", dict(
                     job=job, fault=fault, statuses=(0, 1, 2),
-                    excused=excused, leaves=job.hidden() if job.makes_folders() else ())))
+                    excused=excused,
+                    leaves=job.hidden() if job.makes_folders() else ())))
         if len(runs) > most:
             runs = harness.random.sample(runs, most)
         harness.case(words, runs)
