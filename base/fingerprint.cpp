@@ -4,6 +4,7 @@
 
 // The few functions that are used become part of this file: a library to load
 // would cost every start.
+// NOLINTNEXTLINE(readability-identifier-naming) ; the library's word
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

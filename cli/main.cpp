@@ -109,7 +109,7 @@ void expect_signals(int /*argc*/, char** /*argv*/, char** /*environment*/) {
   }
 }
 [[gnu::section(".preinit_array"),
-  gnu::used]] void (*const first_of_all)(int, char**, char**) = expect_signals;
+  gnu::used]] void (*const kFirstOfAll)(int, char**, char**) = expect_signals;
 
 // Returns the exit status.
 int run_program(int argc, char** argv) {

@@ -294,7 +294,7 @@ LayerOutput::LayerOutput(Machine machine,
                          std::optional<slicer::Deviation> deviation,
                          std::unique_ptr<slicer::LayerWriter> writer)
     : machine_(std::make_unique<const Machine>(std::move(machine))),
-      deviation_(std::move(deviation)),
+      deviation_(deviation),
       writer_(std::move(writer)) {
   if (machine_->printer) {
     build_volume_ =

@@ -39,6 +39,7 @@ std::vector<std::string> module_folders() {
   fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) {
     // Where /proc is not mounted, the kernel has left the path that was run.
+    // NOLINTNEXTLINE(performance-no-int-to-ptr) ; so the kernel hands it over
     const auto* run = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
     if (run != nullptr) program = fs::canonical(run, error);
   }

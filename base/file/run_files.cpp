@@ -39,7 +39,7 @@ std::vector<std::uint64_t> files_at(const std::string& path,
   if (!there || !S_ISDIR(there->st_mode)) return files;
   for (const std::string& name :
        access.list(path).value_or(std::vector<std::string>())) {
-    add(access.look_at(path + "/" + name));
+    add(access.look_at(fmt::format("{}/{}", path, name)));
   }
   return files;
 }

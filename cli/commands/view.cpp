@@ -48,7 +48,7 @@ slicer::Camera parse_camera(const std::string& text) {
 }
 
 std::vector<double> parse_size(const std::string& text) {
-  const std::vector<double> size = require_numbers("--imgsize", text);
+  std::vector<double> size = require_numbers("--imgsize", text);
   const auto is_good = [](double pixels) {
     return pixels >= 1 && pixels <= kLargestPicture &&
            pixels == static_cast<unsigned>(pixels);

@@ -14,7 +14,7 @@
 
 // The one without a message OpenCASCADE makes ahead, when it is loaded.
 Standard_OutOfMemory::Standard_OutOfMemory(const Standard_CString message) {
-  SetMessageString(message);
+  Standard_OutOfMemory::SetMessageString(message);
   const std::new_handler handler = std::get_new_handler();
   if (message != nullptr && handler != nullptr) handler();
 }

@@ -109,7 +109,7 @@ Names names_of_items(const Interface_InterfaceModel& model) {
 }
 
 void name_solids(XSControl_WorkSession& session, ShapeFile& file) {
-  const Handle(Interface_InterfaceModel) model = session.Model();
+  const Handle(Interface_InterfaceModel)& model = session.Model();
   const auto& transferred = session.TransferReader()->TransientProcess();
   const Names products = names_of_items(*model);
   for_each<StepShape_SolidModel>(*model, [&](const auto& entity) {

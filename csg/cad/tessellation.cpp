@@ -150,7 +150,7 @@ double mesh(const TopoDS_Shape& shape, double deflection, double angle) {
   parameters.Angle = angle;
   // The file may bring triangles along.
   BRepTools::Clean(shape);
-  BRepMesh_IncrementalMesh(shape, parameters);
+  const BRepMesh_IncrementalMesh mesher(shape, parameters);
   return deviation_of_edges(shape);
 }
 

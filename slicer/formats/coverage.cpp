@@ -130,9 +130,9 @@ void Coverage::resolve_row(unsigned y, std::vector<GreyRun>& runs) const {
     // The share changes only where an edge passes.
     if (row[x] != 0) {
       sum += row[x];
+      const double share = std::min(std::abs(sum), 1.0);
       // Never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
-      const auto grey =
-          static_cast<std::uint8_t>(255 * std::min(std::abs(sum), 1.0) + 0.5);
+      const auto grey = static_cast<std::uint8_t>(255 * share + 0.5);
       if (grey != run.grey) {
         if (run.count > 0) runs.push_back(run);
         run = {grey, 0};

@@ -34,12 +34,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+// What the C library calls them. NOLINTBEGIN(bugprone-reserved-identifier,
+// readability-identifier-naming)
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 }
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 namespace {
 
@@ -262,8 +265,8 @@ LAMINA_FCNTL(fcntl64)
 extern "C" void* malloc(std::size_t size) noexcept {
   return must_fail("malloc") ? nullptr : __libc_malloc(size);
 }
-extern "C" void* calloc(std::size_t count_, std::size_t size) noexcept {
-  return must_fail("malloc") ? nullptr : __libc_calloc(count_, size);
+extern "C" void* calloc(std::size_t n, std::size_t size) noexcept {
+  return must_fail("malloc") ? nullptr : __libc_calloc(n, size);
 }
 extern "C" void* realloc(void* block, std::size_t size) noexcept {
   return must_fail("malloc") ? nullptr : __libc_realloc(block, size);

@@ -33,7 +33,7 @@ template <typename Set>
   return values;
 }
 
-inline void bind(DynamicValues values, Interpreter& in) {
+inline void bind(DynamicValues&& values, Interpreter& in) {
   for (auto& [index, value] : values) in.bind_dynamic(index, std::move(value));
 }
 

@@ -319,6 +319,7 @@ Reader::Made Reader::make_hole_tool(const Object& object, std::string& why) {
   }
   const Solid hole = maker_.revolve({*profile}, 360);
   std::vector<Solid> holes;
+  holes.reserve(centers.size());
   for (const Vec2 center : centers) {
     holes.push_back(
         maker_.place(sketch->placement() * shift(Vec3(center, 0)), hole));

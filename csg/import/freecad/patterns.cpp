@@ -100,6 +100,7 @@ Reader::Places Reader::line_places(const Object& object, std::string& why) {
   double step = read_step(object, "Length", count - 1);
   if (object.flag("Reversed")) step = -step;
   std::vector<Mat4> places;
+  places.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     places.push_back(shift(i * step * glm::normalize(axis->way)));
   }
@@ -115,6 +116,7 @@ Reader::Places Reader::circle_places(const Object& object, std::string& why) {
   double step = read_step(object, "Angle", is_full ? count : count - 1);
   if (object.flag("Reversed")) step = -step;
   std::vector<Mat4> places;
+  places.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     places.push_back(shift(axis->base) * turn(axis->way, i * step) *
                      shift(-axis->base));

@@ -194,6 +194,7 @@ std::optional<Solid> make_wedge(const Parameters& p, SolidMaker& maker) {
     return std::nullopt;
   }
   std::vector<Vec3> points;
+  points.reserve(8);
   for (const Vec2 q : bottom) points.emplace_back(q.x, p["Ymin"], q.y);
   for (const Vec2 q : top) points.emplace_back(q.x, p["Ymax"], q.y);
   // Corners that coincide become one.

@@ -163,7 +163,7 @@ bool CoveredLeaves::is_covered(const LeafPart& part, const Grid& grid) {
   if (!grid.box.holds(part.box)) return false;
   const int first = grid.column_of(part.box.low.x - kMargin);
   const int last = grid.column_of(part.box.high.x + kMargin);
-  reach_.assign(static_cast<std::size_t>(last - first + 1), Reach());
+  reach_.assign(static_cast<std::size_t>(last - first) + 1, Reach());
   for (const Chain& chain : part.chains) {
     visit_columns(chain, grid, [&](int column, const Reach& reach) {
       Reach& own = reach_[static_cast<std::size_t>(column - first)];
@@ -195,7 +195,7 @@ void CoveredLeaves::cover(const LeafPart& part, Grid& grid) {
   if (part.loops.size() != 1 || part.chains.size() != 2) return;
   const int first = grid.column_of(part.box.low.x);
   const int last = grid.column_of(part.box.high.x);
-  sides_.assign(static_cast<std::size_t>(last - first + 1), {});
+  sides_.assign(static_cast<std::size_t>(last - first) + 1, {});
   for (std::size_t i = 0; i < 2; ++i) {
     visit_columns(part.chains[i], grid, [&](int column, const Reach& reach) {
       if (column < first || column > last) return;

@@ -25,6 +25,7 @@ constexpr std::size_t kGrowthOfCost = 3;
 std::size_t hash_of(std::uint32_t part, std::int32_t first,
                     std::int32_t second) {
   // splitmix64.
+  // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult)
   std::uint64_t x = (std::uint64_t{static_cast<std::uint32_t>(first)} << 32 |
                      static_cast<std::uint32_t>(second)) +
                     part * 0x9e3779b97f4a7c15U;

@@ -169,11 +169,12 @@ std::vector<std::uint8_t> Preview::draw(unsigned width, unsigned height) const {
     for (unsigned x = 0; x < width; ++x) {
       Vec3 sum(0);
       for (int i = 0; i < kPoints * kPoints; ++i) {
-        const Vec2 point =
-            Vec2(x + (i % kPoints + 0.5) / kPoints - width / 2.0,
-                 y + (i / kPoints + 0.5) / kPoints - height / 2.0) *
-                zoom +
-            Vec2(kSide) / 2.0;
+        const int column = i % kPoints;
+        const int row = i / kPoints;
+        const Vec2 point = Vec2(x + (column + 0.5) / kPoints - width / 2.0,
+                                y + (row + 0.5) / kPoints - height / 2.0) *
+                               zoom +
+                           Vec2(kSide) / 2.0;
         const bool is_inside =
             point.x >= 0 && point.y >= 0 && point.x < kSide && point.y < kSide;
         sum += is_inside && !lit.empty()

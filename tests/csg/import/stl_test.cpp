@@ -40,7 +40,8 @@ std::string binary(const std::string& header,
     const float normal[3] = {0, 0, 1};
     append(normal, sizeof normal);
     append(corners.data(), 9 * sizeof(float));
-    append("\0", 2);
+    const char attribute[2] = {};
+    append(attribute, sizeof attribute);
   }
   return bytes;
 }
