@@ -370,6 +370,14 @@ std::optional<std::string> FileAccess::read_regular(
   return read_open(open(path), path);
 }
 
+void FileAccess::note_input(const std::string& path) const {
+  if (!run_) return;
+  const auto status = look_at(path);
+  if (status && S_ISREG(status->st_mode)) {
+    run_->note_input(path, *status, *this);
+  }
+}
+
 // --- Writing ----------------------------------------------------------------
 
 OutputPlace FileAccess::find_output(const std::string& path) const {

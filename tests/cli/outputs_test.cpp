@@ -49,6 +49,9 @@ class Outputs : public testing::Test {
                   R"({"parameterSets": {"large": {"size": "2"}}})");
     folder_.write("cube.scad", "size = 1; cube(1);");
     folder_.write("ball.scad", "sphere(1);");
+    folder_.write("relief.scad", "surface(\"flat.dat\");");
+    folder_.write("flat.dat", "1 1\n1 1\n");
+    folder_.write("torn.scad", "use <font.ttf>\ncube(");
     folder_.write("table.csv", "name,size\ncube,1\nball,2\n");
     folder_.write("links.csv", "name,size\np,1\nq,2\n");
     fs::copy_file(kFont, folder_.file("font.ttf"));
@@ -96,6 +99,16 @@ TEST_F(Outputs, AreNoInputs) {
       {"ball.scad", "-o", "link.slc"},
       {"cube.scad", "-o", "new.slc", "-p", "sets.json", "-P", "large",
        "--report", "sets.json"},
+      // Of texts, too, though these open none of them.
+      {"ring.scad", "-o", "plan.svg", "--export-format", "csg"},
+      {"ring.scad", "-o", "new.csg", "-d", "plan.svg"},
+      {"ring.scad", "-o", "font.ttf", "--export-format", "csg"},
+      {"ring.scad", "-o", "font.ttf", "--export-format", "ast"},
+      {"ring.scad", "-o", "font.ttf", "--export-format", "param"},
+      {"torn.scad", "-o", "font.ttf", "--export-format", "echo"},
+      {"relief.scad", "-o", "flat.dat", "--export-format", "echo"},
+      {"relief.scad", "-o", "flat.dat", "--export-format", "csg", "--root",
+       "."},
       {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.slc",
        "--report", "table.csv"},
       {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.scad",
@@ -111,8 +124,8 @@ TEST_F(Outputs, AreNoInputs) {
   for (const char* input : {"plan.svg", "font.ttf", "table.csv"}) {
     expect_refused({"batch", "ring.scad", "--table", "table.csv", "-o",
                     "{name}.svg", "--ledger", input},
-                   input == std::string("table.csv") ? "this run reads it, too"
-                                                     : "it is no ledger");
+                   input == std::string("plan.svg") ? "it is no ledger"
+                                                    : "this run reads it, too");
   }
 }
 
@@ -189,7 +202,6 @@ TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
 // One order's cell names what is written of the others.
 TEST_F(Outputs, AreWrittenThoughAStrangersPieceTriesToReadThem) {
   folder_.write("relief.scad", "relief = \"flat.dat\"; surface(relief);");
-  folder_.write("flat.dat", "1 1\n1 1\n");
   const auto make = [&](const std::string& cell) {
     folder_.write("t.csv", "name,relief\na,flat.dat\nb," + cell +
                                "\nc,flat.dat\nd,flat.dat\n");
