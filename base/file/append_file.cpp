@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/diagnostic.h"
+#include "base/file/detail/planted_link.h"
 
 namespace lamina {
 namespace {
@@ -33,6 +34,7 @@ AppendFile AppendFile::open(const std::string& path, const FileAccess& access) {
     throw FileError(
         fmt::format("Can't write '{}': it is no regular file", path));
   }
+  if (is_planted_at(place.path, status)) fail(path, EACCES);
   bool is_torn = false;
   if (status.st_size > 0) {
     const auto last =

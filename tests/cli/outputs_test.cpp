@@ -400,6 +400,41 @@ TEST_F(Outputs, FollowNoLinksOfStrangersWhereAllMayLeaveThem) {
   EXPECT_EQ(run(folder_, {"cube.scad", "-o", "shared/out.slc"}).status, 0);
 }
 
+// As the kernel has it with fs.protected_regular and fs.protected_fifos.
+TEST_F(Outputs, TakeNothingOfFilesThatStrangersLeaveWhereAllMay) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs files of another user";
+  fs::create_directory(folder_.file("shared"));
+  ASSERT_EQ(::chmod(folder_.file("shared").c_str(), 01777), 0);
+  folder_.write("shared/out.slc", "");
+  folder_.write("shared/ledger", "");
+  fs::create_directory(folder_.file("shared/out.png"));
+  ASSERT_EQ(::mkfifo(folder_.file("shared/pipe").c_str(), 0666), 0);
+  for (const char* name : {"out.slc", "out.png", "ledger", "pipe"}) {
+    const std::string path = folder_.file("shared/" + std::string(name));
+    constexpr uid_t kOther = 1234;
+    ASSERT_EQ(::chmod(path.c_str(), 0777), 0);
+    ASSERT_EQ(::chown(path.c_str(), kOther, kOther), 0);
+  }
+  for (const std::string kind : {".slc", ".png"}) {
+    for (const char* name : {"shared/out", "shared/new"}) {
+      ASSERT_EQ(
+          run(folder_, {"cube.scad", "-o", name + kind, "--layer", "1"}).status,
+          0);
+    }
+    const struct stat replaced = status_of(folder_.file("shared/out" + kind));
+    const struct stat fresh = status_of(folder_.file("shared/new" + kind));
+    EXPECT_EQ(replaced.st_mode, fresh.st_mode);
+    EXPECT_EQ(replaced.st_uid, fresh.st_uid);
+    EXPECT_EQ(replaced.st_gid, fresh.st_gid);
+  }
+  before_ = contents();
+  expect_refused({"batch", "cube.scad", "--table", "table.csv", "-o",
+                  "{name}.slc", "--ledger", "shared/ledger"},
+                 "Can't write 'shared/ledger': Permission denied");
+  expect_refused({"cube.scad", "-o", "shared/pipe", "--export-format", "slc"},
+                 "Can't write 'shared/pipe': Permission denied");
+}
+
 TEST_F(Outputs, AndInputsAreNoDevices) {
   expect_refused(
       {"batch", "cube.scad", "--table", "/dev/zero", "-o", "{row}.slc"},
