@@ -407,8 +407,9 @@ OutputPlace FileAccess::find_confined_output(const std::string& path) const {
 
 void FileAccess::make_folders(const std::string& path) const {
   if (!is_confined()) {
+    if (find_planted_link(path)) return;
     std::error_code ignored;
-    fs::create_directories(path, ignored);
+    fs::create_directories(without_links(path), ignored);
     return;
   }
   // Each turn makes one missing folder; a path has no more than these.

@@ -192,7 +192,15 @@ TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
             "--ledger", "later.json", "--report", "ring.slc"},
            "another output of this run, is the same file");
   }
-  // By itself such a link is written through.
+  // By itself such a link is written through, also one to a folder.
+  for (const char* name : {"new", "root"}) {
+    std::vector<std::string> words = {"cube.scad", "ball.scad", "-o",
+                                      "old/{name}.slc"};
+    if (name == std::string("root")) words.insert(words.end(), {"--root", "."});
+    EXPECT_EQ(run(folder_, words).status, 0);
+    EXPECT_TRUE(fs::exists(folder_.file("new/cube.slc")));
+    fs::remove_all(folder_.file("new"));
+  }
   EXPECT_EQ(run(folder_, {"cube.scad", "-o", "ring.slc"}).status, 0);
   EXPECT_TRUE(
       fs::is_regular_file(fs::symlink_status(folder_.file("later.slc"))));
