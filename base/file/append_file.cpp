@@ -35,6 +35,9 @@ AppendFile AppendFile::open(const std::string& path, const FileAccess& access) {
         fmt::format("Can't write '{}': it is no regular file", path));
   }
   if (is_planted_at(place.path, status)) fail(path, EACCES);
+  if (access.run_files() != nullptr) {
+    access.run_files()->expect_files(path, status, access);
+  }
   bool is_torn = false;
   if (status.st_size > 0) {
     const auto last =

@@ -161,6 +161,80 @@ TEST_F(Outputs, AreDifferentFiles) {
                  "another output of this run, is the same file");
 }
 
+// Runs lamina with standard output at the end of a file of the folder.
+support::ProcessResult run_onto(const support::TemporaryFolder& folder,
+                                const std::string& file,
+                                const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {
+      "/bin/sh", "-c", R"(file=$1; shift; exec "$0" "$@" >> "$file")",
+      LAMINA_PROGRAM, file};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return support::run_process(words, folder.path());
+}
+
+TEST_F(Outputs, MayBeStandardOutputWhateverFileThatIs) {
+  folder_.write("o", "");
+  fs::create_symlink("o", folder_.file("to-o"));
+  before_ = contents();
+  const auto expect = [&](const std::string& file,
+                          const std::vector<std::string>& arguments,
+                          const std::string& fault) {
+    const auto result = run_onto(folder_, file, arguments);
+    const std::string all = fmt::format("{}", fmt::join(arguments, " "));
+    EXPECT_EQ(result.status, 1) << all;
+    EXPECT_TRUE(has(result.errors, fault)) << all << "\n" << result.errors;
+    EXPECT_TRUE(contents() == before_) << all;
+  };
+  const std::string other = "another output of this run, is the same file";
+  const std::vector<std::vector<std::string>> clashes = {
+      {"cube.scad", "-o", "-", "--export-format", "slc", "--report", "o"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "--report", "to-o"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "--report",
+       "/dev/stdout"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "-d", "o"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "-d", "o", "--root",
+       "."},
+      {"cube.scad", "-o", "o", "--export-format", "slc", "--report", "-"},
+      {"cube.scad", "ball.scad", "-o", "p/{name}.slc", "--report", "-"},
+      {"batch", "cube.scad", "--table", "table.csv", "-o", "q/{name}.slc",
+       "--report", "-"},
+      {"compare", "a.svg", "a.svg", "--report", "o"},
+  };
+  folder_.write("q/cube.slc", "");
+  before_ = contents();
+  for (const auto& arguments : clashes) {
+    const bool has_pieces =
+        arguments[1] == "ball.scad" || arguments[0] == "batch";
+    expect(has_pieces ? "q/cube.slc" : "o", arguments, other);
+  }
+  expect("cube.scad", {"cube.scad", "-o", "-", "--export-format", "csg"},
+         "this run reads it, too");
+  expect("plan.svg", {"ring.scad", "-o", "-", "--export-format", "csg"},
+         "this run reads it, too");
+  expect("a.svg", {"inspect", "a.svg"}, "this run reads it, too");
+  expect("cube.scad", {"check", "cube.scad"}, "this run reads it, too");
+
+  EXPECT_EQ(run_onto(folder_, "o",
+                     {"cube.scad", "-o", "-", "--export-format", "csg", "-d",
+                      "new.d"})
+                .status,
+            0);
+  EXPECT_EQ(support::read_file(folder_.file("o")),
+            "cube(size = [1, 1, 1], center = false);\n\n");
+  // Of a run that prints nothing it is no output.
+  EXPECT_EQ(run_onto(folder_, "cube.scad", {"cube.scad", "-o", "x.slc"}).status,
+            0);
+  EXPECT_EQ(run_onto(folder_, "o",
+                     {"compare", "a.svg", "a.svg", "--report", "new.json"})
+                .status,
+            0);
+  EXPECT_EQ(
+      run_onto(folder_, "new.json",
+               {"compare", "a.svg", "a.svg", "-q", "--report", "new.json"})
+          .status,
+      0);
+}
+
 // Links are followed, also where nothing stands yet.
 TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
   fs::create_symlink("later.slc", folder_.file("later.json"));
@@ -225,6 +299,47 @@ TEST_F(Outputs, AreWrittenThoughAStrangersPieceTriesToReadThem) {
     EXPECT_TRUE(has(result.errors, "this run reads it, too")) << result.errors;
     EXPECT_TRUE(has(support::read_file(folder_.file("run.csv")), "out/d.slc,2"))
         << support::read_file(folder_.file("run.csv"));
+  }
+}
+
+// A ledger that the run begins is one of them.
+TEST_F(Outputs, AreNoInputsFromTheMomentTheyAreMade) {
+  folder_.write("read.scad", "f = \"\"; if (f != \"\") surface(f); cube(1);");
+  folder_.write("read.csv", "name,f\na,\nb,new.ledger\n");
+  for (const char* root : {"", "."}) {
+    std::vector<std::string> words = {"batch",    "read.scad",  "--table",
+                                      "read.csv", "-o",         "{name}.slc",
+                                      "--ledger", "new.ledger", "--no-strict"};
+    if (*root != '\0') words.insert(words.end(), {"--root", root});
+    fs::remove(folder_.file("new.ledger"));
+    for (int i = 0; i < 2; ++i) {
+      const auto result = run(folder_, words);
+      EXPECT_EQ(result.status, 1);
+      EXPECT_TRUE(has(result.errors, "1 of 2 pieces done")) << result.errors;
+      EXPECT_TRUE(has(result.errors, "this run reads it, too"))
+          << result.errors;
+    }
+  }
+}
+
+TEST_F(Outputs, OfBatchesGetTheirFolders) {
+  EXPECT_EQ(run(folder_, {"batch", "cube.scad", "--table", "table.csv", "-o",
+                          "1/{name}.slc", "--ledger", "2/ledger", "--report",
+                          "3/all.json"})
+                .status,
+            0);
+  EXPECT_EQ(run(folder_, {"batch", "cube.scad", "--table", "table.csv", "-o",
+                          "1/{name}.slc", "--collect", "2/ledger", "--report",
+                          "4/all.json"})
+                .status,
+            0);
+  EXPECT_EQ(run(folder_, {"cube.scad", "ball.scad", "-o", "1/{name}.slc",
+                          "--report", "5/all.json"})
+                .status,
+            0);
+  for (const char* file :
+       {"1/ball.slc", "3/all.json", "4/all.json", "5/all.json"}) {
+    EXPECT_TRUE(fs::exists(folder_.file(file))) << file;
   }
 }
 
