@@ -302,9 +302,15 @@ bool RunFiles::is_input(const struct stat& status) {
   return inputs_.contains(identity_of(status));
 }
 
-void RunFiles::forget_inputs() {
+void RunFiles::begin_again(const FileAccess& access) {
   const std::lock_guard lock(mutex_);
   inputs_ = {};
+  outputs_ = {};
+  for (const auto& [place, path] : places_) {
+    for (const std::uint64_t file : files_of(path, access)) {
+      outputs_.insert(file);
+    }
+  }
 }
 
 void RunFiles::note_written(const std::vector<std::uint64_t>& before,

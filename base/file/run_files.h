@@ -68,8 +68,9 @@ class RunFiles {
   void note_input(const std::string& path, const struct stat& status,
                   const FileAccess& access);
   bool is_input(const struct stat& status);
-  // Says that all inputs are about to be read once more.
-  void forget_inputs();
+  // Says that all inputs are about to be read once more. The outputs of
+  // expect_output() are what stands at their places by now.
+  void begin_again(const FileAccess& access);
 
   // Says that an output has got its name: where the files `before` stood
   // stands `now`, or what is in that folder.
