@@ -93,9 +93,9 @@ std::string Loader::find(SourceRange place, std::string_view name,
 }
 
 void Loader::add_file(const std::string& path) {
-  if (std::find(files_.begin(), files_.end(), path) == files_.end()) {
-    files_.push_back(path);
-  }
+  if (std::find(files_.begin(), files_.end(), path) != files_.end()) return;
+  files_.push_back(path);
+  access_.note_input(path);
 }
 
 std::string Loader::look_up(SourceRange place, std::string_view name,

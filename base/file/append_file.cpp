@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/diagnostic.h"
+#include "base/file/detail/planted_link.h"
 
 namespace lamina {
 namespace {
@@ -32,6 +33,10 @@ AppendFile AppendFile::open(const std::string& path, const FileAccess& access) {
   if (!S_ISREG(status.st_mode)) {
     throw FileError(
         fmt::format("Can't write '{}': it is no regular file", path));
+  }
+  if (is_planted_at(place.path, status)) fail(path, EACCES);
+  if (access.run_files() != nullptr) {
+    access.run_files()->expect_files(path, status, access);
   }
   bool is_torn = false;
   if (status.st_size > 0) {

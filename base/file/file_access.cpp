@@ -370,6 +370,14 @@ std::optional<std::string> FileAccess::read_regular(
   return read_open(open(path), path);
 }
 
+void FileAccess::note_input(const std::string& path) const {
+  if (!run_) return;
+  const auto status = look_at(path);
+  if (status && S_ISREG(status->st_mode)) {
+    run_->note_input(path, *status, *this);
+  }
+}
+
 // --- Writing ----------------------------------------------------------------
 
 OutputPlace FileAccess::find_output(const std::string& path) const {
@@ -399,8 +407,9 @@ OutputPlace FileAccess::find_confined_output(const std::string& path) const {
 
 void FileAccess::make_folders(const std::string& path) const {
   if (!is_confined()) {
+    if (find_planted_link(path)) return;
     std::error_code ignored;
-    fs::create_directories(path, ignored);
+    fs::create_directories(without_links(path), ignored);
     return;
   }
   // Each turn makes one missing folder; a path has no more than these.

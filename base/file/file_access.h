@@ -135,6 +135,10 @@ class FileAccess {
   // shortens a mapped file ends the process that reads it.
   std::optional<std::string> read_regular(const std::string& path) const;
 
+  // Says that the run depends on a file, be it opened or not: no output takes
+  // its place. Throws FileError where it is an output.
+  void note_input(const std::string& path) const;
+
   // --- Writing ---------------------------------------------------------------
 
   // Throws AccessError for what may not be written.

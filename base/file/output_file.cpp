@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/diagnostic.h"
+#include "base/file/detail/planted_link.h"
 #include "base/file/write_all.h"
 
 namespace lamina {
@@ -32,6 +33,9 @@ OutputFile OutputFile::open(std::string path, TemporaryFiles& temporary_files) {
   const bool is_there = place.there.has_value();
   const mode_t mode = is_there ? place.there->st_mode : S_IFREG;
   if (S_ISDIR(mode)) fail(path, EISDIR);
+  const bool is_strangers =
+      is_there && !S_ISREG(mode) && is_planted_at(place.path, *place.there);
+  if (is_strangers) fail(path, EACCES);
   TemporaryFiles::File temporary;
   if (path == "-" || !S_ISREG(mode)) {
     place = {};

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <locale.h>
+#include <unistd.h>
 #include <wctype.h>
 
 #include "base/file/file_access.h"
@@ -16,6 +17,8 @@
 
 namespace lamina {
 namespace {
+
+constexpr const char* kStandardOutput = "-";
 
 std::uint64_t identity_of(const struct stat& status) {
   const std::array<std::uint64_t, 2> numbers = {status.st_dev, status.st_ino};
@@ -42,6 +45,24 @@ std::vector<std::uint64_t> files_at(const std::string& path,
     add(access.look_at(fmt::format("{}/{}", path, name)));
   }
   return files;
+}
+
+// The same of an output by its path, as it stands now.
+std::vector<std::uint64_t> files_of(const std::string& path,
+                                    const FileAccess& access) {
+  if (path != kStandardOutput) {
+    return files_at(path, access.look_at(path), access);
+  }
+  struct stat status {};
+  const bool is_file =
+      ::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode);
+  return is_file ? std::vector{identity_of(status)}
+                 : std::vector<std::uint64_t>();
+}
+
+bool have_one_in_common(const std::vector<std::uint64_t>& a,
+                        const std::vector<std::uint64_t>& b) {
+  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
 }
 
 // The same for paths that are one where letters have no case: small ones, and
@@ -74,19 +95,31 @@ std::string nearest_folder(std::string folder, const FileAccess& access) {
   return folder;
 }
 
-void refuse_hidden_name(const std::string& path) {
-  if (!is_hidden_name(path)) return;
-  throw FileError(fmt::format(
-      "Can't write '{}': names such as '.x.lamina-0' are kept for unfinished "
-      "outputs",
-      shown_path(path)));
+std::string name_of(const std::string& output) {
+  return output == kStandardOutput ? "standard output" : shown_path(output);
+}
+
+[[noreturn]] void refuse(const std::string& path, std::string_view why) {
+  throw FileError(fmt::format("Can't write '{}': {}", name_of(path), why));
 }
 
 [[noreturn]] void refuse_input(const std::string& path) {
-  throw FileError(fmt::format(
-      "Can't write '{}': this run reads it, too; give the output another name",
-      shown_path(path)));
+  refuse(path, "this run reads it, too; give the output another name");
 }
+
+[[noreturn]] void refuse_output(const std::string& path,
+                                const std::string& other,
+                                std::string_view what) {
+  refuse(path, fmt::format("'{}', another output of this run, {}",
+                           name_of(other), what));
+}
+
+void refuse_hidden_name(const std::string& path) {
+  if (!is_hidden_name(path)) return;
+  refuse(path, "names such as '.x.lamina-0' are kept for unfinished outputs");
+}
+
+constexpr std::string_view kIsTheSameFile = "is the same file";
 
 }  // namespace
 
@@ -134,7 +167,10 @@ std::string RunFiles::place_of(const std::string& path, bool is_there,
 
 void RunFiles::expect_output(std::string path, const FileAccess& access) {
   if (path.empty()) return;
-  if (path == "-") return expect_place(path, path);
+  if (path == kStandardOutput) {
+    expect_standard_output(access);
+    return expect_place(path, path);
+  }
   while (path.size() > 1 && path.ends_with('/')) path.pop_back();
   refuse_hidden_name(path);
   const OutputPlace output = access.find_output(path);
@@ -180,6 +216,24 @@ void RunFiles::expect_files(const std::string& path,
   const std::vector<std::uint64_t> files = files_at(path, there, access);
   const std::lock_guard lock(mutex_);
   check_unread(path, files);
+  // Bytes of standard output go into the file that stands there, and would be
+  // lost with it.
+  if (places_.contains(kStandardOutput) &&
+      have_one_in_common(files, files_of(kStandardOutput, access))) {
+    refuse_output(path, kStandardOutput, kIsTheSameFile);
+  }
+  for (const std::uint64_t file : files) outputs_.insert(file);
+}
+
+void RunFiles::expect_standard_output(const FileAccess& access) {
+  const std::vector<std::uint64_t> files = files_of(kStandardOutput, access);
+  const std::lock_guard lock(mutex_);
+  check_unread(kStandardOutput, files);
+  for (const auto& [place, path] : places_) {
+    if (have_one_in_common(files, files_of(path, access))) {
+      refuse_output(kStandardOutput, path, kIsTheSameFile);
+    }
+  }
   for (const std::uint64_t file : files) outputs_.insert(file);
 }
 
@@ -211,20 +265,14 @@ void RunFiles::expect_place(const std::string& place, const std::string& path) {
 }
 
 void RunFiles::claim_place(const std::string& place, const std::string& path) {
-  const auto refuse = [&](std::string_view why) {
-    throw FileError(fmt::format("Can't write '{}': {}", shown_path(path), why));
-  };
   const auto refuse_if_output = [&](const std::string& other,
                                     std::string_view what) {
     const auto known = places_.find(other);
-    if (known != places_.end()) {
-      refuse(fmt::format("'{}', another output of this run, {}",
-                         shown_path(known->second), what));
-    }
+    if (known != places_.end()) refuse_output(path, known->second, what);
   };
-  refuse_if_output(place, "is the same file");
+  refuse_if_output(place, kIsTheSameFile);
   if (around_.contains(fingerprint(place))) {
-    refuse("another output of this run would lie inside of it");
+    refuse(path, "another output of this run would lie inside of it");
   }
   // What is around others is no output. (Of many outputs none lies in another:
   // their names have no '/'.)
@@ -254,9 +302,15 @@ bool RunFiles::is_input(const struct stat& status) {
   return inputs_.contains(identity_of(status));
 }
 
-void RunFiles::forget_inputs() {
+void RunFiles::begin_again(const FileAccess& access) {
   const std::lock_guard lock(mutex_);
   inputs_ = {};
+  outputs_ = {};
+  for (const auto& [place, path] : places_) {
+    for (const std::uint64_t file : files_of(path, access)) {
+      outputs_.insert(file);
+    }
+  }
 }
 
 void RunFiles::note_written(const std::vector<std::uint64_t>& before,

@@ -26,8 +26,8 @@ class FileAccess;
 // Safe to use from several threads.
 class RunFiles {
  public:
-  // Says that the run will write `path`, a file or a folder of files of its
-  // own.
+  // Says that the run will write `path`, a file, a folder of files of its own,
+  // or, as "-", standard output, whatever file that is.
   //
   // Throws FileError where that is a file that the run has read or another
   // output, where one of two outputs would lie inside of the other, and for
@@ -42,6 +42,12 @@ class RunFiles {
   // The same for one that another run makes beside this one: only its name
   // counts.
   bool expect_of_another_run(const std::string& path, const FileAccess& access);
+
+  // Says that an output at `path` is written in place: what is `there` or has
+  // just been made. Throws FileError where the run has read that.
+  void expect_files(const std::string& path,
+                    const std::optional<struct stat>& there,
+                    const FileAccess& access);
 
   // Says that all of these have been told: their names are compared no more.
   void end_of_many();
@@ -62,8 +68,9 @@ class RunFiles {
   void note_input(const std::string& path, const struct stat& status,
                   const FileAccess& access);
   bool is_input(const struct stat& status);
-  // Says that all inputs are about to be read once more.
-  void forget_inputs();
+  // Says that all inputs are about to be read once more. The outputs of
+  // expect_output() are what stands at their places by now.
+  void begin_again(const FileAccess& access);
 
   // Says that an output has got its name: where the files `before` stood
   // stands `now`, or what is in that folder.
@@ -83,9 +90,7 @@ class RunFiles {
 
   std::string place_of(const std::string& path, bool is_there,
                        const FileAccess& access);
-  void expect_files(const std::string& path,
-                    const std::optional<struct stat>& there,
-                    const FileAccess& access);
+  void expect_standard_output(const FileAccess& access);
   void expect_place(const std::string& place, const std::string& path);
   // With the mutex held.
   void check_unread(const std::string& path,

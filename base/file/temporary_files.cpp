@@ -18,6 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file/detail/planted_link.h"
 #include "base/file/run_files.h"
 #include "base/file/write_all.h"
 
@@ -197,10 +198,12 @@ bool link_file(int file, const std::string& path) {
 }
 
 // Gives a new file or folder owner, group and permissions of the one that it
-// replaces, as far as the system allows. Where the group cannot be kept, the
-// new one gets the permissions of all others: it must not see what it did not
-// before.
-void take_after(int file, const struct stat& replaced) {
+// replaces, as far as the system allows, but not of what a stranger left there.
+// Where the group cannot be kept, the new one gets the permissions of all
+// others: it must not see what it did not before.
+void take_after(int file, const OutputPlace& target) {
+  if (!target.there || is_planted_at(target.path, *target.there)) return;
+  const struct stat& replaced = *target.there;
   constexpr auto kSame = static_cast<uid_t>(-1);
   const bool has_group =
       ::fchown(file, replaced.st_uid, replaced.st_gid) == 0 ||
@@ -337,7 +340,7 @@ bool TemporaryFiles::commit_file(File& file, const OutputPlace& target,
   if (run != nullptr) {
     before = run->require_unread(path, target.there, access_);
   }
-  if (target.there) take_after(file.file, *target.there);
+  take_after(file.file, target);
   errno = end_writing(file.file);
   if (errno != 0 || !put_at(file, target.path)) return false;
   struct stat now {};
@@ -389,7 +392,7 @@ bool TemporaryFiles::commit_folder(Folder& folder, const std::string& path) {
   RunFiles* const run = access_.run_files();
   std::vector<std::uint64_t> before;
   if (run != nullptr) before = run->require_unread(path, target.there, access_);
-  if (target.there) take_after(folder.lock, *target.there);
+  take_after(folder.lock, target);
   // A name that is free, or an empty folder, is taken by a rename. Else the
   // two change places at once, where the file system can do that.
   if (::rename(folder.path.c_str(), target.path.c_str()) != 0) {

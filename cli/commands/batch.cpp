@@ -131,6 +131,7 @@ class BatchCommand : public Command {
     choose_format(table_.request, output, table_.request.output);
     table_.request.is_strict = table_.request.is_strict.value_or(true);
     table_.skipped.insert(skipped_.begin(), skipped_.end());
+    refuse_if(ledger_.path == "-", "--ledger takes a file, not '-'");
     ledger_.asked = given_options(*app_);
   }
 
@@ -146,6 +147,8 @@ class BatchCommand : public Command {
       context.expect_outputs({output_options_.report, ledger_.path});
       const auto pieces = open_table(table_, access, sources, diagnostics);
       if (diagnostics.has_errors()) return kFault;
+      make_folder_of(output_options_.report, access);
+      make_folder_of(ledger_.path, access);
       if (!ledgers_.empty()) {
         return collect_pieces(
             *pieces,
@@ -160,7 +163,6 @@ class BatchCommand : public Command {
   int make(PieceSource& pieces, const Context& context) const {
     std::optional<Ledger> ledger;
     if (!ledger_.path.empty()) {
-      make_folder_of(ledger_.path, context.file_access());
       ledger.emplace(ledger_, context.file_access());
     }
     return make_pieces(

@@ -88,7 +88,10 @@ class CheckCommand : public Command {
 
   int run(const Context& context) override {
     Session session(request_, is_quiet_, context);
-    return session.run([&] { return check_print(session.compilation); });
+    return session.run([&] {
+      context.expect_outputs({"-"});
+      return check_print(session.compilation);
+    });
   }
 
  private:

@@ -125,7 +125,7 @@ class CompareCommand : public Command {
     Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {
       try {
-        context.expect_outputs({report_, picture_});
+        context.expect_outputs({is_quiet_ ? "" : "-", report_, picture_});
         std::string version;
         if (is_against_openscad_) {
           version = openscad_version(context.temporary_files);

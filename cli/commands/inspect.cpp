@@ -61,7 +61,10 @@ class InspectCommand : public Command {
 
   int run(const Context& context) override {
     Session session(request_, is_quiet_, context);
-    return session.run([&] { return inspect(session.compilation); });
+    return session.run([&] {
+      context.expect_outputs({"-"});
+      return inspect(session.compilation);
+    });
   }
 
  private:

@@ -271,6 +271,7 @@ class SliceCommand : public Command {
         context.expect_outputs({piece.request.output});
       }
       context.expect_outputs({output_.report});
+      make_folder_of(output_.report, context.file_access());
       PieceList list(std::move(pieces));
       return make_pieces(
           list,

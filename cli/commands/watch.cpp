@@ -157,7 +157,7 @@ bool compile_once(const compiler::Request& request, const std::string& report,
                   std::set<std::string>& files) {
   const ProcessWatch::Part timed(context.watch, "");
   const double earlier_seconds = process_seconds();
-  context.file_access().run_files()->forget_inputs();
+  context.file_access().run_files()->begin_again(context.file_access());
   Session session(request, is_quiet, context);
   const int status = session.run(
       [&] { return compile_and_report(session, report, earlier_seconds); });

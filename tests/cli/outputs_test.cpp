@@ -49,6 +49,9 @@ class Outputs : public testing::Test {
                   R"({"parameterSets": {"large": {"size": "2"}}})");
     folder_.write("cube.scad", "size = 1; cube(1);");
     folder_.write("ball.scad", "sphere(1);");
+    folder_.write("relief.scad", "surface(\"flat.dat\");");
+    folder_.write("flat.dat", "1 1\n1 1\n");
+    folder_.write("torn.scad", "use <font.ttf>\ncube(");
     folder_.write("table.csv", "name,size\ncube,1\nball,2\n");
     folder_.write("links.csv", "name,size\np,1\nq,2\n");
     fs::copy_file(kFont, folder_.file("font.ttf"));
@@ -96,6 +99,16 @@ TEST_F(Outputs, AreNoInputs) {
       {"ball.scad", "-o", "link.slc"},
       {"cube.scad", "-o", "new.slc", "-p", "sets.json", "-P", "large",
        "--report", "sets.json"},
+      // Of texts, too, though these open none of them.
+      {"ring.scad", "-o", "plan.svg", "--export-format", "csg"},
+      {"ring.scad", "-o", "new.csg", "-d", "plan.svg"},
+      {"ring.scad", "-o", "font.ttf", "--export-format", "csg"},
+      {"ring.scad", "-o", "font.ttf", "--export-format", "ast"},
+      {"ring.scad", "-o", "font.ttf", "--export-format", "param"},
+      {"torn.scad", "-o", "font.ttf", "--export-format", "echo"},
+      {"relief.scad", "-o", "flat.dat", "--export-format", "echo"},
+      {"relief.scad", "-o", "flat.dat", "--export-format", "csg", "--root",
+       "."},
       {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.slc",
        "--report", "table.csv"},
       {"batch", "cube.scad", "--table", "table.csv", "-o", "{name}.scad",
@@ -111,8 +124,8 @@ TEST_F(Outputs, AreNoInputs) {
   for (const char* input : {"plan.svg", "font.ttf", "table.csv"}) {
     expect_refused({"batch", "ring.scad", "--table", "table.csv", "-o",
                     "{name}.svg", "--ledger", input},
-                   input == std::string("table.csv") ? "this run reads it, too"
-                                                     : "it is no ledger");
+                   input == std::string("plan.svg") ? "it is no ledger"
+                                                    : "this run reads it, too");
   }
 }
 
@@ -148,6 +161,80 @@ TEST_F(Outputs, AreDifferentFiles) {
                  "another output of this run, is the same file");
 }
 
+// Runs lamina with standard output at the end of a file of the folder.
+support::ProcessResult run_onto(const support::TemporaryFolder& folder,
+                                const std::string& file,
+                                const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {
+      "/bin/sh", "-c", R"(file=$1; shift; exec "$0" "$@" >> "$file")",
+      LAMINA_PROGRAM, file};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return support::run_process(words, folder.path());
+}
+
+TEST_F(Outputs, MayBeStandardOutputWhateverFileThatIs) {
+  folder_.write("o", "");
+  fs::create_symlink("o", folder_.file("to-o"));
+  before_ = contents();
+  const auto expect = [&](const std::string& file,
+                          const std::vector<std::string>& arguments,
+                          const std::string& fault) {
+    const auto result = run_onto(folder_, file, arguments);
+    const std::string all = fmt::format("{}", fmt::join(arguments, " "));
+    EXPECT_EQ(result.status, 1) << all;
+    EXPECT_TRUE(has(result.errors, fault)) << all << "\n" << result.errors;
+    EXPECT_TRUE(contents() == before_) << all;
+  };
+  const std::string other = "another output of this run, is the same file";
+  const std::vector<std::vector<std::string>> clashes = {
+      {"cube.scad", "-o", "-", "--export-format", "slc", "--report", "o"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "--report", "to-o"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "--report",
+       "/dev/stdout"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "-d", "o"},
+      {"cube.scad", "-o", "-", "--export-format", "slc", "-d", "o", "--root",
+       "."},
+      {"cube.scad", "-o", "o", "--export-format", "slc", "--report", "-"},
+      {"cube.scad", "ball.scad", "-o", "p/{name}.slc", "--report", "-"},
+      {"batch", "cube.scad", "--table", "table.csv", "-o", "q/{name}.slc",
+       "--report", "-"},
+      {"compare", "a.svg", "a.svg", "--report", "o"},
+  };
+  folder_.write("q/cube.slc", "");
+  before_ = contents();
+  for (const auto& arguments : clashes) {
+    const bool has_pieces =
+        arguments[1] == "ball.scad" || arguments[0] == "batch";
+    expect(has_pieces ? "q/cube.slc" : "o", arguments, other);
+  }
+  expect("cube.scad", {"cube.scad", "-o", "-", "--export-format", "csg"},
+         "this run reads it, too");
+  expect("plan.svg", {"ring.scad", "-o", "-", "--export-format", "csg"},
+         "this run reads it, too");
+  expect("a.svg", {"inspect", "a.svg"}, "this run reads it, too");
+  expect("cube.scad", {"check", "cube.scad"}, "this run reads it, too");
+
+  EXPECT_EQ(run_onto(folder_, "o",
+                     {"cube.scad", "-o", "-", "--export-format", "csg", "-d",
+                      "new.d"})
+                .status,
+            0);
+  EXPECT_EQ(support::read_file(folder_.file("o")),
+            "cube(size = [1, 1, 1], center = false);\n\n");
+  // Of a run that prints nothing it is no output.
+  EXPECT_EQ(run_onto(folder_, "cube.scad", {"cube.scad", "-o", "x.slc"}).status,
+            0);
+  EXPECT_EQ(run_onto(folder_, "o",
+                     {"compare", "a.svg", "a.svg", "--report", "new.json"})
+                .status,
+            0);
+  EXPECT_EQ(
+      run_onto(folder_, "new.json",
+               {"compare", "a.svg", "a.svg", "-q", "--report", "new.json"})
+          .status,
+      0);
+}
+
 // Links are followed, also where nothing stands yet.
 TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
   fs::create_symlink("later.slc", folder_.file("later.json"));
@@ -179,7 +266,15 @@ TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
             "--ledger", "later.json", "--report", "ring.slc"},
            "another output of this run, is the same file");
   }
-  // By itself such a link is written through.
+  // By itself such a link is written through, also one to a folder.
+  for (const char* name : {"new", "root"}) {
+    std::vector<std::string> words = {"cube.scad", "ball.scad", "-o",
+                                      "old/{name}.slc"};
+    if (name == std::string("root")) words.insert(words.end(), {"--root", "."});
+    EXPECT_EQ(run(folder_, words).status, 0);
+    EXPECT_TRUE(fs::exists(folder_.file("new/cube.slc")));
+    fs::remove_all(folder_.file("new"));
+  }
   EXPECT_EQ(run(folder_, {"cube.scad", "-o", "ring.slc"}).status, 0);
   EXPECT_TRUE(
       fs::is_regular_file(fs::symlink_status(folder_.file("later.slc"))));
@@ -189,7 +284,6 @@ TEST_F(Outputs, ThatMeetThroughALinkAreNotDifferent) {
 // One order's cell names what is written of the others.
 TEST_F(Outputs, AreWrittenThoughAStrangersPieceTriesToReadThem) {
   folder_.write("relief.scad", "relief = \"flat.dat\"; surface(relief);");
-  folder_.write("flat.dat", "1 1\n1 1\n");
   const auto make = [&](const std::string& cell) {
     folder_.write("t.csv", "name,relief\na,flat.dat\nb," + cell +
                                "\nc,flat.dat\nd,flat.dat\n");
@@ -205,6 +299,47 @@ TEST_F(Outputs, AreWrittenThoughAStrangersPieceTriesToReadThem) {
     EXPECT_TRUE(has(result.errors, "this run reads it, too")) << result.errors;
     EXPECT_TRUE(has(support::read_file(folder_.file("run.csv")), "out/d.slc,2"))
         << support::read_file(folder_.file("run.csv"));
+  }
+}
+
+// A ledger that the run begins is one of them.
+TEST_F(Outputs, AreNoInputsFromTheMomentTheyAreMade) {
+  folder_.write("read.scad", "f = \"\"; if (f != \"\") surface(f); cube(1);");
+  folder_.write("read.csv", "name,f\na,\nb,new.ledger\n");
+  for (const char* root : {"", "."}) {
+    std::vector<std::string> words = {"batch",    "read.scad",  "--table",
+                                      "read.csv", "-o",         "{name}.slc",
+                                      "--ledger", "new.ledger", "--no-strict"};
+    if (*root != '\0') words.insert(words.end(), {"--root", root});
+    fs::remove(folder_.file("new.ledger"));
+    for (int i = 0; i < 2; ++i) {
+      const auto result = run(folder_, words);
+      EXPECT_EQ(result.status, 1);
+      EXPECT_TRUE(has(result.errors, "1 of 2 pieces done")) << result.errors;
+      EXPECT_TRUE(has(result.errors, "this run reads it, too"))
+          << result.errors;
+    }
+  }
+}
+
+TEST_F(Outputs, OfBatchesGetTheirFolders) {
+  EXPECT_EQ(run(folder_, {"batch", "cube.scad", "--table", "table.csv", "-o",
+                          "1/{name}.slc", "--ledger", "2/ledger", "--report",
+                          "3/all.json"})
+                .status,
+            0);
+  EXPECT_EQ(run(folder_, {"batch", "cube.scad", "--table", "table.csv", "-o",
+                          "1/{name}.slc", "--collect", "2/ledger", "--report",
+                          "4/all.json"})
+                .status,
+            0);
+  EXPECT_EQ(run(folder_, {"cube.scad", "ball.scad", "-o", "1/{name}.slc",
+                          "--report", "5/all.json"})
+                .status,
+            0);
+  for (const char* file :
+       {"1/ball.slc", "3/all.json", "4/all.json", "5/all.json"}) {
+    EXPECT_TRUE(fs::exists(folder_.file(file))) << file;
   }
 }
 
@@ -386,6 +521,41 @@ TEST_F(Outputs, FollowNoLinksOfStrangersWhereAllMayLeaveThem) {
   EXPECT_FALSE(fs::exists(folder_.file("q/x.slc")));
   ASSERT_EQ(::lchown(link.c_str(), ::geteuid(), ::getegid()), 0);
   EXPECT_EQ(run(folder_, {"cube.scad", "-o", "shared/out.slc"}).status, 0);
+}
+
+// As the kernel has it with fs.protected_regular and fs.protected_fifos.
+TEST_F(Outputs, TakeNothingOfFilesThatStrangersLeaveWhereAllMay) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs files of another user";
+  fs::create_directory(folder_.file("shared"));
+  ASSERT_EQ(::chmod(folder_.file("shared").c_str(), 01777), 0);
+  folder_.write("shared/out.slc", "");
+  folder_.write("shared/ledger", "");
+  fs::create_directory(folder_.file("shared/out.png"));
+  ASSERT_EQ(::mkfifo(folder_.file("shared/pipe").c_str(), 0666), 0);
+  for (const char* name : {"out.slc", "out.png", "ledger", "pipe"}) {
+    const std::string path = folder_.file("shared/" + std::string(name));
+    constexpr uid_t kOther = 1234;
+    ASSERT_EQ(::chmod(path.c_str(), 0777), 0);
+    ASSERT_EQ(::chown(path.c_str(), kOther, kOther), 0);
+  }
+  for (const std::string kind : {".slc", ".png"}) {
+    for (const char* name : {"shared/out", "shared/new"}) {
+      ASSERT_EQ(
+          run(folder_, {"cube.scad", "-o", name + kind, "--layer", "1"}).status,
+          0);
+    }
+    const struct stat replaced = status_of(folder_.file("shared/out" + kind));
+    const struct stat fresh = status_of(folder_.file("shared/new" + kind));
+    EXPECT_EQ(replaced.st_mode, fresh.st_mode);
+    EXPECT_EQ(replaced.st_uid, fresh.st_uid);
+    EXPECT_EQ(replaced.st_gid, fresh.st_gid);
+  }
+  before_ = contents();
+  expect_refused({"batch", "cube.scad", "--table", "table.csv", "-o",
+                  "{name}.slc", "--ledger", "shared/ledger"},
+                 "Can't write 'shared/ledger': Permission denied");
+  expect_refused({"cube.scad", "-o", "shared/pipe", "--export-format", "slc"},
+                 "Can't write 'shared/pipe': Permission denied");
 }
 
 TEST_F(Outputs, AndInputsAreNoDevices) {

@@ -147,6 +147,8 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
       {"view", "a.scad", "-o", ""},
       {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc", "--ledger",
        ""},
+      {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc", "--ledger",
+       "-"},
       {"batch", "a.scad", "--table", "t.csv", "-o", "{row}.slc", "--collect",
        ""},
       {"view", "a.scad", "-o", "a.jpg"},

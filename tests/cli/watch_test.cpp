@@ -134,6 +134,22 @@ TEST(Watch, WritesAgainAfterASaveThatReadsTheOutput) {
   ASSERT_TRUE(watched.comes_to("ECHO: 3\n"));
 }
 
+// Nor is an output that was moved away one any more.
+TEST(Watch, ReadsWhatWasTheOutputUnderAnotherName) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  const std::string one = "cube(size = [1, 1, 1], center = false);\n";
+  const std::string two = "cube(size = [2, 2, 2], center = false);\n";
+  Watched watched(folder, "a.csg");
+  ASSERT_TRUE(watched.comes_to(one + "\n"));
+  std::filesystem::rename(folder.file("a.csg"), folder.file("old.csg"));
+  folder.write("a.scad", "include <old.csg>\ncube(2);");
+  ASSERT_TRUE(watched.comes_to(one + two + "\n"));
+  // The new one still is.
+  folder.write("a.scad", "include <a.csg>\ncube(3);");
+  ASSERT_TRUE(watched.comes_to_say("this run reads it, too"));
+}
+
 TEST(Watch, IsForOneDesignAndAFile) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");

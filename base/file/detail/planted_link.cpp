@@ -17,6 +17,13 @@ bool is_planted(const struct stat& link, const struct stat& folder) {
          link.st_uid != ::geteuid() && link.st_uid != folder.st_uid;
 }
 
+bool is_planted_at(const std::string& path, const struct stat& file) {
+  const fs::path folder = fs::path(path).parent_path();
+  struct stat status {};
+  return ::stat(folder.empty() ? "." : folder.c_str(), &status) == 0 &&
+         is_planted(file, status);
+}
+
 std::optional<std::string> find_planted_link(const std::string& path) {
   fs::path here;                  // through no link
   std::vector<fs::path> waiting;  // parts to walk, the next one last

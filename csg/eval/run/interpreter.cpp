@@ -215,7 +215,9 @@ Value Interpreter::make_box() {
 }
 
 void Interpreter::add_file(const std::string& path) {
-  if (known_files_.insert(path).second) files_.push_back(path);
+  if (!known_files_.insert(path).second) return;
+  files_.push_back(path);
+  file_access().note_input(path);
 }
 
 const LiteralCall& Interpreter::find_plan(const CallCode& call,
