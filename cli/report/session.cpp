@@ -170,7 +170,11 @@ void Terminal::write(std::string_view words) {
     if (place.empty() || !text.starts_with(place)) {
       inbox_->text += inbox_->prefix;
     }
-    inbox_->text += text;
+    // Further lines begin with a name that may look like another row's prefix.
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      inbox_->text += text[i];
+      if (text[i] == '\n' && i + 1 < text.size()) inbox_->text += "  ";
+    }
     return;
   }
   progress_.erase();

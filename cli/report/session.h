@@ -18,7 +18,8 @@ namespace lamina::cli {
 // Takes the messages of one compilation among several, instead of standard
 // error: they are shown together when it has ended.
 struct Inbox {
-  std::string prefix;         // of every message: "orders.csv:17: "
+  // Of every message: "orders.csv:17: "; its further lines are indented.
+  std::string prefix;
   bool has_progress = false;  // it is alone and may draw its progress
   std::string text;
   std::string first_error;  // its words alone
