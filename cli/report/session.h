@@ -12,6 +12,7 @@
 #include "cli/process/context.h"
 #include "cli/process/progress.h"
 #include "compiler/compilation.h"
+#include "slicer/contour/layer_file.h"
 
 namespace lamina::cli {
 
@@ -75,6 +76,10 @@ struct Session {
   Terminal terminal;
   compiler::Compilation compilation;
 };
+
+// Says what a layer file holds that was not taken, if anything.
+void tell_left_out(compiler::Compilation& compilation,
+                   const slicer::LayerFileFacts& facts);
 
 // Returns what `work` returns; where it throws, shows the message, unless it
 // is among `diagnostics` and so has been shown, and returns kFault.
