@@ -226,9 +226,17 @@ std::string csv_cell(std::string_view text) {
 
 std::string csv_words(const std::string& text) {
   constexpr std::string_view kFormula = "=+-@\t\r";
-  const bool is_formula =
-      !text.empty() && kFormula.find(text.front()) != std::string_view::npos;
-  return csv_cell(is_formula ? "'" + text : text);
+  // Spreadsheets of other countries part cells there, in the middle of ours.
+  constexpr std::string_view kSeparators = ";\t\r\n";
+  std::string words;
+  bool is_begin = true;
+  for (const char c : text) {
+    if (is_begin && kFormula.find(c) != std::string_view::npos) words += '\'';
+    words += c;
+    is_begin =
+        kSeparators.find(c) != std::string_view::npos || (is_begin && c == '"');
+  }
+  return csv_cell(words);
 }
 
 }  // namespace lamina

@@ -86,6 +86,12 @@ void append_carets(std::string& text, SourceRange range) {
                       "", indent, "", length > 0 ? length - 1 : 0);
 }
 
+// A file's name before ": ", in quotes where it has that itself.
+std::string name_of_place(const Source& source) {
+  const std::string name = on_one_line(shown_path(source.path()));
+  return name.find(": ") == std::string::npos ? name : in_quotes(name);
+}
+
 void append_terminal_text(std::string& text, SourceRange range,
                           std::string_view prefix, std::string_view message) {
   if (range.is_defined_by_option()) {
@@ -98,9 +104,8 @@ void append_terminal_text(std::string& text, SourceRange range,
   }
   if (range.is_known()) {
     const LineColumn place = range.source->line_column(range.begin);
-    text +=
-        fmt::format("{}:{}:{}: ", on_one_line(shown_path(range.source->path())),
-                    place.line, place.column);
+    text += fmt::format("{}:{}:{}: ", name_of_place(*range.source), place.line,
+                        place.column);
   }
   text += fmt::format("{}{}\n", prefix, message_text(message));
   if (range.is_known()) append_carets(text, range);

@@ -12,6 +12,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/similar.h"
+#include "base/text.h"
+#include "parser/ast_printer.h"
 #include "parser/customizer.h"
 #include "parser/detail/customizer_value.h"
 #include "parser/tree_facts.h"
@@ -42,7 +45,7 @@ class ParameterSets::Reader : public nlohmann::json_sax<nlohmann::json> {
   bool binary(binary_t& /*bytes*/) override { return add(""); }
 
   bool start_object(std::size_t /*size*/) override {
-    add("");
+    add("", false);
     if (is_among_sets()) sets_.sets_.back().is_object = true;
     path_.push_back({true, ""});
     return true;
@@ -59,7 +62,7 @@ class ParameterSets::Reader : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool start_array(std::size_t /*size*/) override {
-    add("");
+    add("", false);
     path_.push_back({false, ""});
     return true;
   }
@@ -88,13 +91,13 @@ class ParameterSets::Reader : public nlohmann::json_sax<nlohmann::json> {
   bool is_among_sets() const { return is_within_sets(2); }
   bool is_in_set() const { return is_within_sets(3); }
 
-  bool add(std::string_view text) {
+  bool add(std::string_view text, bool is_single = true) {
     if (!is_in_set()) return true;
     const auto [name, is_new] = numbers_of_names_.try_emplace(
         path_.back().name, static_cast<std::uint32_t>(sets_.names_.size()));
     if (is_new) sets_.names_.push_back(name->first);
     sets_.texts_ += text;
-    sets_.values_.push_back({name->second, sets_.texts_.size()});
+    sets_.values_.push_back({name->second, is_single, sets_.texts_.size()});
     return true;
   }
 
@@ -137,7 +140,8 @@ ParameterSet ParameterSets::values_of(std::size_t index) const {
   for (std::size_t i = set.begin; i < end; ++i) {
     const std::size_t begin = i == 0 ? 0 : values_[i - 1].text_end;
     values.push_back({names_[values_[i].name],
-                      texts_.substr(begin, values_[i].text_end - begin)});
+                      texts_.substr(begin, values_[i].text_end - begin),
+                      values_[i].is_single});
   }
   return values;
 }
@@ -262,22 +266,33 @@ class SetApplier {
   bool apply() {
     std::vector<const ast::Statement*> statements(program_.statements.begin(),
                                                   program_.statements.end());
+    Entries entries;
+    for (const ParameterValue& entry : set_) {
+      entries[entry.name].push_back(&entry);
+    }
+    std::vector<std::string_view> names;
     bool is_good = true;
     for (const std::size_t place :
          ast::assignments_that_count(program_.statements)) {
-      for (const ParameterValue& entry : set_) {
-        const ast::Statement*& statement = statements[place];
-        if (std::get<ast::Assignment>(statement->node).name == entry.name) {
-          is_good = is_good && apply(entry, statement);
-        }
+      const ast::Statement*& statement = statements[place];
+      names.push_back(std::get<ast::Assignment>(statement->node).name);
+      const auto own = entries.extract(names.back());
+      if (own.empty()) continue;
+      for (const ParameterValue* entry : own.mapped()) {
+        is_good = is_good && apply(*entry, statement);
       }
     }
     program_.statements =
         arena_.copy(std::span<const ast::Statement* const>(statements));
+    warn_of_unknown(entries, names);
     return is_good;
   }
 
  private:
+  // Of one name in the order of the set.
+  using Entries =
+      std::map<std::string_view, std::vector<const ParameterValue*>>;
+
   bool apply(const ParameterValue& entry, const ast::Statement*& statement) {
     const auto& own = *std::get<ast::Assignment>(statement->node).value;
     const auto rule = customizer_.rule_of(*statement);
@@ -288,24 +303,71 @@ class SetApplier {
       fitted.value = read_value(entry.text, type, arena_);
       if (!fitted.value && type == ast::ValueType::kBool) return false;
     }
-    if (!fitted.keeps_rule) warn(entry, *statement, fitted.value != nullptr);
+    const bool is_lost =
+        fitted.value == nullptr && (rule || !is_own(entry, own));
+    if (is_lost || !fitted.keeps_rule || !entry.is_single) {
+      warn(entry, *statement, rule.has_value(), fitted);
+    }
     if (fitted.value != nullptr) set(statement, *fitted.value);
     return true;
   }
 
+  // Whether the text says the value that the variable has anyway.
+  bool is_own(const ParameterValue& entry, const ast::Expr& own) const {
+    const ast::Expr* said = read_value(entry.text, ast::type_of(own), arena_);
+    if (said == nullptr) return false;
+    std::string said_text;
+    std::string own_text;
+    ast::append_expression(*said, said_text);
+    ast::append_expression(own, own_text);
+    return said_text == own_text;
+  }
+
   void warn(const ParameterValue& entry, const ast::Statement& statement,
-            bool is_set) {
-    const std::string values = customizer_.comment_of(statement).values;
+            bool has_rule, const Fitted& fitted) {
     std::string text =
-        fmt::format("parameter {} = {} of the set ", entry.name, entry.text);
-    text += values == "\"\"" ? std::string("is no value for it")
-                             : fmt::format("does not keep to {}", values);
-    if (!is_set) {
+        fmt::format("parameter {} = {} of the set {}", entry.name, entry.text,
+                    fault_of(entry, statement, has_rule, fitted));
+    if (fitted.value == nullptr) {
       text += "; it keeps its own value";
+    } else if (!entry.is_single) {
+      text += "; it is taken for an empty text";
     } else if (language_ == Language::k2026) {
       text += "; it is moved there";
     }
     diagnostics_.own_warning(statement.range, std::move(text));
+  }
+
+  std::string fault_of(const ParameterValue& entry,
+                       const ast::Statement& statement, bool has_rule,
+                       const Fitted& fitted) const {
+    const auto& own = *std::get<ast::Assignment>(statement.node).value;
+    if (!entry.is_single) return "is a list or an object";
+    if (!has_rule && language_ == Language::k2026) {
+      return "is for no parameter of the customizer";
+    }
+    if (ast::type_of(own) == ast::ValueType::kAny) {
+      return "can't replace what is computed";
+    }
+    const std::string values = customizer_.comment_of(statement).values;
+    return fitted.keeps_rule || values == "\"\""
+               ? "is no value for it"
+               : fmt::format("does not keep to {}", values);
+  }
+
+  // names  of all variables of the design
+  void warn_of_unknown(const Entries& unknown,
+                       std::span<const std::string_view> names) {
+    // Each guess looks at all names; who has more wrong took another file.
+    constexpr std::size_t kMostGuesses = 100;
+    const bool is_guessing = unknown.size() <= kMostGuesses;
+    for (const auto& [name, entries] : unknown) {
+      diagnostics_.own_warning(
+          {},
+          fmt::format("the set has '{}', the design has no such variable",
+                      short_name(name)),
+          hint_of(is_guessing ? did_you_mean(name, names) : ""));
+    }
   }
 
   void set(const ast::Statement*& statement, const ast::Expr& value) {

@@ -7,12 +7,12 @@
 // A value is a text. A parameter that is a string takes it as it is, one that
 // is true or false takes true, false, 1 or 0, any other takes it in the
 // notation of the customizer's comments if that gives a value of its own type,
-// and keeps its own else. What is no parameter of the design is passed over.
+// and keeps its own else.
 //
 // So says OpenSCAD 2021.01. In language 2026 only what customizer.h's
 // ParameterRule describes can be set: numbers are moved into their range, texts
 // cut to their length, and what is no choice is left out. In both languages a
-// warning says what does not keep to the rule.
+// warning names each value that the design does not get as the set has it.
 //
 // Departures from OpenSCAD 2021.01: a set that the file lacks is an error, not
 // the design's own values; and only variables whose value is a literal, or
@@ -35,6 +35,7 @@ namespace lamina {
 struct ParameterValue {
   std::string name;
   std::string text;
+  bool is_single = true;  // else a list or an object, whose text is empty
 };
 
 // In the order of the file.
@@ -68,7 +69,8 @@ class ParameterSets {
     bool is_object = false;  // else it is no set
   };
   struct Value {
-    std::uint32_t name = 0;    // in names_
+    std::uint32_t name = 0;  // in names_
+    bool is_single = true;
     std::size_t text_end = 0;  // in texts_; it begins where the one before ends
   };
 

@@ -109,12 +109,12 @@ class CheckCommand : public Command {
   bool look(compiler::Compilation& compilation) const {
     if (slicer::is_readable_layer_file(request_.design,
                                        compilation.file_access())) {
-      compilation.report.slice.print =
-          compiler::inspect_file(
-              request_.design,
-              {.self_supporting = request_.settings.self_supporting},
-              compilation.file_access())
-              .print;
+      const slicer::Inspection found = compiler::inspect_file(
+          request_.design,
+          {.self_supporting = request_.settings.self_supporting},
+          compilation.file_access());
+      compilation.report.slice.print = found.print;
+      tell_left_out(compilation, found.file);
       return true;
     }
     const auto lowered = compiler::make_geometry(compilation);

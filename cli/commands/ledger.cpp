@@ -218,8 +218,9 @@ std::string asked_key(const Piece& piece, const std::string& options) {
   std::string text =
       fmt::format("{}\n{}\n{}\n", version(), options, request.definitions);
   if (request.parameters) {
-    for (const auto& [name, value] : *request.parameters) {
-      text += fmt::format("{}={}\n", in_quotes(name), in_quotes(value));
+    for (const ParameterValue& entry : *request.parameters) {
+      text +=
+          fmt::format("{}={}\n", in_quotes(entry.name), in_quotes(entry.text));
     }
   }
   text += request.output.empty() ? fmt::format("row {}", piece.number)

@@ -183,7 +183,7 @@ std::optional<std::vector<slicer::Layer>> layers_of(
   if (slicer::is_readable_layer_file(request.design,
                                      compilation.file_access())) {
     slicer::LayerGraph graph(request.settings.self_supporting);
-    slicer::read_layers(
+    const slicer::LayerFileFacts facts = slicer::read_layers(
         request.design,
         [&](slicer::Layer& layer) {
           if (is_page(request.output)) graph.take(layer, nullptr);
@@ -191,6 +191,7 @@ std::optional<std::vector<slicer::Layer>> layers_of(
         },
         compilation.file_access());
     compilation.report.slice.print = graph.finish();
+    tell_left_out(compilation, facts);
     return std::move(list.layers);
   }
   const auto lowered = compiler::make_geometry(compilation);

@@ -54,6 +54,8 @@ class ComparedFile : public Compared {
           facts_.writer.empty()
               ? facts_.format
               : fmt::format("{} by {}", facts_.format, facts_.writer);
+      const std::string left_out = slicer::left_out_text(facts_);
+      if (!left_out.empty()) description_ += ", left out: " + left_out;
     }
     return *layers_;
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -81,6 +82,18 @@ Session::Session(const compiler::Request& request, bool is_quiet,
 
 int Session::run(const std::function<int()>& work) {
   return run_caught(terminal, compilation.diagnostics, work);
+}
+
+void tell_left_out(compiler::Compilation& compilation,
+                   const slicer::LayerFileFacts& facts) {
+  const std::string left_out = slicer::left_out_text(facts);
+  if (left_out.empty()) return;
+  Diagnostic told{Severity::kPlain,
+                  {},
+                  fmt::format("left out of '{}': {}",
+                              compilation.request.design, left_out)};
+  told.audience = Audience::kTerminal;
+  compilation.diagnostics.report(std::move(told));
 }
 
 int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
@@ -170,7 +183,11 @@ void Terminal::write(std::string_view words) {
     if (place.empty() || !text.starts_with(place)) {
       inbox_->text += inbox_->prefix;
     }
-    inbox_->text += text;
+    // Further lines begin with a name that may look like another row's prefix.
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      inbox_->text += text[i];
+      if (text[i] == '\n' && i + 1 < text.size()) inbox_->text += "  ";
+    }
     return;
   }
   progress_.erase();

@@ -12,13 +12,15 @@
 #include "cli/process/context.h"
 #include "cli/process/progress.h"
 #include "compiler/compilation.h"
+#include "slicer/contour/layer_file.h"
 
 namespace lamina::cli {
 
 // Takes the messages of one compilation among several, instead of standard
 // error: they are shown together when it has ended.
 struct Inbox {
-  std::string prefix;         // of every message: "orders.csv:17: "
+  // Of every message: "orders.csv:17: "; its further lines are indented.
+  std::string prefix;
   bool has_progress = false;  // it is alone and may draw its progress
   std::string text;
   std::string first_error;  // its words alone
@@ -74,6 +76,10 @@ struct Session {
   Terminal terminal;
   compiler::Compilation compilation;
 };
+
+// Says what a layer file holds that was not taken, if anything.
+void tell_left_out(compiler::Compilation& compilation,
+                   const slicer::LayerFileFacts& facts);
 
 // Returns what `work` returns; where it throws, shows the message, unless it
 // is among `diagnostics` and so has been shown, and returns kFault.

@@ -111,9 +111,8 @@ class Text : PrintedText {
       print(
           "sides     not told: taken halfway between the sections of layers\n");
     }
-    if (found_.file.lines_left_out > 0) {
-      print("left out  {} open lines\n", found_.file.lines_left_out);
-    }
+    const std::string left_out = left_out_text(found_.file);
+    if (!left_out.empty()) print("left out  {}\n", left_out);
   }
 
   void print_box(const Box3& box) {
@@ -280,6 +279,7 @@ std::string inspection_json(const Inspection& found) {
   json["name"] = found.name;
   json["format"] = found.file.format;
   json["writer"] = found.file.writer;
+  if (!found.file.left_out.empty()) json["left_out"] = found.file.left_out;
   if (!found.meshes.empty()) json["meshes"] = meshes_json(found);
   json["sampling"] = ordered_json::array();
   for (const SamplingRow& row : found.file.sampling) {

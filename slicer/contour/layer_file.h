@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,7 +47,9 @@ struct LayerFileFacts {
   bool is_float32 = true;
   // false: only heights of sections; sides of layers are then halfway between.
   bool has_sides = true;
-  std::uint64_t lines_left_out = 0;  // hatches and open polylines
+  // What of the layers was not taken, each kind with its number: "open
+  // polyline", "circle element".
+  std::map<std::string, std::uint64_t> left_out;
   // SLC alone has these: a line of words, the table of thicknesses, the low and
   // high of x, y, z [file's unit], and the top of the part [mm].
   std::string header;
@@ -54,5 +57,9 @@ struct LayerFileFacts {
   std::optional<std::array<Vec2, 3>> extents;
   std::optional<double> top;
 };
+
+// "2 open polylines, 1 circle element", the first ones; empty where nothing was
+// left out.
+std::string left_out_text(const LayerFileFacts& facts);
 
 }  // namespace lamina::slicer

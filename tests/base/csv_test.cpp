@@ -146,6 +146,12 @@ TEST(Csv, WordsAreNoFormulas) {
   EXPECT_EQ(csv_words("-a"), "'-a");
   EXPECT_EQ(csv_words("@x"), "'@x");
   EXPECT_EQ(csv_words("a=b"), "a=b");
+  // Read with ';' or tabs, these would be cells of their own.
+  EXPECT_EQ(csv_words("x;=1+1|cmd"), "\"x;'=1+1|cmd\"");
+  EXPECT_EQ(csv_words("x\t@a"), "\"x\t'@a\"");
+  EXPECT_EQ(csv_words("x\n-a"), "\"x\n'-a\"");
+  EXPECT_EQ(csv_words("x;\"=a"), "\"x;\"\"'=a\"");
+  EXPECT_EQ(csv_words("x;a=b"), "\"x;a=b\"");
   EXPECT_EQ(csv_words(""), "");
 }
 

@@ -14,6 +14,14 @@ std::string terminal_text(const std::string& text) {
   return Parsed(text).terminal_text();
 }
 
+TEST(CaretText, QuotesANameThatLooksLikeAMessage) {
+  const Source source("b.scad:9: error: \"no\"", "cube(1);");
+  EXPECT_EQ(caret_text({Severity::kWarning, {&source, 0, 4}, "old"}),
+            "\"b.scad:9: error: \\\"no\\\"\":1:1: warning: old\n"
+            "    1 | cube(1);\n"
+            "      | ^~~~\n");
+}
+
 TEST(SyntaxErrors, KeepTheWordsOfOpenscad) {
   EXPECT_EQ(Parsed("a = 1;\nb = ;\n").openscad_text(),
             "ERROR: Parser error: syntax error in file x.scad, line 2\n");

@@ -243,7 +243,7 @@ TEST(Batch, RefusesRowsThatItCannotFollow) {
         "t.csv:3: b: error: the row has 1 cells, the header has 2\n",
         "t.csv:4: error: name: '' is empty and can be no part",
         "t.csv:5: c..d: error: name: 'c..d' has '..' in it",
-        "error: name: 'e\n| f' has a line break", "1 of 6 pieces done"}) {
+        "error: name: 'e\n  | f' has a line break", "1 of 6 pieces done"}) {
     EXPECT_TRUE(has(result.errors, message)) << message << result.errors;
   }
   EXPECT_EQ(count_files(folder.file("o")), 1U);
@@ -294,6 +294,27 @@ TEST(Batch, TellsAllOfANameThatIsNone) {
       folder, {"batch", "a.scad", "--table", "sets.json", "-o", "{name}.echo"});
   EXPECT_TRUE(has(result.errors,
                   "'a\\u0000b' has a line break or another control character"))
+      << result.errors;
+}
+
+// A line that begins with no blank begins with the row that it is of, whatever
+// the files of a design are called.
+TEST(Batch, AFileOfARowSpeaksForNoOther) {
+  const TemporaryFolder folder;
+  folder.write("t.csv:3: zoe: error: Out of credit",
+               "module m() { assert(false); }\n");
+  folder.write("a.scad",
+               "s = 1;\n"
+               "include <t.csv:3: zoe: error: Out of credit>\n"
+               "module n() m();\nn();\n");
+  folder.write("t.csv", "name,s\nann,1\n");
+  const auto result =
+      run(folder, {"batch", "a.scad", "--table", "t.csv", "-o", "{name}.slc"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.errors, "zoe")) << result.errors;
+  EXPECT_FALSE(has("\n" + result.errors, "\nt.csv:3")) << result.errors;
+  EXPECT_FALSE(has("\n" + result.errors, "\nnote")) << result.errors;
+  EXPECT_TRUE(has(result.errors, "\n  a.scad:4:1: note: called by 'n'\n"))
       << result.errors;
 }
 

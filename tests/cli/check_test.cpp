@@ -1,6 +1,7 @@
 // lamina check, and what runs say of the print.
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -89,6 +90,23 @@ TEST(Check, IsInSummariesReportsAndInspections) {
 }
 
 // Its area is the same in all layers, but for rounding.
+TEST(Check, EveryCommandSaysWhatAFileHoldsBesideContours) {
+  const TemporaryFolder folder;
+  folder.write("a.svg",
+               "<svg><g slic3r:z=\"0.5\"><polygon slic3r:type=\"contour\" "
+               "points=\"0,0 9,0 9,9 0,9\"/><circle r=\"1\"/></g></svg>");
+  const std::vector<std::string> commands[] = {{"check", "a.svg"},
+                                               {"inspect", "a.svg"},
+                                               {"view", "a.svg", "-o", "a.png"},
+                                               {"compare", "a.svg", "a.svg"}};
+  for (const std::vector<std::string>& words : commands) {
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, 0) << words[0] << result.errors;
+    EXPECT_TRUE(has(result.output + result.errors, "1 circle element"))
+        << words[0] << result.output << result.errors;
+  }
+}
+
 TEST(Check, APrismThatLeansHasNoJump) {
   const TemporaryFolder folder;
   folder.write("a.scad",

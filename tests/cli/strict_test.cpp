@@ -94,6 +94,17 @@ TEST_F(Strict, ValuesThatTheCustomizerDoesNotAllow) {
                  "      | ^~~~~~~~~~~\n");
 }
 
+TEST_F(Strict, ValuesOfASetThatTheDesignDoesNotGet) {
+  folder_.write("s.json", R"({"parameterSets": {"s": {"iner": "12"}}})");
+  expect_warning({"d.scad", "-p", "s.json", "-P", "s"},
+                 "warning: the set has 'iner', the design has no such "
+                 "variable\nnote: did you mean 'inner'?\n");
+  const ProcessResult result = run(
+      folder_, {"batch", "d.scad", "--table", "s.json", "-o", "{name}.slc"});
+  EXPECT_EQ(result.status, 1) << result.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("s.slc")));
+}
+
 TEST_F(Strict, MisspeltModulesAndFunctions) {
   folder_.write("d.scad", "cube(10); shpere(3);\n");
   expect_warning({"d.scad"},

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "parser/ast_printer.h"
@@ -30,8 +31,13 @@ class Applied {
 
   bool is_good() const { return is_good_; }
   std::string ast() const { return ast::print(program_); }
+  // The first, with its hint.
   std::string message() const {
-    return messages_.all().empty() ? "" : messages_.all()[0].message;
+    if (messages_.all().empty()) return "";
+    const Diagnostic& first = messages_.all()[0];
+    return first.hints.empty()
+               ? first.message
+               : fmt::format("{} ({})", first.message, first.hints[0].message);
   }
 
  private:
@@ -75,6 +81,72 @@ TEST(ParameterSet, LeavesWhatDoesNotFit) {
   EXPECT_EQ(applied("undef", "\"5\""), "x = undef;\n");
   EXPECT_EQ(applied("y", "\"5\""), "x = y;\n");
   EXPECT_EQ(applied("1", "[2]"), "x = 1;\n");
+}
+
+// The first warning of a set.
+std::string warning(const std::string& design, const std::string& entries,
+                    Language language = Language::k2021) {
+  return Applied(design, set_of(entries), "s", language).message();
+}
+
+TEST(ParameterSet, LosesNoValueWithoutAWarning) {
+  const std::string keeps = "; it keeps its own value";
+  EXPECT_EQ(warning("size = 1;", R"("sice": "5")"),
+            "the set has 'sice', the design has no such variable "
+            "(did you mean 'size'?)");
+  EXPECT_EQ(
+      warning("a = 1; size = a * 2;", R"("size": "5")"),
+      "parameter size = 5 of the set can't replace what is computed" + keeps);
+  EXPECT_EQ(
+      warning("u = undef;", R"("u": "5")"),
+      "parameter u = 5 of the set can't replace what is computed" + keeps);
+  const std::string text_for_number =
+      "parameter x = abc of the set is no value for it" + keeps;
+  for (const char* design :
+       {"x = 1;", "/* [Hidden] */\nx = 1;", "module m() {}\nx = 1;",
+        "x = [1, \"a\"];", "x = [0:2];", "x = -1;", "x = 1 + 2;"}) {
+    EXPECT_EQ(warning(design, R"("x": "abc")"), text_for_number) << design;
+  }
+  // A label of the comment is a choice, and no number.
+  EXPECT_EQ(warning("x = 1; // [1, two]", R"("x": "two")"),
+            "parameter x = two of the set is no value for it" + keeps);
+  EXPECT_EQ(warning("x = \"Ada\";", R"("x": ["Bo"])"),
+            "parameter x =  of the set is a list or an object; it is taken for "
+            "an empty text");
+}
+
+TEST(ParameterSet, LosesNoValueWithoutAWarningIn2026) {
+  const std::string said =
+      "parameter x = 5 of the set is for no parameter of the customizer; it "
+      "keeps its own value";
+  for (const char* design :
+       {"/* [Hidden] */\nx = 1;", "module m() {}\nx = 1;", "x = [0:2];",
+        "y = 2; x = y;", "x = [1, 2, 3, 4, 5];"}) {
+    EXPECT_EQ(warning(design, R"("x": "5")", Language::k2026), said) << design;
+  }
+  // OpenSCAD 2021.01 saves hidden parameters, too.
+  EXPECT_EQ(warning("/* [Hidden] */\nx = [1.50, 2];", R"("x": "[1.5, 2]")",
+                    Language::k2026),
+            "");
+}
+
+TEST(ParameterSet, WarnsOfNoValueThatTheDesignGets) {
+  EXPECT_EQ(warning("x = 1; // [0:9]\n/* [Hidden] */\ny = [1, \"a\"];\n"
+                    "module m() {}\nz = 2 + 3; t = true; s = \"\";",
+                    R"("x": "2", "y": "[2, \"b\"]", "z": 7, "t": 0, "s": "")"),
+            "");
+}
+
+TEST(ParameterSet, OfManyNamesTakesTimeInProportion) {
+  // Guesses for all of them would take minutes.
+  std::string design;
+  std::string entries;
+  for (int i = 0; i < 20'000; ++i) {
+    design += fmt::format("variable_{:05} = 1;\n", i);
+    entries += fmt::format("\"variables{:05}\": \"1\",", i);
+  }
+  EXPECT_EQ(warning(design, entries + R"("x": "1")"),
+            "the set has 'variables00000', the design has no such variable");
 }
 
 TEST(ParameterSet, SetsTheAssignmentThatCounts) {
@@ -129,8 +201,8 @@ TEST(ParameterSets, AreThoseOfTheFileInItsOrder) {
   const ParameterSets sets = ParameterSets::read(folder.file("f.json"));
   const auto values = [&](const auto& which) {
     std::string text;
-    for (const auto& [name, value] : sets.values_of(which)) {
-      text += name + "=" + value + ";";
+    for (const ParameterValue& entry : sets.values_of(which)) {
+      text += entry.name + "=" + entry.text + ";";
     }
     return text;
   };

@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -60,7 +62,7 @@ class LayerMaker {
   // direction  0: clockwise, 1: counter-clockwise, or kOpen
   void add_polyline(std::int64_t direction, std::vector<Vec2>& points) {
     if (direction == kOpen) {
-      ++lines_;
+      ++open_polylines_;
       return;
     }
     for (Vec2& point : points) point *= header_.unit;
@@ -72,8 +74,16 @@ class LayerMaker {
     if (count_ > 0) finish_layer(std::nullopt);
   }
 
+  void add_hatches() { ++hatches_; }
+
   std::size_t count() const { return count_; }
-  std::uint64_t lines() const { return lines_; }
+
+  std::map<std::string, std::uint64_t> left_out() const {
+    std::map<std::string, std::uint64_t> kinds;
+    if (hatches_ > 0) kinds["hatch block"] = hatches_;
+    if (open_polylines_ > 0) kinds["open polyline"] = open_polylines_;
+    return kinds;
+  }
 
  private:
   // next  top of the layer above, if there is one
@@ -101,7 +111,8 @@ class LayerMaker {
   const TakeLayer& take_;
   Layer layer_;  // in hand
   std::size_t count_ = 0;
-  std::uint64_t lines_ = 0;
+  std::uint64_t hatches_ = 0;
+  std::uint64_t open_polylines_ = 0;
   double first_top_ = 0;
   double last_top_ = 0;
   bool has_thickness_ = true;
@@ -240,13 +251,17 @@ template <typename Input>
 void read_line(Input& input, bool is_hatches, std::vector<Vec2>& points,
                LayerMaker& maker) {
   input.whole_number();  // of the part
-  const std::int64_t direction = is_hatches ? kOpen : input.whole_number();
+  const std::int64_t direction = is_hatches ? 0 : input.whole_number();
   if (direction < 0 || direction > kOpen) {
     input.fail(fmt::format("direction {} (0, 1 or 2 was expected)", direction));
   }
   const std::int64_t count = input.whole_number();
   input.take_points(is_hatches ? 2 * count : count, points);
-  maker.add_polyline(direction, points);
+  if (is_hatches) {
+    maker.add_hatches();
+  } else {
+    maker.add_polyline(direction, points);
+  }
 }
 
 void read_ascii(const std::string& path, std::string_view text,
@@ -400,7 +415,7 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
   }
   LayerFileFacts facts;
   facts.format = header.is_binary ? "CLI, binary" : "CLI, ASCII";
-  facts.lines_left_out = maker.lines();
+  facts.left_out = maker.left_out();
   return facts;
 }
 

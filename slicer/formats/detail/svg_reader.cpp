@@ -15,6 +15,7 @@
 #include <pugixml.hpp>
 
 #include "base/file/xml.h"
+#include "base/text.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
@@ -151,11 +152,16 @@ class SvgReader {
     const std::string_view name = node.name();
     const std::string_view type = node.attribute("slic3r:type").value();
     const bool is_contour = type == "contour";
+    if (node.attribute("transform")) {
+      fail(node, "a transform within a layer is not supported");
+    }
     if (name != "polygon" || (!is_contour && type != "hole")) {
       if (name == "polygon" && type.empty()) {
         fail(node, "a polygon without slic3r:type");
       }
-      ++facts_.lines_left_out;
+      ++facts_.left_out[short_name(name == "polygon"
+                                       ? fmt::format("{} polygon", type)
+                                       : fmt::format("{} element", name))];
       return;
     }
     read_points(node);

@@ -218,7 +218,7 @@ TEST(ReadCli, ReadsAsciiInUnitsWithCommentsAndLinesBroken) {
       "a.cli", ascii("// first // $$LAYER/100.0 $$POLYLINE/1,1,4,\n0,0, 200,0 "
                      ",\r\n +200,200,0,0\n$$LAYER/120\n"
                      "$$HATCHES/1,1,0,0,1,1$$POLYLINE/1,2,2,0,0,5,5\n"));
-  EXPECT_EQ(content.facts.lines_left_out, 2U);
+  EXPECT_EQ(left_out_text(content.facts), "1 hatch block, 1 open polyline");
   ASSERT_EQ(content.layers.size(), 2U);
   // As thick as the second one.
   EXPECT_DOUBLE_EQ(content.layers[0].bottom, 0.4);
@@ -245,7 +245,7 @@ TEST(ReadCli, ReadsShortNumbers) {
       "\x83\x00\x01\x00\x01\x00\x00\x00\x00\x00\x02\x00\x00\x00"s;
   const Content content = read("a.cli", file);
   ASSERT_EQ(content.layers.size(), 1U);
-  EXPECT_EQ(content.facts.lines_left_out, 1U);
+  EXPECT_EQ(left_out_text(content.facts), "1 hatch block");
   EXPECT_EQ(content.layers[0].top, 2);
   EXPECT_EQ(loops(content.layers[0]),
             (std::vector<std::vector<Vec2>>{{{0, 0}, {1, 0}, {1, 1}}}));
@@ -323,6 +323,17 @@ TEST(ReadSvg, KeepsToTheSizeThatTheHeadTells) {
       (std::vector<std::vector<Vec2>>{{{25.4, -25.4}, {25.4, 0}, {0, 0}}}));
 }
 
+TEST(ReadSvg, CountsWhatItLeavesOutByItsKind) {
+  const Content content = read(
+      "a.svg", slic3r_svg("<g slic3r:z=\"1\"><path d=\"M5 5 L 6 5 z\"/>"
+                          "<circle r=\"1\"/><circle r=\"2\"/>"
+                          "<polygon slic3r:type=\"raft\"/>"
+                          "<g><polygon slic3r:type=\"contour\"/></g></g>"));
+  EXPECT_EQ(left_out_text(content.facts),
+            "2 circle elements, 1 g element, 1 path element, 1 raft polygon");
+  EXPECT_EQ(left_out_text({}), "");
+}
+
 // Allocations of pugixml until one fails; none fails at 0.
 std::size_t until_failure = 0;
 
@@ -363,6 +374,11 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
                      "<svg><g slic3r:z=\"0\">\n\n<polygon "
                      "points=\"0,0\"/></g></svg>"),
             "line 3: a polygon without slic3r:type");
+  EXPECT_EQ(error_of("a.svg",
+                     "<svg><g slic3r:z=\"0\">\n<polygon slic3r:type="
+                     "\"contour\" points=\"5,0 6,0 6,1\" "
+                     "transform=\"translate(5,5)\"/></g></svg>"),
+            "line 2: a transform within a layer is not supported");
   EXPECT_EQ(error_of("a.svg",
                      "<svg><g slic3r:z=\"0\"><polygon slic3r:type="
                      "\"hole\" points=\"0,0 1,x\"/></g></svg>"),
