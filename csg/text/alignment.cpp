@@ -160,10 +160,10 @@ csg::TextMetrics measure(const csg::TextParams& params, const GlyphRow& row,
 }
 
 csg::FontMetrics measure(double size, const Font& font) {
-  const FT_FaceRec& face = *font.face;
+  const FT_FaceRec& face = *font.face->outlines;
   const auto scaled = [&](FT_Long units) {
     return static_cast<double>(FT_MulFix(units, face.size->metrics.y_scale)) /
-           Font::kSize * size;
+           Face::kSize * size;
   };
   csg::FontMetrics metrics;
   metrics.nominal_ascent = scaled(face.ascender);

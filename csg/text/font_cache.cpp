@@ -385,31 +385,53 @@ FontCache::Match FontCache::shared_match(const std::string& name) const {
   return matches.emplace(name, find_match(name)).first->second;
 }
 
-Font FontCache::load(const std::string& name) const {
+const Face& FontCache::find_face(const std::string& file, int index) {
+  const auto known = faces_.find({file, index});
+  if (known != faces_.end()) return known->second;
+  auto bytes = bytes_.find(file);
+  if (bytes == bytes_.end()) {
+    bytes = bytes_.emplace(file, files_.read(file)).first;
+  }
+  return faces_.emplace(std::pair(file, index), load_face(bytes->second, index))
+      .first->second;
+}
+
+// The bytes must outlive the face.
+Face FontCache::load_face(const std::string& bytes, int index) const {
+  Face result;
+  result.outlines = open_face(bytes, index);
+  FT_Face face = result.outlines.get();
+  if (face == nullptr) return result;
+  result.has_charmap = select_best_charmap(*face);
+  if (FT_Set_Char_Size(face, 0, Face::kSize, kDotsPerInch, kDotsPerInch) != 0) {
+    return result;
+  }
+  result.is_symbol = has_symbols(*face);
+  result.shaper.reset(hb_ft_font_create(face, nullptr));
+  require(result.shaper.get() != hb_font_get_empty());
+  return result;
+}
+
+Font FontCache::load(const std::string& name) {
   Font font;
   font.complaint = fmt::format("Can't get font {}", name);
   Match match = shared_match(name);
   if (match.file.empty()) return font;
-  font.bytes = std::make_unique<const std::string>(files_.read(match.file));
-  Owned<FT_FaceRec> owned = open_face(*font.bytes, match.index);
-  FT_Face face = owned.get();
-  if (face == nullptr) return font;
-  font.complaint = match.substitution;
-  if (!select_best_charmap(*face)) {
-    const auto words = [](const char* text) { return text ? text : ""; };
-    font.complaint =
-        fmt::format("Could not select a char map for font {}/{}'",
-                    words(face->family_name), words(face->style_name));
-  }
-  if (FT_Set_Char_Size(face, 0, Font::kSize, kDotsPerInch, kDotsPerInch) != 0) {
+  const Face& face = find_face(match.file, match.index);
+  if (face.outlines == nullptr) return font;
+  if (face.shaper == nullptr) {
     font.complaint = fmt::format("Can't set font size for font {}", name);
     return font;
   }
-  font.is_symbol = has_symbols(*face);
+  font.complaint = match.substitution;
+  if (!face.has_charmap) {
+    const auto words = [](const char* text) { return text ? text : ""; };
+    font.complaint = fmt::format("Could not select a char map for font {}/{}'",
+                                 words(face.outlines->family_name),
+                                 words(face.outlines->style_name));
+  }
   font.features = std::move(match.features);
-  font.shaper.reset(hb_ft_font_create(face, nullptr));
-  require(font.shaper.get() != hb_font_get_empty());
-  font.face = std::move(owned);
+  font.face = &face;
   return font;
 }
 

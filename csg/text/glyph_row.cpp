@@ -51,8 +51,8 @@ Owned<hb_buffer_t> shape_text(const csg::TextParams& params, const Font& font,
   hb_buffer_set_language(
       buffer, hb_language_from_string(to_c(params.language).c_str(), -1));
   hb_buffer_add_utf8(buffer, text.c_str(), -1, 0, -1);
-  if (font.is_symbol) move_to_symbol_page(buffer, text, messages);
-  if (!hb_shape_full(font.shaper.get(), buffer, font.features.data(),
+  if (font.face->is_symbol) move_to_symbol_page(buffer, text, messages);
+  if (!hb_shape_full(font.face->shaper.get(), buffer, font.features.data(),
                      static_cast<unsigned>(font.features.size()), nullptr) ||
       !hb_buffer_allocation_successful(buffer)) {
     throw std::bad_alloc();
@@ -63,8 +63,9 @@ Owned<hb_buffer_t> shape_text(const csg::TextParams& params, const Font& font,
 // Null where the font has no such glyph, or only a picture of it.
 OwnedGlyph load_glyph(const Font& font, FT_UInt index) {
   FT_Glyph glyph = nullptr;
-  FT_Error fault = FT_Load_Glyph(font.face.get(), index, FT_LOAD_DEFAULT);
-  if (fault == 0) fault = FT_Get_Glyph(font.face->glyph, &glyph);
+  FT_Error fault =
+      FT_Load_Glyph(font.face->outlines.get(), index, FT_LOAD_DEFAULT);
+  if (fault == 0) fault = FT_Get_Glyph(font.face->outlines->glyph, &glyph);
   if (fault == FT_Err_Out_Of_Memory) throw std::bad_alloc();
   if (fault != 0) return nullptr;
   OwnedGlyph owned(glyph);
@@ -72,7 +73,7 @@ OwnedGlyph load_glyph(const Font& font, FT_UInt index) {
 }
 
 // From the whole numbers of FreeType and HarfBuzz.
-Vec2 to_vec(double x, double y) { return Vec2(x, y) / double{Font::kSize}; }
+Vec2 to_vec(double x, double y) { return Vec2(x, y) / double{Face::kSize}; }
 
 Box box_of(FT_Glyph glyph) {
   FT_BBox box;

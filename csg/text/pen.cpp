@@ -13,8 +13,8 @@ namespace {
 
 // A point of an outline in the units of text(size = 1).
 Vec2 to_vec(const FT_Vector* point) {
-  return {static_cast<double>(point->x) / Font::kSize,
-          static_cast<double>(point->y) / Font::kSize};
+  return {static_cast<double>(point->x) / Face::kSize,
+          static_cast<double>(point->y) / Face::kSize};
 }
 
 }  // namespace

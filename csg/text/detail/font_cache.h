@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fontconfig/fontconfig.h>
@@ -43,22 +44,29 @@ struct Release {
 template <typename T>
 using Owned = std::unique_ptr<T, Release>;
 
-struct Font {
-  std::unique_ptr<const std::string> bytes;  // of the face; must go after it
-  Owned<FT_FaceRec> face;  // null: there is no such font, or it is broken
-  Owned<hb_font_t> shaper;
+// One face of a font file, at the size at which outlines are read.
+struct Face {
+  Owned<FT_FaceRec> outlines;  // null: the file holds no such face
+  Owned<hb_font_t> shaper;     // null: there is none of this size
+  bool has_charmap = false;
   // Webdings and its like: characters stand at U+F000 and above.
   bool is_symbol = false;
-  // Asked for by the name: "Amiri:fontfeatures=-liga;+smcp".
-  std::vector<hb_feature_t> features;
-  std::string complaint;  // a warning to report; "" if none
 
-  // Outlines are read at this size [1/64 pixel], so large that hinting does not
-  // show. One em is 100/72 of it.
+  // In units of 1/64 pixel: so large that hinting does not show. One em is
+  // 100/72 of it.
   static constexpr int kSize = 100000;
 };
 
-// All caches share what Fontconfig finds, and which font a name means.
+// What a name means.
+struct Font {
+  const Face* face = nullptr;  // null: there is no such font, or it is broken
+  // Asked for by the name: "Amiri:fontfeatures=-liga;+smcp".
+  std::vector<hb_feature_t> features;
+  std::string complaint;  // a warning to report; "" if none
+};
+
+// All caches share what Fontconfig finds, and which font a name means. A cache
+// keeps each file and each face once, however many names mean it.
 class FontCache {
  public:
   // Loads Fontconfig's configuration; where only some files may be read, also
@@ -78,7 +86,9 @@ class FontCache {
 
   struct Match;
 
-  Font load(const std::string& name) const;
+  Font load(const std::string& name);
+  const Face& find_face(const std::string& file, int index);
+  Face load_face(const std::string& bytes, int index) const;
   Match find_match(const std::string& name) const;
   Match shared_match(const std::string& name) const;
   void add_permitted_folders();
@@ -90,7 +100,10 @@ class FontCache {
   Owned<FcConfig> config_;
   Owned<FcFontSet> own_fonts_;  // that Fontconfig was given
   Owned<FT_LibraryRec_> library_;
-  std::map<std::string, Font> fonts_;  // must go before the library
+  std::map<std::string, const std::string> bytes_;  // by file
+  // By file and index; must go before their bytes and the library.
+  std::map<std::pair<std::string, int>, Face> faces_;
+  std::map<std::string, Font> fonts_;  // by name
 };
 
 }  // namespace lamina::text

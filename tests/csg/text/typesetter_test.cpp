@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include "base/loop_area.h"
@@ -360,6 +361,28 @@ TEST_F(TypesetterTest, MetricTwinsAndKindsOfFontsAreNotMissing) {
     EXPECT_FALSE(set(params).empty());
     EXPECT_TRUE(messages().empty()) << font << ": " << messages()[0];
   }
+}
+
+// Bytes that the process has of the heap.
+std::size_t bytes_kept() {
+  const struct mallinfo2 heap = ::mallinfo2();
+  return heap.uordblks + heap.hblkhd;
+}
+
+TEST_F(TypesetterTest, ManyNamesOfOneFontKeepItOnce) {
+  csg::TextParams params = params_of("A");
+  params.font = "No Such Font";
+  const Contours outline = set(params);
+  const std::size_t before = bytes_kept();
+  constexpr int kNames = 200;
+  for (int i = 0; i < kNames; ++i) {
+    const std::string name = "No Such Font " + std::to_string(i);
+    params.font = name;
+    EXPECT_EQ(set(params), outline) << name;
+  }
+  EXPECT_EQ(messages().size(), kNames + 1U);
+  EXPECT_LT(bytes_kept(), before + std::size_t{kNames} * 8192);
+  EXPECT_EQ(typesetter_.files_read().size(), 1U);
 }
 
 // A font of another name than any that is installed: Liberation Sans, misspelt.
