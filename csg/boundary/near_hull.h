@@ -11,9 +11,11 @@
 
 namespace lamina::csg {
 
-// The hull of a closed mesh; none where a point of the mesh lies deeper than
-// that below it, or where that can't be told from the hull's facets at the
-// corners of the point's triangle.
+// The hull of a closed mesh; none where it is farther from the solid than the
+// depth: where a point of the mesh lies deeper below it, or that can't be told
+// from the hull's facets at the corners of the point's triangle; or where below
+// a point of a facet, straight down, no face of the mesh lies so near and faces
+// about the same side.
 std::optional<Mesh> near_hull(const Mesh& mesh, double depth);
 
 }  // namespace lamina::csg

@@ -1,5 +1,6 @@
 #include "csg/cad/detail/loss.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include <Interface_Graph.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <StepBasic_ProductDefinition.hxx>
+#include <StepData_UndefinedEntity.hxx>
 #include <StepRepr_CharacterizedDefinition.hxx>
 #include <StepRepr_MappedItem.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
@@ -214,6 +216,22 @@ Entities find_concerned(XSControl_Reader& reader) {
   return found;
 }
 
+// Whether it relates a shape to one of triangles, which OpenCASCADE can't read.
+bool is_tessellated(const Entity& entity, const Interface_Graph& graph) {
+  if (!entity->IsKind(
+          STANDARD_TYPE(StepRepr_ShapeRepresentationRelationship))) {
+    return false;
+  }
+  for (auto next = graph.Shareds(entity); next.More(); next.Next()) {
+    const auto unknown = as<StepData_UndefinedEntity>(next.Value());
+    if (!unknown.IsNull() && !unknown->IsComplex() &&
+        std::string_view(unknown->StepType()).starts_with("TESSELLATED_")) {
+      return true;
+    }
+  }
+  return false;
+}
+
 struct Count {
   std::size_t lost = 0;
   std::size_t all = 0;
@@ -236,6 +254,13 @@ std::string loss_of(XSControl_Reader& reader) {
   };
   const Entities concerned = find_concerned(reader);
   const Assembly assembly = find_assembly(*model, concerned);
+  // Triangles are a copy where each part has a shape besides.
+  const bool has_shapes = std::all_of(
+      assembly.shown.begin(), assembly.shown.end(), [&](const auto* owner) {
+        return owner == nullptr ||
+               !owner->IsKind(STANDARD_TYPE(StepBasic_ProductDefinition)) ||
+               has_face(owner);
+      });
   Count parts;
   Count instances;
   Count solids;
@@ -249,7 +274,10 @@ std::string loss_of(XSControl_Reader& reader) {
     }
     if (is_solid(entity)) solids.add(!has_face(entity));
     if (is_face(entity)) faces.add(!has_face(entity));
-    if (!concerned.contains(entity.get())) continue;
+    if (!concerned.contains(entity.get()) ||
+        (has_shapes && is_tessellated(entity, transferred->Graph()))) {
+      continue;
+    }
     if (const Origin origin = origin_of(entity); origin.is_instance) {
       instances.add(!has_face(entity) &&
                     (origin.entity.IsNull() || has_face(origin.entity)));

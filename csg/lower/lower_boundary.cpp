@@ -62,14 +62,11 @@ constexpr double kGrowthSlack = 1.01;
 // result is larger than the error.
 constexpr int kMostLowerings = 4;
 
-// Whether a Boolean below may take away all there is.
-bool removes_something(const Node& node) {
-  return std::holds_alternative<Difference>(node.op) ||
-         std::holds_alternative<Intersection>(node.op) ||
-         std::any_of(
-             node.children.begin(), node.children.end(),
-             [](const Node* child) { return removes_something(*child); });
-}
+// Coarse facets may leave nothing of what is resized. Where they do it is
+// lowered with facets finer by so much, to know whether there is something.
+// Files of CAD programs take longer the finer they are.
+constexpr double kShareToFind = 0.01;
+constexpr double kShareToFindParts = 0.1;
 
 // The factors of resize(), by OpenSCAD's rules. A size of 0 keeps that
 // direction, or with `auto` scales it as the direction of the greatest new
@@ -169,43 +166,56 @@ Lowerer::Resized Lowerer::resize(const Resize& op, const Place& at) {
                                     : glm::max(kGrowthSlack * needed, growth);
     shared_.has_grown = true;
   }
-  if (!resized.factor && removes_something(at.node)) {
-    shared_.has_lost = true;
-  }
+  if (!resized.factor) shared_.empty.insert(&at.node);
   return resized;
+}
+
+void Lowerer::draft_sizes(const Resize& op, const Place& at) {
+  const auto draft = [&](const LowerOptions& options) {
+    Diagnostics unheard;
+    shared_.empty.clear();
+    Lowerer(at.node.children.size(), options, shared_, unheard).resize(op, at);
+  };
+  // Decimation is slow, and a size changes little by it.
+  LowerOptions options = options_;
+  options.decimation = 0;
+  draft(options);
+  if (shared_.empty.empty()) return;
+  options.chordal_error *= kShareToFind;
+  options.chordal_error_of_parts *= kShareToFindParts;
+  try {
+    draft(options);
+  } catch (const GeometryError&) {
+    return;  // so fine it is too large to know
+  }
+  shared_.known_empty.merge(shared_.empty);
 }
 
 Lowerer::Resized Lowerer::resize_finely(const Resize& op, const Place& at) {
   std::set<std::string> known;
   for (const auto& [key, leaf] : shared_.decimated) known.insert(key);
-  const auto lower_with = [&](const LowerOptions& options, Diagnostics& heard) {
+  shared_.is_resizing = true;
+  if (!shared_.growths.contains(&at.node)) draft_sizes(op, at);
+  Resized resized;
+  Diagnostics heard;
+  for (int i = 0; i < kMostLowerings; ++i) {
     // What files have to say is said when they are read.
     std::erase_if(shared_.decimated, [&](const auto& entry) {
       return !known.contains(entry.first);
     });
     shared_.has_grown = false;
-    shared_.has_lost = false;
-    return Lowerer(at.node.children.size(), options, shared_, heard)
-        .resize(op, at);
-  };
-  shared_.is_resizing = true;
-  if (!shared_.growths.contains(&at.node)) {
-    // Decimation is slow, and a size changes little by it.
-    LowerOptions draft = options_;
-    draft.decimation = 0;
-    Diagnostics unheard;
-    lower_with(draft, unheard);
-  }
-  Resized resized;
-  Diagnostics heard;
-  for (int i = 0; i < kMostLowerings; ++i) {
+    shared_.empty.clear();
     heard = Diagnostics();
-    resized = lower_with(options_, heard);
+    resized = Lowerer(at.node.children.size(), options_, shared_, heard)
+                  .resize(op, at);
     if (!shared_.has_grown) break;
   }
   shared_.is_resizing = false;
   for (const Diagnostic& message : heard.all()) diagnostics_.report(message);
-  if (shared_.has_grown || shared_.has_lost) {
+  const bool has_lost =
+      !std::includes(shared_.known_empty.begin(), shared_.known_empty.end(),
+                     shared_.empty.begin(), shared_.empty.end());
+  if (shared_.has_grown || has_lost) {
     diagnostics_.own_warning(
         at.node.range,
         "The size of what resize() scales changes with its facets, which may "

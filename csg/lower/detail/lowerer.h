@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,7 +66,8 @@ struct SharedTables {
   std::map<const Node*, Vec3> growths;
   bool is_resizing = false;
   bool has_grown = false;
-  bool has_lost = false;  // all that a resize() has
+  std::set<const Node*> empty;        // of resizes, in this lowering
+  std::set<const Node*> known_empty;  // with far finer facets, too
 };
 
 class Lowerer {
@@ -201,6 +203,8 @@ class Lowerer {
   };
   // With facets finer by the growth known so far; notes it where it is greater.
   Resized resize(const Resize& op, const Place& at);
+  // Of an outermost resize(): notes how far all below it grow, from drafts.
+  void draft_sizes(const Resize& op, const Place& at);
   // Of an outermost resize(): with facets that are fine enough.
   Resized resize_finely(const Resize& op, const Place& at);
 

@@ -419,6 +419,25 @@ TEST_F(CadReader, CountsNoDimensionsTolerancesAndProperties) {
   }
 }
 
+TEST_F(CadReader, CountsTrianglesOnlyOfPartsThatHaveNoOtherShape) {
+  const std::string copy =
+      "#301 = SHAPE_REPRESENTATION_RELATIONSHIP('','',#10,#302);\n"
+      "#302 = TESSELLATED_SHAPE_REPRESENTATION('',(#303),#113);\n"
+      "#303 = TESSELLATED_SOLID('',(),$);\n";
+  EXPECT_EQ(warning(with_lines(seed("step/cylinder"), copy), Format::kStep),
+            "");
+  EXPECT_EQ(warning(with_lines(step_of_assembly(), copy), Format::kStep), "");
+  const std::string lone =
+      "#304 = SHAPE_DEFINITION_REPRESENTATION(#305,#308);\n"
+      "#305 = PRODUCT_DEFINITION_SHAPE('','',#306);\n"
+      "#306 = PRODUCT_DEFINITION('other','',#307,#9);\n"
+      "#307 = PRODUCT_DEFINITION_FORMATION('','',#7);\n"
+      "#308 = SHAPE_REPRESENTATION('',(#11),#113);\n" +
+      replaced(copy, "#10,", "#308,");
+  EXPECT_EQ(warning(with_lines(seed("step/cylinder"), lone), Format::kStep),
+            "OpenCASCADE can't use 1 of 116 entities of shapes or units");
+}
+
 // OpenCASCADE hides a lack of memory and goes on with less.
 TEST_F(CadReader, LacksMemoryOrReadsTheWhole) {
   Reader reader({LAMINA_MODULES}, diagnostics_);
