@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "base/loop_area.h"
 #include "base/plane.h"
@@ -26,6 +28,30 @@ std::size_t lowest(const Contour& contour) {
 Vec2 at(const Contour& contour, std::size_t i) {
   return contour[i % contour.size()];
 }
+
+// The sums of pairs of convex pieces. A union takes some kilobytes of memory
+// for each of its operands, so few of them are united at once.
+struct PairSums {
+  static constexpr std::size_t kMostAtOnce = 4096;
+
+  std::span<const Contour> a;
+  std::span<const Contour> b;
+
+  // Pairs are numbered piece of `a` by piece of `a`.
+  Region unite(std::size_t begin, std::size_t end) const {
+    std::vector<Region> parts;
+    if (end - begin <= kMostAtOnce) {
+      for (std::size_t i = begin; i < end; ++i) {
+        parts.push_back({{add_convex(a[i / b.size()], b[i % b.size()])}});
+      }
+    } else {
+      const std::size_t middle = begin + (end - begin) / 2;
+      parts.push_back(unite(begin, middle));
+      parts.push_back(unite(middle, end));
+    }
+    return planar::unite(parts);
+  }
+};
 
 }  // namespace
 
@@ -69,11 +95,8 @@ Contour add_convex(const Contour& a, const Contour& b) {
 Region add(const Region& a, const Region& b) {
   const std::vector<Contour> a_pieces = cut_into_convex(a);
   const std::vector<Contour> b_pieces = cut_into_convex(b);
-  std::vector<Region> sums;
-  for (const Contour& p : a_pieces) {
-    for (const Contour& q : b_pieces) sums.push_back({{add_convex(p, q)}});
-  }
-  return sums.empty() ? Region{} : unite(sums);
+  const std::size_t pairs = a_pieces.size() * b_pieces.size();
+  return pairs == 0 ? Region{} : PairSums{a_pieces, b_pieces}.unite(0, pairs);
 }
 
 Region fill(const Region& region) {

@@ -371,6 +371,19 @@ TEST(MaxMemory, OfTheSystemMayDenyAThreadItsStack) {
   }
 }
 
+// A sum of two combs has 160,000 pairs of convex pieces, and hardly as many
+// corners as the combs.
+TEST(Memory, OfASumInThePlaneFollowsItsCorners) {
+  const TemporaryFolder folder;
+  folder.write("a.scad",
+               "c = [for (i = [0 : 399]) each [[i, 0], [i + 0.5, 10]], "
+               "[400, -1], [0, -1]]; linear_extrude(1) "
+               "minkowski() { polygon(c); polygon(c); }");
+  const auto result = run(folder, {"a.scad", "--layer", "1"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_LT(result.peak_memory_kib, 300 * 1000);
+}
+
 // --- What a design may ask for -----------------------------------------------
 
 // What is refused before it is made: within a second, in little memory.

@@ -98,6 +98,29 @@ TEST(Add, ComponentsAddOneByOne) {
   EXPECT_NEAR(area(add(pair, pair)), 3 * 4, kGrid);
 }
 
+Region row_of_squares(int count, double side, Vec2 step) {
+  Region row;
+  for (int i = 0; i < count; ++i) {
+    row.contours.push_back(
+        moved(square(Vec2(side), false), double(i) * step).contours[0]);
+  }
+  return row;
+}
+
+// So many pairs of pieces are united part by part.
+TEST(Add, ARowAndAColumnMakeAGrid) {
+  const auto grid = [](double side) {
+    return add(row_of_squares(100, side, {3, 0}),
+               row_of_squares(100, side, {0, 3}));
+  };
+  const Region apart = grid(1);
+  EXPECT_EQ(apart.contours.size(), 10'000U);
+  EXPECT_NEAR(area(apart), 40'000, 1e-6);
+  const Region whole = grid(1.5);
+  EXPECT_EQ(whole.contours.size(), 1U);
+  EXPECT_NEAR(area(whole), 90'000, 1e-6);
+}
+
 TEST(Add, CommutesAndFollowsAShift) {
   const Region a = gear(9);
   const Region b = frame(1, 0.5);
