@@ -180,6 +180,21 @@ TEST(Triangulate, APolygonThatCutsItselfAndHasCornersInLine) {
   EXPECT_TRUE(covers_edges(region, triangles));
 }
 
+// Teeth on a bar. What is left once they are cut is a row of corners in line,
+// of which only the first and the last are ears: to look for these by walks
+// around the whole row, or among all corners that once were reflex, would take
+// twenty minutes.
+TEST(Triangulate, ACombOfManyTeeth) {
+  constexpr int kTeeth = 200'000;
+  Contour comb{{0, -1}, {kTeeth, -1}};
+  for (int i = kTeeth; i > 0; --i) {
+    comb.push_back({i, 0});
+    comb.push_back({i - 0.5, 5});
+  }
+  comb.push_back({0, 0});
+  expect_sound({{comb}});
+}
+
 TEST(MakeDelaunay, TakesTheShortDiagonalOfAKite) {
   const std::vector<Vec2> kite{{0, 0}, {2, -1}, {9, 0}, {2, 1}};
   std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}, {0, 2, 3}};
