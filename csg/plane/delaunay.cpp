@@ -1,4 +1,4 @@
-// Lawson's flips, pass by pass over all edges.
+// Lawson's flips, pass by pass over the edges next to the last ones.
 
 #include <algorithm>
 #include <cmath>
@@ -33,42 +33,67 @@ double angle_at(Vec2 p, Vec2 a, Vec2 b) {
 class Flipper {
  public:
   Flipper(std::span<const Vec2> points, std::vector<Triangle>& triangles)
-      : points_(points), triangles_(triangles) {}
-
-  // One pass; every triangle takes part in one flip at most, so that the
-  // sides found at its beginning stay valid. Returns whether any was done.
-  bool flip_all() {
-    const auto sides = find_sides();
-    std::vector<bool> is_touched(triangles_.size(), false);
-    bool any = false;
-    for (const auto& [edge, side] : sides) {
-      const auto twin = sides.find({edge.second, edge.first});
-      if (edge.first > edge.second || twin == sides.end()) continue;
-      const Side other = twin->second;
-      if (is_touched[side.triangle] || is_touched[other.triangle]) continue;
-      if (!should_flip(side, other)) continue;
-      flip(side, other);
-      is_touched[side.triangle] = is_touched[other.triangle] = true;
-      any = true;
+      : points_(points),
+        triangles_(triangles),
+        last_flip_(triangles.size(), kNever) {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) list_sides(i);
+    for (const auto& [edge, side] : sides_) {
+      if (edge.first < edge.second) changed_.push_back(edge);
     }
-    return any;
+  }
+
+  // One pass over the edges of triangles that the last pass flipped: no other
+  // edge can have become the worse diagonal. Every triangle takes part in one
+  // flip at most. Returns whether any was done.
+  bool flip_changed() {
+    const std::vector<Edge> edges = take_changed();
+    for (const Edge& edge : edges) {
+      const auto side = sides_.find(edge);
+      const auto twin = sides_.find({edge.second, edge.first});
+      if (side == sides_.end() || twin == sides_.end()) continue;
+      flip_if_better(side->second, twin->second);
+    }
+    ++pass_;
+    return !changed_.empty();
   }
 
  private:
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;  // of points
 
-  std::map<Edge, Side> find_sides() const {
-    std::map<Edge, Side> sides;
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        sides[{corner(i, k + 1), corner(i, k + 2)}] = {i, k};
-      }
+  static constexpr std::size_t kNever = static_cast<std::size_t>(-1);
+
+  void list_sides(std::size_t triangle) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sides_[{corner(triangle, k + 1), corner(triangle, k + 2)}] = {triangle,
+                                                                    k};
     }
-    return sides;
+  }
+
+  // Sorted, each once.
+  std::vector<Edge> take_changed() {
+    std::vector<Edge> edges = std::exchange(changed_, {});
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
   }
 
   std::uint32_t corner(std::size_t triangle, std::size_t k) const {
     return triangles_[triangle][k % 3];
+  }
+
+  void flip_if_better(Side side, Side other) {
+    if (last_flip_[side.triangle] == pass_ ||
+        last_flip_[other.triangle] == pass_ || !should_flip(side, other)) {
+      return;
+    }
+    flip(side, other);
+    for (const std::size_t triangle : {side.triangle, other.triangle}) {
+      last_flip_[triangle] = pass_;
+      for (std::size_t k = 0; k < 3; ++k) {
+        changed_.push_back(
+            std::minmax({corner(triangle, k), corner(triangle, k + 1)}));
+      }
+    }
   }
 
   bool should_flip(Side side, Side other) const {
@@ -88,10 +113,18 @@ class Flipper {
     const std::uint32_t q = corner(other.triangle, other.corner);
     triangles_[side.triangle] = {p, a, q};
     triangles_[other.triangle] = {p, q, b};
+    sides_.erase({a, b});
+    sides_.erase({b, a});
+    list_sides(side.triangle);
+    list_sides(other.triangle);
   }
 
   std::span<const Vec2> points_;
   std::vector<Triangle>& triangles_;
+  std::map<Edge, Side> sides_;
+  std::vector<Edge> changed_;  // the lesser point first
+  std::size_t pass_ = 0;
+  std::vector<std::size_t> last_flip_;  // by triangle: in which pass
 };
 
 }  // namespace
@@ -100,7 +133,8 @@ void make_delaunay(std::span<const Vec2> points,
                    std::vector<Triangle>& triangles) {
   // Flips make angles grow, so they end; the cap is for rounding.
   Flipper flipper(points, triangles);
-  for (std::size_t i = 0; i < 4 * triangles.size() && flipper.flip_all(); ++i) {
+  for (std::size_t i = 0; i < 4 * triangles.size() && flipper.flip_changed();
+       ++i) {
   }
 }
 

@@ -1,10 +1,12 @@
 // Ear clipping with bridges to the holes.
 //
 // The contours become one ring by walking from every hole to a visible vertex
-// and back; then convex corners without a vertex inside are cut off one by
-// one. Corners that could stand inside are looked for by place. Quadratic at
-// worst, linear where the outline is convex; of a ring that crosses itself
-// corners are cut untested once that has taken long. What matters more:
+// and back; then a walk around it cuts off convex corners without a vertex
+// inside. Corners that could stand inside are looked for by place. The walk
+// leaves out a corner that it found no ear until a neighbour is cut, or the
+// vertex inside is no longer in the way: most corners are tested a few times,
+// however many walks it takes. Quadratic at worst; of a ring that crosses
+// itself corners are cut untested once that has taken long. What matters more:
 // whatever the ring looks like, n - 2 triangles leave it with every edge
 // matched, so a rounding error can misplace a triangle but never open a
 // surface. Source: Meisters 1975 (ears), Eberly 2002 (bridges to holes).
@@ -13,8 +15,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <queue>
 
 #include <glm/common.hpp>
 
@@ -73,33 +78,30 @@ class EarClipper {
   }
 
   void clip(std::uint32_t start) {
-    std::uint32_t left = count_and_find_reflex(start);
-    std::uint32_t corner = start;
-    std::uint32_t since_last_ear = 0;
+    begin_walk(start);
+    std::size_t left = ring_.size();
     // A ring that crosses itself has few ears, and to look for each round the
     // whole ring would take the cube of its corners.
     constexpr std::size_t kTestsOfACorner = 16;
     std::size_t tests_left = kTestsOfACorner * left;
     bool was_stuck = false;
-    while (left > 3) {
-      const bool has_no_ear = since_last_ear > left;
-      if (has_no_ear) {
-        was_stuck = true;
-        since_last_ear = 0;
-        if (cut_flat_corners(corner, left)) continue;
-        corner = find_convex(corner);
+    while (left > 3 && tests_left > 0) {
+      if (const auto corner = next_to_test()) {
+        if (is_spike(*corner) || is_ear(*corner)) {
+          cut(*corner);
+          --left;
+        } else if (was_stuck) {
+          --tests_left;
+        }
+        continue;
       }
-      if (has_no_ear || tests_left == 0 || is_spike(corner) || is_ear(corner)) {
-        corner = cut(corner);
-        --left;
-        since_last_ear = 0;
-      } else {
-        corner = corners_[corner].next;
-        ++since_last_ear;
-        if (was_stuck) --tests_left;
-      }
+      was_stuck = true;
+      tests_left -= std::min(tests_left, left);
+      if (cut_flat_corners(left)) continue;
+      cut(find_convex(corner_));
+      --left;
     }
-    if (left == 3) cut(corner);
+    for (; left > 2; --left) cut(corner_);
   }
 
  private:
@@ -225,21 +227,60 @@ class EarClipper {
                        corners_[c.next].point) == 0;
   }
 
-  std::uint32_t count_and_find_reflex(std::uint32_t start) {
-    std::uint32_t count = 0;
-    std::vector<std::uint32_t> reflex;
+  void begin_walk(std::uint32_t start) {
     is_gone_.assign(corners_.size(), false);
+    is_in_grid_.assign(corners_.size(), false);
+    due_.assign(corners_.size(), kNever);
+    place_.resize(corners_.size());
+    behind_.resize(corners_.size());
+    behind_at_tip_.resize(corners_.size());
+    for (const Corner& corner : corners_) points_.push_back(corner.point);
+    corner_ = start;
     std::uint32_t c = start;
     do {
-      ++count;
-      if (is_reflex(c)) reflex.push_back(c);
+      place_[c] = ring_.size();
+      ring_.push_back(c);
+      if (is_reflex(c)) {
+        reflex_.push_back(c);
+        is_in_grid_[c] = true;
+      }
       c = corners_[c].next;
     } while (c != start);
-    std::vector<Vec2> points;
-    points.reserve(corners_.size());
-    for (const Corner& corner : corners_) points.push_back(corner.point);
-    reflex_.fill(points, reflex);
-    return count;
+    for (const std::uint32_t corner : ring_) plan_test(corner);
+    reflex_count_ = reflex_.size();
+    grid_.fill(points_, reflex_);
+  }
+
+  // The first step of the walk, from now on, that comes to the corner.
+  std::uint64_t next_step_at(std::uint32_t corner) const {
+    const std::size_t size = ring_.size();
+    return step_ + (place_[corner] + size - step_ % size) % size;
+  }
+
+  void plan_test(std::uint32_t corner) {
+    const std::uint64_t step = next_step_at(corner);
+    if (is_gone_[corner] || due_[corner] == step) return;
+    due_[corner] = step;
+    steps_.push(step);
+  }
+
+  void plan_tests(std::vector<std::uint32_t>& corners) {
+    for (const std::uint32_t corner : corners) plan_test(corner);
+    corners.clear();
+  }
+
+  // Walks on to the next corner that may have become an ear, if there is one.
+  std::optional<std::uint32_t> next_to_test() {
+    while (!steps_.empty()) {
+      const std::uint64_t step = steps_.top();
+      steps_.pop();
+      const std::uint32_t corner = ring_[step % ring_.size()];
+      if (is_gone_[corner] || due_[corner] != step) continue;
+      due_[corner] = kNever;
+      step_ = step;
+      return corner;
+    }
+    return std::nullopt;
   }
 
   // The ring runs back on itself here, as at bridges whose hole is gone.
@@ -252,7 +293,8 @@ class EarClipper {
   }
 
   // Only reflex corners can stand inside another corner's triangle first; a
-  // corner that was convex stays so.
+  // corner that was convex stays so. One that is no ear is kept behind the
+  // corner that stands in its way.
   bool is_ear(std::uint32_t corner) {
     const Corner& c = corners_[corner];
     const Vec2 a = corners_[c.previous].point;
@@ -263,18 +305,24 @@ class EarClipper {
     const auto is_in_the_way = [&](std::uint32_t r) {
       const Vec2 p = corners_[r].point;
       if (p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y ||
-          is_gone_[r] || r == corner || !is_reflex(r)) {
+          !is_in_grid_[r] || r == corner) {
         return false;
       }
-      if (p == c.point) return opens_within(r, a, c.point, b);
-      return p != a && p != b && is_in_triangle(p, a, c.point, b);
+      if (p == c.point) {
+        if (!opens_within(r, a, c.point, b)) return false;
+        behind_at_tip_[r].push_back(corner);
+        return true;
+      }
+      if (p == a || p == b || !is_in_triangle(p, a, c.point, b)) return false;
+      behind_[r].push_back(corner);
+      return true;
     };
     // All that is in the box is within half its height of its middle line, but
     // for rounding.
     const double middle = (low.y + high.y) / 2;
     const double reach = std::max(high.y - middle, middle - low.y);
-    return !reflex_.has_near({low.x, middle}, {high.x, middle}, reach,
-                             is_in_the_way);
+    return !grid_.has_near({low.x, middle}, {high.x, middle}, reach,
+                           is_in_the_way);
   }
 
   // True where the outside at a reflex corner, which stands at the tip of the
@@ -294,11 +342,11 @@ class EarClipper {
   // Cuts off all corners that are flat, which costs no area, in one walk around
   // the ring but down to a triangle. Returns whether there was one.
   //
-  // corner  where to begin, and then where to look next
-  // left    of the ring
-  bool cut_flat_corners(std::uint32_t& corner, std::uint32_t& left) {
-    const std::uint32_t before = left;
-    for (std::uint32_t i = 0; i < before && left > 3; ++i) {
+  // left  of the ring
+  bool cut_flat_corners(std::size_t& left) {
+    const std::size_t before = left;
+    std::uint32_t corner = corner_;
+    for (std::size_t i = 0; i < before && left > 3; ++i) {
       const std::uint32_t next = corners_[corner].next;
       if (is_flat(corner)) {
         cut(corner);
@@ -319,20 +367,62 @@ class EarClipper {
     return start;
   }
 
-  // Cuts the corner off; returns where to look next.
-  std::uint32_t cut(std::uint32_t corner) {
+  // Cuts the corner off and walks past its neighbour.
+  void cut(std::uint32_t corner) {
     const Corner c = corners_[corner];
     triangles_.push_back(
         {corners_[c.previous].vertex, c.vertex, corners_[c.next].vertex});
     is_gone_[corner] = true;
     link(c.previous, c.next);
-    return corners_[c.next].next;
+    step_ = next_step_at(c.next) + 1;
+    corner_ = corners_[c.next].next;
+    plan_test(c.previous);
+    plan_test(c.next);
+    for (const std::uint32_t changed : {corner, c.previous, c.next}) {
+      if (is_in_grid_[changed]) note_change(changed);
+    }
   }
 
+  // Lets those behind a corner of the grid be tested again where it may no
+  // longer stand in their way.
+  void note_change(std::uint32_t reflex) {
+    plan_tests(behind_at_tip_[reflex]);
+    if (!is_gone_[reflex] && is_reflex(reflex)) return;
+    plan_tests(behind_[reflex]);
+    is_in_grid_[reflex] = false;
+    --reflex_count_;
+    // A grid of corners that are no longer in it is soon slow.
+    if (2 * reflex_count_ > reflex_.size()) return;
+    std::erase_if(reflex_, [&](std::uint32_t r) { return !is_in_grid_[r]; });
+    grid_.fill(points_, reflex_);
+  }
+
+  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+
   std::vector<Corner> corners_;
-  PointGrid reflex_;  // corners that were reflex when clipping began
+  std::vector<Vec2> points_;  // of the corners
   std::vector<bool> is_gone_;
   std::vector<std::array<std::uint32_t, 3>>& triangles_;
+
+  // The walk: each step goes on by one place of the ring as it first was.
+  std::vector<std::uint32_t> ring_;
+  std::vector<std::size_t> place_;  // in the ring
+  std::uint64_t step_ = 0;
+  std::uint32_t corner_ = 0;  // the first that is left from the last cut on
+  std::vector<std::uint64_t> due_;  // when the corner shall be tested
+  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>,
+                      std::greater<>>
+      steps_;  // that test a corner; some are no longer due
+
+  // Corners that have been reflex since clipping began.
+  PointGrid grid_;
+  std::vector<std::uint32_t> reflex_;  // in the grid, some no longer reflex
+  std::vector<bool> is_in_grid_;
+  std::size_t reflex_count_ = 0;
+  // By such a corner: those in whose triangle it stood when they were tested,
+  // within it or at its tip.
+  std::vector<std::vector<std::uint32_t>> behind_;
+  std::vector<std::vector<std::uint32_t>> behind_at_tip_;
 };
 
 // The middle of an edge: unlike a vertex it does not lie on a contour that
