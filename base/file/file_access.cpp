@@ -207,7 +207,7 @@ std::optional<struct stat> FileAccess::look_at(const std::string& path) const {
     return found.status;
   }
   struct stat status {};
-  if (::stat(path.c_str(), &status) == 0) return status;
+  if (::stat(kernel_path(path), &status) == 0) return status;
   check_machine(path, errno);
   return std::nullopt;
 }
@@ -227,6 +227,7 @@ bool FileAccess::is_regular_file(const std::string& path) const {
 }
 
 bool FileAccess::is_link(const std::string& path) const {
+  if (*kernel_path(path) == '\0') return false;
   if (!is_confined()) return is_a_symlink(path);
   const std::size_t slash = path.rfind('/');
   const Destination folder =
@@ -244,13 +245,13 @@ std::string FileAccess::canonical(const std::string& path) const {
     return found.state == State::kThere ? std::move(found.path) : "";
   }
   std::error_code error;
-  const fs::path result = fs::canonical(path, error);
+  const fs::path result = fs::canonical(kernel_path(path), error);
   check_machine(path, error.value());
   return error ? "" : result.string();
 }
 
 std::string FileAccess::weakly_canonical(const std::string& path) const {
-  if (!is_confined()) return without_links(path).string();
+  if (!is_confined()) return without_links(kernel_path(path)).string();
   const Destination found = find(path);
   if (found.state != State::kOutside) return found.path;
   std::error_code error;
@@ -267,7 +268,7 @@ std::optional<std::vector<std::string>> FileAccess::list(
     if (found.state != State::kThere) return std::nullopt;
     file = OpenFile(::openat(found.file.descriptor(), ".", kFlags));
   } else {
-    file = OpenFile(::open(folder.c_str(), kFlags));
+    file = OpenFile(::open(kernel_path(folder), kFlags));
   }
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(
       file ? ::fdopendir(file.descriptor()) : nullptr, ::closedir);
@@ -292,7 +293,7 @@ bool FileAccess::folds_case(const std::string& folder) const {
   constexpr auto kExfat = 0x2011BAB0;
   OpenFile file;
   if (!is_confined()) {
-    file = OpenFile(::open(folder.c_str(), kFlags));
+    file = OpenFile(::open(kernel_path(folder), kFlags));
   } else if (const Destination found = find(folder);
              found.state == State::kThere) {
     file = OpenFile(::openat(found.file.descriptor(), ".", kFlags));
@@ -328,7 +329,7 @@ OpenFile FileAccess::open(const std::string& path) const {
   constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
   OpenFile file;
   if (!is_confined()) {
-    file = OpenFile(::open(path.c_str(), kFlags));
+    file = OpenFile(::open(kernel_path(path), kFlags));
   } else if (const Destination found = find(path);
              found.state == State::kThere && found.folder) {
     file = OpenFile(::openat(found.folder.descriptor(), found.name.c_str(),
@@ -352,7 +353,7 @@ OpenFile FileAccess::open(const std::string& path) const {
 
 std::optional<std::string> FileAccess::read(const std::string& path) const {
   if (is_confined()) return read_regular(path);
-  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const OpenFile file(::open(kernel_path(path), O_RDONLY | O_CLOEXEC));
   struct stat status {};
   if (file && ::fstat(file.descriptor(), &status) == 0) {
     // Devices may never end.
@@ -382,6 +383,7 @@ void FileAccess::note_input(const std::string& path) const {
 
 OutputPlace FileAccess::find_output(const std::string& path) const {
   if (is_confined()) return find_confined_output(path);
+  if (*kernel_path(path) == '\0') return {"", {}, ENOENT, {}};
   if (find_planted_link(path)) return {"", {}, EACCES, {}};
   return {follow_links(path), {}, 0, look_at(path)};
 }
@@ -409,7 +411,7 @@ void FileAccess::make_folders(const std::string& path) const {
   if (!is_confined()) {
     if (find_planted_link(path)) return;
     std::error_code ignored;
-    fs::create_directories(without_links(path), ignored);
+    fs::create_directories(without_links(kernel_path(path)), ignored);
     return;
   }
   // Each turn makes one missing folder; a path has no more than these.

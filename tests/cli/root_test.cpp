@@ -235,6 +235,34 @@ TEST_F(Root, IsNamedInNoMessage) {
   }
 }
 
+// A name that comes as data can hold a NUL, at which the kernel would end it.
+TEST_F(Root, ANameWithANulLeadsNowhere) {
+  all_.write("beyond/f.json", "{\"word\": \"secret\"}");
+  all_.write("beyond/f.svg", "<svg><rect width=\"1\" height=\"1\"/></svg>\n");
+  const std::string up = "..\\u0000/beyond/f";
+  all_.write("root/n.json", "{\"json\": \"" + up + ".json\", \"svg\": \"" + up +
+                                ".svg\", \"none\": \"" + up + "-none.svg\"}");
+  all_.write("root/p.json", "{\"parameterSets\": {\"s\": {\"f\": \"" + up +
+                                ".svg\"}}, \"fileFormatVersion\": \"1\"}");
+  all_.write("root/json.scad",
+             "n = import(\"n.json\");\nd = import(n.json);\necho(d);\n");
+  all_.write("root/svg.scad", "n = import(\"n.json\");\nimport(n.svg);\n");
+  all_.write("root/none.scad", "n = import(\"n.json\");\nimport(n.none);\n");
+  all_.write("root/set.scad", "f = \"\";  // file\nimport(f);\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"json.scad", "-o", "o.echo"},
+        {"svg.scad", "-o", "o.svg"},
+        {"none.scad", "-o", "o.svg"},
+        {"set.scad", "-o", "o.svg", "-p", "p.json", "-P", "s"},
+        {"batch", "set.scad", "--table", "p.json", "-o", "{name}.svg"}}) {
+    const auto result = run_confined(words);
+    EXPECT_EQ(result.status, 1) << words[0] << "\n" << result.errors;
+    EXPECT_NE(result.errors.find("'..\\u0000/beyond/f"), std::string::npos)
+        << result.errors;
+    EXPECT_EQ(result.errors.find("secret"), std::string::npos);
+  }
+}
+
 class RootWords : public Root, public testing::WithParamInterface<Words> {
  protected:
   support::ProcessResult run_words(const std::string& file) const {

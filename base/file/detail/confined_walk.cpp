@@ -22,7 +22,7 @@ class Walker {
       : folders_(folders) {}
 
   Destination walk(const std::string& path) {
-    if (path.empty()) return miss("", ENOENT);
+    if (*kernel_path(path) == '\0') return miss("", ENOENT);
     if (path.size() >= PATH_MAX) return miss("", ENAMETOOLONG);
     push(path);
     if (path.front() != '/') {
@@ -234,6 +234,10 @@ std::string join_parts(std::span<const std::string> parts) {
     path += part;
   }
   return path.empty() ? "/" : path;
+}
+
+const char* kernel_path(const std::string& path) {
+  return path.find('\0') == std::string::npos ? path.c_str() : "";
 }
 
 Destination walk(std::span<const PermittedFolder> folders,

@@ -45,6 +45,11 @@ std::vector<std::string> parts_of(const std::string& path);
 // "/" and the parts between slashes.
 std::string join_parts(std::span<const std::string> parts);
 
+// `path` as the kernel is told it. A name would end at its first NUL there and
+// mean another file than all who judged it saw; so a path with a NUL is the
+// empty one, which leads nowhere.
+const char* kernel_path(const std::string& path);
+
 // Walks `path`, which begins in the current folder unless it is absolute.
 Destination walk(std::span<const PermittedFolder> folders,
                  const std::string& path);

@@ -104,6 +104,38 @@ TEST_F(ConfinedAccess, FollowsLinksInsideAndNoOthers) {
   EXPECT_EQ(read("/proc/self/environ"), "outside");
 }
 
+// The kernel takes "..\\0" for "..".
+TEST_F(ConfinedAccess, ANameWithANulLeadsNowhere) {
+  using namespace std::string_literals;
+  link("in", "root/link");
+  for (const std::string& path :
+       {"root/link\0"s, "root/..\0/beyond/out"s,
+        "root/sub/..\0/..\0/beyond/out"s, "root/..\0x/beyond/none"s,
+        "beyond\0/out"s, "root/in\0.scad"s, "root\0/in"s, "root/in\0"s,
+        "\0"s}) {
+    const std::string file = all_.file(path);
+    for (const FileAccess& files : {access(), FileAccess()}) {
+      errno = 0;
+      EXPECT_FALSE(files.read(file));
+      EXPECT_EQ(errno, ENOENT);
+      EXPECT_FALSE(files.read_regular(file));
+      EXPECT_FALSE(files.open(file));
+      EXPECT_FALSE(files.look_at(file));
+      EXPECT_FALSE(files.is_link(file));
+      EXPECT_EQ(files.canonical(file), "");
+      EXPECT_EQ(files.find_output(file).error, ENOENT);
+    }
+  }
+  for (const FileAccess& files : {access(), FileAccess()}) {
+    EXPECT_FALSE(files.list(all_.file("root/sub\0"s)));
+    EXPECT_FALSE(files.list(all_.file("root/..\0"s)));
+    files.make_folders(all_.file("root/new\0/a"s));
+    EXPECT_FALSE(files.is_there(all_.file("root/new")));
+    files.make_folders(all_.file("root/..\0/new"s));
+    EXPECT_FALSE(fs::exists(all_.file("new")));
+  }
+}
+
 TEST_F(ConfinedAccess, AWholeFileSystemIsAFolder) {
   const FileAccess files = FileAccess::within({"/", {}, false});
   EXPECT_EQ(
