@@ -92,6 +92,13 @@ std::string name_of_place(const Source& source) {
   return name.find(": ") == std::string::npos ? name : in_quotes(name);
 }
 
+// The message as it is told. What a design echoes is its own.
+std::string told_message(const Diagnostic& diagnostic) {
+  return diagnostic.severity == Severity::kEcho
+             ? diagnostic.message
+             : with_told_paths(diagnostic.message);
+}
+
 void append_terminal_text(std::string& text, SourceRange range,
                           std::string_view prefix, std::string_view message) {
   if (range.is_defined_by_option()) {
@@ -178,7 +185,7 @@ std::vector<std::string> openscad_lines(const Diagnostic& diagnostic,
   };
   std::vector<std::string> lines;
   std::string text(prefix_of(diagnostic.severity).openscad);
-  text += diagnostic.message;
+  text += told_message(diagnostic);
   const SourceRange range = diagnostic.range;
   if (range.is_known()) {
     const bool is_from_parser = diagnostic.message.starts_with(kParserError);
@@ -190,7 +197,7 @@ std::vector<std::string> openscad_lines(const Diagnostic& diagnostic,
   }
   lines.push_back(std::move(text));
   for (const Note& note : diagnostic.notes) {
-    std::string line = "TRACE: " + note.message;
+    std::string line = "TRACE: " + with_told_paths(note.message);
     if (note.range.is_known()) {
       const Source& source = *note.range.source;
       append_openscad_place(line, source,
@@ -242,10 +249,11 @@ std::string caret_text(const Diagnostic& diagnostic) {
   std::string text;
   append_terminal_text(text, diagnostic.range,
                        prefix_of(diagnostic.severity).terminal,
-                       diagnostic.message);
+                       told_message(diagnostic));
   for (const auto* notes : {&diagnostic.notes, &diagnostic.hints}) {
     for (const Note& note : *notes) {
-      append_terminal_text(text, note.range, "note: ", note.message);
+      append_terminal_text(text, note.range,
+                           "note: ", with_told_paths(note.message));
     }
   }
   return text;

@@ -1,5 +1,10 @@
 #pragma once
-// Names of files as OpenSCAD's messages show them.
+// Names of files as messages tell them.
+//
+// OpenSCAD's messages name files from the working folder, or by whole paths.
+// Under --root messages may reach strangers, who need not know where the root
+// is: all files in it are named from there. That holds for the process, as the
+// working folder does, and nobody else decides how a file is named.
 
 #include <string>
 #include <string_view>
@@ -15,8 +20,27 @@ std::string folder_of(const std::string& path);
 // `path` seen from the folder `base`, with as many "../" as it takes.
 std::string relative_path(const std::string& path, const std::string& base);
 
-// `path` as a terminal shows it: relative if it lies below the current folder.
+// Names files in that folder from there, from now on. Called before there are
+// other threads.
+//
+// canonical  its path without links
+void name_files_from(const std::string& folder, const std::string& canonical);
+
+// `path` as we tell it: from the folder of name_files_from() if it lies there,
+// else as it is. ("-" is a stream.)
+std::string told_path(const std::string& path);
+
+// The same as a terminal shows it: relative if it lies below the current
+// folder.
 std::string shown_path(const std::string& path);
+
+// The same in quotes, as OpenSCAD shows it: from the current folder, with as
+// many "../" as it takes.
+std::string quoted_path(std::string_view path);
+
+// A message, which may hold whole paths, with all of them as we tell them.
+// O(text).
+std::string with_told_paths(std::string text);
 
 // Whether the name is that of a font, in any letter case.
 bool is_font(std::string_view file);

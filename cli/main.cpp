@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "base/memory_end.h"
+#include "base/paths.h"
 #include "base/similar.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
@@ -31,7 +32,8 @@ namespace lamina::cli {
 namespace {
 
 int show_usage_fault(std::string_view message, int status = kUsageFault) {
-  print_error(fmt::format("lamina: {}\n", message_text(message)));
+  print_error(fmt::format("lamina: {}\n",
+                          message_text(with_told_paths(std::string(message)))));
   if (status == kUsageFault) {
     print_error("Run 'lamina --help' for the options.\n");
   }
@@ -68,9 +70,11 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
   add_common_options(app, limits, access_limits);
   try {
     app.parse(argc, argv);
-    command.check();
     access = make_file_access(access_limits);
-    if (access.is_confined()) name_files_from(access_limits.root);
+    if (access.is_confined()) {
+      name_files_from(access_limits.root, access.canonical(access_limits.root));
+    }
+    command.check();
     access.report_to(std::make_shared<RunFiles>());
   } catch (const CLI::CallForHelp&) {
     print_out(command.help());
@@ -147,7 +151,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     cli::print_error("lamina: out of memory\n");
   } catch (const std::exception& error) {
-    cli::print_error(fmt::format("lamina: {}\n", message_text(error.what())));
+    cli::print_error(fmt::format("lamina: {}\n",
+                                 message_text(with_told_paths(error.what()))));
   }
   return cli::kFault;
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/paths.h"
 #include "base/thread_clock.h"
 #include "csg/boundary/move_scene.h"
 #include "csg/csg_printer.h"
@@ -47,7 +48,8 @@ Language choose_language(Compilation& c) {
   Diagnostic told{
       Severity::kPlain,
       {},
-      fmt::format("read as OpenSCAD 2026 ({}:{}: {})", range.source->path(),
+      fmt::format("read as OpenSCAD 2026 ({}:{}: {})",
+                  told_path(range.source->path()),
                   range.source->line_column(range.begin).line, newer->what)};
   told.audience = Audience::kTerminal;
   c.diagnostics.report(std::move(told));

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "base/paths.h"
 #include "cli/commands/commands.h"
 #include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
@@ -94,8 +95,9 @@ class InspectCommand : public Command {
   }
 
   int inspect(compiler::Compilation& compilation) const {
-    const auto found = look(compilation);
+    auto found = look(compilation);
     if (!found) return kFault;
+    found->name = told_path(found->name);
     const std::string text =
         is_json_ ? inspection_json(*found)
                  : inspection_text(*found, lists_all_layers_

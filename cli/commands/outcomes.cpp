@@ -6,7 +6,6 @@
 
 #include "base/csv.h"
 #include "base/text.h"
-#include "cli/process/streams.h"
 #include "cli/report/run_report.h"
 #include "slicer/check/finding_table.h"
 
@@ -99,7 +98,7 @@ Outcomes::Entry Outcomes::describe(const Piece& piece,
   if (outcome.status == Status::kStood) return {outcome.status, "", "", ""};
   Entry entry{outcome.status, "", "", ""};
   if (count_ <= kMostRows || !outcome.is_done()) {
-    entry.name = short_name(with_short_paths(piece.name));
+    entry.name = short_name(piece.name);
     entry.row = row_of(outcome);
   }
   if (csv_) entry.report = csv_of(piece, outcome);

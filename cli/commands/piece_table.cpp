@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "base/csv.h"
+#include "base/paths.h"
 #include "base/text.h"
 #include "cli/options/output_pattern.h"
 #include "parser/cell.h"
@@ -382,7 +383,7 @@ class PieceTable : public PieceSource {
  private:
   // "orders.csv:17: ring-17: "
   std::string prefix_of(const Row& row) const {
-    std::string prefix = short_name(options_.table);
+    std::string prefix = short_name(told_path(options_.table));
     if (row.line > 0) prefix += fmt::format(":{}", row.line);
     prefix += ": ";
     if (!row.name.empty()) prefix += short_name(row.name) + ": ";

@@ -11,12 +11,12 @@
 #include <thread>
 #include <utility>
 
+#include "base/paths.h"
 #include "cli/commands/ledger.h"
 #include "cli/commands/outcomes.h"
 #include "cli/options/output_pattern.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/run_on_stack.h"
-#include "cli/process/streams.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
@@ -105,10 +105,9 @@ class Workshop {
   void work(std::size_t stack) {
     while (const std::optional<Numbered> next = next_piece()) {
       const Piece& piece = next->piece;
-      const std::string prefix = with_short_paths(piece.prefix);
       // Its time includes that of its messages, which may find no reader.
-      const ProcessWatch::Part timed(context_.watch, prefix);
-      Inbox inbox{prefix, worker_count_ == 1, "", ""};
+      const ProcessWatch::Part timed(context_.watch, piece.prefix);
+      Inbox inbox{piece.prefix, worker_count_ == 1, "", ""};
       const Outcome outcome = outcome_of(piece, stack, inbox);
       take(next->turn,
            {outcomes_.describe(piece, outcome), std::move(inbox.text)});
@@ -160,7 +159,7 @@ class Workshop {
     outcome.error = inbox.first_error;
     if (status != kDone && outcome.error.empty()) {
       outcome.error =
-          with_short_paths(compilation.diagnostics.all().back().message);
+          with_told_paths(compilation.diagnostics.all().back().message);
     }
     if (options_.ledger != nullptr) {
       session.terminal.finish();

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/paths.h"
 #include "base/similar.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
@@ -261,8 +262,8 @@ class SliceCommand : public Command {
       piece.request = request_;
       piece.request.design = design;
       piece.request.output = output_of(design);
-      piece.name = design;
-      piece.prefix = fmt::format("{}: ", short_name(design));
+      piece.name = told_path(design);
+      piece.prefix = fmt::format("{}: ", short_name(piece.name));
       piece.number = pieces.size();
     }
     Terminal terminal(is_quiet_);

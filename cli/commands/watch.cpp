@@ -21,6 +21,8 @@
 
 #include "base/diagnostic.h"
 #include "base/file/open_file.h"
+#include "base/paths.h"
+#include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/run_report.h"
 
@@ -134,17 +136,11 @@ std::set<std::string> given_files(const compiler::Request& request) {
   return files;
 }
 
-// The path as seen from the folder in which the program runs, if the file lies
-// below it.
-std::string shown(const std::string& file) {
-  std::error_code error;
-  const std::string path = fs::proximate(file, error).string();
-  return error || path.starts_with("..") ? file : path;
-}
-
 std::string change_line(const std::set<std::string>& files) {
   std::set<std::string> names;
-  for (const std::string& file : files) names.insert(shown(file));
+  for (const std::string& file : files) {
+    names.insert(on_one_line(shown_path(file)));
+  }
   return fmt::format("{:%H:%M:%S} {} changed",
                      fmt::localtime(std::time(nullptr)),
                      fmt::join(names, ", "));

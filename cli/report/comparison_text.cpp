@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/paths.h"
 #include "slicer/check/printed_text.h"
 
 namespace lamina::cli {
@@ -87,7 +88,8 @@ class Writer : slicer::PrintedText {
 
  private:
   void side(char letter, const SideText& side) {
-    print("{}         {} ({})\n", letter, side.name, side.description);
+    print("{}         {} ({})\n", letter, told_path(side.name),
+          side.description);
   }
 
   void table(bool lists_all) {
@@ -181,7 +183,7 @@ class Writer : slicer::PrintedText {
 };
 
 nlohmann::ordered_json side_json(const SideText& side) {
-  return {{"name", side.name},
+  return {{"name", told_path(side.name)},
           {"description", side.description},
           {"precision", side.precision},
           {"is_precision_assumed", side.is_assumed}};

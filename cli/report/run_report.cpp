@@ -12,6 +12,7 @@
 #include <time.h>
 
 #include "base/file/output_file.h"
+#include "base/paths.h"
 #include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "compiler/compile.h"
@@ -220,9 +221,10 @@ std::string print_line(const compiler::Compilation& compilation) {
   const bool is_any = std::ranges::any_of(
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
-  return is_any ? fmt::format("\nprint: {}; 'lamina check {}' says where",
-                              counts, on_one_line(compilation.request.design))
-                : fmt::format("\nprint: {}", counts);
+  return is_any
+             ? fmt::format("\nprint: {}; 'lamina check {}' says where", counts,
+                           on_one_line(told_path(compilation.request.design)))
+             : fmt::format("\nprint: {}", counts);
 }
 
 std::string machine_line(const compiler::Report& report) {
@@ -242,7 +244,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
       "by the clock",
-      output == "-" ? "standard output" : on_one_line(output),
+      output == "-" ? "standard output" : on_one_line(told_path(output)),
       counted(slice.layers, "layer"), counted(slice.loops, "loop"),
       counted(slice.points, "vertex", "vertices"),
       memory_text(report.output_bytes),

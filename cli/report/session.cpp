@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "base/paths.h"
 #include "base/text.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/process_watch.h"
-#include "cli/process/streams.h"
 
 namespace lamina::cli {
 namespace {
@@ -131,7 +131,7 @@ void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
   if (text.empty()) return;
   if (inbox_ != nullptr && inbox_->first_error.empty() &&
       diagnostic.severity == Severity::kError) {
-    inbox_->first_error = with_short_paths(diagnostic.message);
+    inbox_->first_error = with_told_paths(diagnostic.message);
   }
   if (diagnostic.severity == Severity::kEcho) {
     if (echo_count_ > 0 && text == last_echo_) {
@@ -145,14 +145,13 @@ void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
     return;
   }
   end_echoes();
-  text = with_short_paths(std::move(text));
   if (++counts_[text] == 1) write(text);
 }
 
 void Terminal::say(std::string_view line) {
   if (is_quiet_) return;
   end_echoes();
-  write(with_short_paths(fmt::format("{}\n", line)));
+  write(fmt::format("{}\n", line));
 }
 
 void Terminal::finish() {

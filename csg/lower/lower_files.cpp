@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -10,6 +9,7 @@
 
 #include "base/file/file_access.h"
 #include "base/file/format_error.h"
+#include "base/paths.h"
 #include "csg/boundary/near_hull.h"
 #include "csg/import/decimate.h"
 #include "csg/import/dxf.h"
@@ -26,14 +26,6 @@
 
 namespace lamina::csg {
 namespace {
-
-// As OpenSCAD shows a path in quotes.
-std::string quoted_from_here(std::string_view path) {
-  return fmt::format("\"{}\"",
-                     std::filesystem::path(path)
-                         .lexically_proximate(std::filesystem::current_path())
-                         .generic_string());
-}
 
 // --- Meshes -----------------------------------------------------------------
 
@@ -72,7 +64,7 @@ void report(const Decimation& done, double tolerance, std::string_view path,
       Severity::kPlain,
       {},
       fmt::format("{}: {} of {} triangles, within {:.6g} of the file's surface",
-                  quoted_from_here(path), done.triangles_after,
+                  quoted_path(path), done.triangles_after,
                   done.triangles_before, tolerance)};
   if (done.tangled_edges + done.tangled_vertices > 0) {
     told.message += fmt::format(
@@ -165,7 +157,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
     diagnostics.warning(range, std::move(warning));
   }
   for (std::string& warning : unknown_entity_warnings(
-           drawing, options.layer, quoted_from_here(options.path))) {
+           drawing, options.layer, quoted_path(options.path))) {
     diagnostics.warning(range, std::move(warning));
   }
   if (drawing.straightened_arcs > 0) {
@@ -173,7 +165,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
         range,
         fmt::format("{} arcs (bulges) of polylines in {} become straight "
                     "lines",
-                    drawing.straightened_arcs, quoted_from_here(options.path)));
+                    drawing.straightened_arcs, quoted_path(options.path)));
   }
   std::vector<planar::Contour> contours;
   for (DxfPath& path : drawing.paths) {
@@ -250,7 +242,7 @@ void report_undrawn(const SvgDrawing& drawing, const ImportParams& params,
   }
   for (const std::string& element : drawing.undrawn) {
     diagnostics.warning(range, fmt::format("{} in {} draws nothing", element,
-                                           quoted_from_here(params.path)));
+                                           quoted_path(params.path)));
   }
 }
 
@@ -302,7 +294,7 @@ Shape Lowerer::lower_op(const Import& op, const Place& at) {
     if (is_empty && diagnostics_.all().size() == messages) {
       diagnostics_.warning(at.node.range,
                            fmt::format("File {} holds nothing to import",
-                                       quoted_from_here(params.path)));
+                                       quoted_path(params.path)));
     }
   }
   return place_file(entry->second, at);
@@ -334,10 +326,9 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
   switch (params.format) {
     case ImportFormat::kUnknown:
       diagnostics_.error(
-          range,
-          fmt::format("Unsupported file format while trying to import "
-                      "file '{}', import() at line {}",
-                      quoted_from_here(params.path), range.openscad_line()));
+          range, fmt::format("Unsupported file format while trying to import "
+                             "file '{}', import() at line {}",
+                             quoted_path(params.path), range.openscad_line()));
       return {Dimension::kSolid};
     case ImportFormat::kDxf:
       return {Dimension::kFlat,

@@ -11,6 +11,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -202,37 +203,108 @@ struct Words {
   bool is_output = false;
 };
 
-// Messages may reach the stranger, who need not know where the root is.
+// Messages may reach the stranger, who need not know where the root is. `$R` is
+// the root as it is given.
 TEST_F(Root, IsNamedInNoMessage) {
+  constexpr const char* kFaultyDxf = "garbage\n0\nSECTION\n0\nEOF\n";
+  constexpr const char* kEmptyDxf =
+      "0\nSECTION\n2\nENTITIES\n0\nINSERT\n2\nnone\n0\nENDSEC\n0\nEOF\n";
   all_.write(
       "root/a.scad",
       "include <b.scad>\nimport(\"none.stl\");\nsurface(\"none.dat\");\n"
-      "import(\"bad.stl\");\nx = import(\"none.json\");\nuse <none.ttf>\n"
-      "cube(1);\n");
+      "import(\"bad.stl\");\nx = import(\"none.json\");\n"
+      "import(\"bad.dxf\");\nimport(\"empty.dxf\");\nimport(\"none.svg\");\n"
+      "import(\"x.xyz\");\ncube(1);\n");
   all_.write("root/b.scad", "n = 0;\ninclude <none.scad>\nunknown();\n");
+  all_.write("root/font.scad", "use <none.ttf>\n");
   all_.write("root/bad.stl", "solid\nfacet\n");
+  all_.write("root/bad.dxf", kFaultyDxf);
+  all_.write("root/empty.dxf", kEmptyDxf);
   all_.write("root/t.csv", "name,n\na,1\nb,2\n");
+  all_.write("root/s.stl", kStl);
+  all_.write("root/s.scad", "import(\"s.stl\");\n");
+  all_.write("root/island.scad",
+             "cube(1);\ntranslate([0,0,3]) cube([3,.05,2]);\n");
   fs::create_directory_symlink("root", all_.file("link"));
+  struct Run {
+    std::vector<std::string> words;
+    std::string told;  // among others
+  };
+  const std::vector<Run> runs = {
+      {{"$R/a.scad", "-o", "$R/a.slc", "--no-strict"}, "b.scad:3:1: warning"},
+      {{"$R/a.scad", "-o", "$R/a.slc", "--no-strict"}, "`bad.dxf'"},
+      {{"$R/a.scad", "-o", "$R/a.slc", "--no-strict"}, "\"empty.dxf\""},
+      {{"$R/a.scad", "-o", "$R/a.echo", "--no-strict"}, "none.scad"},
+      {{"$R/c.scad", "-o", "$R/c.slc"}, "'c.scad'"},
+      {{"$R/font.scad", "-o", "$R/a.slc"}, "'none.ttf'"},
+      {{"$R/s.scad", "-o", "$R/s.slc", "--decimate", "0.1"}, "\"s.stl\": 4 of"},
+      {{"$R/s.scad", "-o", "$R/s.slc"}, "s.slc: "},
+      {{"$R/s.scad", "-o", "$R/none/s.slc"}, "'none/s.slc'"},
+      {{"$R/s.scad", "-o", "$R/s.slc", "-d", "$R/s.slc"}, "'s.slc'"},
+      {{"$R/a.scad", "$R/b.scad", "-o", "$R/{name}.slc"}, "a.scad: "},
+      {{"batch", "$R/b.scad", "--table", "$R/t.csv", "-o", "$R/{name}.slc"},
+       "t.csv:2: a: "},
+      {{"check", "$R/island.scad"}, "by island.scad:2:"},
+      {{"check", "--json", "$R/island.scad"}, "island.scad:2:"},
+      {{"inspect", "$R/island.scad"}, "island.scad"},
+      {{"inspect", "--json", "$R/island.scad"}, "\"island.scad\""},
+      {{"inspect", "$R/s.stl"}, "s.stl"},
+      {{"compare", "$R/island.scad", "$R/s.stl", "--report", "$R/r.json"},
+       "island.scad"},
+      {{"compare", "$R/s.xyz", "$R/s.stl"}, "'s.xyz' is no file"},
+      {{"view", "$R/island.scad", "-o", "$R/v.html"}, "print: "},
+  };
+  // Neither its own name nor that of what is around it.
+  const std::string around = fs::path(all_.path()).filename();
+  const auto expect_untold = [&](const std::string& text) {
+    for (const std::string& name :
+         {around, std::string("root/"), std::string("link/")}) {
+      EXPECT_EQ(text.find(name), std::string::npos) << text;
+    }
+  };
   for (const std::string folder : {"root", "link"}) {
-    const std::string root = all_.file(folder);
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{root + "/a.scad", "-o", root + "/a.slc"},
-          {root + "/c.scad", "-o", root + "/c.slc"},
-          {root + "/a.scad", root + "/b.scad", "-o", root + "/{name}.slc"},
-          {"batch", root + "/b.scad", "--table", root + "/t.csv", "-o",
-           root + "/{name}.slc"}}) {
-      std::vector<std::string> all = words;
-      all.insert(all.end(), {"--root", root});
-      const auto result =
-          support::run_process(command(all), all_.file("beyond"));
-      EXPECT_EQ(result.status, 1);
-      const std::string text = result.errors + result.output;
-      EXPECT_EQ(text.find(all_.path()), std::string::npos) << text;
-      EXPECT_NE(text.find(words[0] == "batch" ? "none.scad" : ".scad"),
-                std::string::npos)
-          << text;
+    const std::string absolute = all_.file(folder);
+    for (const auto& [here, root] :
+         {std::pair(all_.file("beyond"), absolute),
+          std::pair(all_.file("beyond"), "../" + folder),
+          std::pair(std::string("/"), absolute),
+          std::pair(std::string("/"), absolute.substr(1)),
+          std::pair(all_.file(""), absolute), std::pair(all_.file(""), folder),
+          std::pair(absolute, absolute)}) {
+      for (const Run& one : runs) {
+        std::vector<std::string> words = one.words;
+        for (std::string& word : words) {
+          if (word.starts_with("$R")) word.replace(0, 2, root);
+        }
+        words.insert(words.end(), {"--root", root});
+        const auto result = support::run_process(command(words), here);
+        SCOPED_TRACE(fmt::format("{} in {}", fmt::join(words, " "), here));
+        const std::string text = result.errors + result.output;
+        expect_untold(text);
+        if (one.words[0] != "view") {
+          EXPECT_NE(text.find(one.told), std::string::npos) << text;
+        }
+        for (const char* made : {"a.echo", "v.html", "r.json"}) {
+          if (!fs::exists(inside(made))) continue;
+          expect_untold(support::read_file(inside(made)));
+          fs::remove(inside(made));
+        }
+      }
     }
   }
+}
+
+// A message takes the time of its length, however often it names the root.
+TEST_F(Root, IsTakenOutOfALongMessage) {
+  all_.write("root/d.scad",
+             fmt::format("s = \" {}\";\n"
+                         "function doubled(s, n) =\n"
+                         "  n == 0 ? s : doubled(str(s, s), n - 1);\n"
+                         "assert(false, doubled(s, 20));\n",
+                         inside("")));
+  const auto result = run_confined({"d.scad", "-o", "o.slc"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.errors.find(all_.path()), std::string::npos);
 }
 
 // A name that comes as data can hold a NUL, at which the kernel would end it.

@@ -150,6 +150,18 @@ TEST(Watch, ReadsWhatWasTheOutputUnderAnotherName) {
   ASSERT_TRUE(watched.comes_to_say("this run reads it, too"));
 }
 
+// What changed may have any name.
+TEST(Watch, NamesAreNoLines) {
+  const TemporaryFolder folder;
+  folder.write("b\nerror: forged.json", "1");
+  folder.write("a.scad", "echo(import(\"b\\nerror: forged.json\"));");
+  Watched watched(folder, "a.echo");
+  ASSERT_TRUE(watched.comes_to("ECHO: 1\n"));
+  folder.write("b\nerror: forged.json", "2");
+  ASSERT_TRUE(watched.comes_to("ECHO: 2\n"));
+  EXPECT_TRUE(watched.comes_to_say(" b\\u000Aerror: forged.json changed\n"));
+}
+
 TEST(Watch, IsForOneDesignAndAFile) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");
