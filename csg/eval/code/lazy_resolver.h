@@ -38,7 +38,8 @@ class LazyResolver {
                                       const FunctionLiteral& literal) = 0;
 
   // A hint for a name that nothing has: the similar one of all that the design
-  // and its files define at their top, and OpenSCAD itself. Empty: none.
+  // and its files define at their top, and OpenSCAD itself. Empty: none, or
+  // so much was compared before that the run guesses no more.
   virtual std::string did_you_mean(Named kind, std::string_view name) = 0;
 
   virtual CodeCounts counts() const = 0;

@@ -10,6 +10,13 @@
 #include "parser/loader.h"
 
 namespace lamina::csg {
+namespace {
+
+// Of letters compared for hints in one run. A usual design asks 150 names of 10
+// letters each time, so thousands of its names get a hint.
+constexpr std::size_t kMostHintWork = 30'000'000;
+
+}  // namespace
 
 std::uint32_t Activation::new_slot() {
   slot_count = std::max(slot_count, next_slot + 1);
@@ -255,8 +262,9 @@ void Resolver::resolve(const Module& asked) {
 }
 
 std::string Resolver::did_you_mean(Named kind, std::string_view name) {
-  const auto [hint, is_new] = hints_.try_emplace({kind, name});
-  if (!is_new) return hint->second;
+  const auto known = hints_.find({kind, name});
+  if (known != hints_.end()) return known->second;
+  if (hint_work_ > kMostHintWork) return "";
   std::vector<std::string_view> names;
   if (kind == Named::kModule) names = builtin_module_names();
   if (kind == Named::kFunction) names = builtin_function_names();
@@ -269,8 +277,12 @@ std::string Resolver::did_you_mean(Named kind, std::string_view name) {
     if (kind == Named::kFunction) add(unit.scope->functions);
     if (kind == Named::kModule) add(unit.scope->modules);
   }
+  for (const std::string_view own : names) {
+    hint_work_ += name.size() * own.size();
+  }
+  if (hint_work_ > kMostHintWork) return "";
   std::sort(names.begin(), names.end());
-  return hint->second = lamina::did_you_mean(name, names);
+  return hints_[{kind, name}] = lamina::did_you_mean(name, names);
 }
 
 }  // namespace lamina::csg

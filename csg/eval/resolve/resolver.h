@@ -243,6 +243,7 @@ class Resolver : public LazyResolver {
       extra_literals_;
   std::deque<DeclaredUnit> units_;
   std::map<std::pair<Named, std::string_view>, std::string> hints_;
+  std::size_t hint_work_ = 0;  // pairs of letters that were to be compared
   std::unordered_map<const ast::Program*, DeclaredUnit*> unit_of_;
   CodeCounts counts_;
 };

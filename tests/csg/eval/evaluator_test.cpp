@@ -5,6 +5,7 @@
 #include <ctime>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -107,6 +108,42 @@ TEST(Evaluate, RefusesARangeWithoutEndAtOnce) {
   EXPECT_EQ(evaluate_text("for (i = [0 : 1e12]) cube(1);\n").echo,
             "WARNING: Bad range parameter in for statement: too many elements "
             "(4294967295) in file test.scad, line 1\n");
+}
+
+// How many hints a program gets that misspells each of its modules, and then
+// the first one again.
+std::size_t hints_for(int modules) {
+  std::string text;
+  for (int i = 0; i < modules; ++i) {
+    const std::string number = std::to_string(i);
+    text += "module part_" + number + "() {} prat_" + number + "();\n";
+  }
+  const std::string said = evaluate_text(text + "prat_0();\n").terminal;
+  const std::string_view hint = "note: did you mean 'part_";
+  std::size_t count = 0;
+  for (std::size_t at = said.find(hint); at != std::string::npos;
+       at = said.find(hint, at + 1)) {
+    ++count;
+  }
+  EXPECT_TRUE(said.ends_with("note: did you mean 'part_0'?\n"));
+  return count;
+}
+
+TEST(Evaluate, GuessesNoMoreWhereItHasComparedManyNames) {
+  EXPECT_EQ(hints_for(300), 301U);
+  const std::size_t few = hints_for(2000);
+  const std::size_t fewer = hints_for(4000);
+  EXPECT_LT(few, 500U);
+  EXPECT_LT(fewer, few);
+  EXPECT_GT(fewer, 50U);
+}
+
+// To compare them letter by letter would take hours.
+TEST(Evaluate, DoesNotCompareNamesOfAMillionLetters) {
+  const std::string name(1'000'000, 'a');
+  const std::string said =
+      evaluate_text("module " + name + "() {} " + name + "b();\n").echo;
+  EXPECT_TRUE(said.starts_with("WARNING: Ignoring unknown module"));
 }
 
 // --- Closures ---------------------------------------------------------------
