@@ -72,8 +72,10 @@ class ParameterSets::Reader : public nlohmann::json_sax<nlohmann::json> {
                    const nlohmann::detail::exception& error) override {
     position_ = position;
     const std::string_view what = error.what();
-    // "[json.exception.parse_error.101] parse error at line 2, column 1: …"
-    complaint_ = what.substr(what.find(": ") + 2);
+    // "[json.exception.parse_error.101] parse error at line 2, column 1: …" or
+    // "[json.exception.out_of_range.406] number overflow parsing '1e400'"
+    const std::string_view mark = error.id == 406 ? "] " : ": ";
+    complaint_ = what.substr(what.find(mark) + mark.size());
     return false;
   }
 

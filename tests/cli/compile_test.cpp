@@ -640,6 +640,11 @@ TEST(Compile, ASetThatCannotBeUsedMakesNoLayers) {
                   "error: Cannot open Parameter Set 'none.json': none.json: "
                   "cannot open file"))
       << none.errors;
+  folder.write("sets.json", R"({"parameterSets": {"big": {"size": 1e400}}})");
+  const auto huge = run(folder, {"a.scad", "-p", "sets.json", "-P", "big"});
+  EXPECT_EQ(huge.status, 1);
+  EXPECT_TRUE(has(huge.errors, "sets.json(1): number overflow parsing '1e400'"))
+      << huge.errors;
   EXPECT_EQ(folder.entry_count(), 2U);
 }
 
