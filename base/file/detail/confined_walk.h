@@ -2,11 +2,12 @@
 // The way to a file, taken step by step without leaving some folders.
 //
 // The kernel follows symbolic links wherever they lead, and a name can mean
-// another file a moment later. So each part of a path is opened by itself, below
-// the folder opened before it and never through a link; links are read and their
-// words walked like any others. What lies outside is never asked for: the walk
-// goes over words there, until these name a permitted folder again. openat2()
-// refuses absolute links that stay inside, and some containers forbid it.
+// another file a moment later. So each part of a path is opened by itself,
+// below the folder opened before it and never through a link; links are read
+// and their words walked like any others. What lies outside is never asked for:
+// the walk goes over words there, until these name a permitted folder again.
+// openat2() refuses absolute links that stay inside, and some containers forbid
+// it.
 
 #include <cerrno>
 #include <span>
