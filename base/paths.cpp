@@ -141,7 +141,7 @@ std::string relative_path(const std::string& path, const std::string& base) {
 }
 
 std::string shown_path(const std::string& given) {
-  const std::string path = told_path(given);
+  std::string path = told_path(given);
   if (!fs::path(path).is_absolute()) return path;
   const std::string relative = lexically_relative(path, "");
   return relative.starts_with("..") ? path : relative;

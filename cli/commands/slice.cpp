@@ -1,6 +1,7 @@
 // lamina DESIGN: from a design to layers, or to the text of a stage before.
 
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -164,6 +165,7 @@ void refuse_layers(const std::string& file) {
 // A word that looks like no file but much like a command.
 void refuse_misspelt_command(const std::string& word) {
   std::vector<std::string_view> commands;
+  commands.reserve(std::size(kNamedCommands));
   for (const NamedCommand& named : kNamedCommands) {
     commands.push_back(named.name);
   }

@@ -23,8 +23,7 @@ Target ExpressionResolver::target(std::string_view name, Variable* variable) {
   if (is_dynamic_name(name)) {
     return {Target::Kind::kDynamic, resolver_.names().number_of(name), nullptr};
   }
-  // NOLINTNEXTLINE(clang-analyzer-core.NullDereference) ; it has no dynamic
-  // name
+  // Not null. NOLINTNEXTLINE(clang-analyzer-core.NullDereference)
   return {Target::Kind::kSlot, variable->slot, variable};
 }
 
