@@ -170,6 +170,12 @@ void Diagnostics::own_warning(SourceRange range, std::string message,
   report(std::move(warning));
 }
 
+void Diagnostics::own_remark(SourceRange range, std::string message) {
+  Diagnostic remark{Severity::kPlain, range, std::move(message)};
+  remark.audience = Audience::kTerminal;
+  report(std::move(remark));
+}
+
 void Diagnostics::error(SourceRange range, std::string message,
                         std::vector<Note> notes) {
   report({Severity::kError, range, std::move(message), std::move(notes)});

@@ -96,6 +96,8 @@ class Diagnostics {
   // Of what OpenSCAD does not say: on the terminal only.
   void own_warning(SourceRange range, std::string message,
                    std::vector<Note> hints = {});
+  // The same of what is no warning.
+  void own_remark(SourceRange range, std::string message);
   void error(SourceRange range, std::string message,
              std::vector<Note> notes = {});
 
@@ -120,8 +122,9 @@ std::string openscad_line(const Diagnostic& diagnostic,
 std::string openscad_text(const std::vector<Diagnostic>& diagnostics,
                           const std::string& base_folder);
 
-// As a terminal shows it, with nothing in it that would steer one; further lines
-// of a message begin with "| ".
+// As a terminal shows it, with nothing in it that would steer one; further
+// lines of a message begin with "| ".
+//
 // "file:line:column: warning: …", the line of text, carets below it, and the
 // notes; ends with '\n'. Empty for a message that is not for the terminal.
 std::string caret_text(const Diagnostic& diagnostic);

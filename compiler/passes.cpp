@@ -45,14 +45,11 @@ Language choose_language(Compilation& c) {
   const std::optional<NewerSyntax>& newer = c.loader.newer_syntax();
   if (!newer) return Language::k2021;
   const SourceRange& range = newer->range;
-  Diagnostic told{
-      Severity::kPlain,
+  c.diagnostics.own_remark(
       {},
       fmt::format("read as OpenSCAD 2026 ({}:{}: {})",
                   told_path(range.source->path()),
-                  range.source->line_column(range.begin).line, newer->what)};
-  told.audience = Audience::kTerminal;
-  c.diagnostics.report(std::move(told));
+                  range.source->line_column(range.begin).line, newer->what));
   return Language::k2026;
 }
 

@@ -158,9 +158,9 @@ class Workshop {
     // Under hard warnings the last warning is the fault.
     outcome.error = inbox.first_error;
     if (status != kDone && outcome.error.empty()) {
-      outcome.error =
-          with_told_paths(compilation.diagnostics.all().back().message);
+      outcome.error = compilation.diagnostics.all().back().message;
     }
+    outcome.error = with_told_paths(std::move(outcome.error));
     if (options_.ledger != nullptr) {
       session.terminal.finish();
       options_.ledger->note(piece, outcome, inbox.text, compilation);

@@ -88,12 +88,9 @@ void tell_left_out(compiler::Compilation& compilation,
                    const slicer::LayerFileFacts& facts) {
   const std::string left_out = slicer::left_out_text(facts);
   if (left_out.empty()) return;
-  Diagnostic told{Severity::kPlain,
-                  {},
-                  fmt::format("left out of '{}': {}",
-                              compilation.request.design, left_out)};
-  told.audience = Audience::kTerminal;
-  compilation.diagnostics.report(std::move(told));
+  compilation.diagnostics.own_remark(
+      {}, fmt::format("left out of '{}': {}", compilation.request.design,
+                      left_out));
 }
 
 int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
@@ -131,7 +128,7 @@ void Terminal::show(const Diagnostic& diagnostic, bool ends_run) {
   if (text.empty()) return;
   if (inbox_ != nullptr && inbox_->first_error.empty() &&
       diagnostic.severity == Severity::kError) {
-    inbox_->first_error = with_told_paths(diagnostic.message);
+    inbox_->first_error = diagnostic.message;
   }
   if (diagnostic.severity == Severity::kEcho) {
     if (echo_count_ > 0 && text == last_echo_) {

@@ -67,10 +67,7 @@ std::vector<RawMesh> read_cad_file(const ImportParams& params,
     diagnostics.own_warning(range, fmt::format("{} in '{}'", words, name));
   }
   for (const std::string& words : part.notes) {
-    Diagnostic note{Severity::kPlain, range,
-                    fmt::format("{} in '{}'", words, name)};
-    note.audience = Audience::kTerminal;
-    diagnostics.report(std::move(note));
+    diagnostics.own_remark(range, fmt::format("{} in '{}'", words, name));
   }
   std::vector<RawMesh> meshes;
   for (cad::Body& body : part.bodies) {

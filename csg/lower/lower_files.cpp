@@ -60,20 +60,17 @@ void center_meshes(std::vector<Mesh>& meshes) {
 
 void report(const Decimation& done, double tolerance, std::string_view path,
             Diagnostics& diagnostics) {
-  Diagnostic told{
-      Severity::kPlain,
-      {},
+  std::string told =
       fmt::format("{}: {} of {} triangles, within {:.6g} of the file's surface",
                   quoted_path(path), done.triangles_after,
-                  done.triangles_before, tolerance)};
+                  done.triangles_before, tolerance);
   if (done.tangled_edges + done.tangled_vertices > 0) {
-    told.message += fmt::format(
+    told += fmt::format(
         " (kept whole where it is no manifold: {} edges, {} "
         "vertices)",
         done.tangled_edges, done.tangled_vertices);
   }
-  told.audience = Audience::kTerminal;
-  diagnostics.report(std::move(told));
+  diagnostics.own_remark({}, std::move(told));
 }
 
 // depth      to which a mesh may lie below its hull, which then stands for it
