@@ -31,7 +31,7 @@
 namespace lamina::cli {
 namespace {
 
-int show_usage_fault(std::string_view message, int status = kUsageFault) {
+int show_fault(std::string_view message, int status = kUsageFault) {
   print_error(fmt::format("lamina: {}\n",
                           message_text(with_told_paths(std::string(message)))));
   if (status == kUsageFault) {
@@ -83,11 +83,11 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
     print_out(fmt::format("{}\n", version.what()));
     return kDone;
   } catch (const CLI::ExtrasError& error) {
-    return show_usage_fault(error.what() + hint_for(app));
+    return show_fault(error.what() + hint_for(app));
   } catch (const CLI::ParseError& error) {
-    return show_usage_fault(error.what());
+    return show_fault(error.what());
   } catch (const UsageError& error) {
-    return show_usage_fault(error.what(), error.status());
+    return show_fault(error.what(), error.status());
   }
   return std::nullopt;
 }
@@ -151,8 +151,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     cli::print_error("lamina: out of memory\n");
   } catch (const std::exception& error) {
-    cli::print_error(fmt::format("lamina: {}\n",
-                                 message_text(with_told_paths(error.what()))));
+    return cli::show_fault(error.what(), cli::kFault);
   }
   return cli::kFault;
 }

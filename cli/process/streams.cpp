@@ -11,6 +11,7 @@
 #include "base/text.h"
 
 namespace lamina::cli {
+
 void open_missing_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
