@@ -34,8 +34,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// What the C library calls them. NOLINTBEGIN(bugprone-reserved-identifier,
-// readability-identifier-naming)
+// What the C library calls them.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -152,15 +152,19 @@ void tell_crash(int signal) {
 
 }  // namespace
 
+// next_NAME(): the function that the C library has for this one. It is found
+// before main(): later the loader's lock may be another thread's for good, as
+// where memory ends while GLib is loaded.
+#define LAMINA_NEXT(result, name, parameters)                  \
+  static std::add_pointer_t<result parameters> next_##name() { \
+    static auto* const call = next<result parameters>(#name);  \
+    return call;                                               \
+  }                                                            \
+  [[maybe_unused]] static auto* const found_##name = next_##name();
+
 // One function that fails with `failed` and else does what the next one does.
-// That one is found before main(): later the loader's lock may be another
-// thread's for good, as where memory ends while GLib is loaded.
 #define LAMINA_CALL(result, name, failed, parameters, arguments, ...) \
-  static std::add_pointer_t<result parameters> next_##name() {        \
-    static auto* const call = next<result parameters>(#name);         \
-    return call;                                                      \
-  }                                                                   \
-  [[maybe_unused]] static auto* const found_##name = next_##name();   \
+  LAMINA_NEXT(result, name, parameters)                               \
   extern "C" result name parameters __VA_ARGS__ {                     \
     if (must_fail(#name)) return failed;                              \
     return next_##name() arguments;                                   \
@@ -211,25 +215,27 @@ LAMINA_CALL(int, pthread_create, EAGAIN,
              void* x),
             (t, a, f, x), noexcept)
 
+LAMINA_NEXT(int, close, (int))
+
 extern "C" int close(int file) {
-  static auto* const call = next<int(int)>("close");
   const bool fails = must_fail("close");
   const int error = errno;
-  const int result = call(file);
+  const int result = next_close()(file);
   if (!fails) return result;
   errno = error;
   return -1;
 }
 
+LAMINA_NEXT(void*, mremap, (void*, size_t, size_t, int, ...))
+
 extern "C" void* mremap(void* p, size_t n, size_t m, int flags, ...) noexcept {
   if (must_fail("mremap")) return MAP_FAILED;
-  static auto* const call =
-      next<void*(void*, size_t, size_t, int, ...)>("mremap");
-  return call(p, n, m, flags);
+  return next_mremap()(p, n, m, flags);
 }
 
 // Calls whose last argument is there only at times.
 #define LAMINA_OPEN(name, parameters, ...)                        \
+  LAMINA_NEXT(int, name, parameters)                              \
   extern "C" int name parameters {                                \
     if (must_fail(#name)) return -1;                              \
     va_list list;                                                 \
@@ -237,8 +243,7 @@ extern "C" void* mremap(void* p, size_t n, size_t m, int flags, ...) noexcept {
     const mode_t mode =                                           \
         flags & (O_CREAT | O_TMPFILE) ? va_arg(list, mode_t) : 0; \
     va_end(list);                                                 \
-    static auto* const call = next<int parameters>(#name);        \
-    return call(__VA_ARGS__, flags, mode);                        \
+    return next_##name()(__VA_ARGS__, flags, mode);               \
   }
 
 LAMINA_OPEN(open, (const char* path, int flags, ...), path)
@@ -246,15 +251,15 @@ LAMINA_OPEN(open64, (const char* path, int flags, ...), path)
 LAMINA_OPEN(openat, (int at, const char* path, int flags, ...), at, path)
 LAMINA_OPEN(openat64, (int at, const char* path, int flags, ...), at, path)
 
-#define LAMINA_FCNTL(name)                                     \
-  extern "C" int name(int file, int command, ...) {            \
-    if (must_fail(#name)) return -1;                           \
-    va_list list;                                              \
-    va_start(list, command);                                   \
-    void* const argument = va_arg(list, void*);                \
-    va_end(list);                                              \
-    static auto* const call = next<int(int, int, ...)>(#name); \
-    return call(file, command, argument);                      \
+#define LAMINA_FCNTL(name)                          \
+  LAMINA_NEXT(int, name, (int, int, ...))           \
+  extern "C" int name(int file, int command, ...) { \
+    if (must_fail(#name)) return -1;                \
+    va_list list;                                   \
+    va_start(list, command);                        \
+    void* const argument = va_arg(list, void*);     \
+    va_end(list);                                   \
+    return next_##name()(file, command, argument);  \
   }
 
 LAMINA_FCNTL(fcntl)
