@@ -47,8 +47,8 @@ std::vector<Choice> read_choices(const ast::Expr& comment) {
   for (const ast::Expr* element : elements) {
     const auto* pair = std::get_if<ast::Vector>(&element->node);
     if (pair != nullptr && pair->elements.size() != 2) return {};
+    // Elements are. NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker)
     const auto value = read_choice(pair ? *pair->elements[0] : *element);
-    // NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker) ; elements are
     const auto label = pair ? read_choice(*pair->elements[1]) : value;
     if (!value || !label) return {};
     choices.push_back({*value, label_of(*label)});

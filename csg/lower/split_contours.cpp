@@ -108,8 +108,7 @@ class ContourSplitter {
     Contour points;
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const Vec2 end = contour[(i + 1) % contour.size()];
-      // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter) ; whole
-      // numbers
+      // Whole numbers. NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter)
       for (double k = 0; k < parts[i]; ++k) {
         points.push_back(glm::mix(contour[i], end, k / parts[i]));
       }

@@ -94,8 +94,8 @@ std::vector<std::array<std::uint32_t, 3>> triangulated(
       if (is_ear) ear = i;
     }
     if (ear == n) ear = 0;  // collinear rest
-    // NOLINTNEXTLINE(clang-analyzer-core.DivideZero) ; three at least
     triangles.push_back(
+        // Three at least. NOLINTNEXTLINE(clang-analyzer-core.DivideZero)
         {rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]});
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
   }
