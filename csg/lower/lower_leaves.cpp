@@ -248,22 +248,16 @@ Shape Lowerer::lower_op(const Roof& op, const Place& at) {
   if (shape.region.is_empty()) return {Dimension::kSolid};
   Fineness corners = fineness(op.facets, at.world);
   corners.chordal_error *= 1 - kShare;
-  const double depth = greatest_depth(shape.region);
-  const double step_deg = arc_step_deg(depth, corners);
-  // A polygon in a circle leaves more than the circle.
-  const double top = op.is_straight ? depth : depth / cos_deg(step_deg / 2);
-  // The cutters go through the prism's top.
-  const double cut_top = top * 1.01;
+  RoofParts roof = op.is_straight ? sharp_roof(shape.region)
+                                  : round_roof(shape.region, corners);
   const std::size_t mark = builder_.mark();
   LinearExtrudeParams prism;
-  prism.height = top;
+  prism.height = roof.top;
   place_leaf(extrude_linearly(prism, shape.region, {}), at);
   const std::array begins = {mark, builder_.mark()};
   Leaf cutters;
   cutters.may_overlap_itself = true;
-  cutters.meshes.push_back(
-      op.is_straight ? sharp_cutters(shape.region, cut_top)
-                     : round_cutters(shape.region, cut_top, step_deg));
+  cutters.meshes.push_back(std::move(roof.cutters));
   place_leaf(std::move(cutters), at);
   builder_.apply(BooleanOp::kDifference, begins);
   return {Dimension::kSolid};

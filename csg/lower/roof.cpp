@@ -12,7 +12,9 @@
 
 #include "base/plane.h"
 #include "csg/boundary/convex_hull.h"
+#include "csg/degrees.h"
 #include "csg/lower/detail/tracks.h"
+#include "csg/plane/boolean.h"
 #include "csg/plane/offset.h"
 
 namespace lamina::csg {
@@ -23,11 +25,14 @@ using planar::Region;
 
 constexpr double kRadians = std::numbers::pi / 180;
 
+// How far cutters go, for them to cut through the prism's top [tops].
+constexpr double kBeyond = 1.01;
+
 Vec2 turned(Vec2 v, double angle) {
   return std::cos(angle) * v + std::sin(angle) * left_of(v);
 }
 
-// Adds convex solids to one mesh.
+// Convex solids, each the hull of its points, that go up to one height.
 class Cutters {
  public:
   // Begins with the strips along all edges of the region.
@@ -37,17 +42,46 @@ class Cutters {
     }
   }
 
-  void add(std::vector<Vec3> points) {
-    const Mesh hull = convex_hull(std::move(points));
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    mesh_.vertices.insert(mesh_.vertices.end(), hull.vertices.begin(),
-                          hull.vertices.end());
-    for (const auto& [a, b, c] : hull.triangles) {
-      mesh_.triangles.push_back({first + a, first + b, first + c});
+  void add(std::vector<Vec3> points) { solids_.push_back(std::move(points)); }
+
+  Mesh mesh() {
+    Mesh mesh;
+    for (std::vector<Vec3>& points : solids_) {
+      const Mesh hull = convex_hull(std::move(points));
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.insert(mesh.vertices.end(), hull.vertices.begin(),
+                           hull.vertices.end());
+      for (const auto& [a, b, c] : hull.triangles) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
+      }
     }
+    return mesh;
   }
 
-  Mesh take() { return std::move(mesh_); }
+  // What they leave of the region at their top.
+  Region rest(const Region& region, double top) const {
+    std::vector<Box2> boxes;
+    for (const Contour& contour : region.contours) {
+      boxes.emplace_back().add(contour);
+    }
+    std::vector<Region> regions = {region};
+    for (const std::vector<Vec3>& points : solids_) {
+      std::vector<Vec2> section;
+      Box2 box;
+      for (const Vec3 point : points) {
+        if (point.z != top) continue;
+        section.emplace_back(point);
+        box.add(section.back());
+      }
+      const auto meets = [&box](Box2 other) {
+        other.intersect(box);
+        return !other.is_empty();
+      };
+      if (std::none_of(boxes.begin(), boxes.end(), meets)) continue;
+      regions.push_back(planar::convex_hull(std::move(section)));
+    }
+    return planar::subtract(regions);
+  }
 
  private:
   // At each height z the strip that is nearer than z to the edge.
@@ -58,7 +92,7 @@ class Cutters {
          Vec3(edge.end + out, top)});
   }
 
-  Mesh mesh_;
+  std::vector<std::vector<Vec3>> solids_;
 };
 
 // How far back over both strips the part between them reaches, so that no two
@@ -112,9 +146,17 @@ void add_track(Cutters& cutters, const Track& track, double top) {
   }
 }
 
-}  // namespace
+Cutters sharp_cutters(const Region& region, const std::vector<Track>& tracks,
+                      double top) {
+  Cutters cutters(region, top);
+  for (const Track& track : tracks) add_track(cutters, track, top);
+  return cutters;
+}
 
-double greatest_depth(const Region& region) {
+// The least depth beyond which nothing is left of the region, or up to a share
+// of 2e-5 more.
+template <typename IsBeyond>
+double find_depth(const Region& region, IsBeyond is_beyond) {
   constexpr double kDigits = 1e-5;
   double border = 0;
   for (const Contour& contour : region.contours) {
@@ -122,13 +164,10 @@ double greatest_depth(const Region& region) {
       border += glm::distance(edge.begin, edge.end);
     }
   }
-  // That of a convex region lies between: a step to find others from.
+  // That of a convex region is no less, and at most twice that; that of a band
+  // is that.
   double low = 0;
-  double high = 2 * planar::area(region) / border;
-  const auto is_beyond = [&](double depth) {
-    return planar::offset(region, -depth, planar::Join::kRound, depth * kDigits)
-        .is_empty();
-  };
+  double high = planar::area(region) / border;
   for (; !is_beyond(high); high *= 1.5) low = high;
   while (high - low > high * kDigits) {
     const double middle = (low + high) / 2;
@@ -137,22 +176,37 @@ double greatest_depth(const Region& region) {
   return high;
 }
 
-Mesh round_cutters(const Region& region, double top, double corner_step_deg) {
-  Cutters cutters(region, top);
+}  // namespace
+
+RoofParts round_roof(const Region& region, const Fineness& corners) {
+  constexpr double kTolerance = 1e-5;  // of an arc [depths]
+  const double depth = find_depth(region, [&](double amount) {
+    return planar::offset(region, -amount, planar::Join::kRound,
+                          amount * kTolerance)
+        .is_empty();
+  });
+  const double step_deg = arc_step_deg(depth, corners);
+  // A polygon in a circle leaves more than the circle.
+  const double top = depth / cos_deg(step_deg / 2);
+  Cutters cutters(region, top * kBeyond);
   for (const Contour& contour : region.contours) {
     for (const ReflexCorner& corner : reflex_corners(contour)) {
-      add_fan(cutters, corner, top, corner_step_deg);
+      add_fan(cutters, corner, top * kBeyond, step_deg);
     }
   }
-  return cutters.take();
+  return {top, cutters.mesh()};
 }
 
-Mesh sharp_cutters(const Region& region, double top) {
-  Cutters cutters(region, top);
-  for (const Track& track : trace_corners(region)) {
-    add_track(cutters, track, top);
-  }
-  return cutters.take();
+RoofParts sharp_roof(const Region& region) {
+  const std::vector<Track> tracks = trace_corners(region);
+  Region rest = region;  // of the greatest depth that leaves any
+  const double top = find_depth(region, [&](double depth) {
+    Region next = sharp_cutters(region, tracks, depth).rest(rest, depth);
+    if (next.is_empty()) return true;
+    rest = std::move(next);
+    return false;
+  });
+  return {top, sharp_cutters(region, tracks, top * kBeyond).mesh()};
 }
 
 }  // namespace lamina::csg

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -157,6 +158,24 @@ TEST(Roof, ReflexCornersThatMeetGoOnAsOne) {
     EXPECT_GT(support::distance_to_edges(contours, peak + Vec2(0, 0.01)), 1e-3)
         << z;
   }
+}
+
+// All lines of its outline are at one distance from the middle, so what is left
+// shrinks towards it, and is gone long before a circle moved inwards would be.
+TEST(Roof, StraightOfAStarOfManyCornersShrinks) {
+  const std::string star =
+      "polygon([for (i = [0:999]) (10 + i % 2) * "
+      "[cos(i * 0.36), sin(i * 0.36)]]);";
+  const double a = std::numbers::pi / 500;
+  const double tip = 11 - 10 * std::cos(a);
+  const double notch = 10 * std::sin(a);
+  const double distance = 11 * notch / std::hypot(tip, notch);
+  const double area = 500 * 11 * notch;
+  const double z = distance * 0.75;
+  EXPECT_NEAR(support::total_area(section(straight(star), z)), area / 16,
+              area * 1e-6);
+  const Design roof = Design::from_text(straight(star));
+  EXPECT_NEAR(roof.scene().box.high.z, distance, distance * 3e-5);
 }
 
 TEST(Roof, VoronoiIsWhereTheOutlineIsFartherThanTheHeight) {

@@ -18,24 +18,22 @@
 //   skeleton: these are the lower envelope of the planes of the edges, each
 //   bounded by such tracks (Cheng, Vigneron 2007; Huber, Held 2012).
 
+#include "csg/lower/detail/fineness.h"
 #include "csg/plane/region.h"
 #include "csg/scene.h"
 
 namespace lamina::csg {
 
-// No point of the region is farther from its outline: the least such distance
-// [mm], or up to a share of 2e-5 more.
-double greatest_depth(const planar::Region& region);
+struct RoofParts {
+  double top = 0;  // of the prism [mm]: that of the roof, or a share of 2e-5 more
+  Mesh cutters;    // they overlap each other, and reach beyond the prism
+};
 
-// The cutters of a roof "voronoi" up to z = top [mm], as one mesh. They overlap
-// each other, and reach beyond the outline.
-//
-// corner_step_deg  greatest angle of a side of a rounded corner
-Mesh round_cutters(const planar::Region& region, double top,
-                   double corner_step_deg);
+// "voronoi"; `corners` says how fine its rounded corners are.
+RoofParts round_roof(const planar::Region& region, const Fineness& corners);
 
-// Those of a roof "straight". Throws LimitExceeded where the region has more
-// than kMostTracks reflex corners.
-Mesh sharp_cutters(const planar::Region& region, double top);
+// "straight". Throws LimitExceeded where the region has more than kMostTracks
+// reflex corners.
+RoofParts sharp_roof(const planar::Region& region);
 
 }  // namespace lamina::csg
