@@ -1,46 +1,16 @@
 #include "base/plane.h"
 
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <utility>
+
+#include "base/exact_sum.h"
 
 namespace lamina {
 namespace {
 
-int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
 // Two products and a difference are rounded once each.
 constexpr double kRelativeError = 4 * std::numeric_limits<double>::epsilon();
-
-// A sum of doubles, kept exactly: none of them overlaps another one, and they
-// grow. Source: Shewchuk, "Adaptive precision floating-point arithmetic and
-// fast robust geometric predicates", 1997, Grow-Expansion.
-class ExactSum {
- public:
-  void add(double x) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < size_; ++i) {
-      const double sum = x + terms_[i];
-      const double part = sum - x;
-      const double rest = (x - (sum - part)) + (terms_[i] - part);
-      if (rest != 0) terms_[kept++] = rest;
-      x = sum;
-    }
-    size_ = kept;
-    if (x != 0) terms_[size_++] = x;
-  }
-  void add_product(double p, double q) {
-    add(std::fma(p, q, -(p * q)));
-    add(p * q);
-  }
-  int sign() const { return size_ == 0 ? 0 : lamina::sign(terms_[size_ - 1]); }
-
- private:
-  std::array<double, 12> terms_{};  // of as many that orientation() adds
-  std::size_t size_ = 0;
-};
 
 bool is_in_upper_half(Vec2 a) { return a.y > 0 || (a.y == 0 && a.x > 0); }
 
@@ -57,7 +27,7 @@ int orientation(Vec2 a, Vec2 b, Vec2 c) {
     return sign(difference);
   }
   // The same, without differences, which round: a×b + b×c + c×a.
-  ExactSum sum;
+  ExactSum<12> sum;
   for (const auto& [p, q] : {std::pair(a, b), {b, c}, {c, a}}) {
     sum.add_product(p.x, q.y);
     sum.add_product(-p.y, q.x);

@@ -6,7 +6,7 @@ LAMINA_BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config bison flex
   libglm-dev libfmt-dev libdouble-conversion-dev libutfcpp-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
-  libqhull-dev libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
+  libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
   libminizip-dev libpugixml-dev libxxhash-dev zlib1g-dev libopenmesh-dev
   libegl-dev libgl-dev libosmesa6-dev
 )

@@ -3,23 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csetjmp>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
-#include <new>
-#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <libqhull_r/qhull_ra.h>
 
 #include "base/check.h"
 #include "csg/boundary/boundary_faces.h"
+#include "csg/boundary/detail/quickhull.h"
 #include "csg/boundary/leaf_mesh.h"
 #include "csg/boundary/united.h"
 #include "csg/limits.h"
@@ -33,6 +28,10 @@ namespace {
 // lie in it: the rounding of coordinates alone can put them there.
 constexpr double kFlatness = 1e-12;
 
+// Coordinates below count as 0 [mm]. Those above are multiples of 2^-300, and
+// no product of three of these underflows.
+constexpr double kLeastCoordinate = 0x1p-247;
+
 bool is_less(Vec3 a, Vec3 b) {
   if (a.x != b.x) return a.x < b.x;
   return a.y < b.y || (a.y == b.y && a.z < b.z);
@@ -43,25 +42,26 @@ bool is_less(Vec3 a, Vec3 b) {
 void make_unique(std::vector<Vec3>& points) {
   // 0 · x is NaN where x is not finite.
   std::erase_if(points, [](Vec3 p) { return glm::dot(p, Vec3(0)) != 0; });
-  for (const Vec3& point : points) {
+  for (Vec3& point : points) {
     for (int axis = 0; axis < 3; ++axis) {
       if (is_too_far(point[axis])) fail_too_far();
+      if (std::abs(point[axis]) < kLeastCoordinate) point[axis] = 0;
     }
   }
   std::sort(points.begin(), points.end(), is_less);
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-// The point for which `measure` is greatest.
+// The number of the point for which `measure` is greatest.
 template <typename Measure>
-Vec3 find_greatest(const std::vector<Vec3>& points, Measure measure) {
-  Vec3 best = points[0];
-  double greatest = measure(best);
-  for (const Vec3 point : points) {
-    const double size = measure(point);
+std::uint32_t find_greatest(const std::vector<Vec3>& points, Measure measure) {
+  std::uint32_t best = 0;
+  double greatest = measure(points[0]);
+  for (std::uint32_t i = 1; i < points.size(); ++i) {
+    const double size = measure(points[i]);
     if (size > greatest) {
       greatest = size;
-      best = point;
+      best = i;
     }
   }
   return best;
@@ -70,7 +70,8 @@ Vec3 find_greatest(const std::vector<Vec3>& points, Measure measure) {
 // What points span: a point or line (1), a plane (2) with its normal, space.
 struct Span {
   int dimension = 1;
-  std::array<Vec3, 2> ends{};  // of the line
+  // Numbers of points that span it; the first two are the ends of a line.
+  std::array<std::uint32_t, 4> simplex{};
   Vec3 normal = Vec3(0);
 };
 
@@ -80,102 +81,31 @@ Span find_span(const std::vector<Vec3>& points) {
   const auto farthest_from = [&](Vec3 a) {
     return find_greatest(points, [&](Vec3 p) { return glm::distance(p, a); });
   };
-  const Vec3 b = farthest_from(points[0]);
-  const Vec3 a = farthest_from(b);
-  const double length = glm::distance(a, b);
-  if (length == 0) return {1, {a, b}};
-  const Vec3 along = (b - a) / length;
-  const auto off_line = [&](Vec3 p) { return glm::cross(along, p - a); };
-  const Vec3 c =
-      find_greatest(points, [&](Vec3 p) { return glm::length(off_line(p)); });
-  const double width = glm::length(off_line(c));
-  if (width <= kFlatness * length) return {1, {a, b}};
-  const Vec3 normal = off_line(c) / width;
-  const auto height = [&](Vec3 p) { return std::abs(glm::dot(normal, p - a)); };
-  const bool is_flat =
-      height(find_greatest(points, height)) <= kFlatness * length;
-  return {is_flat ? 2 : 3, {a, b}, normal};
+  Span span;
+  auto& [a, b, c, d] = span.simplex;
+  b = farthest_from(points[0]);
+  a = farthest_from(points[b]);
+  const Vec3 start = points[a];
+  const double length = glm::distance(start, points[b]);
+  if (length == 0) return span;
+  const Vec3 along = (points[b] - start) / length;
+  const auto off_line = [&](Vec3 p) { return glm::cross(along, p - start); };
+  c = find_greatest(points, [&](Vec3 p) { return glm::length(off_line(p)); });
+  const double width = glm::length(off_line(points[c]));
+  if (width <= kFlatness * length) return span;
+  span.normal = off_line(points[c]) / width;
+  const auto height = [&](Vec3 p) {
+    return std::abs(glm::dot(span.normal, p - start));
+  };
+  d = find_greatest(points, height);
+  span.dimension = height(points[d]) <= kFlatness * length ? 2 : 3;
+  return span;
 }
 
-using Facet = std::vector<std::uint32_t>;
-
-// One run of Qhull. Its memory is freed whatever happens.
-class QhullRun {
- public:
-  // points  span space; they stay where they are
-  explicit QhullRun(std::vector<Vec3>& points)
-      : points_(points), messages_(open_memstream(&text_, &text_size_)) {
-    if (messages_ == nullptr) throw std::bad_alloc();
-    qh_zero(&qh_, messages_);
-    char options[] = "qhull";
-    exit_code_ = qh_new_qhull(&qh_, 3, static_cast<int>(points.size()),
-                              &points[0].x, False, options, nullptr, messages_);
-  }
-  QhullRun(const QhullRun&) = delete;
-  QhullRun& operator=(const QhullRun&) = delete;
-  ~QhullRun() {
-    qh_freeqhull(&qh_, qh_ALL);
-    int memory_left = 0;
-    int piece_count = 0;
-    qh_memfreeshort(&qh_, &memory_left, &piece_count);
-    std::fclose(messages_);
-    std::free(text_);
-  }
-
-  // Corners of the facets in order, all counter-clockwise from outside or all
-  // clockwise; none where Qhull finds no volume beyond rounding.
-  std::vector<Facet> facets() {
-    std::vector<Facet> result;
-    if (exit_code_ == qh_ERRsingular) return result;
-    if (exit_code_ == 0) read_facets(result);
-    if (exit_code_ == qh_ERRmem) throw std::bad_alloc();
-    if (exit_code_ != 0) {
-      fail_check(__FILE__, __LINE__, "Qhull's messages", messages(), "none");
-    }
-    return result;
-  }
-
- private:
-  // The library leaves by longjmp where it fails, past no destructor here.
-  void read_facets(std::vector<Facet>& result) {
-    exit_code_ = setjmp(qh_.errexit);
-    if (exit_code_ != 0) return;
-    qh_.NOerrexit = False;
-    qhT* qh = &qh_;
-    facetT* facet = nullptr;
-    FORALLfacets add_facet(facet, result);
-    qh_.NOerrexit = True;
-  }
-
-  void add_facet(facetT* facet, std::vector<Facet>& result) {
-    setT* vertices = qh_facet3vertex(&qh_, facet);
-    result.emplace_back();
-    vertexT* vertex = nullptr;
-    vertexT** vertexp = nullptr;
-    FOREACHvertex_(vertices) {
-      // cppcheck-suppress nullPointer ; Qhull's macro sets it
-      const auto index = (vertex->point - &points_[0].x) / 3;
-      result.back().push_back(static_cast<std::uint32_t>(index));
-    }
-    qh_settempfree(&qh_, &vertices);
-  }
-
-  std::string messages() {
-    std::fflush(messages_);
-    return text_;
-  }
-
-  std::vector<Vec3>& points_;
-  char* text_ = nullptr;
-  std::size_t text_size_ = 0;
-  FILE* messages_;
-  int exit_code_ = 0;
-  qhT qh_{};
-};
-
-// The facets' triangles, on those points only that are corners.
-Mesh mesh_of(const std::vector<Vec3>& points,
-             const std::vector<Facet>& facets) {
+// Triangles of the hull's faces, on those points only that are corners. Empty
+// where the simplex turns out to be flat, as it may along a needle of points.
+Mesh hull_of_solid(const std::vector<Vec3>& points,
+                   const std::array<std::uint32_t, 4>& simplex) {
   Mesh mesh;
   std::unordered_map<std::uint32_t, std::uint32_t> ids;
   const auto vertex = [&](std::uint32_t point) {
@@ -184,11 +114,15 @@ Mesh mesh_of(const std::vector<Vec3>& points,
     if (is_new) mesh.vertices.push_back(points[point]);
     return place->second;
   };
-  for (const Facet& facet : facets) {
-    for (std::size_t i = 2; i < facet.size(); ++i) {
+  for (const std::vector<std::uint32_t>& face : hull_faces(points, simplex)) {
+    for (std::size_t i = 2; i < face.size(); ++i) {
       mesh.triangles.push_back(
-          {vertex(facet[0]), vertex(facet[i - 1]), vertex(facet[i])});
+          {vertex(face[0]), vertex(face[i - 1]), vertex(face[i])});
     }
+  }
+  // Closed and of one piece.
+  if (!mesh.triangles.empty()) {
+    LAMINA_CHECK_EQ(mesh.triangles.size() + 4, 2 * mesh.vertices.size());
   }
   return mesh;
 }
@@ -212,22 +146,6 @@ FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
     result.corners.push_back(from_shadow.at({corner.x, corner.y}));
   }
   return result;
-}
-
-// Empty as the facets may be.
-Mesh hull_of_solid(std::vector<Vec3>& points) {
-  // Qhull judges by the size of coordinates: let it be that of the solid.
-  std::vector<Vec3> centred = points;
-  const Vec3 centre = 0.5 * (points.front() + points.back());
-  for (Vec3& point : centred) point -= centre;
-  Mesh mesh = mesh_of(points, QhullRun(centred).facets());
-  if (mesh.triangles.empty()) return mesh;
-  // Closed and of one piece.
-  LAMINA_CHECK_EQ(mesh.triangles.size() + 4, 2 * mesh.vertices.size());
-  if (signed_volume(mesh) < 0) {
-    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  }
-  return mesh;
 }
 
 // Instances of one leaf that differ by their shifts only.
@@ -315,17 +233,20 @@ class GrowingHull {
 
 Mesh convex_hull(std::vector<Vec3> points) {
   make_unique(points);
-  if (points.size() < 4 || find_span(points).dimension < 3) return {};
-  return hull_of_solid(points);
+  if (points.size() < 4) return {};
+  const Span span = find_span(points);
+  if (span.dimension < 3) return {};
+  return hull_of_solid(points, span.simplex);
 }
 
 std::vector<Vec3> extreme_points(std::vector<Vec3> points) {
   make_unique(points);
   if (points.size() <= 4) return points;
   const Span span = find_span(points);
-  if (span.dimension == 1) return {span.ends[0], span.ends[1]};
+  const auto& [a, b, c, d] = span.simplex;
+  if (span.dimension == 1) return {points[a], points[b]};
   if (span.dimension == 2) return hull_in_plane(points, span.normal).corners;
-  const Mesh hull = hull_of_solid(points);
+  const Mesh hull = hull_of_solid(points, span.simplex);
   return hull.triangles.empty() ? points : hull.vertices;
 }
 
@@ -334,7 +255,8 @@ FlatHull flat_hull(std::vector<Vec3> points) {
   if (points.size() < 2) return {points, Vec3(0, 0, 1)};
   const Span span = find_span(points);
   if (span.dimension > 1) return hull_in_plane(points, span.normal);
-  const auto [begin, end] = span.ends;
+  const Vec3 begin = points[span.simplex[0]];
+  const Vec3 end = points[span.simplex[1]];
   const Vec3 along = end - begin;
   const Vec3 size = glm::abs(along);
   Vec3 other(0);

@@ -1,11 +1,5 @@
 #pragma once
-// The convex hull of points in space, by Qhull.
-//
-// Qhull decides in floating point and merges facets until the hull is convex
-// within what rounding can do; its input is never joggled. So facets are
-// polygons, the same whatever the diagonals were, and cut into triangles here.
-// Source: Barber, Dobkin, Huhdanpaa, "The Quickhull algorithm for convex
-// hulls", ACM Transactions on Mathematical Software, 1996.
+// The convex hull of points in space (see detail/quickhull.h).
 
 #include <vector>
 
@@ -13,8 +7,9 @@
 
 namespace lamina::csg {
 
-// A closed mesh; its vertices are some of the points, bit by bit. Empty where
-// all points lie in one plane, up to rounding. Throws LimitExceeded for
+// A closed mesh; its vertices are the corners of the hull, which are some of
+// the points, bit by bit, but that coordinates below 1e-74 mm count as 0. Empty
+// where all points lie in one plane, up to rounding. Throws LimitExceeded for
 // points beyond kGreatestCoordinate.
 Mesh convex_hull(std::vector<Vec3> points);
 

@@ -188,7 +188,6 @@ TEST(Includes, PackagesKeepToTheirHomes) {
   const std::vector<Home> homes = {
       {"polyclipping/", {"csg/plane/"}},
       {"clipper.hpp", {"csg/plane/"}},
-      {"libqhull", {"csg/boundary/"}},
       {"GL/", {"ldni/gl/gl_platforms.cpp", "ldni/gl/detail/gl_functions.h"}},
       {"EGL/", {"ldni/gl/gl_platforms.cpp"}},
       {"CGAL/", {}},

@@ -9,12 +9,18 @@
 #include <CGAL/convex_hull_3.h>
 
 namespace lamina::oracle {
+namespace {
+
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+
+Point point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+}  // namespace
 
 csg::Mesh exact_hull(std::span<const Vec3> points) {
-  using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
   using Surface = CGAL::Surface_mesh<Point>;
   std::vector<Point> given;
-  for (const Vec3& p : points) given.emplace_back(p.x, p.y, p.z);
+  for (const Vec3& p : points) given.push_back(point_of(p));
   Surface hull;
   CGAL::convex_hull_3(given.begin(), given.end(), hull);
   if (hull.number_of_faces() < 4) {
@@ -36,6 +42,11 @@ csg::Mesh exact_hull(std::span<const Vec3> points) {
     }
   }
   return mesh;
+}
+
+int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c,
+                      const Vec3& d) {
+  return CGAL::orientation(point_of(a), point_of(b), point_of(c), point_of(d));
 }
 
 }  // namespace lamina::oracle

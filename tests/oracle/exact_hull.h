@@ -12,4 +12,8 @@ namespace lamina::oracle {
 // Throws std::runtime_error where they span none.
 csg::Mesh exact_hull(std::span<const Vec3> points);
 
+// +1 where d lies above the plane of a, b, c, -1 below, 0 in it.
+int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c,
+                      const Vec3& d);
+
 }  // namespace lamina::oracle
