@@ -157,10 +157,14 @@ void LayerGraph::measure_regions(const LayerOverlay& overlay) {
     whole += area;
     area = std::abs(area);
   }
-  // Take off what stands in each.
+  standing_in_.fill(around_.size(), [this](const auto& list) {
+    for (std::uint32_t i = 0; i < around_.size(); ++i) {
+      if (around_[i] < around_.size()) list(around_[i], i);
+    }
+  });
   for (std::size_t i = 0; i < areas_.size(); ++i) {
-    if (around_[i] < areas_.size()) {
-      areas_[around_[i]] -= std::abs(overlay.areas[i]);
+    for (const std::uint32_t loop : standing_in_[i]) {
+      areas_[i] -= std::abs(overlay.areas[loop]);
     }
   }
   take_area(whole);
@@ -185,8 +189,8 @@ ldni::Contours LayerGraph::contours_of(const Layer& layer,
                                        std::uint32_t region) const {
   ldni::Contours contours;
   contours.add_loop(layer.contours.loop(region));
-  for (std::size_t i = 0; i < around_.size(); ++i) {
-    if (around_[i] == region) contours.add_loop(layer.contours.loop(i));
+  for (const std::uint32_t loop : standing_in_[region]) {
+    contours.add_loop(layer.contours.loop(loop));
   }
   return contours;
 }

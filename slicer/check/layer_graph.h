@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cell_grid.h"
 #include "base/vec.h"
 #include "slicer/check/layer_overlay.h"
 #include "slicer/check/thin_finder.h"
@@ -149,6 +150,7 @@ class LayerGraph {
   // By loop of the last layer: what is around it, and of the region that has
   // its number the area and the component (kNone: too narrow).
   std::vector<std::uint32_t> around_;
+  CellLists<std::uint32_t> standing_in_;  // the loops in each region
   std::vector<double> areas_;
   std::vector<std::uint32_t> members_;
   std::vector<std::uint32_t> next_members_;  // of the layer in hand

@@ -733,9 +733,14 @@ void OverlaySweep::State::link(const Gap& gap) {
 void OverlaySweep::State::find_overhangs(const ldni::Contours& below,
                                          const ldni::Contours& above,
                                          LayerOverlay& overlay) {
+  std::vector<bool> overlaps_solid(overlay.around.size());
+  for (const Overlap& overlap : overlay.solids) {
+    overlaps_solid[overlap.above] = true;
+  }
+  // Loops that cross may leave a solid that no loop goes around.
   std::erase_if(ledges_, [&](const Ledge& ledge) {
-    return std::ranges::find(overlay.solids, ledge.region, &Overlap::above) ==
-           overlay.solids.end();
+    return ledge.region >= overlaps_solid.size() ||
+           !overlaps_solid[ledge.region];
   });
   if (ledges_.empty()) return;
   OverhangSearch search(below, above, reach_, overlay.overhangs);

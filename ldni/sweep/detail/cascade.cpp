@@ -34,6 +34,13 @@ constexpr double kMostWithin = 0.7;
 // cover, all leaves stay.
 constexpr double kMostUncovered = 0.8;
 
+// Operators in each other are a chain, to be parted in its middle, from so many
+// on.
+constexpr std::uint32_t kShortestChain = 8;
+
+// The margin [mm] around all of what a chain's second half can be.
+constexpr double kMargin = 1;
+
 // Whether half of the chains belong to one leaf, which cannot be parted.
 bool is_mostly_one_leaf(std::span<const Chain> chains) {
   std::size_t longest = 0;
@@ -56,10 +63,26 @@ csg::Scene scene_of_two(csg::BooleanOp op) {
   return scene;
 }
 
+// (without - tail) + (with * tail), each a region that does not overlap itself,
+// in the order in which they stand here.
+csg::Scene scene_of_chain() {
+  csg::Scene scene;
+  scene.leaves.resize(1);
+  scene.instances.resize(4);
+  scene.program.push_back({csg::BooleanOp::kUnion, 0, false, 2});
+  scene.program.push_back({csg::BooleanOp::kDifference, 0, false, 2});
+  scene.program.push_back({csg::BooleanOp::kIntersection, 0, false, 2});
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    scene.instances[i].parent = 1 + i / 2;
+    scene.instances[i].is_minuend = i == 0;
+  }
+  return scene;
+}
+
 }  // namespace
 
-// A Boolean of the cascade: the whole scene, or some operands of one operator
-// of it.
+// A Boolean of the cascade: the whole scene, some operands of one operator of
+// it, or half of a chain of operators.
 class Cascade::Group {
  public:
   // The scene must outlive the object.
@@ -71,7 +94,14 @@ class Cascade::Group {
 
   // Parts the group in two where it has two operands, at the first call.
   bool part();
-  // The operator over the two halves.
+  // Whether the halves are those of a chain. Then the second one is an operator
+  // far down, the tail, and the first one all the rest, with one more instance
+  // in the tail's place.
+  bool is_chain() const { return tail_ != 0; }
+  std::uint32_t place_of_tail() const {
+    return static_cast<std::uint32_t>(half_scenes_[0].instances.size() - 1);
+  }
+  // Else the operator over the two halves.
   csg::BooleanOp op() const { return scene_.program[0].op; }
   Group& half(std::size_t i) { return *halves_[i]; }
 
@@ -106,11 +136,17 @@ class Cascade::Group {
 
   std::vector<Operand> operands() const;
   void choose_halves(std::vector<Operand>& operands) const;
+  // Of each node, its half and its number there.
+  using Nodes = std::vector<std::pair<bool, std::uint32_t>>;
   void make_halves(const std::vector<Operand>& operands);
+  std::uint32_t find_tail() const;
+  void make_halves_of_chain();
+  void add_instances(const Nodes& nodes);
 
   const csg::Scene& scene_;
   ProgramStates states_;
   bool may_part_ = true;
+  std::uint32_t tail_ = 0;                 // an operator, where it is a chain
   std::array<csg::Scene, 2> half_scenes_;  // without surfaces
   std::array<std::unique_ptr<Group>, 2> halves_;
   // An instance: its half, and its number there.
@@ -132,11 +168,24 @@ std::uint64_t Cascade::Group::states_met() const {
 bool Cascade::Group::part() {
   if (halves_[0] != nullptr) return true;
   if (!may_part_) return false;
-  std::vector<Operand> all = operands();
-  may_part_ = all.size() > 1;
-  if (!may_part_) return false;
-  choose_halves(all);
-  make_halves(all);
+  // Of leaves only this matters: the second kind may overlap itself.
+  for (csg::Scene& scene : half_scenes_) {
+    scene.leaves.resize(2);
+    scene.leaves[1].may_overlap_itself = true;
+  }
+  tail_ = find_tail();
+  if (is_chain()) {
+    make_halves_of_chain();
+  } else {
+    std::vector<Operand> all = operands();
+    may_part_ = all.size() > 1;
+    if (!may_part_) return false;
+    choose_halves(all);
+    make_halves(all);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    halves_[i] = std::make_unique<Group>(half_scenes_[i]);
+  }
   return true;
 }
 
@@ -194,7 +243,7 @@ void Cascade::Group::choose_halves(std::vector<Operand>& operands) const {
 void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
   constexpr std::uint32_t kRoot = 0;
   std::array<csg::Scene, 2>& scenes = half_scenes_;
-  std::vector<std::pair<bool, std::uint32_t>> nodes(scene_.program.size());
+  Nodes nodes(scene_.program.size());
   places_.resize(scene_.instances.size());
   std::array<std::uint32_t, 2> counts{};
   for (const Operand& operand : operands) {
@@ -203,9 +252,6 @@ void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
         operand.is_second;
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    // Of leaves only this matters: the second kind may overlap itself.
-    scenes[i].leaves.resize(2);
-    scenes[i].leaves[1].may_overlap_itself = true;
     // Of what is subtracted, and of a difference's first operand.
     const csg::BooleanOp op = this->op() == csg::BooleanOp::kIntersection
                                   ? this->op()
@@ -228,20 +274,67 @@ void Cascade::Group::make_halves(const std::vector<Operand>& operands) {
     node.parent = is_operand ? kRoot : nodes[node.parent].second;
     scene.program.push_back(node);
   }
+  add_instances(nodes);
+}
+
+// Those at the root stand in `places_` already.
+void Cascade::Group::add_instances(const Nodes& nodes) {
   for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
     csg::Instance instance = scene_.instances[i];
     instance.leaf = scene_.leaves[instance.leaf].may_overlap_itself ? 1 : 0;
     auto& [is_second, number] = places_[i];
-    if (instance.parent != kRoot) is_second = nodes[instance.parent].first;
-    instance.parent =
-        instance.parent == kRoot ? kRoot : nodes[instance.parent].second;
-    csg::Scene& scene = scenes[is_second ? 1 : 0];
+    if (instance.parent != 0) is_second = nodes[instance.parent].first;
+    instance.parent = nodes[instance.parent].second;
+    csg::Scene& scene = half_scenes_[is_second ? 1 : 0];
     number = static_cast<std::uint32_t>(scene.instances.size());
     scene.instances.push_back(instance);
   }
-  for (std::size_t i = 0; i < 2; ++i) {
-    halves_[i] = std::make_unique<Group>(scenes[i]);
+}
+
+// The operator that has half of the instances or more and no operator below
+// with as many; 0 where it is not far down.
+std::uint32_t Cascade::Group::find_tail() const {
+  const std::vector<csg::BooleanNode>& program = scene_.program;
+  std::vector<std::uint32_t> weights(program.size());
+  for (const csg::Instance& instance : scene_.instances) {
+    ++weights[instance.parent];
   }
+  for (std::size_t i = program.size(); i-- > 1;) {
+    weights[program[i].parent] += weights[i];
+  }
+  // Parents stand before their children.
+  std::uint32_t tail = 0;
+  std::uint32_t depth = 0;
+  for (std::uint32_t i = 1; i < program.size(); ++i) {
+    if (program[i].parent != tail || 2 * weights[i] < weights[0]) continue;
+    tail = i;
+    ++depth;
+  }
+  const bool is_far_down =
+      depth >= kShortestChain && weights[0] - weights[tail] >= kShortestChain;
+  return is_far_down ? tail : 0;
+}
+
+void Cascade::Group::make_halves_of_chain() {
+  Nodes nodes(scene_.program.size());
+  places_.resize(scene_.instances.size());
+  for (std::uint32_t i = 0; i < scene_.program.size(); ++i) {
+    csg::BooleanNode node = scene_.program[i];
+    auto& [is_second, number] = nodes[i];
+    is_second = i == tail_ || nodes[node.parent].first;
+    node.parent = i == tail_ ? 0 : nodes[node.parent].second;
+    csg::Scene& scene = half_scenes_[is_second ? 1 : 0];
+    number = static_cast<std::uint32_t>(scene.program.size());
+    scene.program.push_back(node);
+  }
+  add_instances(nodes);
+  csg::Instance place;
+  place.parent = nodes[scene_.program[tail_].parent].second;
+  place.is_minuend = scene_.program[tail_].is_minuend;
+  for (const csg::Instance& instance : half_scenes_[1].instances) {
+    place.box.add(instance.box);
+  }
+  half_scenes_[0].instances.push_back(place);
 }
 
 std::array<Cascade::Group::Chains, 2> Cascade::Group::chains_of_halves(
@@ -374,7 +467,7 @@ void Cascade::sweep_halves(Group& group, const LayerChains& layer,
     sweep_at_once(group.states(), layer, contours, {});
     return;
   }
-  const auto halves = group.chains_of_halves(layer);
+  auto halves = group.chains_of_halves(layer);
   Contours second;
   for (std::size_t i = 0; i < 2; ++i) {
     const LayerChains half{layer.points, halves[i].chains, halves[i].loops};
@@ -383,7 +476,34 @@ void Cascade::sweep_halves(Group& group, const LayerChains& layer,
     sweep_half(group.half(i), half, share * expected_swaps,
                i == 0 ? contours : second);
   }
-  merge(group.op(), second, contours);
+  if (!group.is_chain()) {
+    auto& states = merges_[static_cast<std::size_t>(group.op())];
+    if (!states) states.emplace(scene_of_two(group.op()), FillRule::kNonZero);
+    merge(*states, {&contours, &second}, contours);
+    return;
+  }
+
+  // `contours` is what the chain comes to without its tail. Sweep what it comes
+  // to within it.
+  if (second.is_empty()) return;
+  Box2 box;
+  box.add(std::span<const Vec2>(second.points));
+  const Vec2 low = box.low - Vec2(kMargin);
+  const Vec2 high = box.high + Vec2(kMargin);
+  std::vector<Vec2> points(layer.points.begin(), layer.points.end());
+  for (const std::int32_t winding : {1, -1}) {
+    const double y = winding > 0 ? low.y : high.y;
+    halves[0].chains.push_back({static_cast<std::uint32_t>(points.size()), 2,
+                                group.place_of_tail(), winding});
+    points.push_back({low.x, y});
+    points.push_back({high.x, y});
+  }
+  halves[0].loops.push_back({2, 1});
+  Contours within;
+  const LayerChains half{points, halves[0].chains, halves[0].loops};
+  sweep(group.half(0), half, expected_swaps, within);
+  if (!chain_merge_) chain_merge_.emplace(scene_of_chain(), FillRule::kNonZero);
+  merge(*chain_merge_, {&contours, &second, &within, &second}, contours);
 }
 
 // A half often has the chains that it had in the layer before, as where only
@@ -420,11 +540,13 @@ bool Cascade::resume(Contours& contours, const Patience& patience) {
   return true;
 }
 
-void Cascade::merge(csg::BooleanOp op, const Contours& second,
+// The operands are numbered as they come.
+void Cascade::merge(ProgramStates& states,
+                    std::initializer_list<const Contours*> operands,
                     Contours& contours) {
   builder_.begin(block_);
   std::uint32_t instance = 0;
-  for (const Contours* operand : {&std::as_const(contours), &second}) {
+  for (const Contours* operand : operands) {
     for (std::size_t i = 0; i < operand->loop_count(); ++i) {
       const auto loop = operand->loop(i);
       builder_.loop().assign(loop.begin(), loop.end());
@@ -433,9 +555,7 @@ void Cascade::merge(csg::BooleanOp op, const Contours& second,
     ++instance;
   }
   builder_.finish(block_);
-  auto& states = merges_[static_cast<std::size_t>(op)];
-  if (!states) states.emplace(scene_of_two(op), FillRule::kNonZero);
-  sweep_at_once(*states, block_.chains_of(0), contours, {});
+  sweep_at_once(states, block_.chains_of(0), contours, {});
 }
 
 SweepCounts Cascade::counts() const {

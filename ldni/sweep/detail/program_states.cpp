@@ -34,26 +34,20 @@ std::size_t hash_of(std::uint32_t part, std::int32_t first,
   return x ^ x >> 31;
 }
 
+template <typename Child>
+std::int8_t weight_of(const csg::Scene& scene, const Child& child) {
+  return static_cast<std::int8_t>(is_subtrahend(scene, child) ? -1 : 1);
+}
+
 }  // namespace
 
 ProgramStates::ProgramStates(const csg::Scene& scene, FillRule rule)
     : rule_(rule) {
-  // The operators' parts have the operators' numbers.
-  parts_.resize(scene.program.size());
   std::vector<std::vector<std::uint32_t>> operands(scene.program.size());
-  const auto weight_of = [&scene](const auto& child) {
-    return static_cast<std::int8_t>(is_subtrahend(scene, child) ? -1 : 1);
-  };
-  for (std::uint32_t i = 0; i < scene.program.size(); ++i) {
-    const csg::BooleanNode& node = scene.program[i];
-    parts_[i].threshold = threshold_of(node);
-    if (i == 0) continue;
-    parts_[i].weight = weight_of(node);
-    operands[node.parent].push_back(i);
-  }
+  add_chains(scene, operands);
   upward_crossings_.reserve(scene.instances.size());
   for (const csg::Instance& instance : scene.instances) {
-    const std::int8_t weight = weight_of(instance);
+    const std::int8_t weight = weight_of(scene, instance);
     if (scene.leaves[instance.leaf].may_overlap_itself) {
       const auto part = static_cast<std::uint32_t>(parts_.size());
       parts_.push_back({.kind = Kind::kCount, .weight = weight});
@@ -64,30 +58,96 @@ ProgramStates::ProgramStates(const csg::Scene& scene, FillRule rule)
                                   (weight < 0 ? 1U : 0U));
     }
   }
-  for (std::uint32_t i = 0; i < operands.size(); ++i) add_sums(i, operands[i]);
+  for (std::uint32_t i = 0; i < operands.size(); ++i) {
+    if (operands[i].empty()) continue;
+    Part& sum = parts_[pair_up(Kind::kSum, operands[i])];
+    sum.parent = i;
+    sum.is_second = true;
+  }
   clear();
 }
 
-// Makes `children` the operands of the operator `parent`: pairs them up until
-// one is left.
-void ProgramStates::add_sums(std::uint32_t parent,
-                             std::vector<std::uint32_t>& children) {
-  while (children.size() > 1) {
-    std::size_t pairs = 0;
-    for (std::size_t i = 0; i + 1 < children.size(); i += 2) {
-      const auto sum = static_cast<std::uint32_t>(parts_.size());
-      parts_.push_back({.kind = Kind::kSum});
-      parts_[children[i]].parent = sum;
-      parts_[children[i + 1]].parent = sum;
-      parts_[children[i + 1]].is_second = true;
-      children[pairs++] = sum;
-    }
-    if (children.size() % 2 == 1) children[pairs++] = children.back();
-    children.resize(pairs);
+// Makes the parts of the operators, which have the operators' numbers, and of
+// their chains. Each chain but that of the root is one of the `operands` of an
+// operator.
+void ProgramStates::add_chains(
+    const csg::Scene& scene,
+    std::vector<std::vector<std::uint32_t>>& operands) {
+  // Find the largest operator below each.
+  const auto count = static_cast<std::uint32_t>(scene.program.size());
+  std::vector<std::uint32_t> sizes(count, 1);
+  std::vector<std::uint32_t> largest(count, 0);  // the root is below none
+  for (std::uint32_t i = count; i-- > 1;) {
+    const std::uint32_t parent = scene.program[i].parent;
+    sizes[parent] += sizes[i];
+    std::uint32_t& other = largest[parent];
+    if (other == 0 || sizes[i] >= sizes[other]) other = i;
   }
-  if (children.empty()) return;
-  parts_[children[0]].parent = parent;
-  parts_[children[0]].is_second = true;
+  parts_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Part& part = parts_[i];
+    part.threshold = threshold_of(scene.program[i]);
+    if (largest[i] != 0) {
+      part.next_weight = weight_of(scene, scene.program[largest[i]]);
+    }
+    part.outside = function_of(part, 0);
+  }
+  std::vector<std::uint32_t> chain;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const csg::BooleanNode& node = scene.program[i];
+    if (i != 0 && largest[node.parent] == i) continue;
+    chain.clear();
+    for (std::uint32_t next = i; next != 0 || chain.empty();
+         next = largest[next]) {
+      chain.push_back(next);
+    }
+    const std::uint32_t whole = pair_up(Kind::kChain, chain);
+    if (i == 0) {
+      root_ = whole;
+      parts_[whole].weight = 1;
+    } else {
+      operands[node.parent].push_back(whole);
+      parts_[whole].weight = weight_of(scene, node);
+    }
+  }
+}
+
+// Pairs parts up with their neighbours, again and again, until one is left.
+std::uint32_t ProgramStates::pair_up(Kind kind,
+                                     std::vector<std::uint32_t>& parts) {
+  while (parts.size() > 1) {
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i + 1 < parts.size(); i += 2) {
+      Part pair{.kind = kind};
+      const auto number = static_cast<std::uint32_t>(parts_.size());
+      for (const std::size_t k : {0U, 1U}) {
+        Part& part = parts_[parts[i + k]];
+        part.parent = number;
+        part.is_second = k == 1;
+        pair.outside_of_two[k] = part.outside;
+      }
+      pair.outside = compose(pair.outside_of_two[0], pair.outside_of_two[1]);
+      parts_.push_back(pair);
+      parts[pairs++] = number;
+    }
+    if (parts.size() % 2 == 1) parts[pairs++] = parts.back();
+    parts.resize(pairs);
+  }
+  return parts.front();
+}
+
+// Of an operator whose other children come to `sum`.
+ProgramStates::Function ProgramStates::function_of(const Part& part,
+                                                   std::int32_t sum) {
+  const bool without = sum >= part.threshold;
+  const bool with = sum + part.next_weight >= part.threshold;
+  return static_cast<Function>((without ? 1U : 0U) | (with ? 2U : 0U));
+}
+
+ProgramStates::Function ProgramStates::compose(Function outer, Function inner) {
+  const unsigned without = outer >> (inner & 1U) & 1U;
+  const unsigned with = outer >> (inner >> 1U) & 1U;
+  return static_cast<Function>(without | with << 1U);
 }
 
 void ProgramStates::clear() {
@@ -120,7 +180,7 @@ ProgramStates::State ProgramStates::make_state(State below, Crossing crossing) {
 // those above it anew.
 ProgramStates::State ProgramStates::find_state(State below, Crossing crossing) {
   path_parts_.clear();
-  for (std::uint32_t part = crossing >> 1; part != 0;
+  for (std::uint32_t part = crossing >> 1; part != root_;
        part = parts_[part].parent) {
     path_parts_.push_back(part);
   }
@@ -158,7 +218,7 @@ std::uint32_t ProgramStates::find_or_add(const Cell& cell) {
   const auto number = static_cast<std::uint32_t>(cells_.size());
   index_[i] = number;
   cells_.push_back({cell.part, cell.first, cell.second, value_of(cell)});
-  if (cell.part == 0) ++states_met_;
+  if (cell.part == root_) ++states_met_;
   if (2 * cells_.size() > index_.size()) index_cells(2 * index_.size());
   return number;
 }
@@ -168,18 +228,25 @@ std::int32_t ProgramStates::value_of(const Cell& cell) const {
     return cells_[static_cast<std::size_t>(number)].value;
   };
   const Part& part = parts_[cell.part];
-  bool holds = false;
+  Function function = 0;
   switch (part.kind) {
     case Kind::kSum:
       return value(cell.first) + value(cell.second);
     case Kind::kCount:
-      holds = is_inside(cell.first, rule_);
-      break;
+      return is_inside(cell.first, rule_) ? part.weight : 0;
     case Kind::kOperator:
-      holds = cell.first + value(cell.second) >= part.threshold;
+      function = function_of(part, cell.first + value(cell.second));
       break;
+    case Kind::kChain: {
+      const auto [outer, inner] = part.outside_of_two;
+      const auto of = [&](std::int32_t number, Function outside) {
+        return number == 0 ? outside : static_cast<Function>(value(number));
+      };
+      function = compose(of(cell.first, outer), of(cell.second, inner));
+      break;
+    }
   }
-  return holds ? part.weight : 0;
+  return part.weight == 0 ? function : (function & 1) * part.weight;
 }
 
 void ProgramStates::index_cells(std::size_t capacity) {
@@ -226,7 +293,8 @@ void ProgramStates::keep_only(std::span<State* const> live) {
   for (const State* state : live) kept[*state] = 0;
   const auto names_cells = [this](const Cell& cell) {
     const Kind kind = parts_[cell.part].kind;
-    return std::pair(kind == Kind::kSum, kind != Kind::kCount);
+    return std::pair(kind == Kind::kSum || kind == Kind::kChain,
+                     kind != Kind::kCount);
   };
   for (std::size_t i = old_cells.size(); i-- > 1;) {
     if (kept[i] == kNone) continue;

@@ -23,13 +23,19 @@
 // Two gaps of one state have one value, now and after the same chains.
 //
 // The state is stored as a tree of parts that mirrors the program. A part is a
-// leaf's count, an operator, or the sum over two groups of an operator's
-// children, so that wide operators are balanced trees. A cell is one state of
-// one part: two numbers, of its counts or of the cells of its parts below.
-// Equal cells are stored once (hash consing, Ershov 1958), so a crossing makes
-// at most one new cell for each part between the leaf's operator and the root,
-// and the value of a cell is known when it is made.
+// leaf's count, an operator, the sum over two groups of an operator's children,
+// so that wide operators are balanced trees, or two groups of a chain, so that
+// deep programs are balanced trees. A chain leads from an operator to the
+// largest of its operators, to the largest of that one's, and so on (heavy
+// paths, Sleator and Tarjan 1983). On it an operator is a function of whether
+// the next one holds, and two groups of them are the one function after the
+// other. A cell is one state of one part: two numbers, of its counts or of the
+// cells of its parts below. Equal cells are stored once (hash consing, Ershov
+// 1958), so a crossing makes at most one new cell for each part between the
+// leaf's operator and the root, O(log² n) of them, and the value of a cell is
+// known when it is made.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -89,20 +95,29 @@ class ProgramStates {
     kOperator,  // first: the sum over its leaves; second: a cell, its operands
     kCount,     // first: the count of a leaf that may overlap itself
     kSum,       // first, second: cells
+    kChain,     // first, second: cells
   };
+  // Whether an operator of a chain, or a group of them, holds where what comes
+  // next does not (bit 0), and where it does (bit 1). It comes to one where
+  // nothing comes next.
+  using Function = std::uint8_t;
   struct Part {
     Kind kind = Kind::kOperator;
-    bool is_second = false;      // of the two parts of its parent
-    std::int8_t weight = 1;      // in the sum of its parent; of kSum: 1
-    std::int32_t threshold = 1;  // of an operator
+    bool is_second = false;       // of the two parts of its parent
+    std::int8_t weight = 0;       // in an operator's sum; within a chain 0
+    std::int8_t next_weight = 0;  // of the next operator of the chain
+    std::int32_t threshold = 1;   // of an operator
     std::uint32_t parent = 0;
+    Function outside = 0;  // of what no leaf contains, within a chain
+    std::array<Function, 2> outside_of_two{};  // of the parts of a kChain
   };
   // Cell 0 is that of every part that no leaf contains.
   struct Cell {
     std::uint32_t part = 0;
     std::int32_t first = 0;
     std::int32_t second = 0;
-    // Of a sum: the sum. Else the weight where it holds, or 0.
+    // Of a sum: the sum. Within a chain: the function. Else the weight where it
+    // holds, or 0.
     std::int32_t value = 0;
   };
   struct KnownCrossing {
@@ -120,7 +135,11 @@ class ProgramStates {
   }
   // What cells and crossings take in memory, in cells.
   std::size_t cost() const { return cells_.size() + crossing_count_; }
-  void add_sums(std::uint32_t parent, std::vector<std::uint32_t>& children);
+  void add_chains(const csg::Scene& scene,
+                  std::vector<std::vector<std::uint32_t>>& operands);
+  std::uint32_t pair_up(Kind kind, std::vector<std::uint32_t>& parts);
+  static Function function_of(const Part& part, std::int32_t sum);
+  static Function compose(Function outer, Function inner);
   void clear();
   State make_state(State below, Crossing crossing);
   State find_state(State below, Crossing crossing);
@@ -131,7 +150,8 @@ class ProgramStates {
   void grow_crossings();
 
   const FillRule rule_;
-  std::vector<Part> parts_;  // 0: the root
+  std::vector<Part> parts_;
+  std::uint32_t root_ = 0;  // of them
   // Of a chain of winding +1, an instance: the part whose first number it
   // changes, twice, and 1 where that becomes less.
   std::vector<Crossing> upward_crossings_;

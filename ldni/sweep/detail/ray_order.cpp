@@ -86,7 +86,7 @@ std::uint32_t RayOrder::find_place(const Vec2& point,
                                    const ChainCursor& cursor) {
   const double y = cursor.y_at(cluster_.right);
   const std::uint32_t sentinel = status_.sentinel();
-  std::uint32_t below = status_.find_near(point.y, cluster_.right);
+  std::uint32_t below = status_.find_below(point.y, cluster_.right);
   std::uint64_t steps = 0;
   for (; below != sentinel && is_above(below, y, cursor); ++steps) {
     below = status_[below].below;

@@ -2,10 +2,8 @@
 // The status of the moving ray (Bentley and Ottmann 1979): one entry for each
 // chain that the ray crosses, in the order of y.
 //
-// A list linked both ways holds the order, so that a swap or an insertion
-// costs O(1) however many entries the ray carries. To find the place of a new
-// chain, binary search runs over an array of the entries in an earlier order,
-// and the list leads on from there; the array is renewed when it is too old.
+// A list linked both ways leads from neighbour to neighbour; a balanced tree
+// over it finds the place of a new chain in O(log n) steps.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +12,7 @@
 #include "base/vec.h"
 #include "ldni/sweep/detail/band.h"
 #include "ldni/sweep/detail/chain_cursor.h"
+#include "ldni/sweep/detail/order_tree.h"
 #include "ldni/sweep/detail/program_states.h"
 
 namespace lamina::ldni::detail {
@@ -60,7 +59,7 @@ class Status {
   Entry& operator[](std::uint32_t entry) { return entries_[entry]; }
   const Entry& operator[](std::uint32_t entry) const { return entries_[entry]; }
   // Whether the entry is on the ray; the sentinel is not.
-  bool is_alive(std::uint32_t entry) const { return is_alive_[entry] != 0; }
+  bool is_alive(std::uint32_t entry) const { return tree_.holds(entry); }
   std::uint32_t first() const { return entries_[sentinel_].above; }
 
   // Puts an entry, whose other fields are set, above `below`.
@@ -69,11 +68,8 @@ class Status {
   // Exchanges an entry with the one above it.
   void swap_with_above(std::uint32_t entry);
 
-  // An entry not far from y at x, to begin a search with; the sentinel where
-  // the ray is empty. Cursors are moved to x.
-  std::uint32_t find_near(double y, double x);
   // The entry of the gap that (x, y) lies in: the highest one that is not
-  // above it.
+  // above it. Moves cursors to x.
   std::uint32_t find_below(double y, double x);
 
   // A walk along the ray has visited so many entries.
@@ -92,14 +88,9 @@ class Status {
  private:
   static constexpr std::uint64_t kShortWalk = 16;
 
-  void renew_order();
-
   std::vector<Entry> entries_;
-  std::vector<std::uint8_t> is_alive_;
+  OrderTree tree_;
   std::uint32_t sentinel_ = 0;
-  std::size_t size_ = 0;
-  std::vector<std::uint32_t> order_;
-  std::size_t changes_ = 0;  // since order_ was renewed
   std::uint64_t long_walks_ = 0;
 };
 

@@ -78,6 +78,73 @@ csg::Scene frames(int count) {
   return builder.finish();
 }
 
+// Squares about the origin, each a little smaller than the one before and
+// turned against it, where all but the last two are operands of an operator
+// whose other operand is the rest.
+csg::Scene nested_squares(int count, double turn,
+                          const std::vector<BooleanOp>& ops) {
+  const auto op = [&](int i) {
+    return ops[static_cast<std::size_t>(i) % ops.size()];
+  };
+  SceneBuilder builder(op(0));
+  for (int i = 0; i < count; ++i) {
+    const double size = 20 + 0.1 * (count - i);
+    builder.add(testing::cube_leaf({size, size, 1}),
+                testing::rotated(turn * i, {0, 0, 1}) *
+                    testing::translated({-size / 2, -size / 2, 0}));
+    if (i + 2 < count) builder.begin(op(i + 1));
+  }
+  for (int i = 0; i + 2 < count; ++i) builder.end();
+  return builder.finish();
+}
+
+TEST(Cascade, PartsOperatorsInEachOther) {
+  const std::vector<std::vector<BooleanOp>> all_ops = {
+      {BooleanOp::kDifference},
+      {BooleanOp::kDifference, BooleanOp::kUnion},
+      {BooleanOp::kDifference, BooleanOp::kDifference, BooleanOp::kUnion,
+       BooleanOp::kDifference, BooleanOp::kIntersection}};
+  for (const std::vector<BooleanOp>& ops : all_ops) {
+    const csg::Scene scene = nested_squares(60, 0.7, ops);
+    const Swept whole = sweep(scene, kPatient);
+    const Swept cascaded = sweep(scene, 0);
+    expect_no_defect(cascaded.layers[0]);
+    EXPECT_EQ(support::count_loops(cascaded.layers[0]),
+              support::count_loops(whole.layers[0]));
+    EXPECT_NEAR(support::total_area(cascaded.layers[0]),
+                support::total_area(whole.layers[0]), 1e-7);
+  }
+}
+
+// Where nothing crosses, the squares count with alternating signs.
+TEST(Cascade, DifferencesInEachOtherAreRings) {
+  constexpr int kCount = 400;
+  double area = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double size = 20 + 0.1 * (kCount - i);
+    area += (i % 2 == 0 ? 1 : -1) * size * size;
+  }
+  const csg::Scene scene = nested_squares(kCount, 0, {BooleanOp::kDifference});
+  for (const double patience : {0.0, 1.0}) {
+    const Swept swept = sweep(scene, patience);
+    EXPECT_EQ(support::count_loops(swept.layers[0]),
+              (LoopCounts{kCount / 2, kCount / 2}));
+    EXPECT_NEAR(support::total_area(swept.layers[0]), area, 1e-6);
+  }
+}
+
+// Three halves of half the size: three times the work for twice the squares,
+// which was four times where they were parted one by one.
+TEST(Cascade, OperatorsInEachOtherCostLessThanTheirSquare) {
+  const auto events = [](int count) {
+    const csg::Scene scene =
+        nested_squares(count, 0.7, {BooleanOp::kDifference});
+    return static_cast<double>(sweep(scene, 0).counts.event_points);
+  };
+  const double growth = events(800) / events(200);
+  EXPECT_LT(growth, 3.2 * 3.2);
+}
+
 TEST(Cascade, ChangesNoRegion) {
   for (const csg::Scene& scene : {star(60), frames(60)}) {
     const Swept whole = sweep(scene, kPatient);

@@ -223,6 +223,63 @@ TEST(ProgramStates, OfWideAndOfDeepProgramsAreRight) {
   }
 }
 
+// Adds an operator with two to four operands, half of them operators as long as
+// there is depth left.
+void add_random_operator(int depth, std::mt19937& random,
+                         SceneBuilder& builder) {
+  const auto count = 2 + random() % 3;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (depth == 0 || random() % 2 == 0) {
+      builder.add(leaf(random() % 4 == 0));
+      continue;
+    }
+    builder.begin(static_cast<BooleanOp>(random() % 3));
+    add_random_operator(depth - 1, random, builder);
+    builder.end();
+  }
+}
+
+TEST(ProgramStates, OfRandomProgramsAreRight) {
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    SceneBuilder builder(static_cast<BooleanOp>(seed % 3));
+    add_random_operator(7, random, builder);
+    const csg::Scene scene = builder.finish();
+    ProgramStates states(scene, FillRule::kNonZero);
+    const Definition definition(scene, FillRule::kNonZero);
+    Walk walk(scene, states, seed);
+    for (int i = 0; i < 300; ++i) {
+      walk.step();
+      ASSERT_EQ(states.is_solid(walk.state()),
+                definition.is_solid(walk.counts()))
+          << seed;
+    }
+    walk.go_outside();
+    EXPECT_EQ(walk.state(), ProgramStates::kOutside) << seed;
+  }
+}
+
+// A - (B - (C - …)): within the first k leaves it is solid where k is odd. A
+// state's number tells how many cells were made before.
+TEST(ProgramStates, OfDifferencesInDifferencesTakeFewCells) {
+  constexpr std::uint32_t kLeaves = 4096;
+  constexpr std::uint32_t kCellsForEach = 13;  // 1 + log2(kLeaves)
+  SceneBuilder builder(BooleanOp::kDifference);
+  for (std::uint32_t i = 0; i < kLeaves; ++i) {
+    builder.add(leaf(false));
+    if (i + 2 < kLeaves) builder.begin(BooleanOp::kDifference);
+  }
+  for (std::uint32_t i = 0; i + 2 < kLeaves; ++i) builder.end();
+  const csg::Scene scene = builder.finish();
+  ProgramStates states(scene, FillRule::kNonZero);
+  State state = ProgramStates::kOutside;
+  for (std::uint32_t i = 0; i < kLeaves; ++i) {
+    state = states.state_above(state, states.crossing_of(i, 1));
+    ASSERT_EQ(states.is_solid(state), i % 2 == 0);
+  }
+  EXPECT_LE(state, kCellsForEach * kLeaves);
+}
+
 TEST(ProgramStates, ThatAreKeptStandForTheSameAsBefore) {
   const csg::Scene scene = scene_of_five();
   ProgramStates states(scene, FillRule::kNonZero);

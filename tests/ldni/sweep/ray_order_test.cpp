@@ -55,6 +55,28 @@ TEST(RayOrder, PutsChainsThatBeginTogetherInTheOrderInWhichTheyGoOn) {
   EXPECT_EQ(begun.entries(), (Numbers{1, 2, 0}));
 }
 
+// Loops in loops begin from the outermost on, each in the middle of all others.
+TEST(RayOrder, WalksNoFurtherAmongThousandsOfLoopsInLoops) {
+  constexpr std::uint32_t kLoops = 5000;
+  std::vector<Polyline> chains;
+  for (std::uint32_t i = 0; i < kLoops; ++i) {
+    chains.push_back({{i, 0}, {2 * kLoops, -2.0 * kLoops + i}});
+    chains.push_back({{i, 0}, {2 * kLoops, 2.0 * kLoops - i}});
+  }
+  RayOrder order(kTie);
+  order.begin_layer(chains.size(), 0, 2 * kLoops, 4);
+  for (std::uint32_t i = 0; i < kLoops; ++i) {
+    order.begin_cluster(i);
+    order.take_endpoint(i);
+    order.insert(2 * i, chains[2 * i], 0);
+    order.insert(2 * i + 1, chains[2 * i + 1], 0);
+    order.settle();
+  }
+  EXPECT_EQ(order.status().long_walks(), 0U);
+  EXPECT_EQ(order.status().first(), 0U);
+  EXPECT_EQ(order.swaps(), 0U);
+}
+
 TEST(RayOrder, SwapsChainsWhereTheyCross) {
   BegunOrder begun({{{0, 0}, {8, 8}}, {{0, 2}, {8, 2}}, {{0, 6}, {8, 6}}});
   EXPECT_EQ(begun.entries(), (Numbers{0, 1, 2}));

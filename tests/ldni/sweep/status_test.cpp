@@ -53,7 +53,6 @@ TEST(Status, IsEmptyAtTheBeginningOfALayer) {
   chains.status.begin(5);
   EXPECT_EQ(order_of(chains.status), Numbers{});
   EXPECT_FALSE(chains.status.is_alive(0));
-  EXPECT_EQ(chains.status.find_near(0, 0), chains.status.sentinel());
   EXPECT_EQ(chains.status.find_below(0, 0), chains.status.sentinel());
 }
 
