@@ -16,7 +16,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "base/memory_end.h"
 #include "base/paths.h"
 #include "base/similar.h"
 #include "base/text.h"
@@ -143,7 +142,6 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace lamina;
-  std::set_new_handler(note_memory_end);
   cli::open_missing_streams();
   // The commands, on the large stack, catch and show their own faults.
   try {

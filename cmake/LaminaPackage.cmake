@@ -57,8 +57,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "lamina (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})"
   libdouble-conversion-dev libfmt-dev libminizip-dev libpng-dev
-  libpolyclipping-dev libpugixml-dev libtbb-dev zlib1g-dev
-  pkg-config)
+  libpugixml-dev libtbb-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, g++")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
 "compiler from OpenSCAD designs to layers - files for development

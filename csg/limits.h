@@ -47,9 +47,8 @@ constexpr std::size_t kMostXmlParts = 1 << 23;
 // star of 3,001 points crosses itself 4.5 million times.
 constexpr double kMostCorners = 1 << 22;
 
-// Up to here doubles are ten times finer than the distance at which faces tie,
-// and here ends the grid of offsets [mm]. Layers of what lies beyond
-// would be wrong, so it is refused.
+// Up to here doubles are ten times finer than the distance at which faces tie
+// [mm]. Layers of what lies beyond would be wrong, so it is refused.
 constexpr double kGreatestCoordinate = 1e9;
 
 // A GeometryError without a place.

@@ -5,7 +5,7 @@
 LAMINA_BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config bison flex
   libglm-dev libfmt-dev libdouble-conversion-dev libutfcpp-dev libcli11-dev
-  nlohmann-json3-dev libtbb-dev libpng-dev libpolyclipping-dev
+  nlohmann-json3-dev libtbb-dev libpng-dev
   libfreetype-dev libharfbuzz-dev libfontconfig-dev fonts-liberation
   libminizip-dev libpugixml-dev libxxhash-dev zlib1g-dev libopenmesh-dev
   libegl-dev libgl-dev libosmesa6-dev
@@ -19,7 +19,7 @@ LAMINA_CAD_PACKAGES=(
 # To build and run the tests: the oracles above all.
 LAMINA_TEST_PACKAGES=(
   "${LAMINA_CAD_PACKAGES[@]}" freecad-python3
-  libgtest-dev libbenchmark-dev libcgal-dev
+  libgtest-dev libbenchmark-dev libpolyclipping-dev libcgal-dev
   openscad openscad-testing-data openscad-mcad libgl1-mesa-dri xvfb xauth
   fonts-dejavu-core fonts-hosny-amiri
   slic3r prusa-slicer lib3mf1 python3 chromium make

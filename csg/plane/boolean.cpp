@@ -127,4 +127,13 @@ Region from_contours(std::span<const Contour> contours, FillRule rule) {
   return region_of(loops);
 }
 
+std::optional<Region> from_few_crossings(std::span<const Contour> contours,
+                                         FillRule rule) {
+  ldni::Contours loops;
+  for (const Contour& contour : contours) loops.add_loop(contour);
+  ldni::LoopResolver resolver(options(reach_of(contours)), rule);
+  if (!resolver.resolve_few_crossings(loops)) return {};
+  return region_of(loops);
+}
+
 }  // namespace lamina::planar

@@ -8,6 +8,7 @@
 // (docs/decisions/0027-cascaded-sweeps.md), so the cost is near-linear in the
 // corners that come in and the crossings that come out.
 
+#include <optional>
 #include <span>
 
 #include "csg/plane/region.h"
@@ -34,5 +35,10 @@ using ldni::FillRule;
 // The region that contours in any order and direction enclose; they may cross.
 Region from_contours(std::span<const Contour> contours,
                      FillRule rule = FillRule::kEvenOdd);
+
+// The same; nothing where they cross so often that it costs less to unite parts
+// of what they enclose.
+std::optional<Region> from_few_crossings(std::span<const Contour> contours,
+                                         FillRule rule);
 
 }  // namespace lamina::planar

@@ -6,13 +6,13 @@
 #include <cstddef>
 #include <deque>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include <clipper.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/memory_end.h"
 #include "base/plane.h"
 #include "csg/limits.h"
 #include "csg/plane/boolean.h"
@@ -24,13 +24,9 @@ using std::numbers::pi;
 
 constexpr double kGridPerMm = 1e8;
 
-// Clipper, which strokes need, multiplies coordinates in 128 bits; it asks for
-// no more than 2^62 grid units.
-static_assert(csg::kGreatestCoordinate * kGridPerMm < 0x1p62);
-
 // Two grid diagonals: closer to the line between its neighbours, or to one of
-// them, a vertex is the clipper's rounding, not the design's, and so is a
-// contour that is no wider.
+// them, a vertex is rounding, not the design's, and so is a contour that is no
+// wider.
 constexpr double kCleanDistance = 1.415;
 
 // OpenSCAD's limit for spikes at sharp corners of delta offsets [amounts].
@@ -40,51 +36,28 @@ constexpr double kMiterLimit = 1000000;
 // [amounts]: no arc has fewer than 4.35 sides of a circle.
 constexpr double kGreatestTolerance = 0.25;
 
-// Its limit for those of strokes [half widths].
+// OpenSCAD's limit for spikes of strokes [half widths].
 constexpr double kStrokeMiterLimit = 2;
 
-ClipperLib::cInt to_grid(double x) {
-  if (csg::is_too_far(x)) csg::fail_too_far();
-  return std::llround(x * kGridPerMm);
-}
+// Edges of a strip at most. All of them may cross all others; fewer make more
+// strips to unite.
+constexpr std::size_t kMostEdges = 16;
+
+// Strips that are united at once: a union takes some kilobytes of memory for
+// each.
+constexpr std::size_t kMostStrips = 4096;
 
 double round_to_grid(double x) {
-  return static_cast<double>(to_grid(x)) / kGridPerMm;
+  if (csg::is_too_far(x)) csg::fail_too_far();
+  return static_cast<double>(std::llround(x * kGridPerMm)) / kGridPerMm;
 }
 
-ClipperLib::Path to_path(const Contour& contour) {
-  ClipperLib::Path path;
-  path.reserve(contour.size());
-  for (const Vec2 point : contour) {
-    path.push_back({to_grid(point.x), to_grid(point.y)});
-  }
-  return path;
+Vec2 round_to_grid(Vec2 point) {
+  return {round_to_grid(point.x), round_to_grid(point.y)};
 }
 
-// Clipper may join edges that end in one point to contours that cross there, or
-// take a hole for an outline. Only its edges are believed.
-Region to_region(ClipperLib::Paths paths) {
-  ClipperLib::CleanPolygons(paths, kCleanDistance);
-  std::vector<Contour> contours;
-  for (const ClipperLib::Path& path : paths) {
-    Contour& contour = contours.emplace_back();
-    contour.reserve(path.size());
-    for (const ClipperLib::IntPoint& point : path) {
-      contour.emplace_back(static_cast<double>(point.X) / kGridPerMm,
-                           static_cast<double>(point.Y) / kGridPerMm);
-    }
-  }
-  return from_contours(contours);
-}
-
-// What Clipper calls each Join and each Cap.
-constexpr std::array kJoinTypes = {ClipperLib::jtRound, ClipperLib::jtMiter,
-                                   ClipperLib::jtSquare};
-constexpr std::array kEndTypes = {
-    ClipperLib::etOpenButt, ClipperLib::etOpenRound, ClipperLib::etOpenSquare};
-
-ClipperLib::JoinType to_join_type(Join join) {
-  return kJoinTypes[static_cast<std::size_t>(join)];
+Contour reversed(const Contour& contour) {
+  return {contour.rbegin(), contour.rend()};
 }
 
 // Drops corners that the line between their neighbours all but passes.
@@ -92,7 +65,10 @@ void drop_straight(Contour& contour) {
   Contour kept;
   for (std::size_t i = 0; i < contour.size(); ++i) {
     const Vec2 before = kept.empty() ? contour.back() : kept.back();
-    const Vec2 along = contour[(i + 1) % contour.size()] - before;
+    const bool is_last = i + 1 == contour.size() && !kept.empty();
+    const Vec2 after =
+        is_last ? kept.front() : contour[(i + 1) % contour.size()];
+    const Vec2 along = after - before;
     const Vec2 way = contour[i] - before;
     const double aside = std::abs(cross(way, along));
     const bool is_between = glm::dot(way, along) > 0 &&
@@ -154,39 +130,79 @@ Contour eroded(const Contour& contour, double amount) {
   return {ring.begin(), ring.end()};
 }
 
+// What lies between the strips of two edges, outside of the corner.
+enum class Bend { kRound, kMiter, kBevel, kNone };
+
+// Of each Join and each Cap.
+constexpr std::array kBendsOfJoins = {Bend::kRound, Bend::kMiter, Bend::kBevel};
+constexpr std::array kBendsOfCaps = {Bend::kNone, Bend::kRound, Bend::kBevel};
+
+struct Corner {
+  Vec2 point;
+  Vec2 before;      // normal of the edge that ends here
+  Vec2 after;       // of the one that begins
+  double sine = 0;  // of the angle between these
+  double cosine = 0;
+  double shorter = 0;  // length of the shorter edge [mm]
+  Bend bend = Bend::kRound;
+};
+
 // Moves contours, the inside on their left, to their right.
 class Mover {
  public:
-  Mover(double amount, Join join, double arc_tolerance, ArcSteps steps)
-      : amount_(amount), join_(join), steps_(steps) {
+  Mover(double amount, Join join, double miter_limit, double arc_tolerance,
+        ArcSteps steps)
+      : amount_(amount),
+        bend_(kBendsOfJoins[static_cast<std::size_t>(join)]),
+        least_miter_(2 / (miter_limit * miter_limit)),
+        steps_(steps) {
     const double size = std::abs(amount);
     const double greatest =
         steps == ArcSteps::kNearest ? kGreatestTolerance * size : size;
     // In Clipper's order: corners of 90° take 7.5 steps of 12°, or almost.
-    const double sides =
-        pi / std::acos(1 - std::min(arc_tolerance, greatest) / size);
-    step_ = 2 * pi / sides;
-    steps_per_radian_ = sides / (2 * pi);
+    sides_ = pi / std::acos(1 - std::min(arc_tolerance, greatest) / size);
+    step_ = 2 * pi / sides_;
+    steps_per_radian_ = sides_ / (2 * pi);
   }
 
+  // Contours are walks along a path and back, which turn at the first corner
+  // and half way.
+  void set_cap(Cap cap) { cap_ = kBendsOfCaps[static_cast<std::size_t>(cap)]; }
+
+  // A curve around what the contour winds around and what its edges sweep.
   Contour move(const Contour& contour) const {
-    // The strips of a convex region's edges would all overlap.
-    if (amount_ < 0 && is_convex(contour)) return shrink(contour);
-    if (amount_ > 0) {
-      Contour hole(contour.rbegin(), contour.rend());
-      if (is_convex(hole)) {
-        hole = shrink(hole);
-        return {hole.rbegin(), hole.rend()};
-      }
-    }
+    if (const auto shrunk = shrink(contour)) return *shrunk;
     Contour curve;
     for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Vec2 before = contour[(i + contour.size() - 1) % contour.size()];
-      const Vec2 after = contour[(i + 1) % contour.size()];
-      const double shorter = std::min(glm::distance(before, contour[i]),
-                                      glm::distance(contour[i], after));
-      add_corner(contour[i], outwards(before, contour[i]),
-                 outwards(contour[i], after), shorter, curve);
+      add_corner(corner_at(contour, i), curve);
+    }
+    return curve;
+  }
+
+  // Appends what the edges sweep, some of them together.
+  void add_strips(const Contour& contour, std::vector<Region>& strips) const {
+    if (const auto shrunk = shrink(contour)) {
+      strips.push_back(strip_of({*shrunk, reversed(contour)}));
+      return;
+    }
+    const std::size_t count = 1 + (contour.size() - 1) / kMostEdges;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t begin = i * contour.size() / count;
+      const std::size_t end = (i + 1) * contour.size() / count;
+      strips.push_back(strip_of({around_edges(contour, begin, end)}));
+    }
+  }
+
+  // Around a pen at a point.
+  Contour around(Vec2 point) const {
+    Contour curve;
+    if (bend_ == Bend::kRound) {
+      add_spokes(point, {1, 0}, step_, std::floor(sides_), curve);
+    } else {
+      for (const Vec2 spoke :
+           {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+        add(point + spoke * amount_, curve);
+      }
     }
     return curve;
   }
@@ -196,8 +212,25 @@ class Mover {
     return -left_of(glm::normalize(end - begin));
   }
 
-  // A convex region keeps what its moved edges enclose.
-  Contour shrink(const Contour& contour) const {
+  // From a moved curve and the border backwards: they wind around a strip
+  // counter-clockwise if it is on the border's right, else clockwise.
+  static Region strip_of(const std::vector<Contour>& contours) {
+    return from_contours(contours, FillRule::kNonZero);
+  }
+
+  // Of a convex region that gets smaller what its moved edges enclose: all
+  // their strips would overlap.
+  std::optional<Contour> shrink(const Contour& contour) const {
+    if (cap_) return {};
+    if (amount_ < 0) {
+      return is_convex(contour) ? std::optional(shrunk(contour)) : std::nullopt;
+    }
+    const Contour hole = reversed(contour);
+    return is_convex(hole) ? std::optional(reversed(shrunk(hole)))
+                           : std::nullopt;
+  }
+
+  Contour shrunk(const Contour& contour) const {
     Contour curve;
     for (const Vec2 point : eroded(contour, std::abs(amount_))) {
       add(point, curve);
@@ -205,98 +238,185 @@ class Mover {
     return curve;
   }
 
-  // before, after  normals of its edges
-  // shorter        length of the shorter one [mm]
-  void add_corner(Vec2 corner, Vec2 before, Vec2 after, double shorter,
-                  Contour& curve) const {
-    const double sine = cross(before, after);
-    const double cosine = glm::dot(before, after);
-    if (std::abs(sine * amount_) * kGridPerMm < 1 && cosine > 0) {
-      add(corner + before * amount_, curve);
-    } else if (sine * amount_ < 0 &&
-               -sine * amount_ <= shorter / 2 * (1 + cosine)) {
-      // The moved edges cross before their middles.
-      add_miter(corner, before, after, curve);
-    } else if (sine * amount_ < 0) {
-      // The edges' strips overlap.
-      add(corner + before * amount_, curve);
-      add(corner, curve);
-      add(corner + after * amount_, curve);
-    } else if (join_ == Join::kRound) {
-      add_arc(corner, before, after, std::atan2(sine, cosine), curve);
-    } else if (join_ == Join::kMiter &&
-               1 + cosine >= 2 / (kMiterLimit * kMiterLimit)) {
-      add_miter(corner, before, after, curve);
+  // Around the strip of the edges from one corner to another, with its join.
+  Contour around_edges(const Contour& contour, std::size_t begin,
+                       std::size_t end) const {
+    const Corner first = corner_at(contour, begin);
+    const Corner last = corner_at(contour, end);
+    Contour curve;
+    add(first.point + first.after * amount_, curve);
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      add_corner(corner_at(contour, i), curve);
+    }
+    if (is_inner(last)) {
+      add(last.point + last.before * amount_, curve);
     } else {
-      const double share = std::tan(std::atan2(sine, cosine) / 4);
-      add(corner + (before + left_of(before) * share) * amount_, curve);
-      add(corner + (after - left_of(after) * share) * amount_, curve);
+      add_corner(last, curve);
+      add(last.point + last.after * amount_, curve);
+    }
+    for (std::size_t i = end + 1; i-- > begin;) {
+      curve.push_back(contour[i % contour.size()]);
+    }
+    return curve;
+  }
+
+  // Counted on around the contour.
+  Corner corner_at(const Contour& contour, std::size_t i) const {
+    const std::size_t size = contour.size();
+    const Vec2 before = contour[(i + size - 1) % size];
+    const Vec2 point = contour[i % size];
+    const Vec2 after = contour[(i + 1) % size];
+    const Vec2 normal_before = outwards(before, point);
+    const Vec2 normal_after = outwards(point, after);
+    const bool is_turn = i % size == 0 || i == size / 2;
+    return {.point = point,
+            .before = normal_before,
+            .after = normal_after,
+            .sine = cross(normal_before, normal_after),
+            .cosine = glm::dot(normal_before, normal_after),
+            .shorter = std::min(glm::distance(before, point),
+                                glm::distance(point, after)),
+            .bend = cap_ && is_turn ? *cap_ : bend_};
+  }
+
+  // Whether the strips of its edges overlap.
+  bool is_inner(const Corner& corner) const {
+    return corner.sine * amount_ < 0;
+  }
+
+  void add_corner(const Corner& corner, Contour& curve) const {
+    const auto& [point, before, after, sine, cosine, shorter, bend] = corner;
+    if (std::abs(sine * amount_) * kGridPerMm < 1 && cosine > 0) {
+      add(point + before * amount_, curve);
+    } else if (!is_inner(corner)) {
+      add_join(corner, curve);
+    } else if (-sine * amount_ <= shorter / 2 * (1 + cosine)) {
+      // The moved edges cross before their middles.
+      add_miter(corner, curve);
+    } else {
+      add(point + before * amount_, curve);
+      add(point, curve);
+      add(point + after * amount_, curve);
     }
   }
 
-  void add_miter(Vec2 corner, Vec2 before, Vec2 after, Contour& curve) const {
-    const double share = amount_ / (1 + glm::dot(before, after));
-    add(corner + (before + after) * share, curve);
+  void add_join(const Corner& corner, Contour& curve) const {
+    const auto& [point, before, after, sine, cosine, shorter, bend] = corner;
+    // Where the border turns back, too, on the side to which it moves.
+    const double angle =
+        std::copysign(std::atan2(std::abs(sine), cosine), amount_);
+    if (bend == Bend::kRound) {
+      add_arc(corner, angle, curve);
+    } else if (bend == Bend::kMiter && 1 + cosine >= least_miter_) {
+      add_miter(corner, curve);
+    } else if (bend == Bend::kNone) {
+      add(point + before * amount_, curve);
+      add(point + after * amount_, curve);
+    } else {
+      const double share = std::tan(angle / 4);
+      add(point + (before + left_of(before) * share) * amount_, curve);
+      add(point + (after - left_of(after) * share) * amount_, curve);
+    }
   }
 
-  void add_arc(Vec2 corner, Vec2 before, Vec2 after, double angle,
-               Contour& curve) const {
+  void add_miter(const Corner& corner, Contour& curve) const {
+    const double share = amount_ / (1 + corner.cosine);
+    add(corner.point + (corner.before + corner.after) * share, curve);
+  }
+
+  void add_arc(const Corner& corner, double angle, Contour& curve) const {
     const double share = std::abs(angle) * steps_per_radian_;
     const double count =
         steps_ == ArcSteps::kUp ? std::ceil(share) : std::round(share);
-    const double turn = std::copysign(step_, angle);
+    add_spokes(corner.point, corner.before, std::copysign(step_, angle),
+               std::max(count, 1.0), curve);
+    add(corner.point + corner.after * amount_, curve);
+  }
+
+  void add_spokes(Vec2 point, Vec2 spoke, double turn, double count,
+                  Contour& curve) const {
     const double c = std::cos(turn);
     const double s = std::sin(turn);
-    Vec2 spoke = before;
-    add(corner + spoke * amount_, curve);
+    add(point + spoke * amount_, curve);
     for (double i = 1; i < count; ++i) {
       spoke = spoke * c + left_of(spoke) * s;
-      add(corner + spoke * amount_, curve);
+      add(point + spoke * amount_, curve);
     }
-    add(corner + after * amount_, curve);
   }
 
   static void add(Vec2 point, Contour& curve) {
-    curve.emplace_back(round_to_grid(point.x), round_to_grid(point.y));
+    curve.push_back(round_to_grid(point));
   }
 
   double amount_;
-  Join join_;
+  Bend bend_;
+  double least_miter_;
   ArcSteps steps_;
-  double step_ = 0;  // [rad]
+  double sides_ = 0;  // of a circle
+  double step_ = 0;   // [rad]
   double steps_per_radian_ = 0;
+  std::optional<Bend> cap_;
 };
+
+// Drops what is rounding.
+Region cleaned(Region region) {
+  for (Contour& contour : region.contours) drop_straight(contour);
+  std::erase_if(region.contours,
+                [](const Contour& contour) { return contour.size() < 3; });
+  drop_hairlines(region, kCleanDistance / kGridPerMm);
+  return region;
+}
+
+Region unite_strips(std::span<const Region> strips) {
+  if (strips.size() <= kMostStrips) return unite(strips);
+  const std::size_t half = strips.size() / 2;
+  const std::array halves = {unite_strips(strips.first(half)),
+                             unite_strips(strips.subspan(half))};
+  return unite(halves);
+}
+
+// The region with what its border sweeps, or without that.
+//
+// border  the region's; a walk along a path and back is that of nothing
+Region moved(const Mover& mover, std::span<const Contour> border, bool outwards,
+             const Region& region) {
+  std::vector<Contour> curves;
+  for (const Contour& contour : border) {
+    Contour curve = mover.move(contour);
+    if (!curve.empty()) curves.push_back(std::move(curve));
+  }
+  if (auto simple = from_few_crossings(curves, FillRule::kPositive)) {
+    return cleaned(std::move(*simple));
+  }
+  std::vector<Region> strips;
+  for (const Contour& contour : border) mover.add_strips(contour, strips);
+  const std::array operands = {region, unite_strips(strips)};
+  return cleaned(outwards ? unite(operands) : subtract(operands));
+}
 
 }  // namespace
 
 Region offset(const Region& region, double amount, Join join,
               double arc_tolerance, ArcSteps steps) {
-  const Mover mover(amount, join, arc_tolerance, steps);
-  std::vector<Contour> curves;
-  for (const Contour& contour : region.contours) {
-    Contour curve = mover.move(contour);
-    if (!curve.empty()) curves.push_back(std::move(curve));
-  }
-  Region result = from_contours(curves, FillRule::kPositive);
-  for (Contour& contour : result.contours) drop_straight(contour);
-  std::erase_if(result.contours,
-                [](const Contour& contour) { return contour.size() < 3; });
-  drop_hairlines(result, kCleanDistance / kGridPerMm);
-  return result;
+  const Mover mover(amount, join, kMiterLimit, arc_tolerance, steps);
+  return moved(mover, region.contours, amount > 0, region);
 }
 
 Region stroke(std::span<const Vec2> path, double width, Join join, Cap cap,
               double arc_tolerance) {
-  ClipperLib::ClipperOffset offsetter(kStrokeMiterLimit,
-                                      arc_tolerance * kGridPerMm);
-  offsetter.AddPath(to_path(Contour(path.begin(), path.end())),
-                    to_join_type(join),
-                    kEndTypes[static_cast<std::size_t>(cap)]);
-  ClipperLib::Paths result;
-  watch_memory([&, distance = static_cast<double>(to_grid(width / 2))] {
-    offsetter.Execute(result, distance);
-  });
-  return to_region(std::move(result));
+  Contour walk;
+  for (const Vec2 point : path) {
+    const Vec2 rounded = round_to_grid(point);
+    if (walk.empty() || rounded != walk.back()) walk.push_back(rounded);
+  }
+  const double amount = round_to_grid(width / 2);
+  if (walk.empty() || amount <= 0) return {};
+  Mover mover(amount, join, kStrokeMiterLimit, arc_tolerance,
+              ArcSteps::kNearest);
+  if (walk.size() == 1) return {{mover.around(walk[0])}};
+  for (std::size_t i = walk.size() - 1; i-- > 1;) walk.push_back(walk[i]);
+  mover.set_cap(cap);
+  return moved(mover, {&walk, 1}, true, {});
 }
 
 }  // namespace lamina::planar

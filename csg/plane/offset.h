@@ -3,7 +3,9 @@
 //
 // The border's edges are moved and joined to a curve that winds around what
 // they sweep as well; what it winds around is the result (Chen, McMains 2005;
-// so does Clipper).
+// so does Clipper). Where the curve crosses itself too often, what a few edges
+// sweep are strips, and these are united
+// (docs/decisions/0041-strips-are-operands.md).
 //
 // Corners are rounded to a grid of 1e-8 mm, 1500 times finer than OpenSCAD's
 // 2^-16 mm. The grid is decimal, so that a coordinate such as 2.4 comes back as

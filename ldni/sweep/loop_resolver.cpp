@@ -8,6 +8,14 @@
 namespace lamina::ldni {
 namespace {
 
+// Loops cross often where a sweep meets more swaps than so many for each chain
+// met so far, and at the beginning a share of those of all chains and some. To
+// unite parts costs as much as ten swaps a chain; half of them are met before
+// the sweep is given up.
+constexpr double kFewSwaps = 8;
+constexpr double kFirstShare = 0.25;
+constexpr double kFirstSwaps = 256;
+
 csg::Scene one_leaf() {
   csg::Scene scene;
   scene.leaves.resize(1);
@@ -25,6 +33,17 @@ struct LoopResolver::State {
     block.layer_count = 1;
   }
 
+  void begin(const Contours& contours) {
+    builder.begin(block);
+    for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+      const auto loop = contours.loop(i);
+      builder.loop().assign(loop.begin(), loop.end());
+      builder.close_loop(0, 0, 1);
+    }
+    builder.finish(block);
+    sweep.begin(block.chains_of(0), states);
+  }
+
   const csg::Scene scene;
   detail::ProgramStates states;
   detail::RaySweep sweep;
@@ -38,16 +57,15 @@ LoopResolver::LoopResolver(const SweepOptions& options, FillRule rule)
 LoopResolver::~LoopResolver() = default;
 
 void LoopResolver::resolve(Contours& contours) {
-  ChainBuilder& builder = state_->builder;
-  builder.begin(state_->block);
-  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
-    const auto loop = contours.loop(i);
-    builder.loop().assign(loop.begin(), loop.end());
-    builder.close_loop(0, 0, 1);
-  }
-  builder.finish(state_->block);
-  state_->sweep.begin(state_->block.chains_of(0), state_->states);
+  state_->begin(contours);
   state_->sweep.resume(contours, {});
+}
+
+bool LoopResolver::resolve_few_crossings(Contours& contours) {
+  state_->begin(contours);
+  const auto chains = static_cast<double>(state_->block.chains.size());
+  return state_->sweep.resume(
+      contours, {kFewSwaps, kFirstSwaps + kFirstShare * kFewSwaps * chains});
 }
 
 SweepCounts LoopResolver::counts() const { return state_->sweep.counts(); }

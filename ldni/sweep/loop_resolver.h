@@ -19,6 +19,11 @@ class LoopResolver {
   // counter-clockwise, holes clockwise.
   void resolve(Contours& contours);
 
+  // The same. Where they cross so often that parts of the solid had better be
+  // swept by themselves (detail/cascade.h) it gives up: false, and `contours`
+  // is as before.
+  bool resolve_few_crossings(Contours& contours);
+
   // Of all sweeps since construction.
   SweepCounts counts() const;
 

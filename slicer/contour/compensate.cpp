@@ -16,7 +16,7 @@ namespace {
 using planar::Contour;
 using planar::Region;
 
-// The clipper rounds the number of sides of an arc: one side where 1.5 were
+// Offsetting rounds the number of sides of an arc: one side where 1.5 were
 // asked for is 1.5² times as far from the circle.
 constexpr double kArcExcess = 2.25;
 

@@ -47,7 +47,6 @@ TEST(SharedLibraries, AreOnlyThoseOfTheList) {
                                        "libfmt.so.9",
                                        "libpng16.so.16",
                                        "libz.so.1",  // libpng's, too
-                                       "libpolyclipping.so.22",
                                        "libdouble-conversion.so.3",
                                        "ld-linux-x86-64.so.2"};
   const std::set<std::string> needed = needed_libraries();

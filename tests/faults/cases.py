@@ -74,7 +74,7 @@ def failing_calls(harness):
 
 
 # Libraries that crash, or end the program, where an allocation fails.
-ENDED_BY_MEMORY = ("libfontconfig", "libglib", "libpolyclipping")
+ENDED_BY_MEMORY = ("libfontconfig", "libglib")
 
 
 def failing_memory(harness):
