@@ -11,6 +11,8 @@
 #include <new>
 #include <random>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,6 +20,8 @@
 #include <pugixml.hpp>
 
 #include "base/diagnostic.h"
+#include "base/file/zip.h"
+#include "tests/base/file/zip_writer.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/temporary_folder.h"
 
@@ -383,6 +387,88 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
                      "<svg><g slic3r:z=\"0\"><polygon slic3r:type="
                      "\"hole\" points=\"0,0 1,x\"/></g></svg>"),
             "line 1: number 4 of the points is malformed");
+}
+
+// --- Archives of images -----------------------------------------------------
+
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+// An archive of three images.
+Entries image_archive(OutputFormat format) {
+  WriterOptions options = {.format = format,
+                           .printer = find_printer("prusa-sl1")};
+  const std::string bytes = written(three_layers(), options);
+  const ZipArchive archive = ZipArchive::open(bytes);
+  Entries entries;
+  for (const std::string& name : archive.names()) {
+    entries.emplace_back(name, archive.read(name).value());
+  }
+  return entries;
+}
+
+Entries without(Entries entries, std::string_view name) {
+  std::erase_if(entries,
+                [&](const auto& entry) { return entry.first == name; });
+  return entries;
+}
+
+// Adds to a text of the archive, or puts one into it.
+Entries with(Entries entries, const std::string& name,
+             const std::string& bytes) {
+  for (auto& [known, text] : entries) {
+    if (known == name) {
+      text += bytes;
+      return entries;
+    }
+  }
+  entries.emplace_back(name, bytes);
+  return entries;
+}
+
+TEST(ReadImages, AMissingImageIsAnError) {
+  const Entries sl1 = image_archive(OutputFormat::kSl1);
+  const auto error = [](const Entries& entries) {
+    return error_of("a.sl1", csg::make_zip(entries));
+  };
+  EXPECT_EQ(error(sl1), "");
+  EXPECT_EQ(error(without(sl1, "layers00001.png")),
+            "the image before layers00002.png is missing");
+  for (const char* const name : {"layers00000.png", "layers00002.png"}) {
+    EXPECT_EQ(error(without(sl1, name)),
+              "config.ini counts 3 layers, there are 2 images");
+  }
+  // PrusaSlicer counts slow layers apart.
+  EXPECT_EQ(error(with(without(sl1, "config.ini"), "config.ini",
+                       "layerHeight = 0.5\nnumFade = 10\nnumFast = 1\n"
+                       "numSlow = 2\n")),
+            "");
+}
+
+TEST(ReadImages, AMissingImageOfNanoDlpIsAnError) {
+  const Entries plate = image_archive(OutputFormat::kNanoDlp);
+  const auto error = [](const Entries& entries) {
+    return error_of("a.zip", csg::make_zip(entries));
+  };
+  EXPECT_EQ(error(plate), "");
+  EXPECT_EQ(error(without(plate, "1.png")),
+            "the image before 2.png is missing");
+  EXPECT_EQ(error(without(plate, "2.png")),
+            "the image before 3.png is missing");
+  EXPECT_EQ(error(without(plate, "3.png")),
+            "plate.json counts 3 layers, there are 2 images");
+  EXPECT_EQ(error(without(without(plate, "3.png"), "plate.json")), "");
+}
+
+TEST(ReadImages, PicturesOfTheWholeAreNoLayers) {
+  const Entries sl1 = image_archive(OutputFormat::kSl1);
+  EXPECT_EQ(
+      read("a.sl1", csg::make_zip(with(sl1, "more/9.png", ""))).layers.size(),
+      3U);
+  Entries plate = image_archive(OutputFormat::kNanoDlp);
+  for (const char* const name : {"3d.png", "preview.png", "more/9.png"}) {
+    plate = with(plate, name, "");
+  }
+  EXPECT_EQ(read("a.zip", csg::make_zip(plate)).layers.size(), 3U);
 }
 
 // --- .layers.json -----------------------------------------------------------
