@@ -50,6 +50,21 @@ TEST(Inspect, ADefectEndsWithOne) {
   EXPECT_TRUE(has(result.output, "is not closed")) << result.output;
 }
 
+TEST(Inspect, NoCommandTakesAFileWithoutLayers) {
+  const TemporaryFolder folder;
+  folder.write("a.layers.json", "{\"layers\": []}");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{
+           {"inspect", "a.layers.json"},
+           {"check", "a.layers.json"},
+           {"compare", "a.layers.json", "a.layers.json"},
+           {"view", "a.layers.json", "-o", "a.png"}}) {
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, 1) << words.front();
+    EXPECT_EQ(result.errors, "error: a.layers.json: it holds no layers\n");
+  }
+}
+
 TEST(Inspect, WhatIsNoSlcEndsWithOne) {
   const TemporaryFolder folder;
   folder.write("a.slc", "Slice V0.2");

@@ -135,6 +135,11 @@ class ThreemfReader {
   }
 
   void read_stack(const pugi::xml_node& stack, const TakeLayer& take) {
+    visit_children(stack, "sliceref", [&](const pugi::xml_node& /*other*/) {
+      fail_to_read(path_,
+                   "slices in other parts of the package (sliceref) are not "
+                   "supported");
+    });
     double bottom = stack.attribute("zbottom") ? number(stack, "zbottom") : 0;
     visit_children(stack, "slice", [&](const pugi::xml_node& slice) {
       Layer layer;

@@ -389,6 +389,36 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
             "line 1: number 4 of the points is malformed");
 }
 
+// --- 3MF --------------------------------------------------------------------
+
+std::string threemf(const std::string& stack) {
+  return csg::make_zip(
+      {{"3D/3dmodel.model",
+        "<model><resources><s:slicestack id=\"1\" zbottom=\"0\">" + stack +
+            "</s:slicestack></resources></model>"}});
+}
+
+std::string slice(const std::string& segments) {
+  return "<s:slice ztop=\"1\"><s:vertices><s:vertex x=\"0\" y=\"0\"/>"
+         "<s:vertex x=\"5\" y=\"0\"/><s:vertex x=\"5\" y=\"5\"/>"
+         "</s:vertices><s:polygon startv=\"0\">" +
+         segments + "</s:polygon></s:slice>";
+}
+
+const std::string kTwoSegments = "<s:segment v2=\"1\"/><s:segment v2=\"2\"/>";
+
+TEST(ReadThreemf, RefusesSlicesInOtherParts) {
+  const std::string reference =
+      "<s:sliceref slicestackid=\"3\" slicepath=\"/2D/a.model\"/>";
+  for (const std::string& stack :
+       {reference, slice(kTwoSegments) + reference}) {
+    EXPECT_EQ(error_of("a.3mf", threemf(stack)),
+              "slices in other parts of the package (sliceref) are not "
+              "supported");
+  }
+  EXPECT_EQ(error_of("a.3mf", threemf("")), "it holds no layers");
+}
+
 // --- Archives of images -----------------------------------------------------
 
 using Entries = std::vector<std::pair<std::string, std::string>>;
