@@ -96,6 +96,13 @@ Inspection Inspector::finish(std::string name, LayerFileFacts file) {
           "the end record's top, z {}, lies below the last layer", found_.top));
     }
   }
+  if (found_.file.open_loops > 0) {
+    add_defect(
+        fmt::format("{} not closed in the file",
+                    found_.file.open_loops == 1
+                        ? "1 loop is"
+                        : fmt::format("{} loops are", found_.file.open_loops)));
+  }
   if (collector_) found_.features = collector_->finish();
   if (graph_) found_.print = graph_->finish();
   return std::move(found_);

@@ -50,6 +50,18 @@ TEST(Inspect, ADefectEndsWithOne) {
   EXPECT_TRUE(has(result.output, "is not closed")) << result.output;
 }
 
+TEST(Inspect, ALoopThatItsReaderClosedIsADefect) {
+  const TemporaryFolder folder;
+  folder.write("a.cli",
+               "$$HEADERSTART\n$$ASCII\n$$UNITS/1\n$$HEADEREND\n"
+               "$$GEOMETRYSTART\n$$LAYER/1\n$$POLYLINE/1,1,3,0,0,5,0,5,5\n"
+               "$$GEOMETRYEND\n");
+  const auto result = run(folder, {"inspect", "a.cli"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.output, "1 loop is not closed in the file"))
+      << result.output;
+}
+
 TEST(Inspect, NoCommandTakesAFileWithoutLayers) {
   const TemporaryFolder folder;
   folder.write("a.layers.json", "{\"layers\": []}");

@@ -289,6 +289,23 @@ TEST(ReadCli, NamesThePlaceOfAFault) {
       "the file ends at byte 57, 262139 bytes early");
 }
 
+TEST(ReadCli, CountsLoopsThatAreOpen) {
+  const Content content =
+      read("a.cli", ascii("$$LAYER/1$$POLYLINE/1,1,3,0,0,200,0,200,200"
+                          "$$POLYLINE/1,1,4,0,0,9,0,9,9,0,0"));
+  EXPECT_EQ(content.facts.open_loops, 1U);
+  EXPECT_EQ(content.layers.at(0).contours.loop_count(), 2U);
+}
+
+TEST(ReadCli, NothingStandsBehindTheEnd) {
+  const std::string whole = ascii("$$LAYER/1\n");
+  EXPECT_EQ(error_of("a.cli", whole + " \r\n// end //\n\0\0\x1A"s), "");
+  EXPECT_EQ(error_of("a.cli", whole + "$$LAYER/9\n"),
+            "line 10: something stands behind $$GEOMETRYEND");
+  EXPECT_EQ(error_of("a.cli", whole + whole),
+            "line 10: something stands behind $$GEOMETRYEND");
+}
+
 // --- SVG --------------------------------------------------------------------
 
 std::string slic3r_svg(const std::string& body) {
@@ -338,6 +355,15 @@ TEST(ReadSvg, CountsWhatItLeavesOutByItsKind) {
   EXPECT_EQ(left_out_text({}), "");
 }
 
+TEST(ReadSvg, CountsWhatStandsBesideTheLayers) {
+  const Content content = read(
+      "a.svg", slic3r_svg("<title>ring</title><defs><path/></defs>"
+                          "<sodipodi:namedview/><g slic3r:z=\"1\"/>"
+                          "<g><path/></g><polygon slic3r:type=\"contour\"/>"));
+  EXPECT_EQ(content.layers.size(), 1U);
+  EXPECT_EQ(left_out_text(content.facts), "1 g element, 1 polygon element");
+}
+
 // Allocations of pugixml until one fails; none fails at 0.
 std::size_t until_failure = 0;
 
@@ -375,6 +401,10 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
   EXPECT_EQ(error_of("a.svg", "<svg>\n<g slic3r:z=\"high\"/></svg>"),
             "line 2: slic3r:z is not a number");
   EXPECT_EQ(error_of("a.svg",
+                     "<svg><g slic3r:z=\"0\"/>\n<g><g>\n"
+                     "<g slic3r:z=\"1\"/></g></g></svg>"),
+            "line 3: a layer within another element is not supported");
+  EXPECT_EQ(error_of("a.svg",
                      "<svg><g slic3r:z=\"0\">\n\n<polygon "
                      "points=\"0,0\"/></g></svg>"),
             "line 3: a polygon without slic3r:type");
@@ -406,6 +436,14 @@ std::string slice(const std::string& segments) {
 }
 
 const std::string kTwoSegments = "<s:segment v2=\"1\"/><s:segment v2=\"2\"/>";
+
+TEST(ReadThreemf, CountsLoopsThatAreOpen) {
+  const auto open_loops = [](const std::string& segments) {
+    return read("a.3mf", threemf(slice(segments))).facts.open_loops;
+  };
+  EXPECT_EQ(open_loops(kTwoSegments + "<s:segment v2=\"0\"/>"), 0U);
+  EXPECT_EQ(open_loops(kTwoSegments), 1U);
+}
 
 TEST(ReadThreemf, RefusesSlicesInOtherParts) {
   const std::string reference =
