@@ -52,7 +52,9 @@ class InspectCommand : public Command {
     add_thin_width(app, min_feature_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
+    note_design_option(app, design_option_);
     add_layer_range(app, request_.settings.written);
+    app.get_option("--layers")->group(kDesignGroup);
   }
 
   void check() override {
@@ -74,6 +76,7 @@ class InspectCommand : public Command {
       compiler::Compilation& compilation) const {
     if (slicer::is_readable_layer_file(request_.design,
                                        compilation.file_access())) {
+      refuse_design_option(design_option_, request_.design);
       return compiler::inspect_file(request_.design,
                                     {.min_feature = min_feature_},
                                     compilation.file_access());
@@ -109,6 +112,7 @@ class InspectCommand : public Command {
 
   compiler::Request request_;
   bool is_quiet_ = false;
+  std::string design_option_;  // the first that was given, or none
   bool lists_all_layers_ = false;
   bool is_json_ = false;
   double min_feature_ = 0;  // [mm]; 0: thin places are not looked for
