@@ -30,8 +30,8 @@ of images), or of a design or mesh with any option that slicing has; of a mesh
 (.stl, .off, .obj, .ply, .om, .amf, .3mf) also its vertices, triangles, components,
 genus and holes, as they are in the file. Checks the loops: closed, without
 repeats, crossings and empty loops, in the direction that their nesting asks
-for, layers rising. Ends with 1 if there is a defect. Says what would go wrong
-in the print as 'lamina check' does.
+for, layers one on the other. Ends with 1 if there is a defect. Says what would
+go wrong in the print as 'lamina check' does.
 
   --all       list every layer of a long file
   --json      print all of it as JSON
