@@ -166,7 +166,8 @@ struct ViewOptions {
   std::optional<std::size_t> layer_number;  // from 1
   std::optional<double> layer_height;       // [mm]
   std::optional<unsigned> width;            // [pixels]
-  std::string design_option;  // the first that was given, or none
+  // The first option of designs that was given, or none.
+  std::string design_option;
 
   bool is_of_one_layer() const { return layer_number || layer_height; }
   // Whether any option is given that means nothing to a page.
