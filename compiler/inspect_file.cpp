@@ -25,11 +25,13 @@ slicer::Inspection inspect_file(const std::string& path,
   // SLC's boundaries as they are: they may be open.
   slicer::SlcReader reader(path, access);
   slicer::SlcLayer written;
-  for (std::size_t number = 1; reader.read_layer(written); ++number) {
+  std::size_t count = 0;
+  while (reader.read_layer(written)) {
     const Layer layer = to_layer(written);
-    slicer::require_within_reach(path, layer, number);
+    slicer::require_within_reach(path, layer, ++count);
     inspector.take(layer, written.boundaries);
   }
+  slicer::require_layers(path, count);
   return inspector.finish(path, reader.facts());
 }
 

@@ -76,6 +76,7 @@ class CheckCommand : public Command {
     });
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
+    note_design_option(app, design_option_);
   }
 
   void check() override {
@@ -109,6 +110,7 @@ class CheckCommand : public Command {
   bool look(compiler::Compilation& compilation) const {
     if (slicer::is_readable_layer_file(request_.design,
                                        compilation.file_access())) {
+      refuse_design_option(design_option_, request_.design);
       const slicer::Inspection found = compiler::inspect_file(
           request_.design,
           {.self_supporting = request_.settings.self_supporting},
@@ -141,6 +143,7 @@ class CheckCommand : public Command {
 
   compiler::Request request_;
   bool is_quiet_ = false;
+  std::string design_option_;  // the first that was given, or none
   bool is_json_ = false;
   std::set<slicer::FindingKind> allowed_;
 };

@@ -77,6 +77,7 @@ class CompareCommand : public Command {
     app.add_option("B", b_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
+    note_design_option(app, design_option_);
     // The words are the comparison's here.
     app.remove_option(app.get_option("--tolerance"));
     request_.settings.tolerance = 0;
@@ -140,6 +141,9 @@ class CompareCommand : public Command {
                            ? open_openscad(a_, request_, version, time_limit_,
                                            is_quiet_, context)
                            : open_compared(b_, request_, is_quiet_, context);
+        if (!a->can_be_cut() && !b->can_be_cut()) {
+          refuse_design_option(design_option_, a_);
+        }
         return compare(*a, *b, context.temporary_files);
       } catch (const ShownFault&) {
         return kFault;
@@ -208,6 +212,7 @@ class CompareCommand : public Command {
 
   compiler::Request request_;  // of designs
   bool is_quiet_ = false;
+  std::string design_option_;  // the first that was given, or none
   std::string a_;
   std::string b_;                    // empty: openscad
   std::optional<double> tolerance_;  // [mm]

@@ -30,8 +30,8 @@ of images), or of a design or mesh with any option that slicing has; of a mesh
 (.stl, .off, .obj, .ply, .om, .amf, .3mf) also its vertices, triangles, components,
 genus and holes, as they are in the file. Checks the loops: closed, without
 repeats, crossings and empty loops, in the direction that their nesting asks
-for, layers rising. Ends with 1 if there is a defect. Says what would go wrong
-in the print as 'lamina check' does.
+for, layers one on the other. Ends with 1 if there is a defect. Says what would
+go wrong in the print as 'lamina check' does.
 
   --all       list every layer of a long file
   --json      print all of it as JSON
@@ -52,7 +52,9 @@ class InspectCommand : public Command {
     add_thin_width(app, min_feature_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
+    note_design_option(app, design_option_);
     add_layer_range(app, request_.settings.written);
+    app.get_option("--layers")->group(kDesignGroup);
   }
 
   void check() override {
@@ -74,6 +76,7 @@ class InspectCommand : public Command {
       compiler::Compilation& compilation) const {
     if (slicer::is_readable_layer_file(request_.design,
                                        compilation.file_access())) {
+      refuse_design_option(design_option_, request_.design);
       return compiler::inspect_file(request_.design,
                                     {.min_feature = min_feature_},
                                     compilation.file_access());
@@ -109,6 +112,7 @@ class InspectCommand : public Command {
 
   compiler::Request request_;
   bool is_quiet_ = false;
+  std::string design_option_;  // the first that was given, or none
   bool lists_all_layers_ = false;
   bool is_json_ = false;
   double min_feature_ = 0;  // [mm]; 0: thin places are not looked for

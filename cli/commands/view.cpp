@@ -166,6 +166,8 @@ struct ViewOptions {
   std::optional<std::size_t> layer_number;  // from 1
   std::optional<double> layer_height;       // [mm]
   std::optional<unsigned> width;            // [pixels]
+  // The first option of designs that was given, or none.
+  std::string design_option;
 
   bool is_of_one_layer() const { return layer_number || layer_height; }
   // Whether any option is given that means nothing to a page.
@@ -177,11 +179,12 @@ struct ViewOptions {
 // All layers of a file or of a design, and in the report what is to be said of
 // them; no value where the design failed.
 std::optional<std::vector<slicer::Layer>> layers_of(
-    compiler::Compilation& compilation) {
+    compiler::Compilation& compilation, const std::string& design_option) {
   const compiler::Request& request = compilation.request;
   compiler::LayerList list;
   if (slicer::is_readable_layer_file(request.design,
                                      compilation.file_access())) {
+    refuse_design_option(design_option, request.design);
     slicer::LayerGraph graph(request.settings.self_supporting);
     const slicer::LayerFileFacts facts = slicer::read_layers(
         request.design,
@@ -257,7 +260,7 @@ std::string estimate_of(const compiler::Compilation& compilation,
 
 int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   const compiler::Request& request = compilation.request;
-  const auto layers = layers_of(compilation);
+  const auto layers = layers_of(compilation, options.design_option);
   if (!layers) return kFault;
   if (std::all_of(layers->begin(), layers->end(), [](const auto& layer) {
         return layer.contours.points.empty();
@@ -316,6 +319,7 @@ class ViewCommand : public Command {
     add_machine_options(app, request_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
+    note_design_option(app, options_.design_option);
   }
 
   void check() override {

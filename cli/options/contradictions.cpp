@@ -61,4 +61,9 @@ void require_readable(std::string_view command, const std::string& file) {
             command, file);
 }
 
+void refuse_design_option(const std::string& option, const std::string& file) {
+  refuse_if(!option.empty(), "{} needs a design; '{}' holds layers", option,
+            file);
+}
+
 }  // namespace lamina::cli

@@ -2,7 +2,7 @@
 // Options that are each good, but not together. They are refused with a
 // UsageError, so that nobody believes that an option was obeyed which was not.
 // Only options of slicing may have no effect: the same set of them may be given
-// for layers and for texts of a design.
+// for layers and for texts and outlines of a design.
 
 #include <string>
 #include <string_view>
@@ -24,5 +24,10 @@ void refuse_misfits(const compiler::Request& request, bool has_report);
 //
 // command  that would have read it
 void require_readable(std::string_view command, const std::string& file);
+
+// Refuses options of designs for a file of layers.
+//
+// option  the first that was given (note_design_option()); empty: none
+void refuse_design_option(const std::string& option, const std::string& file);
 
 }  // namespace lamina::cli

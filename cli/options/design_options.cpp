@@ -55,10 +55,32 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t most,
   });
 }
 
+// Options that are added while it lives are of that group.
+class GroupOfDesigns {
+ public:
+  explicit GroupOfDesigns(CLI::App& app)
+      : defaults_(*app.option_defaults()), group_(defaults_.get_group()) {
+    defaults_.group(kDesignGroup);
+  }
+  ~GroupOfDesigns() { defaults_.group(group_); }
+  GroupOfDesigns(const GroupOfDesigns&) = delete;
+  GroupOfDesigns& operator=(const GroupOfDesigns&) = delete;
+
+ private:
+  CLI::OptionDefaults& defaults_;
+  const std::string group_;
+};
+
 }  // namespace
 
 void add_design_options(CLI::App& app, compiler::Request& request,
                         bool& is_quiet) {
+  add_count(app, "--max-depth", csg::kMostNestedCalls, request.max_depth);
+  add_count(app, "--max-leaves", 1'000'000'000, request.max_leaves);
+  app.add_flag("--hardwarnings", request.has_hard_warnings);
+  app.add_flag("-q,--quiet", is_quiet);
+
+  const GroupOfDesigns group(app);
   const auto define = [&request](const std::vector<std::string>& definitions) {
     for (const std::string& definition : definitions) {
       request.definitions += definition + ";\n";
@@ -73,19 +95,18 @@ void add_design_options(CLI::App& app, compiler::Request& request,
   file->needs(set);
   add_switch(app, "--check-parameters", request.checks_parameters);
   add_switch(app, "--check-parameter-ranges", request.checks_parameter_ranges);
-  add_count(app, "--max-depth", csg::kMostNestedCalls, request.max_depth);
-  add_count(app, "--max-leaves", 1'000'000'000, request.max_leaves);
   app.add_flag("--render", request.render);
   app.add_flag("--preview", request.preview);
   app.add_option("--seed", request.seed)->type_name("number");
   add_choice(app, "--language", {"auto", "2021", "2026"},
              [&](const std::string& word) { request.language = word; });
-  app.add_flag("--hardwarnings", request.has_hard_warnings);
-  app.add_flag("-q,--quiet", is_quiet);
 }
 
 void add_slicing_options(CLI::App& app, compiler::Request& request) {
   slicer::Settings& settings = request.settings;
+  add_count(app, "--threads", 1024, settings.threads);
+
+  const GroupOfDesigns group(app);
   add_text(app, "--layer", "length", [&](const std::string& text) {
     settings.layer_thickness = require_positive("--layer", text);
   });
@@ -142,7 +163,16 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
                settings.paper.sampler = static_cast<ldni::SamplerKind>(
                    std::ranges::find(samplers, kind) - samplers.begin());
              });
-  add_count(app, "--threads", 1024, settings.threads);
+}
+
+void note_design_option(CLI::App& app, std::string& given) {
+  app.parse_complete_callback([&app, &given] {
+    for (const CLI::Option* const option : app.get_options()) {
+      if (option->get_group() != kDesignGroup || option->count() == 0) continue;
+      given = option->get_name();
+      return;
+    }
+  });
 }
 
 void add_machine_options(CLI::App& app, compiler::Request& request) {

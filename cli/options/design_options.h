@@ -17,6 +17,14 @@ void add_design_options(CLI::App& app, compiler::Request& request,
 // Adds the options that --help calls Slicing.
 void add_slicing_options(CLI::App& app, compiler::Request& request);
 
+// The group of CLI11 of those among them that change layers: files of layers
+// have no use for these. (--threads and limits of a run harm nobody.)
+inline constexpr const char* kDesignGroup = "Design";
+
+// Notes the first option of that group that was given, such as "--scale", for
+// refuse_design_option(). `given` outlives `app`.
+void note_design_option(CLI::App& app, std::string& given);
+
 struct OutputOptions {
   std::string export_format;  // empty: the output's name says it
   std::string report;         // path; empty: none

@@ -106,6 +106,9 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
     if (!is_reported(diagnostics, error.diagnostic())) {
       terminal.show(error.diagnostic());
     }
+  } catch (const UsageError& error) {
+    show(error.what());
+    return error.status();
   } catch (const std::bad_alloc&) {
     show(out_of_memory_text());
   } catch (const std::exception& error) {

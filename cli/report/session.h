@@ -82,7 +82,8 @@ void tell_left_out(compiler::Compilation& compilation,
                    const slicer::LayerFileFacts& facts);
 
 // Returns what `work` returns; where it throws, shows the message, unless it
-// is among `diagnostics` and so has been shown, and returns kFault.
+// is among `diagnostics` and so has been shown, and returns kFault, or the
+// status of a UsageError.
 int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
                const std::function<int()>& work);
 

@@ -69,7 +69,7 @@ std::vector<Line> lines_of(std::span<const ThinFeature* const> tall,
 }  // namespace
 
 bool is_low(const ThinFeature& feature, double width) {
-  return feature.height < width - kEdgeWidth;
+  return feature.height > 0 && feature.height < width - kEdgeWidth;
 }
 
 bool is_edge(const ThinFeature& feature) { return feature.width < kEdgeWidth; }

@@ -11,7 +11,8 @@
 namespace lamina::slicer {
 
 // Whether its thin place is lower than it may be wide. Such are the tops of
-// domes, the lines where surfaces meet at a slant, and wires that lie flat.
+// domes, the lines where surfaces meet at a slant, and wires that lie flat. A
+// place in one layer without thickness is not: its height is not known.
 bool is_low(const ThinFeature& feature, double width);
 
 // Whether its sides meet in an edge: it has no width.

@@ -30,16 +30,39 @@ void Inspector::add_defect(std::string words) {
   }
 }
 
+// Layers without thickness are sections.
+void Inspector::check_heights(const Layer& layer) {
+  const auto add = [&](const std::string& words) {
+    add_defect(fmt::format("layer {} at z {}: {}", found_.layers.size() + 1,
+                           layer.bottom, words));
+  };
+  const bool is_first = found_.layers.empty();
+  if (!is_first && !(layer.bottom > found_.layers.back().bottom)) {
+    add("not higher than the layer before");
+  } else if (layer.top < layer.bottom ||
+             (layer.top == layer.bottom && !is_first &&
+              found_.layers.front().thickness > 0)) {
+    add(fmt::format("its thickness, {:.6g} mm, is not positive",
+                    layer.top - layer.bottom));
+  } else if (!is_first) {
+    const double gap = gap_between(found_.layers.back().bottom, found_.top,
+                                   layer.bottom, layer.top);
+    if (gap > 0) {
+      add(fmt::format("begins {:.6g} mm above the end of the layer before",
+                      gap));
+    } else if (gap < 0) {
+      add(fmt::format("overlaps the layer before by {:.6g} mm", -gap));
+    }
+  }
+}
+
 void Inspector::take(const Layer& layer) {
   take(layer, closed_loops(layer.contours));
 }
 
 void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
+  check_heights(layer);
   const std::size_t number = found_.layers.size() + 1;
-  if (number > 1 && !(layer.bottom > found_.layers.back().bottom)) {
-    add_defect(fmt::format("layer {} at z {}: not higher than the layer before",
-                           number, layer.bottom));
-  }
   for (const Defect& defect : find_defects(loops)) {
     add_defect(fmt::format("layer {} at z {}: loop {} {}, near x {} y {}",
                            number, layer.bottom, defect.loop + 1,
@@ -72,6 +95,13 @@ Inspection Inspector::finish(std::string name, LayerFileFacts file) {
       add_defect(fmt::format(
           "the end record's top, z {}, lies below the last layer", found_.top));
     }
+  }
+  if (found_.file.open_loops > 0) {
+    add_defect(
+        fmt::format("{} not closed in the file",
+                    found_.file.open_loops == 1
+                        ? "1 loop is"
+                        : fmt::format("{} loops are", found_.file.open_loops)));
   }
   if (collector_) found_.features = collector_->finish();
   if (graph_) found_.print = graph_->finish();

@@ -64,6 +64,7 @@ class Inspector : public LayerSink {
 
  private:
   void add_defect(std::string words);
+  void check_heights(const Layer& layer);
 
   Inspection found_;
   std::optional<ThinFinder> finder_;

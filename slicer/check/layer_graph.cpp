@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "slicer/check/pole.h"
+#include "slicer/contour/deviation.h"
 
 namespace lamina::slicer {
 namespace {
@@ -37,6 +38,10 @@ constexpr double kLeastTrapVolume = 0.01;
 // Two contours each move by so much when they are simplified, and a surface of
 // 45° is none that hangs over [mm].
 constexpr double kReachSlack = 0.0015;
+
+// Sides of layers that are no farther apart are one [mm]: files round heights,
+// and no printer goes by smaller steps.
+constexpr double kSameHeight = 0.001;
 
 // A place inside a region: the middle of its longest part on the upright line
 // through its box's middle.
@@ -110,6 +115,16 @@ double reach_of(double self_supporting, double rise) {
                              : std::max(rise, 0.0) + kReachSlack;
 }
 
+double gap_between(double bottom_below, double top_below, double bottom,
+                   double top) {
+  if (!(bottom_below < top_below && bottom < top)) return 0;
+  const double gap = bottom - top_below;
+  const double highest = std::max(std::abs(bottom), std::abs(top_below));
+  // Both sides are rounded.
+  const double slack = kSameHeight + 2 * float32_rounding(highest);
+  return std::abs(gap) > slack ? gap : 0;
+}
+
 LayerGraph::LayerGraph(double self_supporting)
     : self_supporting_(self_supporting) {
   Component outside;
@@ -124,27 +139,40 @@ bool LayerGraph::repeats(const Layer& layer) const {
 
 void LayerGraph::take(const Layer& layer, const LayerOverlay* overlay) {
   ++layers_;
-  if (layers_ == 1 || !repeats(layer)) {
-    if (overlay == nullptr) {
-      sweep_.start(last_);
-      sweep_.lay_over(layer.contours,
-                      reach_of(self_supporting_, layer.section_z - last_z_),
-                      own_overlay_);
-      overlay = &own_overlay_;
-    }
-    measure_regions(*overlay);
-    next_members_.assign(around_.size(), kNone);
-    take_solids(layer, *overlay);
-    take_voids(layer, *overlay);
-    std::swap(members_, next_members_);
-    take_overhangs(layer, *overlay);
-    last_.points = layer.contours.points;
-    last_.ends = layer.contours.ends;
+  const bool is_first = layers_ == 1;
+  if (!is_first &&
+      gap_between(last_bottom_, last_top_, layer.bottom, layer.top) > 0) {
+    lay(Layer(), nullptr);
+    overlay = nullptr;
+  }
+  if (is_first || !repeats(layer)) {
+    lay(layer, overlay);
   } else {
     patches_.clear();
   }
+  last_bottom_ = layer.bottom;
+  last_top_ = layer.top;
   last_z_ = layer.section_z;
   extend(layer);
+}
+
+// Lays the layer over the last one, in whose place it then is.
+void LayerGraph::lay(const Layer& layer, const LayerOverlay* overlay) {
+  if (overlay == nullptr) {
+    sweep_.start(last_);
+    sweep_.lay_over(layer.contours,
+                    reach_of(self_supporting_, layer.section_z - last_z_),
+                    own_overlay_);
+    overlay = &own_overlay_;
+  }
+  measure_regions(*overlay);
+  next_members_.assign(around_.size(), kNone);
+  take_solids(layer, *overlay);
+  take_voids(layer, *overlay);
+  std::swap(members_, next_members_);
+  take_overhangs(layer, *overlay);
+  last_.points = layer.contours.points;
+  last_.ends = layer.contours.ends;
 }
 
 // --- Regions ----------------------------------------------------------------

@@ -17,7 +17,8 @@
 //                what opens only higher up is closed by the film
 //   resin trap   void that no way leads out of at all
 //
-// A layer with the contours of the one before changes nothing but heights.
+// A layer with the contours of the one before changes nothing but heights. One
+// that begins above the end of the layer before lies over nothing.
 
 #include <cstddef>
 #include <cstdint>
@@ -93,6 +94,13 @@ struct PrintCheck {
 // rise             between the sections of the two layers [mm]
 double reach_of(double self_supporting, double rise);
 
+// How far a layer begins above the end of the one below [mm]; less than 0 where
+// the two overlap, and 0 where they touch or one has no thickness.
+//
+// bottom, top  of each layer [mm]
+double gap_between(double bottom_below, double top_below, double bottom,
+                   double top);
+
 class LayerGraph {
  public:
   // self_supporting  as of reach_of()
@@ -123,6 +131,7 @@ class LayerGraph {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   bool repeats(const Layer& layer) const;
+  void lay(const Layer& layer, const LayerOverlay* overlay);
   void measure_regions(const LayerOverlay& overlay);
   void take_solids(const Layer& layer, const LayerOverlay& overlay);
   void take_voids(const Layer& layer, const LayerOverlay& overlay);
@@ -145,6 +154,8 @@ class LayerGraph {
   LayerOverlay own_overlay_;
   std::uint32_t layers_ = 0;
   ldni::Contours last_;  // of the layer before
+  double last_bottom_ = 0;
+  double last_top_ = 0;
   double last_z_ = 0;
   double last_area_ = 0;
   // By loop of the last layer: what is around it, and of the region that has

@@ -47,7 +47,10 @@ struct LayerFileFacts {
   bool is_float32 = true;
   // false: only heights of sections; sides of layers are then halfway between.
   bool has_sides = true;
-  // What of the layers was not taken, each kind with its number: "open
+  // Loops of which the format asks for their first point at their end, and that
+  // end with another: readers close them.
+  std::uint64_t open_loops = 0;
+  // What of the file was not taken, each kind with its number: "open
   // polyline", "circle element".
   std::map<std::string, std::uint64_t> left_out;
   // SLC alone has these: a line of words, the table of thicknesses, the low and

@@ -74,6 +74,10 @@ void require_within_reach(const std::string& path, const Layer& layer,
                                  number, kGreatestCoordinate));
 }
 
+void require_layers(const std::string& path, std::size_t count) {
+  if (count == 0) fail_to_read(path, "it holds no layers");
+}
+
 bool is_readable_layer_file(const std::string& path,
                             const FileAccess& access) {
   ReadLayers* const read = reader_for(path);
@@ -91,13 +95,15 @@ LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
                  ".nanodlp, .layers.json and folders of images only");
   }
   std::size_t count = 0;
-  return read(
+  LayerFileFacts facts = read(
       path,
       [&](Layer& layer) {
         require_within_reach(path, layer, ++count);
         take(layer);
       },
       access);
+  require_layers(path, count);
+  return facts;
 }
 
 }  // namespace lamina::slicer

@@ -37,4 +37,7 @@ LayerFileFacts read_layers(const std::string& path, const TakeLayer& take,
 void require_within_reach(const std::string& path, const Layer& layer,
                           std::size_t number);
 
+// Throws FileError for a file without layers; read_layers() does so.
+void require_layers(const std::string& path, std::size_t count);
+
 }  // namespace lamina::slicer

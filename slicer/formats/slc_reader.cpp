@@ -172,6 +172,7 @@ bool SlcReader::read_layer(SlcLayer& layer) {
   if (boundaries == kEndOfLayers) {
     facts_.top = layer.z;
     layer.boundaries.clear();
+    require_end();
     return false;
   }
   // The row in force is the last one that begins at or below z.
@@ -193,6 +194,16 @@ bool SlcReader::read_layer(SlcLayer& layer) {
   }
   layer.boundaries.resize(count);
   return true;
+}
+
+void SlcReader::require_end() {
+  for (int c = std::getc(file_.get()); c != EOF; c = std::getc(file_.get())) {
+    if (kPadding.find(static_cast<char>(c)) == std::string_view::npos) {
+      fail(fmt::format("something stands behind the end record, at byte {}",
+                       offset_));
+    }
+    ++offset_;
+  }
 }
 
 void SlcReader::read_points(std::uint32_t count, std::vector<Vec2>& points) {

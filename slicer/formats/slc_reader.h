@@ -52,6 +52,7 @@ class SlcReader {
   void read_header();
   std::string read_header_text();
   void read_sampling();
+  void require_end();
   void read_points(std::uint32_t count, std::vector<Vec2>& points);
   [[noreturn]] void fail(std::string_view message) const;
 

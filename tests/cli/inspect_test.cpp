@@ -50,6 +50,33 @@ TEST(Inspect, ADefectEndsWithOne) {
   EXPECT_TRUE(has(result.output, "is not closed")) << result.output;
 }
 
+TEST(Inspect, ALoopThatItsReaderClosedIsADefect) {
+  const TemporaryFolder folder;
+  folder.write("a.cli",
+               "$$HEADERSTART\n$$ASCII\n$$UNITS/1\n$$HEADEREND\n"
+               "$$GEOMETRYSTART\n$$LAYER/1\n$$POLYLINE/1,1,3,0,0,5,0,5,5\n"
+               "$$GEOMETRYEND\n");
+  const auto result = run(folder, {"inspect", "a.cli"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.output, "1 loop is not closed in the file"))
+      << result.output;
+}
+
+TEST(Inspect, NoCommandTakesAFileWithoutLayers) {
+  const TemporaryFolder folder;
+  folder.write("a.layers.json", "{\"layers\": []}");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{
+           {"inspect", "a.layers.json"},
+           {"check", "a.layers.json"},
+           {"compare", "a.layers.json", "a.layers.json"},
+           {"view", "a.layers.json", "-o", "a.png"}}) {
+    const auto result = run(folder, words);
+    EXPECT_EQ(result.status, 1) << words.front();
+    EXPECT_EQ(result.errors, "error: a.layers.json: it holds no layers\n");
+  }
+}
+
 TEST(Inspect, WhatIsNoSlcEndsWithOne) {
   const TemporaryFolder folder;
   folder.write("a.slc", "Slice V0.2");

@@ -156,6 +156,27 @@ TEST(Layers, AnyNumberOfThreadsGivesTheSameAdaptiveLayers) {
             layers_of(folder, {"--adaptive", "0.05", "--threads", "3"}));
 }
 
+// Sections and outlines have no thickness that a place could be too low for.
+TEST(ThinPlaces, AreListedOfOutlinesAndSections) {
+  const TemporaryFolder folder;
+  folder.write("outline.scad", "square([5, 0.03]);");
+  folder.write("solid.scad", "cube([5, 0.03, 9]);");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{
+           {"outline.scad", "-o", "a.svg"},
+           {"solid.scad", "-o", "b.svg", "--heights", "1"}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--min-feature", "0.5"});
+    const auto result = run(folder, all);
+    EXPECT_NE((result.output + result.errors).find("1 wall, 0 gaps"),
+              std::string::npos)
+        << result.output << result.errors;
+    EXPECT_EQ((result.output + result.errors).find("0 walls"),
+              std::string::npos)
+        << result.output << result.errors;
+  }
+}
+
 TEST(Axis, AutoGivesTheLayersOfTheAxisItNames) {
   const TemporaryFolder folder;
   folder.write("a.scad",

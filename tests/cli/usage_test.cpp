@@ -166,6 +166,42 @@ TEST(Usage, MistakesEndWithTwoAndMakeNothing) {
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 
+TEST(Usage, OptionsOfDesignsAreRefusedForFilesOfLayers) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  ASSERT_EQ(run(folder, {"a.scad", "-q", "--layer", "0.5"}).status, 0);
+  const std::vector<std::vector<std::string>> commands = {
+      {"inspect", "a.slc"},
+      {"check", "a.slc"},
+      {"view", "a.slc", "-o", "a.png"},
+      {"view", "a.slc", "-o", "a.html"},
+      {"compare", "a.slc", "a.slc"}};
+  const std::vector<std::vector<std::string>> options = {
+      {"--scale", "2"},      {"--layer", "0.1"}, {"--compensate", "0.1"},
+      {"--axis", "x"},       {"-D", "k=5"},      {"--adaptive", "0.1"},
+      {"--place-on-bed"},    {"--render"},       {"--contour", "paper"},
+      {"--language", "2021"}};
+  for (const auto& command : commands) {
+    for (const auto& option : options) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), option.begin(), option.end());
+      const auto result = run(folder, words);
+      EXPECT_EQ(result.status, 2) << command.front() << result.output;
+      EXPECT_EQ(result.errors, "error: " + option.front() +
+                                   " needs a design; 'a.slc' holds layers\n");
+    }
+    std::vector<std::string> words = command;
+    for (const char* const word : {"-q", "--threads", "1", "--hardwarnings"}) {
+      words.push_back(word);
+    }
+    EXPECT_EQ(run(folder, words).status, 0) << command.front();
+  }
+  EXPECT_EQ(run(folder, {"inspect", "a.slc", "--layers", "1"}).status, 2);
+  // Here they are those of the design.
+  EXPECT_EQ(
+      run(folder, {"compare", "a.slc", "a.scad", "--layer", "0.5"}).status, 0);
+}
+
 TEST(Usage, KnownFormatsThatAreNotWrittenSaySo) {
   const TemporaryFolder folder;
   folder.write("a.scad", "cube(1);");

@@ -65,6 +65,7 @@ class LayerMaker {
       ++open_polylines_;
       return;
     }
+    if (points.empty() || points.front() != points.back()) ++open_loops_;
     for (Vec2& point : points) point *= header_.unit;
     add_loop(points, direction == 0 ? LoopKind::kHole : LoopKind::kOuter,
              layer_.contours);
@@ -77,6 +78,7 @@ class LayerMaker {
   void add_hatches() { ++hatches_; }
 
   std::size_t count() const { return count_; }
+  std::uint64_t open_loops() const { return open_loops_; }
 
   std::map<std::string, std::uint64_t> left_out() const {
     std::map<std::string, std::uint64_t> kinds;
@@ -113,6 +115,7 @@ class LayerMaker {
   std::size_t count_ = 0;
   std::uint64_t hatches_ = 0;
   std::uint64_t open_polylines_ = 0;
+  std::uint64_t open_loops_ = 0;  // that should be closed
   double first_top_ = 0;
   double last_top_ = 0;
   bool has_thickness_ = true;
@@ -138,6 +141,12 @@ class Commands {
     rest_.remove_prefix(size);
     mark_ = '/';
     return true;
+  }
+
+  void require_end() {
+    skip_blanks();
+    skip(rest_, kPadding);
+    if (!rest_.empty()) fail("something stands behind $$GEOMETRYEND");
   }
 
   // Reads the next parameter: '/' stands before the first, ',' before others.
@@ -271,7 +280,7 @@ void read_ascii(const std::string& path, std::string_view text,
   std::vector<Vec2> points;
   while (commands.next(name)) {
     if (name == "GEOMETRYSTART") continue;
-    if (name == "GEOMETRYEND") return;
+    if (name == "GEOMETRYEND") return commands.require_end();
     if (name == "LAYER") {
       maker.begin_layer(commands.number());
       continue;
@@ -416,6 +425,7 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
   LayerFileFacts facts;
   facts.format = header.is_binary ? "CLI, binary" : "CLI, ASCII";
   facts.left_out = maker.left_out();
+  facts.open_loops = maker.open_loops();
   return facts;
 }
 

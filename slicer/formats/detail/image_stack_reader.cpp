@@ -3,13 +3,16 @@
 // of a pixel; the middle of the panel is at x = y = 0.
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,6 +38,13 @@ constexpr std::size_t kMostPixels = 1'000'000'000;
 // Of what is between two vertices no more is left out than this [pixels]: the
 // contour itself is no truer.
 constexpr double kTolerance = 0.05;
+
+constexpr std::string_view kImageEnding = ".png";
+constexpr std::string_view kDigits = "0123456789";
+
+// The name of a job may end in digits before those of the layer: only so many
+// are looked at.
+constexpr std::size_t kMostDigits = 9;
 
 struct ImageFile {
   std::string name;
@@ -137,16 +147,64 @@ class ImageStackReader {
     return *number;
   }
 
-  // Images of layers of one thickness, in the order of their names.
+  // The images of an archive by the numbers that their names end in, without
+  // those in folders: these show the whole. Throws FileError where one lacks.
+  //
+  // named_by_number  names are numbers, and other images are none of layers
+  std::vector<std::string> numbered_images(bool named_by_number) const {
+    std::vector<std::pair<std::uint64_t, std::string>> images;
+    for (const std::string& name : source_.names) {
+      if (!name.ends_with(kImageEnding)) continue;
+      if (name.find('/') != std::string::npos) continue;
+      std::string_view digits = name;
+      digits.remove_suffix(kImageEnding.size());
+      digits.remove_prefix(digits.find_last_not_of(kDigits) + 1);
+      const bool is_number = digits.size() + kImageEnding.size() == name.size();
+      if (named_by_number && !is_number) continue;
+      if (digits.empty()) {
+        fail_to_read(
+            path_,
+            fmt::format("the name of {} does not end in a number", name));
+      }
+      digits.remove_prefix(digits.size() -
+                           std::min(digits.size(), kMostDigits));
+      std::uint64_t number = 0;
+      std::from_chars(digits.data(), digits.data() + digits.size(), number);
+      images.emplace_back(number, name);
+    }
+    if (images.empty()) fail_to_read(path_, "it holds no images");
+    std::ranges::sort(images);
+    std::vector<std::string> names;
+    for (auto& [number, name] : images) {
+      const bool is_next = names.empty()
+                               ? !named_by_number || number <= 1
+                               : number == images[names.size() - 1].first + 1;
+      if (!is_next) {
+        fail_to_read(path_,
+                     fmt::format("the image before {} is missing", name));
+      }
+      names.push_back(std::move(name));
+    }
+    return names;
+  }
+
+  // Images of layers of one thickness.
+  //
+  // told  how many there are, as `teller` says; nothing where it does not
   std::vector<ImageFile> images_of(std::vector<std::string> names,
-                                   double thickness) const {
+                                   double thickness, std::optional<double> told,
+                                   std::string_view teller) const {
+    if (told && *told != static_cast<double>(names.size())) {
+      fail_to_read(path_, fmt::format("{} counts {:g} layers, there are {} "
+                                      "images",
+                                      teller, *told, names.size()));
+    }
     std::vector<ImageFile> images;
     for (std::string& name : names) {
       const auto i = static_cast<double>(images.size());
       images.push_back({std::move(name), i * thickness, (i + 1) * thickness,
                         (i + 0.5) * thickness});
     }
-    if (images.empty()) fail_to_read(path_, "it holds no images");
     return images;
   }
 
@@ -158,16 +216,25 @@ class ImageStackReader {
         writer != config.end()) {
       stack.writer = writer->second;
     }
-    std::vector<std::string> names;
-    for (const std::string& name : source_.names) {
-      if (name.ends_with(".png") && name.find('/') == std::string::npos) {
-        names.push_back(name);
-      }
-    }
-    std::ranges::sort(names);
-    stack.images = images_of(names, number_of(config, "layerHeight"));
+    stack.images =
+        images_of(numbered_images(false), number_of(config, "layerHeight"),
+                  sl1_count(config), "config.ini");
     set_sl1_panel(stack.printer);
     return stack;
+  }
+
+  // How many layers there are. (Those that numFade counts are among them.)
+  static std::optional<double> sl1_count(
+      const std::map<std::string, std::string>& config) {
+    std::optional<double> count;
+    for (const char* const name : {"numFast", "numSlow"}) {
+      const auto found = config.find(name);
+      if (found == config.end()) continue;
+      if (const auto number = parse_number(found->second)) {
+        count = count.value_or(0) + *number;
+      }
+    }
+    return count;
   }
 
   // PrusaSlicer counts the long side first, in portrait as well.
@@ -218,13 +285,16 @@ class ImageStackReader {
       stack.writer =
           Json::parse(require_text("meta.json")).value("Program", "");
     }
-    std::vector<std::string> names;
-    for (std::size_t i = has("0.png") ? 0 : 1;
-         has(fmt::format("{}.png", i)); ++i) {
-      names.push_back(fmt::format("{}.png", i));
+    std::optional<double> count;
+    if (has("plate.json")) {
+      const Json plate = Json::parse(require_text("plate.json"));
+      if (plate.contains("LayersCount")) {
+        count = plate.at("LayersCount").get<double>();
+      }
     }
-    stack.images =
-        images_of(names, slicer.at("Thickness").get<double>() / 1000);
+    stack.images = images_of(numbered_images(true),
+                             slicer.at("Thickness").get<double>() / 1000, count,
+                             "plate.json");
     require_pixel_size(stack.printer);
     return stack;
   }

@@ -34,6 +34,9 @@ void skip(std::string_view& text, std::string_view characters);
 // there is none that is finite.
 bool take_number(std::string_view& text, double& value);
 
+// Programs may fill up a file behind its end with these.
+inline constexpr std::string_view kPadding{"\0 \t\r\n\x1A", 6};
+
 // What a file says that a loop is.
 enum class LoopKind { kOuter, kHole };
 

@@ -6,6 +6,7 @@
 // a millionth of millimetres.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -114,9 +115,12 @@ class SvgReader {
 
   void find_layers() {
     double greatest = 0;
-    for (const pugi::xml_node group : root_.children("g")) {
+    for (const pugi::xml_node group : root_.children()) {
       const pugi::xml_attribute attribute = group.attribute("slic3r:z");
-      if (!attribute) continue;
+      if (!attribute) {
+        count_beside_layers(group);
+        continue;
+      }
       std::string_view text = attribute.value();
       double z = 0;
       if (!take_number(text, z) || !text.empty()) {
@@ -135,6 +139,25 @@ class SvgReader {
     }
     if (!is_slic3r_ || greatest >= kGreatestSlic3rHeight) return;
     for (double& z : heights_) z /= kSlic3rHeightsPerMm;
+  }
+
+  // What is drawn beside the layers is left out. What cannot be drawn is none
+  // of the print's: texts about the file, and elements of other namespaces.
+  void count_beside_layers(const pugi::xml_node& node) {
+    constexpr std::array<std::string_view, 5> kTexts = {
+        "title", "desc", "metadata", "defs", "style"};
+    const std::string_view name = node.name();
+    if (node.type() != pugi::node_element ||
+        name.find(':') != std::string_view::npos ||
+        std::ranges::find(kTexts, name) != kTexts.end()) {
+      return;
+    }
+    if (const auto layer = node.find_node([](const pugi::xml_node& inner) {
+          return !inner.attribute("slic3r:z").empty();
+        })) {
+      fail(layer, "a layer within another element is not supported");
+    }
+    ++facts_.left_out[short_name(fmt::format("{} element", name))];
   }
 
   void set_heights(Layer& layer, std::size_t i) const {

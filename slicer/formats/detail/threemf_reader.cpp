@@ -2,6 +2,7 @@
 // is that stands in for it.
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -86,6 +87,7 @@ class ThreemfReader {
     if (stacks == 0) fail_to_read(path_, "it holds no slices");
     LayerFileFacts facts;
     facts.format = "3MF with slices";
+    facts.open_loops = open_loops_;
     visit_children(root(), "resources", [&](const pugi::xml_node& resources) {
       visit_children(resources, "object", [&](const pugi::xml_node& object) {
         facts.deviation = deviation_of(object.attribute("name").value());
@@ -135,6 +137,11 @@ class ThreemfReader {
   }
 
   void read_stack(const pugi::xml_node& stack, const TakeLayer& take) {
+    visit_children(stack, "sliceref", [&](const pugi::xml_node& /*other*/) {
+      fail_to_read(path_,
+                   "slices in other parts of the package (sliceref) are not "
+                   "supported");
+    });
     double bottom = stack.attribute("zbottom") ? number(stack, "zbottom") : 0;
     visit_children(stack, "slice", [&](const pugi::xml_node& slice) {
       Layer layer;
@@ -159,7 +166,11 @@ class ThreemfReader {
       visit_children(polygon, "segment", [&](const pugi::xml_node& segment) {
         loop_.push_back(vertices_[index(segment, "v2")]);
       });
-      if (loop_.size() > 1 && loop_.front() == loop_.back()) loop_.pop_back();
+      if (loop_.size() > 1 && loop_.front() == loop_.back()) {
+        loop_.pop_back();
+      } else {
+        ++open_loops_;
+      }
       // The positive fill rule: what runs clockwise takes away.
       add_loop(loop_, signed_area(loop_) < 0 ? LoopKind::kHole : LoopKind::kOuter,
                contours);
@@ -172,6 +183,7 @@ class ThreemfReader {
   double unit_ = 1;
   std::vector<Vec2> vertices_;  // of the slice in hand
   std::vector<Vec2> loop_;
+  std::uint64_t open_loops_ = 0;
 };
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <new>
 #include <random>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,6 +20,8 @@
 #include <pugixml.hpp>
 
 #include "base/diagnostic.h"
+#include "base/file/zip.h"
+#include "tests/base/file/zip_writer.h"
 #include "tests/slicer/formats/writing.h"
 #include "tests/support/temporary_folder.h"
 
@@ -285,6 +289,23 @@ TEST(ReadCli, NamesThePlaceOfAFault) {
       "the file ends at byte 57, 262139 bytes early");
 }
 
+TEST(ReadCli, CountsLoopsThatAreOpen) {
+  const Content content =
+      read("a.cli", ascii("$$LAYER/1$$POLYLINE/1,1,3,0,0,200,0,200,200"
+                          "$$POLYLINE/1,1,4,0,0,9,0,9,9,0,0"));
+  EXPECT_EQ(content.facts.open_loops, 1U);
+  EXPECT_EQ(content.layers.at(0).contours.loop_count(), 2U);
+}
+
+TEST(ReadCli, NothingStandsBehindTheEnd) {
+  const std::string whole = ascii("$$LAYER/1\n");
+  EXPECT_EQ(error_of("a.cli", whole + " \r\n// end //\n\0\0\x1A"s), "");
+  EXPECT_EQ(error_of("a.cli", whole + "$$LAYER/9\n"),
+            "line 10: something stands behind $$GEOMETRYEND");
+  EXPECT_EQ(error_of("a.cli", whole + whole),
+            "line 10: something stands behind $$GEOMETRYEND");
+}
+
 // --- SVG --------------------------------------------------------------------
 
 std::string slic3r_svg(const std::string& body) {
@@ -334,6 +355,15 @@ TEST(ReadSvg, CountsWhatItLeavesOutByItsKind) {
   EXPECT_EQ(left_out_text({}), "");
 }
 
+TEST(ReadSvg, CountsWhatStandsBesideTheLayers) {
+  const Content content = read(
+      "a.svg", slic3r_svg("<title>ring</title><defs><path/></defs>"
+                          "<sodipodi:namedview/><g slic3r:z=\"1\"/>"
+                          "<g><path/></g><polygon slic3r:type=\"contour\"/>"));
+  EXPECT_EQ(content.layers.size(), 1U);
+  EXPECT_EQ(left_out_text(content.facts), "1 g element, 1 polygon element");
+}
+
 // Allocations of pugixml until one fails; none fails at 0.
 std::size_t until_failure = 0;
 
@@ -371,6 +401,10 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
   EXPECT_EQ(error_of("a.svg", "<svg>\n<g slic3r:z=\"high\"/></svg>"),
             "line 2: slic3r:z is not a number");
   EXPECT_EQ(error_of("a.svg",
+                     "<svg><g slic3r:z=\"0\"/>\n<g><g>\n"
+                     "<g slic3r:z=\"1\"/></g></g></svg>"),
+            "line 3: a layer within another element is not supported");
+  EXPECT_EQ(error_of("a.svg",
                      "<svg><g slic3r:z=\"0\">\n\n<polygon "
                      "points=\"0,0\"/></g></svg>"),
             "line 3: a polygon without slic3r:type");
@@ -383,6 +417,126 @@ TEST(ReadSvg, NamesThePlaceOfAFault) {
                      "<svg><g slic3r:z=\"0\"><polygon slic3r:type="
                      "\"hole\" points=\"0,0 1,x\"/></g></svg>"),
             "line 1: number 4 of the points is malformed");
+}
+
+// --- 3MF --------------------------------------------------------------------
+
+std::string threemf(const std::string& stack) {
+  return csg::make_zip(
+      {{"3D/3dmodel.model",
+        "<model><resources><s:slicestack id=\"1\" zbottom=\"0\">" + stack +
+            "</s:slicestack></resources></model>"}});
+}
+
+std::string slice(const std::string& segments) {
+  return "<s:slice ztop=\"1\"><s:vertices><s:vertex x=\"0\" y=\"0\"/>"
+         "<s:vertex x=\"5\" y=\"0\"/><s:vertex x=\"5\" y=\"5\"/>"
+         "</s:vertices><s:polygon startv=\"0\">" +
+         segments + "</s:polygon></s:slice>";
+}
+
+const std::string kTwoSegments = "<s:segment v2=\"1\"/><s:segment v2=\"2\"/>";
+
+TEST(ReadThreemf, CountsLoopsThatAreOpen) {
+  const auto open_loops = [](const std::string& segments) {
+    return read("a.3mf", threemf(slice(segments))).facts.open_loops;
+  };
+  EXPECT_EQ(open_loops(kTwoSegments + "<s:segment v2=\"0\"/>"), 0U);
+  EXPECT_EQ(open_loops(kTwoSegments), 1U);
+}
+
+TEST(ReadThreemf, RefusesSlicesInOtherParts) {
+  const std::string reference =
+      "<s:sliceref slicestackid=\"3\" slicepath=\"/2D/a.model\"/>";
+  for (const std::string& stack :
+       {reference, slice(kTwoSegments) + reference}) {
+    EXPECT_EQ(error_of("a.3mf", threemf(stack)),
+              "slices in other parts of the package (sliceref) are not "
+              "supported");
+  }
+  EXPECT_EQ(error_of("a.3mf", threemf("")), "it holds no layers");
+}
+
+// --- Archives of images -----------------------------------------------------
+
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+// An archive of three images.
+Entries image_archive(OutputFormat format) {
+  WriterOptions options = {.format = format,
+                           .printer = find_printer("prusa-sl1")};
+  const std::string bytes = written(three_layers(), options);
+  const ZipArchive archive = ZipArchive::open(bytes);
+  Entries entries;
+  for (const std::string& name : archive.names()) {
+    entries.emplace_back(name, archive.read(name).value());
+  }
+  return entries;
+}
+
+Entries without(Entries entries, std::string_view name) {
+  std::erase_if(entries,
+                [&](const auto& entry) { return entry.first == name; });
+  return entries;
+}
+
+// Adds to a text of the archive, or puts one into it.
+Entries with(Entries entries, const std::string& name,
+             const std::string& bytes) {
+  for (auto& [known, text] : entries) {
+    if (known == name) {
+      text += bytes;
+      return entries;
+    }
+  }
+  entries.emplace_back(name, bytes);
+  return entries;
+}
+
+TEST(ReadImages, AMissingImageIsAnError) {
+  const Entries sl1 = image_archive(OutputFormat::kSl1);
+  const auto error = [](const Entries& entries) {
+    return error_of("a.sl1", csg::make_zip(entries));
+  };
+  EXPECT_EQ(error(sl1), "");
+  EXPECT_EQ(error(without(sl1, "layers00001.png")),
+            "the image before layers00002.png is missing");
+  for (const char* const name : {"layers00000.png", "layers00002.png"}) {
+    EXPECT_EQ(error(without(sl1, name)),
+              "config.ini counts 3 layers, there are 2 images");
+  }
+  // PrusaSlicer counts slow layers apart.
+  EXPECT_EQ(error(with(without(sl1, "config.ini"), "config.ini",
+                       "layerHeight = 0.5\nnumFade = 10\nnumFast = 1\n"
+                       "numSlow = 2\n")),
+            "");
+}
+
+TEST(ReadImages, AMissingImageOfNanoDlpIsAnError) {
+  const Entries plate = image_archive(OutputFormat::kNanoDlp);
+  const auto error = [](const Entries& entries) {
+    return error_of("a.zip", csg::make_zip(entries));
+  };
+  EXPECT_EQ(error(plate), "");
+  EXPECT_EQ(error(without(plate, "1.png")),
+            "the image before 2.png is missing");
+  EXPECT_EQ(error(without(plate, "2.png")),
+            "the image before 3.png is missing");
+  EXPECT_EQ(error(without(plate, "3.png")),
+            "plate.json counts 3 layers, there are 2 images");
+  EXPECT_EQ(error(without(without(plate, "3.png"), "plate.json")), "");
+}
+
+TEST(ReadImages, PicturesOfTheWholeAreNoLayers) {
+  const Entries sl1 = image_archive(OutputFormat::kSl1);
+  EXPECT_EQ(
+      read("a.sl1", csg::make_zip(with(sl1, "more/9.png", ""))).layers.size(),
+      3U);
+  Entries plate = image_archive(OutputFormat::kNanoDlp);
+  for (const char* const name : {"3d.png", "preview.png", "more/9.png"}) {
+    plate = with(plate, name, "");
+  }
+  EXPECT_EQ(read("a.zip", csg::make_zip(plate)).layers.size(), 3U);
 }
 
 // --- .layers.json -----------------------------------------------------------

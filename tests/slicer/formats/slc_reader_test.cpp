@@ -180,6 +180,19 @@ TEST(SlcReader, ChangedBytesAreErrorsOrGiveSoundLayers) {
   EXPECT_GT(read_all_the_same, 100);
 }
 
+TEST(SlcReader, NothingButPaddingStandsBehindTheEnd) {
+  const std::string whole = kHead + kTable + kLayer + kEnd;
+  EXPECT_EQ(error_of(whole + "\0\0 \r\n\x1A"s), "");
+  for (const std::string& rest : {whole, "\0x"s}) {
+    const std::size_t byte = whole.size() + (rest == whole ? 0 : 1);
+    EXPECT_TRUE(error_of(whole + rest)
+                    .ends_with("something stands behind the end record, at "
+                               "byte " +
+                               std::to_string(byte)))
+        << error_of(whole + rest);
+  }
+}
+
 TEST(SlcReader, AMissingFileIsAnError) {
   EXPECT_THROW(SlcReader("/no/such/file.slc"), FileError);
 }
