@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -12,7 +11,7 @@
 #include "base/cell_grid.h"
 #include "base/loop_area.h"
 #include "base/plane.h"
-#include "ldni/section/contours.h"
+#include "slicer/contour/edge_order.h"
 
 namespace lamina::slicer {
 namespace {
@@ -71,33 +70,6 @@ class EdgeGrid {
       defects.push_back(
           {DefectKind::kCrossing, edge.loop, (edge.from + edge.to) / 2.0});
     }
-  }
-
-  // The winding number of the other loops around a point of `loop`; none where
-  // one of them passes through it.
-  std::optional<int> winding_around(Vec2 point, std::uint32_t loop) const {
-    int winding = 0;
-    const std::uint32_t column = grid_.column_of(point.x);
-    const std::uint32_t last_row = grid_.row_of(point.y);
-    for (std::uint32_t row = 0; row <= last_row; ++row) {
-      for (const std::uint32_t i : members_[grid_.cell(column, row)]) {
-        const Edge& edge = edges_[i];
-        if (edge.loop == loop) continue;
-        const bool begins_left = edge.from.x <= point.x;
-        if (begins_left == (edge.to.x <= point.x)) continue;
-        const Vec2 left = begins_left ? edge.from : edge.to;
-        const Vec2 right = begins_left ? edge.to : edge.from;
-        const int side = orientation(left, right, point);
-        if (side == 0) return std::nullopt;
-        // An edge stands in several cells: that of the crossing counts it.
-        const double y = left.y + (point.x - left.x) * (right.y - left.y) /
-                                      (right.x - left.x);
-        if (side > 0 && std::min(grid_.row_of(y), last_row) == row) {
-          winding += begins_left ? 1 : -1;
-        }
-      }
-    }
-    return winding;
   }
 
  private:
@@ -222,18 +194,35 @@ class EdgeGrid {
   CellLists<std::uint32_t> members_;
 };
 
-// Whether a loop is turned against its nesting. The middle of an edge that
-// nothing else touches decides; the first few are tried.
-bool is_turned_wrongly(const EdgeGrid& grid, std::span<const Vec2> points,
-                       std::uint32_t loop) {
-  constexpr std::size_t kTries = 16;
-  const int wanted = signed_area(points) < 0 ? 1 : 0;
-  for (std::size_t i = 0; i + 1 < std::min(points.size(), kTries); ++i) {
-    const Vec2 middle = (points[i] + points[i + 1]) / 2.0;
-    const std::optional<int> winding = grid.winding_around(middle, loop);
-    if (winding) return *winding != wanted;
+// Finds loops that are turned against their nesting. Loops do not cross, so
+// what goes around one edge of a loop goes around the loop.
+void find_turned(std::span<const WrittenLoop> loops,
+                 std::span<const std::uint32_t> enclosing,
+                 std::vector<Defect>& defects) {
+  EdgeOrder order;
+  std::vector<std::size_t> ends;  // of each loop, among the edges
+  for (std::uint32_t l = 0; l < loops.size(); ++l) {
+    const std::vector<Vec2>& points = loops[l].points;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      if (points[i].x != points[i + 1].x) {
+        order.add(points[i], points[i + 1], l);
+      }
+    }
+    ends.push_back(order.edges().size());
   }
-  return false;
+  order.build();
+  for (const std::uint32_t l : enclosing) {
+    const std::vector<Vec2>& points = loops[l].points;
+    const EdgeOrder::Edge& edge = order.edges()[ends[l] - 1];
+    const bool is_hole = signed_area(points) < 0;
+    // The inside is to the left of an outer loop, to the right of a hole: below
+    // an edge that has it below, the loop itself goes around, too.
+    const int turn = is_hole ? -1 : 1;
+    const int own = edge.winding == turn ? 0 : turn;
+    if (order.below(edge).winding - own != (is_hole ? 1 : 0)) {
+      defects.push_back({DefectKind::kOrientation, l, points.front()});
+    }
+  }
 }
 
 // Finds the defects of a loop by itself; returns whether it encloses something.
@@ -278,12 +267,7 @@ std::vector<Defect> find_defects(std::span<const WrittenLoop> loops) {
   grid.find_crossings(defects);
   // Loops that cross have no nesting.
   if (defects.size() > known) return defects;
-  for (const std::uint32_t l : enclosing) {
-    const std::vector<Vec2>& points = loops[l].points;
-    if (is_turned_wrongly(grid, points, l)) {
-      defects.push_back({DefectKind::kOrientation, l, points.front()});
-    }
-  }
+  find_turned(loops, enclosing, defects);
   return defects;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -9,11 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "base/cell_grid.h"
 #include "base/diagnostic.h"
 #include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
 namespace {
+
+// Edges for each band, at least, and pieces of each edge, at most, on the
+// average.
+constexpr double kEdgesPerBand = 8;
+constexpr double kPiecesPerEdge = 4;
 
 // Steps through crossings, at most, for a layer.
 constexpr std::uint64_t kMostSteps = 3'000'000'000;
@@ -30,6 +37,13 @@ struct Edge {
     if (x >= right.x) return right.y;
     return left.y + (x - left.x) * slope;
   }
+};
+
+// Where an edge crosses the lower side of a band.
+struct Cut {
+  double x = 0;
+  int winding = 0;  // added to the right of it
+  bool is_of_b = false;
 };
 
 // An edge across the strip in hand.
@@ -79,6 +93,11 @@ class Areas {
     areas_[static_cast<std::size_t>(after)] -= y * width;
   }
 
+  // Ends a strip of this width at the upper side of the band.
+  void end(double height, double width) {
+    areas_[static_cast<std::size_t>(kind())] += height * width;
+  }
+
   std::array<int, 2> winding() const { return winding_; }
   void set_winding(std::array<int, 2> winding) { winding_ = winding; }
 
@@ -94,63 +113,59 @@ class Areas {
   std::array<double, 4> areas_ = {0, 0, 0, 0};  // by kind()
 };
 
-class Sweep {
+// The sweep over one band, `height` high. y counts from its lower side: sums
+// are of small numbers.
+class BandSweep {
  public:
-  void add(const ldni::Contours& contours, bool is_of_b) {
-    visit_edges(contours, [&](Vec2 from, Vec2 to) {
-      if (from.x == to.x) return;
-      const bool runs_right = from.x < to.x;
-      edges_.push_back({runs_right ? from : to, runs_right ? to : from,
-                        (to.y - from.y) / (to.x - from.x), runs_right ? 1 : -1,
-                        is_of_b});
-    });
-  }
+  explicit BandSweep(double height) : height_(height) {}
 
-  RegionAreas run() {
-    // Sum up small numbers: y counts from the middle.
-    shift_to_middle();
+  void clear() {
+    edges_.clear();
+    cuts_.clear();
+    crossed_.clear();
+  }
+  void add(const Edge& edge) { edges_.push_back(edge); }
+  void add(const Cut& cut) { cuts_.push_back(cut); }
+
+  void run() {
     std::ranges::sort(edges_, {}, [](const Edge& edge) { return edge.left.x; });
-    const std::vector<double> event_points = list_event_points();
-    std::size_t next = 0;  // of edges_
-    for (std::size_t i = 0; i + 1 < event_points.size(); ++i) {
-      const double left = event_points[i];
-      const double right = event_points[i + 1];
+    std::ranges::sort(cuts_, {}, &Cut::x);
+    list_event_points();
+    std::array<int, 2> winding = {0, 0};  // below the strip in hand
+    std::size_t next = 0;                 // of edges_
+    std::size_t next_cut = 0;
+    for (std::size_t i = 0; i + 1 < event_points_.size(); ++i) {
+      const double left = event_points_[i];
+      const double right = event_points_[i + 1];
       std::erase_if(crossed_, [&](const Crossed& crossed) {
         return edges_[crossed.edge].right.x <= left;
       });
       for (; next < edges_.size() && edges_[next].left.x <= left; ++next) {
         crossed_.push_back({static_cast<std::uint32_t>(next)});
       }
+      for (; next_cut < cuts_.size() && cuts_[next_cut].x <= left; ++next_cut) {
+        winding[cuts_[next_cut].is_of_b ? 1 : 0] += cuts_[next_cut].winding;
+      }
+      areas_.set_winding(winding);
       sweep_strip(left, right);
+      areas_.end(height_, right - left);
     }
-    return areas_.areas();
   }
+
+  RegionAreas areas() const { return areas_.areas(); }
 
  private:
   // x of all ends, ascending.
-  std::vector<double> list_event_points() const {
-    std::vector<double> points;
+  void list_event_points() {
+    event_points_.clear();
     for (const Edge& edge : edges_) {
-      points.push_back(edge.left.x);
-      points.push_back(edge.right.x);
+      event_points_.push_back(edge.left.x);
+      event_points_.push_back(edge.right.x);
     }
-    std::ranges::sort(points);
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    return points;
-  }
-
-  void shift_to_middle() {
-    if (edges_.empty()) return;
-    double low = edges_.front().left.y;
-    double high = low;
-    for (const Edge& edge : edges_) {
-      low = std::min({low, edge.left.y, edge.right.y});
-      high = std::max({high, edge.left.y, edge.right.y});
-    }
-    for (Edge& edge : edges_) {
-      edge.left.y -= (low + high) / 2;
-      edge.right.y -= (low + high) / 2;
-    }
+    for (const Cut& cut : cuts_) event_points_.push_back(cut.x);
+    std::ranges::sort(event_points_);
+    event_points_.erase(std::unique(event_points_.begin(), event_points_.end()),
+                        event_points_.end());
   }
 
   void sweep_strip(double left, double right) {
@@ -160,7 +175,6 @@ class Sweep {
     }
     sort_by_insertion(std::span(crossed_), is_below_at_left,
                       [](const Crossed&, const Crossed&) {});
-    areas_.set_winding({0, 0});
     const double width = right - left;
     if (std::ranges::is_sorted(crossed_, is_below_at_right)) {
       for (const Crossed& crossed : crossed_) {
@@ -240,7 +254,10 @@ class Sweep {
     }
   }
 
-  std::vector<Edge> edges_;       // by their left ends
+  double height_;
+  std::vector<Edge> edges_;  // by their left ends
+  std::vector<Cut> cuts_;    // from the left
+  std::vector<double> event_points_;
   std::vector<Crossed> crossed_;  // in the strip, from below at its left side
   Areas areas_;
   std::uint64_t steps_ = 0;
@@ -251,13 +268,139 @@ class Sweep {
   std::vector<std::pair<double, std::uint32_t>> heights_;
 };
 
+// Cuts the edges into bands.
+class Bands {
+ public:
+  void add(const ldni::Contours& contours, bool is_of_b) {
+    visit_edges(contours, [&](Vec2 from, Vec2 to) {
+      if (from != to) edges_.push_back({from, to, is_of_b});
+    });
+  }
+
+  RegionAreas measure() {
+    if (edges_.empty()) return {};
+    choose_bands();
+    members_.fill(count_, [this](const auto& list) {
+      for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+        const auto [low, high] = std::minmax(edges_[i].from.y, edges_[i].to.y);
+        for (std::size_t band = band_of(low); band <= band_of(high); ++band) {
+          list(band, i);
+        }
+      }
+    });
+    BandSweep sweep(height_);
+    for (std::size_t band = 0; band < count_; ++band) {
+      sweep.clear();
+      for (const std::uint32_t i : members_[band]) {
+        add_cut(edges_[i], band, sweep);
+        add_piece(edges_[i], band, sweep);
+      }
+      sweep.run();
+    }
+    return sweep.areas();
+  }
+
+ private:
+  struct FullEdge {
+    Vec2 from;
+    Vec2 to;
+    bool is_of_b = false;
+  };
+
+  void choose_bands() {
+    double low = edges_.front().from.y;
+    double high = low;
+    double climb = 0;
+    for (const FullEdge& edge : edges_) {
+      low = std::min(low, edge.from.y);
+      high = std::max(high, edge.from.y);
+      climb += std::abs(edge.to.y - edge.from.y);
+    }
+    const auto edges = static_cast<double>(edges_.size());
+    const double most =
+        climb > 0 ? kPiecesPerEdge * edges * (high - low) / climb : 1;
+    count_ = static_cast<std::size_t>(
+        std::max(1.0, std::min(edges / kEdgesPerBand, most)));
+    // y counts from the lowest point, so that bands keep their digits.
+    for (FullEdge& edge : edges_) {
+      edge.from.y -= low;
+      edge.to.y -= low;
+    }
+    height_ = (high - low) / static_cast<double>(count_);
+  }
+
+  double lower_side(std::size_t band) const {
+    return height_ * static_cast<double>(band);
+  }
+
+  // The last band whose lower side is not above y.
+  std::size_t band_of(double y) const {
+    auto band = static_cast<std::size_t>(
+        std::clamp(y / std::max(height_, kNoHeight), 0.0,
+                   static_cast<double>(count_ - 1)));
+    while (band > 0 && lower_side(band) > y) --band;
+    while (band + 1 < count_ && lower_side(band + 1) <= y) ++band;
+    return band;
+  }
+
+  static bool crosses(const FullEdge& edge, double y) {
+    return (edge.from.y < y) != (edge.to.y < y);
+  }
+
+  // Of an edge from below y to it or beyond, or the other way.
+  static double x_at(const FullEdge& edge, double y) {
+    const Vec2 lower = edge.from.y < edge.to.y ? edge.from : edge.to;
+    const Vec2 upper = edge.from.y < edge.to.y ? edge.to : edge.from;
+    if (y == upper.y) return upper.x;
+    const double x =
+        lower.x + (y - lower.y) * (upper.x - lower.x) / (upper.y - lower.y);
+    return std::clamp(x, std::min(lower.x, upper.x),
+                      std::max(lower.x, upper.x));
+  }
+
+  void add_cut(const FullEdge& edge, std::size_t band, BandSweep& sweep) const {
+    const double y = lower_side(band);
+    if (!crosses(edge, y)) return;
+    // To the left of an edge that runs upwards there is more.
+    sweep.add(Cut{x_at(edge, y), edge.from.y < y ? -1 : 1, edge.is_of_b});
+  }
+
+  void add_piece(const FullEdge& edge, std::size_t band,
+                 BandSweep& sweep) const {
+    const double low = lower_side(band);
+    const bool is_last = band + 1 == count_;
+    const auto end = [&](Vec2 point) {
+      if (point.y < low) return Vec2(x_at(edge, low), 0);
+      if (!is_last && point.y >= lower_side(band + 1)) {
+        return Vec2(x_at(edge, lower_side(band + 1)), height_);
+      }
+      return point - Vec2(0, low);
+    };
+    const Vec2 from = end(edge.from);
+    const Vec2 to = end(edge.to);
+    if (from.x == to.x) return;
+    const bool runs_right = from.x < to.x;
+    sweep.add(Edge{runs_right ? from : to, runs_right ? to : from,
+                   (to.y - from.y) / (to.x - from.x), runs_right ? 1 : -1,
+                   edge.is_of_b});
+  }
+
+  // Of a band that has none, for division.
+  static constexpr double kNoHeight = 1e-300;
+
+  std::vector<FullEdge> edges_;
+  double height_ = 0;  // of a band
+  std::size_t count_ = 1;
+  CellLists<std::uint32_t> members_;  // edges of each band
+};
+
 }  // namespace
 
 RegionAreas measure_regions(const ldni::Contours& a, const ldni::Contours& b) {
-  Sweep sweep;
-  sweep.add(a, false);
-  sweep.add(b, true);
-  return sweep.run();
+  Bands bands;
+  bands.add(a, false);
+  bands.add(b, true);
+  return bands.measure();
 }
 
 }  // namespace lamina::slicer

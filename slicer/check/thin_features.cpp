@@ -61,6 +61,15 @@ double distance_of_lines(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
                    distance_to_segment(c, a, b), distance_to_segment(d, a, b)});
 }
 
+// Whether the disks along two stretches are the same, but for what counts as an
+// overlap anyway.
+bool are_same_disks(Vec2 from, Vec2 to, double reach, Vec2 other_from,
+                    Vec2 other_to, double other_reach) {
+  return std::abs(reach - other_reach) <= kOverlapSlack &&
+         glm::distance(from, other_from) <= kOverlapSlack &&
+         glm::distance(to, other_to) <= kOverlapSlack;
+}
+
 // Whether a feature is to be reported at `by` rather than where it is so far.
 bool is_better(const ThinFeature& by, const ThinFeature& feature) {
   if (std::abs(by.width - feature.width) > kSameWidth) {
@@ -119,7 +128,7 @@ void FeatureCollector::StretchGrid::visit_samples(Vec2 from, Vec2 to,
   }
 }
 
-void FeatureCollector::StretchGrid::add(const Member& member) {
+std::uint32_t FeatureCollector::StretchGrid::add(const Member& member) {
   const auto number = static_cast<std::uint32_t>(members_.size());
   members_.push_back(member);
   greatest_reach_ = std::max(greatest_reach_, member.reach);
@@ -132,6 +141,7 @@ void FeatureCollector::StretchGrid::add(const Member& member) {
         items_.push_back({number, heads_[bucket]});
         heads_[bucket] = static_cast<std::uint32_t>(items_.size()) - 1;
       });
+  return number;
 }
 
 template <typename Visit>
@@ -223,10 +233,14 @@ FeatureCollector::Member FeatureCollector::member_of(
           kNone};
 }
 
-// Joins the stretch with all that it overlaps.
+// Joins the stretch with all that it overlaps. Returns the number of a member
+// of its layer that stands for it, too, or kNone: one with the same disks and
+// the same lines of the design, which has been joined with all that these
+// overlap.
 //
 // gap  by which its disks may miss those of the layer below [mm]
-void FeatureCollector::join_neighbours(Member& stretch, double gap) {
+std::uint32_t FeatureCollector::join_neighbours(Member& stretch, double gap) {
+  std::uint32_t equal = kNone;
   const auto look = [&](StretchGrid& grid, double slack) {
     const double distance = stretch.reach + slack;
     grid.visit_near(
@@ -235,6 +249,11 @@ void FeatureCollector::join_neighbours(Member& stretch, double gap) {
           const std::uint32_t place =
               thin_place_union_.root_of(other.thin_place);
           const bool is_alike = other.sources == stretch.sources;
+          if (is_alike && &grid == &here_ &&
+              are_same_disks(stretch.from, stretch.to, stretch.reach,
+                             other.from, other.to, other.reach)) {
+            equal = here_.number_of(other);
+          }
           const std::uint32_t feature =
               is_alike ? feature_union_.root_of(other.feature)
                        : stretch.feature;
@@ -254,7 +273,8 @@ void FeatureCollector::join_neighbours(Member& stretch, double gap) {
         });
   };
   look(here_, kOverlapSlack);
-  look(below_, gap);
+  if (equal == kNone) look(below_, gap);
+  return equal;
 }
 
 // Adds the stretch to its feature and its thin place, or to new ones if it has
@@ -322,11 +342,12 @@ void FeatureCollector::take(const Layer& layer,
   last_stretches_.assign(stretches.begin(), stretches.end());
   std::swap(here_, below_);
   clear_here(stretches);
+  numbers_.clear();
   for (const ThinStretch& stretch : stretches) {
     Member member = member_of(stretch);
-    join_neighbours(member, gap);
+    const std::uint32_t equal = join_neighbours(member, gap);
     count(feature_of(stretch, layer), member);
-    here_.add(member);
+    numbers_.push_back(equal == kNone ? here_.add(member) : equal);
   }
 }
 
@@ -334,7 +355,7 @@ void FeatureCollector::take(const Layer& layer,
 // below, and all that can be joined has been.
 void FeatureCollector::take_again(const Layer& layer) {
   for (std::size_t i = 0; i < last_stretches_.size(); ++i) {
-    Member& member = here_.members()[i];
+    Member& member = here_.members()[numbers_[i]];
     member.thin_place = thin_place_union_.root_of(member.thin_place);
     member.feature = feature_union_.root_of(member.feature);
     count(feature_of(last_stretches_[i], layer), member);

@@ -98,8 +98,12 @@ class FeatureCollector {
     // count   stretches to come
     // length  of all of them [mm]
     void clear(double cell, std::size_t count, double length);
-    void add(const Member& member);
+    // Returns the member's number.
+    std::uint32_t add(const Member& member);
     std::span<Member> members() { return members_; }
+    std::uint32_t number_of(const Member& member) const {
+      return static_cast<std::uint32_t>(&member - members_.data());
+    }
     // Calls visit(member) for all whose disks are within the distance of the
     // line, and for some beyond.
     template <typename Visit>
@@ -131,7 +135,7 @@ class FeatureCollector {
   Member member_of(const ThinStretch& stretch) const;
   void clear_here(std::span<const ThinStretch> stretches);
   void take_again(const Layer& layer);
-  void join_neighbours(Member& member, double gap);
+  std::uint32_t join_neighbours(Member& member, double gap);
   std::uint32_t join_features(std::uint32_t a, std::uint32_t b);
   std::uint32_t join_thin_places(std::uint32_t a, std::uint32_t b);
   void count(const ThinFeature& one, Member& member);
@@ -144,6 +148,9 @@ class FeatureCollector {
   // Where the last two layers had the same stretches: by how much disks of the
   // two may miss each other and have been joined [mm].
   double joined_gap_ = -1;
+  // The members of here_ that stand for them: the disk in the middle of a wire
+  // of n sides comes with some n² / 12 pairs of sides that face each other.
+  std::vector<std::uint32_t> numbers_;
   StretchGrid here_;
   StretchGrid below_;
   Union feature_union_;

@@ -1,7 +1,8 @@
 #include "slicer/contour/compensate.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "base/plane.h"
 #include "csg/plane/offset.h"
 #include "csg/tie_distance.h"
+#include "slicer/contour/edge_order.h"
 
 namespace lamina::slicer {
 namespace {
@@ -23,34 +25,61 @@ constexpr double kArcExcess = 2.25;
 // Finds the innermost loop of a region around a point.
 class Nesting {
  public:
-  explicit Nesting(const Region& region) : region_(region) {
-    for (const Contour& contour : region.contours) {
-      boxes_.emplace_back().add(contour);
-      areas_.push_back(std::abs(sliver_area(contour)));
-    }
-  }
-
-  // The innermost loop but `skipped`; kNone outside all loops.
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::size_t innermost(Vec2 point, std::size_t skipped = kNone) const {
-    std::size_t result = kNone;
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      const Box2& box = boxes_[i];
-      if (i == skipped) continue;
-      if ((result == kNone || areas_[i] < areas_[result]) &&
-          point.x > box.low.x && point.x < box.high.x && point.y > box.low.y &&
-          point.y < box.high.y &&
-          winding_number(region_.contours[i], point) != 0) {
-        result = i;
+
+  explicit Nesting(const Region& region)
+      : parents_(region.contours.size(), kNone) {
+    for (std::uint32_t i = 0; i < region.contours.size(); ++i) {
+      const Contour& contour = region.contours[i];
+      is_outer_.push_back(sliver_area(contour) > 0);
+      for (std::size_t k = 0; k < contour.size(); ++k) {
+        const Vec2 from = contour[k];
+        const Vec2 to = contour[k + 1 < contour.size() ? k + 1 : 0];
+        if (from.x != to.x) order_.add(from, to, i);
       }
     }
-    return result;
+    order_.build();
+    find_parents();
   }
 
+  // The innermost loop around a point; kNone outside all loops.
+  std::size_t innermost(Vec2 point) const {
+    return loop_above(order_.below(point).nearest);
+  }
+  // The innermost loop around another one.
+  std::size_t parent(std::size_t loop) const { return parents_[loop]; }
+
  private:
-  const Region& region_;
-  std::vector<Box2> boxes_;    // of the loops
-  std::vector<double> areas_;  // and what they enclose, at least 0
+  // What lies below the left end of a loop belongs to loops that begin farther
+  // to the left or below: these come first.
+  void find_parents() {
+    std::vector<const EdgeOrder::Edge*> firsts(parents_.size(), nullptr);
+    for (const EdgeOrder::Edge& edge : order_.edges()) {
+      const EdgeOrder::Edge*& first = firsts[edge.loop];
+      if (first == nullptr || comes_first(&edge, first)) first = &edge;
+    }
+    std::erase(firsts, nullptr);
+    std::ranges::sort(firsts, comes_first);
+    for (const EdgeOrder::Edge* first : firsts) {
+      parents_[first->loop] = loop_above(order_.below(*first).nearest);
+    }
+  }
+
+  static bool comes_first(const EdgeOrder::Edge* a, const EdgeOrder::Edge* b) {
+    return a->left != b->left ? precedes(a->left, b->left)
+                              : EdgeOrder::is_below(*a, *b);
+  }
+
+  // The innermost loop right above an edge.
+  std::size_t loop_above(const EdgeOrder::Edge* edge) const {
+    if (edge == nullptr) return kNone;
+    const bool is_inside = (edge->winding > 0) == is_outer_[edge->loop];
+    return is_inside ? edge->loop : parents_[edge->loop];
+  }
+
+  EdgeOrder order_;
+  std::vector<bool> is_outer_;
+  std::vector<std::size_t> parents_;
 };
 
 // What happened to the components that shrink: regions, or holes and the
@@ -91,8 +120,7 @@ Losses find_losses(const Region& before, const Region& after, int sign) {
       continue;
     }
     // What lay in a component that vanished is no component any more.
-    const std::size_t home =
-        nesting.innermost((contour[0] + contour[1]) / 2.0, i);
+    const std::size_t home = nesting.parent(i);
     if (home == Nesting::kNone || is_left[home] != 0) ++parted;
   }
   losses.parted = static_cast<std::uint64_t>(std::max<std::int64_t>(parted, 0));

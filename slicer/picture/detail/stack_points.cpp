@@ -74,13 +74,21 @@ class StackDrawer {
   void add_cap(const ldni::Contours& contours, const Plate& plate) {
     const std::optional<double> z = visible_side(plate);
     if (!z) return;
-    cut_into_trapezoids(contours, trapezoids_);
+    if (cut_ == nullptr || !have_same_points(*cut_, contours)) {
+      cut_into_trapezoids(contours, trapezoids_);
+      cut_ = &contours;
+    }
     for (const Trapezoid& cut : trapezoids_) {
       add_quad({Vec3(cut.bottom_left, cut.bottom, *z),
                 Vec3(cut.bottom_right, cut.bottom, *z),
                 Vec3(cut.top_right, cut.top, *z),
                 Vec3(cut.top_left, cut.top, *z)});
     }
+  }
+
+  static bool have_same_points(const ldni::Contours& a,
+                               const ldni::Contours& b) {
+    return a.ends == b.ends && a.points == b.points;
   }
 
   void flush() {
@@ -95,6 +103,7 @@ class StackDrawer {
   double to_viewer_z_ = 1;
   float tag_ = 0;
   std::vector<ldni::TaggedPoint> corners_;
+  const ldni::Contours* cut_ = nullptr;  // into these
   std::vector<Trapezoid> trapezoids_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -33,6 +34,7 @@ class TrapezoidSweep {
       : trapezoids_(trapezoids) {
     visit_edges(contours, [&](Vec2 from, Vec2 to) { add_edge(from, to); });
     std::ranges::sort(edges_, {}, [](const Edge& edge) { return edge.low.y; });
+    strip_of_.assign(edges_.size(), 0);
     std::ranges::sort(heights_);
     heights_.erase(std::unique(heights_.begin(), heights_.end()),
                    heights_.end());
@@ -57,12 +59,19 @@ class TrapezoidSweep {
     std::erase_if(active_, [&](const Active& active) {
       return edges_[active.edge].high.y <= bottom;
     });
+    const auto stay = static_cast<std::ptrdiff_t>(active_.size());
     for (; next_ < edges_.size() && edges_[next_].low.y <= bottom; ++next_) {
       active_.push_back({static_cast<std::uint32_t>(next_), 0});
     }
     const double middle = (bottom + top) / 2;
     for (Active& active : active_) active.x = edges_[active.edge].x_at(middle);
-    std::ranges::sort(active_, {}, &Active::x);
+    const auto first_new = active_.begin() + stay;
+    std::sort(first_new, active_.end(), is_left_of);
+    std::inplace_merge(active_.begin(), first_new, active_.end(), is_left_of);
+    // Contours of a file may cross.
+    if (!std::ranges::is_sorted(active_, is_left_of)) {
+      std::ranges::sort(active_, is_left_of);
+    }
 
     std::vector<Strip> strips;
     int winding = 0;
@@ -80,12 +89,15 @@ class TrapezoidSweep {
 
   // Ends the strips that do not go on beyond `height`.
   void replace_strips(std::vector<Strip> strips, double height) {
+    for (std::uint32_t i = 0; i < strips.size(); ++i) {
+      strip_of_[strips[i].sides[0]] = i;
+    }
     for (const Strip& old : strips_) {
-      const auto same = std::ranges::find(strips, old.sides, &Strip::sides);
-      if (same == strips.end()) {
-        finish(old, height);
+      const std::uint32_t i = strip_of_[old.sides[0]];
+      if (i < strips.size() && strips[i].sides == old.sides) {
+        strips[i].bottom = old.bottom;
       } else {
-        same->bottom = old.bottom;
+        finish(old, height);
       }
     }
     strips_ = std::move(strips);
@@ -103,12 +115,14 @@ class TrapezoidSweep {
     std::uint32_t edge;
     double x;
   };
+  static bool is_left_of(const Active& a, const Active& b) { return a.x < b.x; }
 
   std::vector<Edge> edges_;  // by where they begin; level ones left out
   std::vector<double> heights_;
   std::size_t next_ = 0;  // of the edges
   std::vector<Active> active_;
   std::vector<Strip> strips_;
+  std::vector<std::uint32_t> strip_of_;  // that each edge was the left side of
   std::vector<Trapezoid>& trapezoids_;
 };
 

@@ -161,6 +161,30 @@ TEST(FindDefects, ALargeLayerIsQuick) {
 // Edges as long as the layer stood in as many cells as there are edges: a file
 // of a megabyte asked for gigabytes, and one of two for more than can be
 // counted in 32 bits.
+TEST(FindDefects, AHighRowOfLoopsIsQuick) {
+  // All in one column of the grid: minutes, if each loop were asked about each.
+  constexpr int kLoops = 200'000;
+  std::vector<std::vector<Vec2>> loops;
+  for (int i = 0; i < kLoops; ++i) {
+    loops.push_back({{0, 2.0 * i}, {1, 2.0 * i}, {0, 2.0 * i + 1}});
+  }
+  loops.push_back(hole(0, 2.0 * kLoops, 1));
+  const auto defects = find_defects(closed(loops));
+  ASSERT_EQ(defects.size(), 1U);
+  EXPECT_EQ(defects[0].kind, DefectKind::kOrientation);
+  EXPECT_EQ(defects[0].loop, std::uint32_t{kLoops});
+}
+
+TEST(FindDefects, LoopsThatTouchHaveANesting) {
+  // The corners of a hole are on the sides of the square around it.
+  EXPECT_EQ(kinds(closed({{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+                          {{0, 2}, {2, 4}, {4, 2}, {2, 0}}})),
+            Kinds{});
+  EXPECT_EQ(kinds(closed({{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+                          {{0, 2}, {2, 0}, {4, 2}, {2, 4}}})),
+            Kinds{DefectKind::kOrientation});
+}
+
 TEST(FindDefects, LongEdgesSideBySideAreQuick) {
   std::vector<std::vector<Vec2>> slats;
   for (int i = 0; i < 10'000; ++i) {

@@ -152,6 +152,50 @@ TEST(MeasureRegions, TurningAllChangesNothing) {
   }
 }
 
+TEST(MeasureRegions, OfManyLongBars) {
+  // Minutes, if at each end all bars were looked at.
+  constexpr int kBars = 40'000;
+  Contours a;
+  Contours b;
+  for (int i = 0; i < kBars; ++i) {
+    const Vec2 low(1e-3 * ((i * 7919) % kBars), 2.0 * i);
+    const Vec2 high = low + Vec2(100, 1);
+    add_loop(a, {low, {high.x, low.y}, high, {low.x, high.y}});
+    const Vec2 up(0, 0.25);
+    add_loop(b, {low + up, Vec2(high.x, low.y) + up, high + up,
+                 Vec2(low.x, high.y) + up});
+  }
+  const RegionAreas areas = measure_regions(a, b);
+  EXPECT_NEAR(areas.both, 75.0 * kBars, 1e-5);
+  EXPECT_NEAR(areas.only_a, 25.0 * kBars, 1e-5);
+  EXPECT_NEAR(areas.only_b, 25.0 * kBars, 1e-5);
+}
+
+TEST(MeasureRegions, OfShapesBetweenManyOthers) {
+  // Where other edges cut the layer into bands, areas stay what they are.
+  std::mt19937 random(10);
+  Contours teeth;
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 low(6, -10 + 0.04 * i);
+    add_loop(teeth, {low, low + Vec2(1, 0), low + Vec2(1, 0.02)});
+  }
+  const double area = 500 * 0.01;
+  for (int run = 0; run < 20; ++run) {
+    Contours a = random_star(random);
+    Contours b = random_star(random);
+    const RegionAreas alone = measure_regions(a, b);
+    for (Contours* contours : {&a, &b}) {
+      for (std::size_t i = 0; i < teeth.loop_count(); ++i) {
+        contours->add_loop(teeth.loop(i));
+      }
+    }
+    const RegionAreas among = measure_regions(a, b);
+    EXPECT_NEAR(among.both, alone.both + area, 1e-11);
+    EXPECT_NEAR(among.only_a, alone.only_a, 1e-12);
+    EXPECT_NEAR(among.only_b, alone.only_b, 1e-12);
+  }
+}
+
 TEST(MeasureRegions, OfItselfIsNothingToTheLastDigit) {
   std::mt19937 random(9);
   for (int run = 0; run < 50; ++run) {

@@ -187,6 +187,22 @@ TEST(ThinFeatures, APlaceMadeByTwoLinesIsTwoFeatures) {
   EXPECT_NEAR(sliced.report.features[1].height, 2, 1e-9);
 }
 
+TEST(ThinFeatures, AWireOfManySidesIsOneWall) {
+  // The disk in its middle touches all sides at once, so that 187,000 pairs of
+  // them make a stretch there: minutes, if each were joined with each.
+  Settings settings;
+  settings.layer_thickness = 0.5;
+  const Sliced sliced =
+      slice_text("cylinder(r = 0.14, h = 1, $fn = 1500);", 0.3, settings);
+  ASSERT_EQ(sliced.report.features.size(), 1U);
+  const ThinFeature& wire = sliced.report.features[0];
+  EXPECT_EQ(wire.kind, ThinKind::kWall);
+  EXPECT_NEAR(wire.width, 0.28 * std::cos(kPi / 1500), 1e-6);
+  EXPECT_NEAR(wire.height, 1, 1e-9);
+  EXPECT_NEAR(wire.place.x, 0, 1e-6);
+  EXPECT_NEAR(wire.place.y, 0, 1e-6);
+}
+
 TEST(ThinFeatures, AWallThatLeansIsOneFeature) {
   for (const double lean : {0.0, 0.5, 1.0}) {
     for (const double width : {0.001, 0.05, 0.19}) {

@@ -238,6 +238,32 @@ TEST(Compensate, AHoleThatAnIslandFillsUpIsOneLoss) {
   EXPECT_EQ(island.closed_gaps, 0U);
 }
 
+TEST(Compensate, LossesAmongManyLoopsAreCounted) {
+  // Plates with a thin wall beside them and a pierced island inside, and many
+  // that stay: minutes, if each loop were asked about each.
+  constexpr int kSide = 100;
+  std::vector<std::vector<Vec2>> loops;
+  for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kSide; ++y) {
+      const Vec2 at(10.0 * x, 10.0 * y);
+      loops.push_back(box(at, at + Vec2(8)));
+      loops.push_back(box(at + Vec2(1), at + Vec2(7), true));
+      loops.push_back(box(at + Vec2(2), at + Vec2(6)));
+      loops.push_back(box(at + Vec2(2.1), at + Vec2(4), true));
+      loops.push_back(box(at + Vec2(8.5, 0), at + Vec2(8.6, 8)));
+    }
+  }
+  for (int x = 0; x < 5 * kSide; ++x) {
+    for (int y = 0; y < 5 * kSide; ++y) {
+      const Vec2 at(-2.0 * x, -2.0 * y);
+      loops.push_back(box(at - Vec2(2), at - Vec2(1)));
+    }
+  }
+  const CompensationCounts counts = lost_inwards(loops);
+  EXPECT_EQ(counts.vanished_regions, std::uint64_t{kSide * kSide});
+  EXPECT_EQ(counts.broken_walls, std::uint64_t{kSide * kSide});
+}
+
 TEST(Compensate, LayersOfDesignsStaySoundAndCanBeSimplified) {
   for (int style = 0; style < support::kSceneStyleCount; ++style) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -111,6 +111,26 @@ TEST(Trapezoids, ASquareIsOne) {
   EXPECT_TRUE(cut.empty());
 }
 
+TEST(Trapezoids, BarsThatBeginAndEndOneByOneAreOneEach) {
+  // Minutes, if at each end all bars were looked for among all bars.
+  constexpr int kBars = 10'000;
+  ldni::Contours contours;
+  for (int i = 0; i < kBars; ++i) {
+    const double x = 2.0 * i;
+    const double y = 1e-3 * ((i * 7919) % kBars);
+    contours.add_loop(std::array<Vec2, 4>{
+        {{x, y}, {x + 1, y}, {x + 1, y + 100}, {x, y + 100}}});
+  }
+  std::vector<Trapezoid> cut;
+  cut_into_trapezoids(contours, cut);
+  ASSERT_EQ(cut.size(), std::size_t{kBars});
+  double area = 0;
+  for (const Trapezoid& t : cut) {
+    area += (t.top - t.bottom) * (t.top_right - t.top_left);
+  }
+  EXPECT_NEAR(area, 100.0 * kBars, 1e-6);
+}
+
 TEST(LayerDistance, IsThatOfAllEdgesTriedOneByOne) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> coordinate(-12, 32);
