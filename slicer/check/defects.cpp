@@ -200,7 +200,7 @@ void find_turned(std::span<const WrittenLoop> loops,
                  std::span<const std::uint32_t> enclosing,
                  std::vector<Defect>& defects) {
   EdgeOrder order;
-  std::vector<std::size_t> ends;  // of each loop, among the edges
+  std::vector<std::size_t> ends(1, 0);  // of each loop, among the edges
   for (std::uint32_t l = 0; l < loops.size(); ++l) {
     const std::vector<Vec2>& points = loops[l].points;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -213,7 +213,9 @@ void find_turned(std::span<const WrittenLoop> loops,
   order.build();
   for (const std::uint32_t l : enclosing) {
     const std::vector<Vec2>& points = loops[l].points;
-    const EdgeOrder::Edge& edge = order.edges()[ends[l] - 1];
+    // Of a loop near the ends of the numbers the area may be none of its own.
+    if (ends[l + 1] == ends[l]) continue;
+    const EdgeOrder::Edge& edge = order.edges()[ends[l]];
     const bool is_hole = signed_area(points) < 0;
     // The inside is to the left of an outer loop, to the right of a hole: below
     // an edge that has it below, the loop itself goes around, too.

@@ -317,10 +317,12 @@ class Bands {
       climb += std::abs(edge.to.y - edge.from.y);
     }
     const auto edges = static_cast<double>(edges_.size());
-    const double most =
-        climb > 0 ? kPiecesPerEdge * edges * (high - low) / climb : 1;
-    count_ = static_cast<std::size_t>(
-        std::max(1.0, std::min(edges / kEdgesPerBand, most)));
+    // Sizes near the ends of the numbers cannot be divided: one band.
+    if (high - low > kLeastSize && std::isfinite(climb)) {
+      count_ = static_cast<std::size_t>(std::max(
+          1.0, std::min(edges / kEdgesPerBand,
+                        kPiecesPerEdge * edges * (high - low) / climb)));
+    }
     // y counts from the lowest point, so that bands keep their digits.
     for (FullEdge& edge : edges_) {
       edge.from.y -= low;
@@ -335,9 +337,9 @@ class Bands {
 
   // The last band whose lower side is not above y.
   std::size_t band_of(double y) const {
+    if (count_ == 1) return 0;
     auto band = static_cast<std::size_t>(
-        std::clamp(y / std::max(height_, kNoHeight), 0.0,
-                   static_cast<double>(count_ - 1)));
+        std::clamp(y / height_, 0.0, static_cast<double>(count_ - 1)));
     while (band > 0 && lower_side(band) > y) --band;
     while (band + 1 < count_ && lower_side(band + 1) <= y) ++band;
     return band;
@@ -385,8 +387,7 @@ class Bands {
                    edge.is_of_b});
   }
 
-  // Of a band that has none, for division.
-  static constexpr double kNoHeight = 1e-300;
+  static constexpr double kLeastSize = 1e-100;  // of a layer with bands [mm]
 
   std::vector<FullEdge> edges_;
   double height_ = 0;  // of a band

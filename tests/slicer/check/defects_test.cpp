@@ -175,6 +175,15 @@ TEST(FindDefects, AHighRowOfLoopsIsQuick) {
   EXPECT_EQ(defects[0].loop, std::uint32_t{kLoops});
 }
 
+TEST(FindDefects, AnUprightLoopWhoseAreaOverflowsHasNoNesting) {
+  for (const double far : {1e160, 1e300}) {
+    for (const Defect& defect : find_defects(
+             closed({{{far, -far}, {far, far}, {far, 0}}, square(0, 0, 1)}))) {
+      EXPECT_NE(defect.kind, DefectKind::kOrientation);
+    }
+  }
+}
+
 TEST(FindDefects, LoopsThatTouchHaveANesting) {
   // The corners of a hole are on the sides of the square around it.
   EXPECT_EQ(kinds(closed({{{0, 0}, {4, 0}, {4, 4}, {0, 4}},

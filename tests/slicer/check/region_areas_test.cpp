@@ -196,6 +196,16 @@ TEST(MeasureRegions, OfShapesBetweenManyOthers) {
   }
 }
 
+TEST(MeasureRegions, OfTheLeastAndTheGreatestNumbersEnds) {
+  for (const double size : {5e-324, 1e-200, 1e200, 1e308}) {
+    Contours contours;
+    for (int i = 0; i < 40; ++i) {
+      add_loop(contours, {{-size, -size}, {size, -size}, {0, size}});
+    }
+    measure_regions(contours, {});
+  }
+}
+
 TEST(MeasureRegions, OfItselfIsNothingToTheLastDigit) {
   std::mt19937 random(9);
   for (int run = 0; run < 50; ++run) {
