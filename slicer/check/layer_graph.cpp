@@ -72,11 +72,6 @@ Vec2 inner_place(const ldni::Contours& region) {
   return place;
 }
 
-bool are_near(const Box2& a, const Box2& b, double reach) {
-  return a.low.x <= b.high.x + reach && b.low.x <= a.high.x + reach &&
-         a.low.y <= b.high.y + reach && b.low.y <= a.high.y + reach;
-}
-
 void merge(Finding& kept, const Finding& other) {
   if (other.first_layer < kept.first_layer) {
     kept.first_layer = other.first_layer;
@@ -149,6 +144,7 @@ void LayerGraph::take(const Layer& layer, const LayerOverlay* overlay) {
     lay(layer, overlay);
   } else {
     patches_.clear();
+    patch_overhangs_.clear();
   }
   last_bottom_ = layer.bottom;
   last_top_ = layer.top;
@@ -382,9 +378,9 @@ void LayerGraph::add_cup(const Component& component) {
 
 void LayerGraph::take_overhangs(const Layer& layer,
                                 const LayerOverlay& overlay) {
-  next_patches_.clear();
-  const double reach =
-      kSamePlace + 2 * reach_of(self_supporting_, layer.section_z - last_z_);
+  const std::size_t before = patches_.size();
+  const Vec2 margin(kSamePlace / 2 +
+                    reach_of(self_supporting_, layer.section_z - last_z_));
   for (const Overhang& overhang : overlay.overhangs) {
     Finding finding = begin_finding(FindingKind::kOverhang, layer);
     finding.area = overhang.area;
@@ -392,19 +388,22 @@ void LayerGraph::take_overhangs(const Layer& layer,
     finding.place = overhang.place;
     finding.box = {Vec3(overhang.box.low, layer.bottom),
                    Vec3(overhang.box.high, layer.top)};
-    auto number = static_cast<std::uint32_t>(overhangs_.size());
+    const auto number = static_cast<std::uint32_t>(overhangs_.size());
     overhangs_.push_back(finding);
     overhang_parents_.push_back(number);
-    for (const auto* patches : {&patches_, &next_patches_}) {
-      for (const Patch& patch : *patches) {
-        if (are_near(patch.box, overhang.box, reach)) {
-          number = join_overhangs(number, patch.finding);
-        }
-      }
-    }
-    next_patches_.push_back({overhang.box, number});
+    patches_.push_back({overhang.box.low - margin, overhang.box.high + margin});
+    patch_overhangs_.push_back(number);
   }
-  std::swap(patches_, next_patches_);
+  if (!overlay.overhangs.empty()) {
+    const std::vector<std::uint32_t>& firsts = touching_.find(patches_);
+    for (std::size_t i = 0; i < firsts.size(); ++i) {
+      join_overhangs(patch_overhangs_[i], patch_overhangs_[firsts[i]]);
+    }
+  }
+  const auto kept = static_cast<std::ptrdiff_t>(before);
+  patches_.erase(patches_.begin(), patches_.begin() + kept);
+  patch_overhangs_.erase(patch_overhangs_.begin(),
+                         patch_overhangs_.begin() + kept);
 }
 
 std::uint32_t LayerGraph::overhang_root_of(std::uint32_t overhang) {
@@ -415,10 +414,10 @@ std::uint32_t LayerGraph::overhang_root_of(std::uint32_t overhang) {
   return overhang;
 }
 
-std::uint32_t LayerGraph::join_overhangs(std::uint32_t a, std::uint32_t b) {
+void LayerGraph::join_overhangs(std::uint32_t a, std::uint32_t b) {
   a = overhang_root_of(a);
   b = overhang_root_of(b);
-  if (a == b) return a;
+  if (a == b) return;
   const auto [kept, other] = std::minmax(a, b);
   overhang_parents_[other] = kept;
   Finding& finding = overhangs_[kept];
@@ -431,7 +430,6 @@ std::uint32_t LayerGraph::join_overhangs(std::uint32_t a, std::uint32_t b) {
     finding.layer = joined.layer;
     finding.section_z = joined.section_z;
   }
-  return kept;
 }
 
 // --- The end ----------------------------------------------------------------

@@ -31,6 +31,7 @@
 #include "base/vec.h"
 #include "slicer/check/layer_overlay.h"
 #include "slicer/check/thin_finder.h"
+#include "slicer/check/touching_boxes.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
@@ -123,11 +124,6 @@ class LayerGraph {
     Finding finding;           // what it is as long as it is not anchored
     std::uint32_t island = kNone;  // in findings_, until another part is reached
   };
-  // A patch of overhang in the last layer.
-  struct Patch {
-    Box2 box;
-    std::uint32_t finding = 0;  // in overhangs_
-  };
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   bool repeats(const Layer& layer) const;
@@ -146,7 +142,7 @@ class LayerGraph {
   std::uint32_t join_voids(std::uint32_t a, std::uint32_t b);
   void end_island(std::uint32_t component);
   void add_cup(const Component& component);
-  std::uint32_t join_overhangs(std::uint32_t a, std::uint32_t b);
+  void join_overhangs(std::uint32_t a, std::uint32_t b);
   std::uint32_t overhang_root_of(std::uint32_t overhang);
 
   const double self_supporting_;
@@ -169,8 +165,11 @@ class LayerGraph {
   std::vector<Finding> findings_;
   std::vector<Finding> overhangs_;
   std::vector<std::uint32_t> overhang_parents_;
-  std::vector<Patch> patches_;
-  std::vector<Patch> next_patches_;
+  // The overhangs of the last layer: their boxes, wider by half of what may lie
+  // between two that are one, and their numbers in overhangs_.
+  std::vector<Box2> patches_;
+  std::vector<std::uint32_t> patch_overhangs_;
+  TouchingBoxes touching_;
   Peel peel_;
 };
 

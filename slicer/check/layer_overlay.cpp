@@ -199,41 +199,41 @@ Outlook look_along(const Sample& lower, const Sample& upper, double x,
 }
 
 // Finds overhangs on ledges. Places of a square grid are asked, and the
-// vertices of the layer above.
+// vertices of the layer above. The grid depends on the ledges alone, so that
+// what else the layer holds changes nothing.
+//
+// Successive vertices of either chain cut a ledge into trapezoids, its parts. A
+// part where no place of the grid hangs over may still be a narrow bridge
+// between them, so its middle is asked.
 class OverhangSearch {
  public:
   OverhangSearch(const ldni::Contours& below, const ldni::Contours& above,
-                 double reach, std::vector<Overhang>& found)
+                 const std::vector<Ledge>& ledges, double reach,
+                 std::vector<Overhang>& found)
       : tree_(below),
         reach_(reach),
         box_(box_of(above)),
-        pitch_(
-            std::max({reach, kPitch,
-                      std::max(box_.size().x, box_.size().y) / kMostColumns})),
+        pitch_(std::max({reach, kPitch, least_pitch(ledges)})),
         found_(found) {}
 
   void search(const Ledge& ledge) {
     overhang_ = {};
     overhang_.region = ledge.region;
-    Cursor lower(ledge.lower, ledge.lower_last);
-    Cursor upper(ledge.upper, ledge.upper_last);
-    double left = ledge.begin;
-    double width = upper.y_at(left) - lower.y_at(left);
-    for (;;) {
-      const double right = std::min({lower.right(), upper.right(), ledge.end});
-      const double next = upper.y_at(right) - lower.y_at(right);
-      if (std::max(width, next) > reach_) {
-        search_part(ledge, lower, upper, left, right);
-      }
-      if (right >= ledge.end) break;
-      // An end of the ledge that rounding puts behind that of a chain.
-      if ((lower.right() == right && !lower.step()) ||
-          (upper.right() == right && !upper.step())) {
-        break;
-      }
-      left = right;
-      width = next;
-    }
+    asked_vertex_ = Vec2(kNever);
+    does_vertex_hang_over_ = false;
+    bool is_first = true;
+    visit_parts(ledge,
+                [&](const Cursor& lower, const Cursor& upper, double left,
+                    double right, double width, double next) {
+                  if (std::max(width, next) > reach_) {
+                    for (const Cursor* const cursor : {&lower, &upper}) {
+                      if (!is_first || cursor->at()->x < left) continue;
+                      ask_vertex(ledge, lower, upper, *cursor, *cursor->at());
+                    }
+                    search_part(ledge, lower, upper, left, right);
+                  }
+                  is_first = false;
+                });
     if (overhang_.distance > 0) found_.push_back(overhang_);
   }
 
@@ -244,44 +244,147 @@ class OverhangSearch {
     return box;
   }
 
+  // Calls visit(lower, upper, left, right, width, next) for the parts of a
+  // ledge, with their widths in y on the left and on the right.
+  template <typename Visit>
+  static void visit_parts(const Ledge& ledge, const Visit& visit) {
+    Cursor lower(ledge.lower, ledge.lower_last);
+    Cursor upper(ledge.upper, ledge.upper_last);
+    double left = ledge.begin;
+    double width = upper.y_at(left) - lower.y_at(left);
+    for (;;) {
+      const double right = std::min({lower.right(), upper.right(), ledge.end});
+      const double next = upper.y_at(right) - lower.y_at(right);
+      visit(lower, upper, left, right, width, next);
+      if (right >= ledge.end) return;
+      // An end of the ledge that rounding puts behind that of a chain.
+      if ((lower.right() == right && !lower.step()) ||
+          (upper.right() == right && !upper.step())) {
+        return;
+      }
+      left = right;
+      width = next;
+    }
+  }
+
+  // From which on the ledges take no more than the most places, their columns
+  // counted as one each besides.
+  double least_pitch(const std::vector<Ledge>& ledges) const {
+    double length = 0;
+    for (const Ledge& ledge : ledges) length += ledge.end - ledge.begin;
+    const auto pitch_for = [&](double area) {
+      return (length + std::sqrt(length * length + 4 * kMostPlaces * area)) /
+             (2 * kMostPlaces);
+    };
+    // They hardly ever fill the layer's box.
+    const double box_pitch = pitch_for(box_.size().x * box_.size().y);
+    if (box_pitch <= kPitch) return box_pitch;
+    double area = 0;
+    for (const Ledge& ledge : ledges) {
+      visit_parts(ledge, [&](const Cursor&, const Cursor&, double left,
+                             double right, double width, double next) {
+        area += (right - left) * std::max((width + next) / 2, 0.0);
+      });
+    }
+    return pitch_for(area);
+  }
+
   // Between two successive vertices of either chain.
   void search_part(const Ledge& ledge, const Cursor& lower, const Cursor& upper,
                    double left, double right) {
+    const double area = overhang_.area;
     for (double column = std::ceil(left / pitch_); column * pitch_ < right;
          ++column) {
-      const double x = column * pitch_;
-      // Where loops of a file cross, a ledge may reach beyond its layer.
-      const double low = std::max(
-          lower.y_at(x) + (ledge.is_lower_held ? reach_ : 0), box_.low.y);
-      const double high = std::min(
-          upper.y_at(x) - (ledge.is_upper_held ? reach_ : 0), box_.high.y);
-      const double last_row = std::floor(high / pitch_);
-      for (double row = std::ceil(low / pitch_); row <= last_row;) {
-        const Vec2 place(x, row * pitch_);
-        const double distance =
-            ask(place, distance_to_chains(ledge, lower, upper, place));
-        if (distance <= reach_) {
-          ++row;
-          continue;
-        }
-        // What is nearer than that to the place hangs over as well.
-        const double rows =
-            std::max(1.0, std::floor(kStride * (distance - reach_) / pitch_));
-        const double end = std::min(row + rows, last_row + 1);
-        overhang_.area += (end - row) * pitch_ * pitch_;
-        overhang_.box.add(Vec2(x, (end - 1) * pitch_));
-        row = end;
-      }
+      search_column(ledge, lower, upper, column * pitch_);
     }
     for (const Cursor* const cursor : {&lower, &upper}) {
-      const bool is_held_chain =
-          cursor == &lower ? ledge.is_lower_held : ledge.is_upper_held;
-      if (is_held_chain || cursor->right() != right) continue;
-      if (is_near(cursor->end(), asked_vertex_)) continue;
-      asked_vertex_ = cursor->end();
-      ask(asked_vertex_,
-          distance_to_chains(ledge, lower, upper, asked_vertex_));
+      if (cursor->right() != right) continue;
+      ask_vertex(ledge, lower, upper, *cursor, cursor->end());
     }
+    if (overhang_.area == area) ask_middle(ledge, lower, upper, left, right);
+  }
+
+  // The stretch of a column that no held chain above or below is within reach
+  // of. Where loops of a file cross, a ledge may reach beyond its layer.
+  double low_at(const Ledge& ledge, const Cursor& lower, double x) const {
+    return std::max(lower.y_at(x) + (ledge.is_lower_held ? reach_ : 0),
+                    box_.low.y);
+  }
+  double high_at(const Ledge& ledge, const Cursor& upper, double x) const {
+    return std::min(upper.y_at(x) - (ledge.is_upper_held ? reach_ : 0),
+                    box_.high.y);
+  }
+
+  void search_column(const Ledge& ledge, const Cursor& lower,
+                     const Cursor& upper, double x) {
+    const double low = low_at(ledge, lower, x);
+    const double high = high_at(ledge, upper, x);
+    if (!(low <= high)) return;
+    const double last_row = std::floor(high / pitch_);
+    for (double row = std::ceil(low / pitch_); row <= last_row;) {
+      const Vec2 place(x, row * pitch_);
+      const double distance =
+          ask(place, distance_to_chains(ledge, lower, upper, place));
+      if (distance <= reach_) {
+        ++row;
+        continue;
+      }
+      // What is nearer than that to the place hangs over as well.
+      const double rows =
+          std::max(1.0, std::floor(kStride * (distance - reach_) / pitch_));
+      const double end = std::min(row + rows, last_row + 1);
+      overhang_.area += (end - row) * pitch_ * pitch_;
+      overhang_.box.add(Vec2(x, (end - 1) * pitch_));
+      row = end;
+    }
+  }
+
+  // Asks the middle of a part, or of its free side if it has one whose vertex
+  // has not hung over.
+  void ask_middle(const Ledge& ledge, const Cursor& lower, const Cursor& upper,
+                  double left, double right) {
+    const bool has_free_side = ledge.is_lower_held != ledge.is_upper_held;
+    if (has_free_side && does_vertex_hang_over_) return;
+    if (!(right - left > 2 * reach_)) return;
+    // Leave the ends out that the two chains hold.
+    const double begin =
+        high_at(ledge, upper, left) - low_at(ledge, lower, left);
+    const double end =
+        high_at(ledge, upper, right) - low_at(ledge, lower, right);
+    if (!(std::max(begin, end) > 0)) return;
+    const double inner = left + (right - left) * begin / (begin - end);
+    if (begin < 0) left = inner;
+    if (end < 0) right = inner;
+    const double width = right - left;
+    if (!(width > 2 * reach_)) return;
+    const double x = left + width / 2;
+    const double low = low_at(ledge, lower, x);
+    const double high = high_at(ledge, upper, x);
+    const double height = high - low;
+    const Vec2 place(x, !has_free_side        ? low + height / 2
+                        : ledge.is_lower_held ? high
+                                              : low);
+    const double distance =
+        ask(place, distance_to_chains(ledge, lower, upper, place));
+    if (distance <= reach_) return;
+    // It is a strip along the part, as wide as its middle tells.
+    for (const double end_x : {left, right}) {
+      overhang_.box.add(Vec2(end_x, low_at(ledge, lower, end_x)));
+      overhang_.box.add(Vec2(end_x, high_at(ledge, upper, end_x)));
+    }
+    overhang_.area +=
+        std::min(width * height, (has_free_side ? 1 : 2) * (distance - reach_) *
+                                     std::max(width, height));
+  }
+
+  // Asks a vertex of one of the chains if that bounds the layer above.
+  void ask_vertex(const Ledge& ledge, const Cursor& lower, const Cursor& upper,
+                  const Cursor& chain, Vec2 vertex) {
+    if (&chain == &lower ? ledge.is_lower_held : ledge.is_upper_held) return;
+    if (is_near(vertex, asked_vertex_)) return;
+    asked_vertex_ = vertex;
+    does_vertex_hang_over_ =
+        ask(vertex, distance_to_chains(ledge, lower, upper, vertex)) > reach_;
   }
 
   // The distance from those parts of the two chains near the place that hold
@@ -338,10 +441,10 @@ class OverhangSearch {
     return distance;
   }
 
-  // Places are so far apart [mm], where the reach is not more, and where no
-  // more than so many columns are needed.
+  // Places are so far apart [mm], where the reach is not more and a layer needs
+  // no more than so many.
   static constexpr double kPitch = 0.1;
-  static constexpr double kMostColumns = 512;
+  static constexpr double kMostPlaces = 512 * 512;
   // In a column the next place follows after this share of the distance that
   // the last one had beyond the reach: the greatest distance falls short by a
   // tenth at most.
@@ -353,8 +456,10 @@ class OverhangSearch {
   const double pitch_;
   std::vector<Overhang>& found_;
   std::size_t guess_ = 0;
-  Overhang overhang_;  // of the ledge in hand
-  Vec2 asked_vertex_ = Vec2(kNever);
+  // Of the ledge in hand.
+  Overhang overhang_;
+  Vec2 asked_vertex_ = Vec2(kNever);  // of a free side
+  bool does_vertex_hang_over_ = false;
 };
 
 }  // namespace
@@ -743,7 +848,7 @@ void OverlaySweep::State::find_overhangs(const ldni::Contours& below,
            !overlaps_solid[ledge.region];
   });
   if (ledges_.empty()) return;
-  OverhangSearch search(below, above, reach_, overlay.overhangs);
+  OverhangSearch search(below, above, ledges_, reach_, overlay.overhangs);
   for (const Ledge& ledge : ledges_) search.search(ledge);
 }
 

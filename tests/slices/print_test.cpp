@@ -270,6 +270,115 @@ TEST(PrintCheck, KeepsItsFindingsWhereTheDesignIsMoved) {
   }
 }
 
+// Cuts in the lower half of a plate, which the upper one bridges.
+struct Cut {
+  std::string shape;
+  double width = 0;
+  double area = 0;  // of what hangs over, with this reach
+};
+constexpr double kReach = 0.1015;
+
+std::vector<Cut> cuts() {
+  std::vector<Cut> all;
+  const auto inner = [](double size) { return size - 2 * kReach; };
+  for (const double width : {0.25, 0.3, 0.5, 1.7}) {
+    // Slots, blind at both ends.
+    for (const double turn : {0.0, 3.0, 30.0, 45.0, 60.0, 88.0, 90.0}) {
+      all.push_back(
+          {fmt::format("for (i = [-2 : 2]) rotate({0}) translate("
+                       "[-20, {1} + i * 4.7, -1]) cube([40, {1}, 2]);",
+                       turn, width),
+           width, 5 * inner(40) * inner(width)});
+    }
+    all.push_back(
+        {fmt::format("translate([0.03, 0.04, -1]) cube([{0}, {0}, 2]);", width),
+         width, inner(width) * inner(width)});
+  }
+  return all;
+}
+
+std::string plate(const Cut& cut) {
+  return "difference() { translate([-40, -40, 0]) cube([80, 80, 2]);" +
+         cut.shape + "}";
+}
+
+// Without those that are too small to matter.
+std::string overhangs_text(const PrintCheck& print) {
+  std::string text;
+  for (const Finding& finding : print.findings) {
+    if (finding.kind != FindingKind::kOverhang || finding.is_minor) continue;
+    text += fmt::format("{:.9f} mm2, {:.9f} mm out in {}, {:.9f} mm wide\n",
+                        finding.area, finding.distance, finding.first_layer,
+                        finding.box.size().x);
+  }
+  return text;
+}
+
+TEST(PrintCheck, FindsBridgesOfEachWidthAndDirection) {
+  for (const Cut& cut : cuts()) {
+    double area = 0;
+    double distance = 0;
+    for (const Finding& finding : check(plate(cut)).findings) {
+      if (finding.kind != FindingKind::kOverhang) continue;
+      area += finding.area;
+      distance = std::max(distance, finding.distance);
+    }
+    // Places are a tenth apart.
+    EXPECT_NEAR(area, cut.area, 0.6 * cut.area + 0.01) << cut.shape;
+    EXPECT_GT(distance, kReach) << cut.shape;
+    EXPECT_GT(distance, cut.width / 2 - 0.05) << cut.shape;
+    EXPECT_LT(distance, cut.width / 2 + 1e-9) << cut.shape;
+  }
+}
+
+TEST(PrintCheck, KeepsItsOverhangsWhereAPostStandsFarAway) {
+  for (const Cut& cut : cuts()) {
+    const std::string found = overhangs_text(check(plate(cut)));
+    for (const char* const post : {"translate([500, 0, 0]) cube(2);",
+                                   "translate([-9000, 0, 0]) cube(2);",
+                                   "translate([0, 700, 0]) cube(2);",
+                                   "translate([-800, -800, 0]) cube(2);"}) {
+      EXPECT_EQ(overhangs_text(check(plate(cut) + post)), found)
+          << cut.shape << " " << post;
+    }
+  }
+}
+
+// Bridges as long as a plate and across it, in one ledge and in many.
+TEST(PrintCheck, FindsNarrowBridgesInAWidePlate) {
+  const std::string start = "difference() { cube([300, 300, 2]);";
+  for (const auto& [cut, area] : std::vector<std::pair<std::string, double>>{
+           {"for (i = [0 : 4]) translate([58.63 + 5.86 * i, -1, -1])"
+            "cube([0.5, 302, 2]);",
+            5 * 0.297 * 300},
+           {"for (i = [0 : 4]) translate([-1, 1.8 + 2.35 * i, -1])"
+            "cube([302, 0.5, 2]);",
+            5 * 0.297 * 300},
+           {"rotate(45) translate([1, 0, -1]) cube([400, 0.3, 2]);",
+            0.097 * 300 * std::sqrt(2)},
+           {"translate([0.3, 3, -1]) cube([299, 0.15, 2]);"
+            "for (i = [0 : 498]) translate([0.3 + i * 0.6, 3, -1])"
+            "cube([0.3, 40, 2]);",
+            499 * 0.097 * 40}}) {
+    double found = 0;
+    for (const Finding& finding : check(start + cut + "}").findings) {
+      if (finding.kind != FindingKind::kOverhang) continue;
+      found += finding.area;
+    }
+    EXPECT_NEAR(found, area, 0.4 * area) << cut;
+  }
+}
+
+TEST(PrintCheck, KeepsItsOverhangsInTheMirror) {
+  for (const char* const side : {"0", "180", "90", "270"}) {
+    const PrintCheck print =
+        check(fmt::format("rotate({}) {{ {} }}", side, stairs(46, 0.1)));
+    ASSERT_EQ(print.findings.size(), 1U) << side;
+    EXPECT_NEAR(print.findings[0].distance, 0.1 * std::tan(46 * kPi / 180),
+                1e-9);
+  }
+}
+
 TEST(PrintCheck, LosesIslandsOnPillars) {
   const PrintCheck print = check(kFigure);
   std::string pillars = kFigure;
