@@ -25,8 +25,9 @@
 namespace lamina::csg {
 
 struct RoofParts {
-  double top = 0;  // of the prism [mm]: that of the roof, or a share of 2e-5 more
-  Mesh cutters;    // they overlap each other, and reach beyond the prism
+  // Of the prism [mm]: that of the roof, or a share of 2e-5 more.
+  double top = 0;
+  Mesh cutters;  // they overlap each other, and reach beyond the prism
 };
 
 // "voronoi"; `corners` says how fine its rounded corners are.
