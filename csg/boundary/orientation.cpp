@@ -82,7 +82,7 @@ bool find_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                      away[2] * normal.value[2];
   double size = 0;
   for (int i = 0; i < 3; ++i) {
-    size += std::abs(double(away[i])) * normal.size[i];
+    size += std::abs(double(away[static_cast<std::size_t>(i)])) * normal.size[i];
   }
   result = sign(double(sum));
   return std::abs(double(sum)) >= kRelativeError<Number> * size;
