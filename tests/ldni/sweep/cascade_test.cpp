@@ -98,6 +98,16 @@ csg::Scene nested_squares(int count, double turn,
   return builder.finish();
 }
 
+void expect_no_change_by_cascading(const csg::Scene& scene) {
+  const Swept whole = sweep(scene, kPatient);
+  const Swept cascaded = sweep(scene, 0);
+  expect_no_defect(cascaded.layers[0]);
+  EXPECT_EQ(support::count_loops(cascaded.layers[0]),
+            support::count_loops(whole.layers[0]));
+  EXPECT_NEAR(support::total_area(cascaded.layers[0]),
+              support::total_area(whole.layers[0]), 1e-7);
+}
+
 TEST(Cascade, PartsOperatorsInEachOther) {
   const std::vector<std::vector<BooleanOp>> all_ops = {
       {BooleanOp::kDifference},
@@ -105,14 +115,7 @@ TEST(Cascade, PartsOperatorsInEachOther) {
       {BooleanOp::kDifference, BooleanOp::kDifference, BooleanOp::kUnion,
        BooleanOp::kDifference, BooleanOp::kIntersection}};
   for (const std::vector<BooleanOp>& ops : all_ops) {
-    const csg::Scene scene = nested_squares(60, 0.7, ops);
-    const Swept whole = sweep(scene, kPatient);
-    const Swept cascaded = sweep(scene, 0);
-    expect_no_defect(cascaded.layers[0]);
-    EXPECT_EQ(support::count_loops(cascaded.layers[0]),
-              support::count_loops(whole.layers[0]));
-    EXPECT_NEAR(support::total_area(cascaded.layers[0]),
-                support::total_area(whole.layers[0]), 1e-7);
+    expect_no_change_by_cascading(nested_squares(60, 0.7, ops));
   }
 }
 
@@ -147,13 +150,7 @@ TEST(Cascade, OperatorsInEachOtherCostLessThanTheirSquare) {
 
 TEST(Cascade, ChangesNoRegion) {
   for (const csg::Scene& scene : {star(60), frames(60)}) {
-    const Swept whole = sweep(scene, kPatient);
-    const Swept cascaded = sweep(scene, 0);
-    expect_no_defect(cascaded.layers[0]);
-    EXPECT_EQ(support::count_loops(cascaded.layers[0]),
-              support::count_loops(whole.layers[0]));
-    EXPECT_NEAR(support::total_area(cascaded.layers[0]),
-                support::total_area(whole.layers[0]), 1e-7);
+    expect_no_change_by_cascading(scene);
   }
 }
 
