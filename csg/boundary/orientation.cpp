@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
 #include "base/exact_sum.h"
 
 namespace lamina::csg {
@@ -80,10 +82,9 @@ bool find_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
   const Direction<Number> away = direction<Number>(a, d);
   const Number sum = away[0] * normal.value[0] + away[1] * normal.value[1] +
                      away[2] * normal.value[2];
-  double size = 0;
-  for (int i = 0; i < 3; ++i) {
-    size += std::abs(double(away[static_cast<std::size_t>(i)])) * normal.size[i];
-  }
+  const Vec3 distance(std::abs(double(away[0])), std::abs(double(away[1])),
+                      std::abs(double(away[2])));
+  const double size = glm::dot(distance, normal.size);
   result = sign(double(sum));
   return std::abs(double(sum)) >= kRelativeError<Number> * size;
 }
