@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "ldni/sweep/detail/crossing_sample.h"
+
 namespace lamina::ldni::detail {
 namespace {
 
@@ -15,14 +17,17 @@ namespace {
 constexpr double kResolvedMergeDistance = 1e-8;
 
 // A sweep is given up after so many swaps for each chain met so far, and some
-// at the beginning: a share of those of all chains, and a few. It is not tried
-// where more than that are to be expected. Cascading costs a few swaps a chain
-// for each time that it halves the scene. Where a state is one number a swap
-// costs less, so more of them are borne.
+// at the beginning: a share of those of all chains, and a few. Cascading costs
+// a few swaps a chain for each time that it halves the scene. Where a state is
+// one number a swap costs less, so more of them are borne.
 constexpr double kMostSwaps = 4;
 constexpr double kMostSwapsOfSimple = 12;
 constexpr double kFirstShare = 0.25;
 constexpr double kFirstSwaps = 256;
+
+// Halves of a scene whose sweep was given up are not tried where more than this
+// share of those swaps are to be expected.
+constexpr double kMostExpected = 0.25;
 
 // Before that, after fewer swaps, it is asked how much of the chains lies where
 // their leaves can matter. Where that is less than this share the layer is
@@ -430,7 +435,7 @@ void Cascade::clip_and_sweep(const LayerChains& layer, Contours& contours) {
 
 // Sweeps a layer whose sweep was given up: at once if few leaves show.
 void Cascade::uncover_and_sweep(const LayerChains& layer, Contours& contours) {
-  const double swaps = ray_.swaps_per_chain();
+  const double swaps = expected_swaps(layer);
   const LayerChains shown = covered_.leave_out(layer);
   if (static_cast<double>(shown.chains.size()) <
       kMostUncovered * static_cast<double>(layer.chains.size())) {
@@ -444,11 +449,17 @@ void Cascade::uncover_and_sweep(const LayerChains& layer, Contours& contours) {
 void Cascade::sweep(Group& group, const LayerChains& layer,
                     double expected_swaps, Contours& contours) {
   const Patience patience = patience_for(group, layer);
-  if (expected_swaps <= patience.swaps_per_chain) {
+  if (expected_swaps <= kMostExpected * patience.swaps_per_chain) {
     if (sweep_at_once(group.states(), layer, contours, patience)) return;
-    expected_swaps = ray_.swaps_per_chain();
+    expected_swaps = this->expected_swaps(layer);
   }
   sweep_halves(group, layer, expected_swaps, contours);
+}
+
+// For each chain of a layer whose sweep was given up.
+double Cascade::expected_swaps(const LayerChains& layer) const {
+  return std::max(ray_.swaps_per_chain(),
+                  sample_crossings_per_chain(layer, options_.tie_distance));
 }
 
 Patience Cascade::patience_for(Group& group, const LayerChains& layer) const {

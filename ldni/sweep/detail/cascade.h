@@ -72,6 +72,7 @@ class Cascade {
   void uncover_and_sweep(const LayerChains& layer, Contours& contours);
   void sweep(Group& group, const LayerChains& layer, double expected_swaps,
              Contours& contours);
+  double expected_swaps(const LayerChains& layer) const;
   Patience patience_for(Group& group, const LayerChains& layer) const;
   void sweep_halves(Group& group, const LayerChains& layer,
                     double expected_swaps, Contours& contours);

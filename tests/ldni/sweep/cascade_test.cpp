@@ -176,6 +176,22 @@ TEST(Cascade, LeavesOutWhatIsHidden) {
   EXPECT_LT(10 * events(frames(150), 1), events(frames(150), kPatient));
 }
 
+// Every two discs cross, behind the place where all have begun. So each sweep
+// of many would be given up late.
+TEST(Cascade, SweepsNoGroupInVainWhereEveryTwoCross) {
+  constexpr int kDiscs = 1000;
+  SceneBuilder builder;
+  for (int i = 0; i < kDiscs; ++i) {
+    builder.add(testing::cylinder_leaf(5, 5, 1, 16),
+                testing::translated({0.002 * i, 0, 0}));
+  }
+  const csg::Scene scene = builder.finish();
+  const Swept swept = sweep(scene, 1);
+  EXPECT_EQ(support::count_loops(swept.layers[0]), (LoopCounts{1, 0}));
+  // Four for each of two chains a disc; without a sample it took seven.
+  EXPECT_LT(swept.counts.event_points, 8 * kDiscs);
+}
+
 // Chains that coincide begin and end at once, and none swaps.
 TEST(Cascade, PartsThousandsThatCoincide) {
   SceneBuilder builder;

@@ -300,7 +300,7 @@ TEST(KineticRay, HundredsOfLeavesWithCommonFacesMeetAStateEach) {
     const testing::Swept swept =
         testing::sweep(scene, {&layer, 1}, testing::kPatient);
     EXPECT_LE(swept.counts.states, kCount + 1);
-    EXPECT_LE(ray.counts().states, 2 * (kCount + 1));
+    EXPECT_LE(ray.counts().states, 2 * kCount);
   }
 }
 
