@@ -59,6 +59,7 @@ void ThinFinder::find(const ldni::Contours& contours,
   collect_edges(contours, edges_);
   is_thin_.assign(contours.loop_count(), false);
   cells_.build(edges_, width_);
+  last_blocker_ = 0;
   if (cells_.has_facing()) {
     for (std::uint32_t i = 0; i < edges_.size(); ++i) {
       cells_.gather(i, neighbours_);
@@ -197,13 +198,19 @@ double ThinFinder::least(const Polynomial& radius, const Range& range) {
   return growth > 0 ? range.low : range.high;
 }
 
-const LayerEdge* ThinFinder::find_blocker(Vec2 centre, double radius) const {
+// What blocked the disk last often does so again.
+const LayerEdge* ThinFinder::find_blocker(Vec2 centre, double radius) {
   const double distance = radius - kTouchDistance;
   if (!(distance > 0)) return nullptr;
-  for (const std::uint32_t i : cells_.near(centre)) {
-    if (is_near(edges_[i], centre, distance)) return &edges_[i];
-  }
-  return nullptr;
+  const auto blocks = [&](std::uint32_t edge) {
+    return is_near(edges_[edge], centre, distance);
+  };
+  if (blocks(last_blocker_)) return &edges_[last_blocker_];
+  const auto near = cells_.near(centre);
+  const auto blocker = std::ranges::find_if(near, blocks);
+  if (blocker == near.end()) return nullptr;
+  last_blocker_ = *blocker;
+  return &edges_[*blocker];
 }
 
 // The range about x in which the same part of the edge, its interior or an end,

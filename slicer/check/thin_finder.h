@@ -120,7 +120,7 @@ class ThinFinder {
   void face_edge(const Seen& seen);
   void face_corner(const Seen& seen);
   void roll(const Facing& facing);
-  const LayerEdge* find_blocker(Vec2 centre, double radius) const;
+  const LayerEdge* find_blocker(Vec2 centre, double radius);
   Range blocked_range(const LayerEdge& blocker, const Facing& facing,
                       double x) const;
   static double least(const Polynomial& radius, const Range& range);
@@ -143,6 +143,7 @@ class ThinFinder {
   double side_ = 1;  // +1: left
   std::vector<std::uint32_t> neighbours_;
   std::vector<Range> ranges_;  // still to be searched
+  std::uint32_t last_blocker_ = 0;
 };
 
 }  // namespace lamina::slicer
