@@ -16,6 +16,7 @@
 #include "base/plane.h"
 #include "csg/limits.h"
 #include "csg/plane/boolean.h"
+#include "csg/tie_distance.h"
 
 namespace lamina::planar {
 namespace {
@@ -39,6 +40,10 @@ constexpr double kGreatestTolerance = 0.25;
 // OpenSCAD's limit for spikes of strokes [half widths].
 constexpr double kStrokeMiterLimit = 2;
 
+// Edges of a border that are shorter than this [amounts], and than a tie, are
+// rounding.
+constexpr double kShortestEdge = 0.01;
+
 // Edges of a strip at most. All of them may cross all others; fewer make more
 // strips to unite.
 constexpr std::size_t kMostEdges = 16;
@@ -54,6 +59,27 @@ double round_to_grid(double x) {
 
 Vec2 round_to_grid(Vec2 point) {
   return {round_to_grid(point.x), round_to_grid(point.y)};
+}
+
+// The region's contours without corners that are nearer than `distance` to the
+// ones before them. An edge so short may go anywhere, be it by rounding: its
+// corners would turn to the wrong side, or become spikes.
+std::vector<Contour> border_of(const Region& region, double distance) {
+  std::vector<Contour> border;
+  for (const Contour& contour : region.contours) {
+    Contour kept;
+    for (const Vec2 point : contour) {
+      if (kept.empty() || glm::distance(point, kept.back()) > distance) {
+        kept.push_back(point);
+      }
+    }
+    while (kept.size() > 1 &&
+           glm::distance(kept.back(), kept.front()) <= distance) {
+      kept.pop_back();
+    }
+    if (kept.size() > 2) border.push_back(std::move(kept));
+  }
+  return border;
 }
 
 Contour reversed(const Contour& contour) {
@@ -399,7 +425,9 @@ Region moved(const Mover& mover, std::span<const Contour> border, bool outwards,
 Region offset(const Region& region, double amount, Join join,
               double arc_tolerance, ArcSteps steps) {
   const Mover mover(amount, join, kMiterLimit, arc_tolerance, steps);
-  return moved(mover, region.contours, amount > 0, region);
+  const double shortest =
+      std::min(kTieDistance, kShortestEdge * std::abs(amount));
+  return moved(mover, border_of(region, shortest), amount > 0, region);
 }
 
 Region stroke(std::span<const Vec2> path, double width, Join join, Cap cap,

@@ -28,6 +28,8 @@ enum class Join { kRound, kMiter, kBevel };
 enum class ArcSteps { kNearest, kUp };
 
 // Moves the border outwards by `amount` [mm], inwards if that is negative.
+// Edges of the border shorter than a tie, and than a hundredth of the amount,
+// are left out: their directions are rounding.
 //
 // arc_tolerance  greatest distance of a round join's steps from its arc [mm]
 Region offset(const Region& region, double amount, Join join,

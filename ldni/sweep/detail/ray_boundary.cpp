@@ -289,13 +289,31 @@ ChainCursor RayBoundary::cursor_before(const Entry& entry) const {
   return {left, last};
 }
 
+// The segment on which an arc ends or starts at y: this one, if it holds y.
+// Where a steep chain crosses at the x of one of its vertices, the crossing may
+// be far from the vertex, on the segment beyond.
+ChainCursor RayBoundary::cursor_of_end(const Entry& entry,
+                                       const ChainCursor& cursor,
+                                       double y) const {
+  const auto holds_y = [y](const ChainCursor& segment) {
+    const auto [low, high] =
+        std::minmax(segment.left()[0].y, segment.left()[1].y);
+    return low <= y && y <= high;
+  };
+  if (!crosses_here(entry) || holds_y(cursor)) return cursor;
+  for (const ChainCursor& other : {cursor_before(entry), entry.cursor}) {
+    if (holds_y(other)) return other;
+  }
+  return cursor;
+}
+
 // I5: where a chain begins or ends in the cluster, its endpoint is the point,
 // exactly. Only a chain that runs along the cluster is taken where the order on
 // that side holds, so that the region stays the union of trapezoids between
 // clusters (I4).
 void RayBoundary::end_arc(Entry& entry) {
   const double y = y_before(entry);
-  const ChainCursor cursor = cursor_before(entry);
+  const ChainCursor cursor = cursor_of_end(entry, cursor_before(entry), y);
   const Vec2& last = *cursor.last();
   Vec2 point(cluster_.left, y);
   if (cluster_.holds(last.x) && std::abs(last.y - y) < kClusterWidth)
@@ -312,8 +330,9 @@ void RayBoundary::start_arc(Entry& entry) {
   if (cluster_.holds(first.x) && std::abs(first.y - y) < kClusterWidth) {
     point = first;
   }
-  if (crosses_here(entry)) note_moved_end(entry.cursor, point);
-  entry.arc = stitcher_.start_arc(point, y, entry.cursor.left(), entry.side);
+  const ChainCursor cursor = cursor_of_end(entry, entry.cursor, y);
+  if (crosses_here(entry)) note_moved_end(cursor, point);
+  entry.arc = stitcher_.start_arc(point, y, cursor.left(), entry.side);
   entry.split_cluster = cluster_.number;
 }
 

@@ -88,6 +88,8 @@ class RayBoundary {
   // The entry's segment and y where it meets the cluster from the left, and y
   // where it leaves it to the right.
   ChainCursor cursor_before(const Entry& entry) const;
+  ChainCursor cursor_of_end(const Entry& entry, const ChainCursor& cursor,
+                            double y) const;
   double y_before(const Entry& entry) const {
     if (crosses_here(entry)) return entry.crossing_y;
     const ChainCursor& cursor = entry.cursor;

@@ -179,13 +179,21 @@ void RayOrder::swap_with_above(std::uint32_t lower) {
 }
 
 // Where two chains cross they have one point, on the flatter one: a steep one's
-// y at the rounded x may be far off.
-void RayOrder::note_crossing(Entry& a, Entry& b) {
-  const bool is_a_steeper =
-      std::abs(a.cursor.slope()) > std::abs(b.cursor.slope());
-  Entry& steeper = is_a_steeper ? a : b;
-  const Entry& flatter = is_a_steeper ? b : a;
-  steeper.crossing_y = flatter.cursor.y_at(cluster_.right);
+// y at the rounded x may be far off. Where they have passed each other by that
+// x, and one of them has a vertex there, it is its segment before that crosses.
+void RayOrder::note_crossing(Entry& lower, Entry& upper) {
+  const double x = cluster_.right;
+  const bool has_passed = upper.cursor.y_at(x) < lower.cursor.y_at(x);
+  const auto steepness = [&](const Entry& entry) {
+    const Vec2* left = entry.cursor.left();
+    const bool is_before = has_passed && left->x == x && left != entry.first;
+    return std::abs(is_before ? ChainCursor(left - 1, left).slope()
+                              : entry.cursor.slope());
+  };
+  const bool is_lower_steeper = steepness(lower) > steepness(upper);
+  Entry& steeper = is_lower_steeper ? lower : upper;
+  const Entry& flatter = is_lower_steeper ? upper : lower;
+  steeper.crossing_y = flatter.cursor.y_at(x);
   steeper.crossing_cluster = cluster_.number;
 }
 

@@ -100,7 +100,7 @@ class RayOrder {
   bool take_failures();
   void settle_pairs();
   void swap_with_above(std::uint32_t lower);
-  void note_crossing(Entry& a, Entry& b);
+  void note_crossing(Entry& lower, Entry& upper);
   void set_tie(std::uint32_t entry, bool is_tied);
   Certificate certify_pair(std::uint32_t lower, std::uint32_t upper, double x);
   Certificate certify_outside(const Entry& a, const Entry& b,

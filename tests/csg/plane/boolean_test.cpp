@@ -57,6 +57,25 @@ TEST(PlaneBoolean, ABowTieFallsIntoTwoTriangles) {
   EXPECT_EQ(area(region), 2);
 }
 
+// So far from the origin that a crossing 0.5 mm from the end of a steep edge
+// has the end's x.
+TEST(PlaneBoolean, ASteepEdgeCrossesNearItsEnd) {
+  const Vec2 end(329339.89617841673, 989035);
+  const double crossing = -52.0 * 26 / 2946;
+  const double small = 26 * -crossing / 2;
+  const double large = (4000 + crossing) * 2920 / 2;
+  for (const double dx : {1.5e-9, 1e-8, 1e-7}) {
+    for (const Vec2 mirror :
+         {Vec2(1, 1), Vec2(-1, 1), Vec2(1, -1), Vec2(-1, -1)}) {
+      Contour contour = {{0, 0}, {-26, 0}, {2920, -52}, {dx, -4000}};
+      for (Vec2& p : contour) p = end + mirror * p;
+      const Region region = from_contours({&contour, 1}, FillRule::kNonZero);
+      EXPECT_EQ(region.contours.size(), 2U);
+      EXPECT_NEAR(area(region), small + large, 1e-3);
+    }
+  }
+}
+
 TEST(PlaneBoolean, DirectionOfAPolygonDoesNotMatter) {
   const Contour clockwise[] = {{{0, 0}, {0, 2}, {2, 2}, {2, 0}}};
   EXPECT_EQ(area(from_contours(clockwise)), 4);

@@ -482,5 +482,33 @@ TEST(Stroke, OfAFineMeanderIsARectangle) {
   EXPECT_NEAR(area(pen), ((kTurns - 1) * kPitch + 20) * 30, 1e-5);
 }
 
+// An edge shorter than a tie may go anywhere, back or across its neighbours.
+TEST(Offset, EdgesShorterThanATieMakeNoCornersOfTheirOwn) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const std::vector<Contour> contours = {
+      {{0, 0}, {10, 0}, {10, 10}, {0, 10}},
+      {{0, 0}, {10, 0}, {10, 4}, {6, 4}, {6, 10}, {0, 10}}};
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE(trial);
+    const Contour contour = turned(contours[trial % 2], 5.0 * (trial % 72),
+                                   1e4 * Vec2(unit(random), unit(random)));
+    const double size = 6e-7 * std::pow(10, 2 * unit(random) - 2);
+    Contour doubled;
+    for (const Vec2 corner : contour) {
+      doubled.push_back(corner);
+      doubled.push_back(corner + size * Vec2(unit(random), unit(random)));
+    }
+    for (const Join join : {Join::kRound, Join::kMiter, Join::kBevel}) {
+      for (const double amount : {1.0, -1.0}) {
+        EXPECT_NEAR(
+            area(offset(from_contours({&doubled, 1}), amount, join, 1e-3)),
+            area(offset(from_contours({&contour, 1}), amount, join, 1e-3)),
+            1e-4);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lamina::planar
