@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/arena.h"
+#include "base/similar.h"
 #include "csg/eval/code/argument_plan.h"
 #include "csg/eval/code/code.h"
 #include "csg/eval/code/dynamic_names.h"
@@ -243,7 +244,7 @@ class Resolver : public LazyResolver {
       extra_literals_;
   std::deque<DeclaredUnit> units_;
   std::map<std::pair<Named, std::string_view>, std::string> hints_;
-  std::size_t hint_work_ = 0;  // pairs of letters that were to be compared
+  Guesses guesses_;
   std::unordered_map<const ast::Program*, DeclaredUnit*> unit_of_;
   CodeCounts counts_;
 };
