@@ -116,13 +116,11 @@ DeclaredUnit& Resolver::declared_unit(const ast::Program& program) {
   unit->scope->unit = unit;
   unit->scope->home = unit->scope;
   declare(*unit->scope, program.statements);
-  for (const ast::Use& use : program.uses) unit->uses.push_back(&use);
+  for (const ast::Use& use : program.uses) {
+    const ast::Program* used = loader_.used_program(use);
+    if (used != nullptr) unit->used.push_back(used);
+  }
   return *unit;
-}
-
-DeclaredUnit* Resolver::used_unit(const ast::Use& use) {
-  const ast::Program* program = loader_.used_program(use);
-  return program == nullptr ? nullptr : &declared_unit(*program);
 }
 
 void Resolver::resolve(const Unit& asked) {

@@ -109,7 +109,7 @@ struct DeclaredUnit : Unit {
   const ast::Program* program = nullptr;
   Scope* scope = nullptr;
   Activation activation;
-  std::vector<const ast::Use*> uses;
+  std::vector<const ast::Program*> used;  // in the order of program->uses
 };
 
 class Resolver : public LazyResolver {
@@ -175,7 +175,6 @@ class Resolver : public LazyResolver {
   std::span<Parameter> extended_parameters(
       std::span<const Parameter> parameters,
       const std::vector<std::string_view>& names, std::uint32_t first_slot);
-  DeclaredUnit* used_unit(const ast::Use& use);
   // Finds a function or module (`table`) that `scope` sees.
   template <typename Named>
   Callee<Named> find(
@@ -185,11 +184,10 @@ class Resolver : public LazyResolver {
       const auto found = (s->*table).find(name);
       if (found != (s->*table).end()) return {found->second, false};
     }
-    for (const ast::Use* use : scope.unit->uses) {
-      const DeclaredUnit* unit = used_unit(*use);
-      if (unit == nullptr) continue;
-      const auto found = (unit->scope->*table).find(name);
-      if (found != (unit->scope->*table).end()) return {found->second, true};
+    for (const ast::Program* used : scope.unit->used) {
+      const auto& declared = declared_unit(*used).scope->*table;
+      const auto found = declared.find(name);
+      if (found != declared.end()) return {found->second, true};
     }
     return {};
   }
