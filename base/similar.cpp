@@ -12,6 +12,9 @@
 namespace lamina {
 namespace {
 
+// Pairs of letters that Guesses compares, at most; a tenth of a second.
+constexpr std::size_t kMostGuessWork = 30'000'000;
+
 // The fewest letters to change, add, drop or swap with a neighbour: the
 // "optimal string alignment" of Damerau and Levenshtein.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -61,6 +64,17 @@ std::string did_you_mean(std::string_view name,
                          std::span<const std::string_view> candidates) {
   const std::string_view similar = most_similar(name, candidates);
   return similar.empty() ? "" : fmt::format("did you mean '{}'?", similar);
+}
+
+bool Guesses::are_over() const { return work_ > kMostGuessWork; }
+
+std::string Guesses::did_you_mean(
+    std::string_view name, std::span<const std::string_view> candidates) {
+  if (are_over()) return "";
+  for (const std::string_view candidate : candidates) {
+    work_ += name.size() * candidate.size();
+  }
+  return are_over() ? "" : lamina::did_you_mean(name, candidates);
 }
 
 }  // namespace lamina

@@ -1,6 +1,7 @@
 #pragma once
 // "Did you mean": the name among others that a misspelt one most likely is.
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,5 +17,19 @@ std::string_view most_similar(std::string_view name,
 // "did you mean 'sphere'?", empty where none is near.
 std::string did_you_mean(std::string_view name,
                          std::span<const std::string_view> candidates);
+
+// The same for any number of names, in bounded time: the names that come when
+// many letters have been compared get no guess. A usual design has 150 names of
+// 10 letters, so thousands of names get one.
+class Guesses {
+ public:
+  // Without a guess from now on.
+  bool are_over() const;
+  std::string did_you_mean(std::string_view name,
+                           std::span<const std::string_view> candidates);
+
+ private:
+  std::size_t work_ = 0;  // pairs of letters that were to be compared
+};
 
 }  // namespace lamina

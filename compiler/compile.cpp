@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/ranges.h>
+
 #include "base/text.h"
 #include "base/thread_clock.h"
 #include "compiler/make_rule.h"
@@ -68,6 +70,37 @@ void warn_of_size(Compilation& c, const csg::Lowered& lowered) {
       {}, fmt::format("the design is {:g} x {:g} x {:g} mm: are its units "
                       "millimetres?",
                       size.x, size.y, size.z));
+}
+
+// The settings of slicing that an outline has no use for. It keeps all of its
+// vertices, as a tolerance of 0 asks.
+std::vector<std::string_view> settings_of_solids(const Request& request) {
+  const slicer::Settings& settings = request.settings;
+  const slicer::Settings usual;
+  std::vector<std::string_view> all;
+  const auto add = [&](std::string_view option, bool is_set) {
+    if (is_set) all.push_back(option);
+  };
+  add("--layer", settings.layer_thickness != usual.layer_thickness);
+  add("--adaptive", settings.cusp != usual.cusp);
+  add("--heights", !settings.heights.empty());
+  add("--axis", request.axis != Request().axis);
+  add("--place-on-bed", request.is_placed_on_bed);
+  add("--tolerance",
+      settings.tolerance != usual.tolerance && settings.tolerance != 0);
+  add("--ray", settings.ray_pitch != usual.ray_pitch);
+  add("--contour", settings.contour != usual.contour);
+  return all;
+}
+
+void warn_of_settings(Compilation& c, const csg::Lowered& lowered) {
+  if (lowered.outline() == nullptr) return;
+  const auto settings = settings_of_solids(c.request);
+  if (settings.empty()) return;
+  c.diagnostics.own_warning(
+      {}, fmt::format("the design is an outline, of which {} can change "
+                      "nothing",
+                      fmt::join(settings, ", ")));
 }
 
 // Whether messages end the run here, without an output.
@@ -252,6 +285,7 @@ csg::Lowered lower_tree(Compilation& c) {
   c.tree.drop_nodes();
   require_sliceable(c, lowered);
   warn_of_size(c, lowered);
+  warn_of_settings(c, lowered);
   return lowered;
 }
 

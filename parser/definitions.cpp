@@ -42,6 +42,7 @@ void check_definitions(const ast::Program& program, const Loader& loader,
   std::vector<std::string_view> names;
   for (const auto& [name, statement] : assigned) names.push_back(name);
   const Customizer customizer = Customizer::read(program);
+  Guesses guesses;
   for (const ast::Statement* statement : program.statements) {
     const auto* set = std::get_if<ast::Assignment>(&statement->node);
     if (set == nullptr || !statement->range.is_defined_by_option()) continue;
@@ -51,7 +52,7 @@ void check_definitions(const ast::Program& program, const Loader& loader,
       diagnostics.own_warning(
           statement->range,
           fmt::format("the design has no variable '{}'", set->name),
-          hint_of(did_you_mean(set->name, names)));
+          hint_of(guesses.did_you_mean(set->name, names)));
       continue;
     }
     const auto rule = customizer.rule_of(*own->second);

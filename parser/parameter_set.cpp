@@ -360,15 +360,13 @@ class SetApplier {
   // names  of all variables of the design
   void warn_of_unknown(const Entries& unknown,
                        std::span<const std::string_view> names) {
-    // Each guess looks at all names; who has more wrong took another file.
-    constexpr std::size_t kMostGuesses = 100;
-    const bool is_guessing = unknown.size() <= kMostGuesses;
+    Guesses guesses;
     for (const auto& [name, entries] : unknown) {
       diagnostics_.own_warning(
           {},
           fmt::format("the set has '{}', the design has no such variable",
                       short_name(name)),
-          hint_of(is_guessing ? did_you_mean(name, names) : ""));
+          hint_of(guesses.did_you_mean(name, names)));
     }
   }
 

@@ -183,7 +183,8 @@ void compile_and_watch(const compiler::Request& request,
     if (!is_done) files.insert(watched.begin(), watched.end());
     watched = files;
     watcher.watch(watched, begin);
-    terminal.say(fmt::format("watching {} files; Ctrl-C ends", watched.size()));
+    terminal.say(fmt::format("watching {}; Ctrl-C ends",
+                             counted(watched.size(), "file")));
     terminal.say(change_line(watcher.wait()));
   }
 }

@@ -2,7 +2,8 @@
 // Options that are each good, but not together. They are refused with a
 // UsageError, so that nobody believes that an option was obeyed which was not.
 // Only options of slicing may have no effect: the same set of them may be given
-// for layers and for texts and outlines of a design.
+// for layers and for texts of a design. (That a design is an outline, which has
+// no use for some of them, shows later: compile() warns.)
 
 #include <string>
 #include <string_view>

@@ -32,6 +32,10 @@ bool has_reflex_edge(const Convex& body) {
       });
 }
 
+// What is thinner than this part of the greatest coordinate is a line that
+// rounding has bent, as sums of equal edges leave them: its normal is noise.
+constexpr double kNeedlePrecision = 1e-13;
+
 Vec3 middle_of(const Convex& body, std::span<const std::uint32_t> loop) {
   Vec3 sum(0);
   for (const std::uint32_t corner : loop) sum += body.vertices[corner];
@@ -76,15 +80,20 @@ bool is_seen_once(const Convex& body) {
   return hits == 1;
 }
 
+double greatest_length(std::span<const Vec3> vertices) {
+  double greatest = 0;
+  for (const Vec3& vertex : vertices) {
+    greatest = std::max(greatest, glm::length(vertex));
+  }
+  return greatest;
+}
+
 // The shift from the base to the other facet, if it is the same everywhere.
 std::optional<Vec3> prism_axis(const Convex& solid,
                                std::span<const std::uint32_t> base) {
   std::vector<bool> is_base(solid.vertices.size(), false);
   for (const std::uint32_t corner : base) is_base[corner] = true;
-  double size = 0;
-  for (const Vec3& vertex : solid.vertices) {
-    size = std::max(size, glm::length(vertex));
-  }
+  const double size = greatest_length(solid.vertices);
   std::optional<Vec3> axis;
   std::size_t sides = 0;
   for (const Edge& edge : solid.edges) {
@@ -108,6 +117,17 @@ Vec3 area_of(std::span<const Vec3> vertices,
                       vertices[loop[i]] - vertices[loop[0]]);
   }
   return sum;
+}
+
+double longest_side(std::span<const Vec3> vertices,
+                    std::span<const std::uint32_t> loop) {
+  double longest = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::uint32_t next = loop[i + 1 == loop.size() ? 0 : i + 1];
+    longest =
+        std::max(longest, glm::distance(vertices[loop[i]], vertices[next]));
+  }
+  return longest;
 }
 
 // Facets of no area have no direction of their own: they take that of their
@@ -255,10 +275,12 @@ Convex make_solid(std::vector<Vec3> vertices,
                   std::span<const std::vector<std::uint32_t>> loops) {
   Convex body;
   body.vertices = std::move(vertices);
+  const double thin = kNeedlePrecision * greatest_length(body.vertices);
   for (const auto& loop : loops) {
     const Vec3 area = area_of(body.vertices, loop);
     const double size = glm::length(area);
-    body.add_facet(loop, size > 0 ? area / size : Vec3(0));
+    const bool is_line = size <= thin * longest_side(body.vertices, loop);
+    body.add_facet(loop, is_line ? Vec3(0) : area / size);
   }
   std::span facets(&body.corners, 1);
   keep_named_points(body.vertices, facets);

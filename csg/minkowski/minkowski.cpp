@@ -41,6 +41,15 @@ Convex hull_of(std::vector<Vec3> points) {
   return make_solid(hull.vertices, loops);
 }
 
+// The same body with few more vertices than it needs. A sum has facets side by
+// side in one plane, and each further sum would multiply them.
+Convex without_seams(Convex sum) {
+  Convex hull = hull_of(sum.vertices);
+  if (hull.facet_count() > 0) return hull;
+  if (sum.edges.empty()) find_edges(sum);
+  return sum;
+}
+
 Convex add_solids(const Convex& a, const Convex& b) {
   if (const auto prism = as_prism(a)) return add_prism(*prism, b);
   if (const auto prism = as_prism(b)) return add_prism(*prism, a);
@@ -127,6 +136,9 @@ class Divider {
     auto parts = instance.is_flat ? flat_parts(leaf, matrix)
                                   : convex_parts(leaf, matrix);
     if (parts && (instance.is_flat || parts->size() == 1)) {
+      if (!instance.is_flat && !leaf.meshes.empty()) {
+        parts->front() = without_seams(std::move(parts->front()));
+      }
       std::move(parts->begin(), parts->end(),
                 std::back_inserter(operand_.convex));
       return;
@@ -285,7 +297,12 @@ std::size_t face_count(const Operand& operand) {
 
 void find_missing_edges(Operand& operand) {
   for (Convex& part : operand.convex) {
-    if (part.edges.empty()) find_edges(part);
+    if (!part.edges.empty()) continue;
+    if (part.is_flat) {
+      find_edges(part);
+    } else {
+      part = without_seams(std::move(part));
+    }
   }
 }
 

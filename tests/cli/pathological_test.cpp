@@ -150,6 +150,27 @@ TEST(Pathological, StringsOfAHundredMegabytesAreStrings) {
       "ECHO: 1e+8\n");
 }
 
+// Each name is looked up in more than a thousand files.
+TEST(Pathological, NamesAreFoundInManyUsedFiles) {
+  const TemporaryFolder folder;
+  constexpr int kFiles = 1400;
+  std::string text;
+  for (int i = 0; i < kFiles; ++i) {
+    folder.write(fmt::format("f{}.scad", i),
+                 fmt::format("function f{0}() = {0};\n"
+                             "function every() = {0};\n",
+                             i));
+    text += fmt::format("use <f{}.scad>\n", i);
+  }
+  text += "sum = 0";
+  for (int i = 0; i < kFiles; ++i) text += fmt::format(" + f{}()", i);
+  // Of one name the last file's counts.
+  text += ";\necho(sum, every());";
+  EXPECT_EQ(
+      echo_of(folder, text),
+      fmt::format("ECHO: {}, {}\n", kFiles * (kFiles - 1) / 2, kFiles - 1));
+}
+
 TEST(Pathological, FilesInACircleEnd) {
   const TemporaryFolder folder;
   folder.write("a.scad", "use <b.scad>\nfunction a() = 1;");

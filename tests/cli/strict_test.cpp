@@ -51,6 +51,49 @@ class Strict : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+// Each of them changes the layers of a solid, and none of them an outline.
+TEST_F(Strict, SettingsThatAnOutlineHasNoUseFor) {
+  folder_.write("flat.scad", "square(5);");
+  const auto slice = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"flat.scad", "-o", "flat.svg"});
+    return run(folder_, words);
+  };
+  const std::string summary = "flat.svg: 1 layer, ";
+  ASSERT_TRUE(slice({}).errors.starts_with(summary));
+  const std::string outline = support::read_file(folder_.file("flat.svg"));
+  const std::vector<std::string> settings[] = {
+      {"--layer", "0.1"},     {"--adaptive", "0.1"}, {"--heights", "1"},
+      {"--axis", "x"},        {"--axis", "auto"},    {"--place-on-bed"},
+      {"--tolerance", "0.5"}, {"--simplify", "0.5"}, {"--ray", "0.5"},
+      {"--contour", "paper"}};
+  for (const std::vector<std::string>& words : settings) {
+    const std::string option =
+        words[0] == "--simplify" ? "--tolerance" : words[0];
+    const ProcessResult result = slice(words);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_TRUE(result.errors.starts_with(
+        "warning: the design is an outline, of which " + option +
+        " can change nothing\n" + summary))
+        << result.errors;
+    EXPECT_EQ(support::read_file(folder_.file("flat.svg")), outline);
+  }
+  const ProcessResult two =
+      slice({"--strict", "--axis", "x", "--layer", "0.1"});
+  EXPECT_EQ(two.status, 1);
+  EXPECT_NE(two.errors.find("of which --layer, --axis can change nothing"),
+            std::string::npos)
+      << two.errors;
+  EXPECT_TRUE(
+      slice({"--tolerance", "0", "--layers", "1"}).errors.starts_with(summary));
+  // These do change it.
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--scale", "2"}, {"--compensate", "0.5"}}) {
+    const ProcessResult result = slice(words);
+    EXPECT_TRUE(result.errors.starts_with(summary)) << result.errors;
+    EXPECT_NE(support::read_file(folder_.file("flat.svg")), outline);
+  }
+}
+
 TEST_F(Strict, NamesThatTheDesignLacks) {
   expect_warning({"d.scad", "-D", "intials=\"XY\""},
                  "-D intials=\"XY\": warning: the design has no variable "

@@ -72,6 +72,7 @@ TEST(Watch, FollowsEveryWayToSaveADesign) {
   folder.write("a.scad", "echo(1);");
   Watched watched(folder, "a.echo");
   ASSERT_TRUE(watched.comes_to("ECHO: 1\n"));
+  EXPECT_TRUE(watched.comes_to_say("watching 1 file; Ctrl-C ends\n"));
   folder.write("a.scad", "echo(2);");
   ASSERT_TRUE(watched.comes_to("ECHO: 2\n"));
   folder.write("other", "echo(3);");

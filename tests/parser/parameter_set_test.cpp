@@ -146,7 +146,8 @@ TEST(ParameterSet, OfManyNamesTakesTimeInProportion) {
     entries += fmt::format("\"variables{:05}\": \"1\",", i);
   }
   EXPECT_EQ(warning(design, entries + R"("x": "1")"),
-            "the set has 'variables00000', the design has no such variable");
+            "the set has 'variables00000', the design has no such variable "
+            "(did you mean 'variable_00000'?)");
 }
 
 TEST(ParameterSet, SetsTheAssignmentThatCounts) {

@@ -267,6 +267,41 @@ TEST(MinkowskiLaws, TurnsWithItsOperands) {
   }
 }
 
+// K ⊕ K ⊕ … ⊕ K is K, enlarged.
+TEST(MinkowskiLaws, CopiesOfAConvexSolidEnlargeIt) {
+  const auto copies = [](const std::string& solid, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += solid;
+    return text;
+  };
+  const std::string cylinder =
+      "rotate([10, 20, 30]) cylinder(r = 1, h = 1, $fn = 12);";
+  const std::string cone =
+      "rotate([10, 20, 30]) cylinder(r1 = 1, r2 = 0.5, h = 1, $fn = 20);";
+  for (const std::string& solid : {cylinder, cone}) {
+    for (const int count : {2, 4, 7}) {
+      expect_equal("minkowski() {" + copies(solid, count) + "}",
+                   fmt::format("scale({}) {}", count, solid),
+                   {-0.3 * count, 0.1 * count, 0.4 * count, 0.9 * count});
+    }
+  }
+  // Nested, each sum is a solid of its own, which took minutes.
+  const auto nested = [](const std::string& solid, int count) {
+    std::string text = solid;
+    for (int i = 1; i < count; ++i) text = "minkowski() {" + solid + text + "}";
+    return text;
+  };
+  for (const char* const solid :
+       {"sphere(1, $fn = 12);", "rotate([10, 20, 30]) sphere(1, $fn = 12);",
+        "translate([0, 0, -0.5]) cube(1);"}) {
+    for (const int count : {2, 4, 7}) {
+      expect_equal(nested(solid, count),
+                   fmt::format("scale({}) {}", count, solid),
+                   {-0.3 * count, 0.1 * count, 0.4 * count});
+    }
+  }
+}
+
 TEST(MinkowskiLaws, ATinyBoxChangesTinily) {
   for (const std::string a : kBodies) {
     const auto with =

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/similar.h"
 #include "csg/eval/builtin/functions.h"
 #include "csg/eval/builtin/modules.h"
 #include "csg/eval/resolve/expression.h"
@@ -10,14 +9,6 @@
 #include "parser/loader.h"
 
 namespace lamina::csg {
-namespace {
-
-// Of letters compared for hints in one run. A usual design asks 150 names of 10
-// letters each time, so thousands of its names get a hint.
-constexpr std::size_t kMostHintWork = 30'000'000;
-
-}  // namespace
-
 std::uint32_t Activation::new_slot() {
   slot_count = std::max(slot_count, next_slot + 1);
   return next_slot++;
@@ -125,13 +116,11 @@ DeclaredUnit& Resolver::declared_unit(const ast::Program& program) {
   unit->scope->unit = unit;
   unit->scope->home = unit->scope;
   declare(*unit->scope, program.statements);
-  for (const ast::Use& use : program.uses) unit->uses.push_back(&use);
+  for (const ast::Use& use : program.uses) {
+    const ast::Program* used = loader_.used_program(use);
+    if (used != nullptr) unit->used.push_back(used);
+  }
   return *unit;
-}
-
-DeclaredUnit* Resolver::used_unit(const ast::Use& use) {
-  const ast::Program* program = loader_.used_program(use);
-  return program == nullptr ? nullptr : &declared_unit(*program);
 }
 
 void Resolver::resolve(const Unit& asked) {
@@ -264,7 +253,7 @@ void Resolver::resolve(const Module& asked) {
 std::string Resolver::did_you_mean(Named kind, std::string_view name) {
   const auto known = hints_.find({kind, name});
   if (known != hints_.end()) return known->second;
-  if (hint_work_ > kMostHintWork) return "";
+  if (guesses_.are_over()) return "";
   std::vector<std::string_view> names;
   if (kind == Named::kModule) names = builtin_module_names();
   if (kind == Named::kFunction) names = builtin_function_names();
@@ -277,12 +266,8 @@ std::string Resolver::did_you_mean(Named kind, std::string_view name) {
     if (kind == Named::kFunction) add(unit.scope->functions);
     if (kind == Named::kModule) add(unit.scope->modules);
   }
-  for (const std::string_view own : names) {
-    hint_work_ += name.size() * own.size();
-  }
-  if (hint_work_ > kMostHintWork) return "";
   std::sort(names.begin(), names.end());
-  return hints_[{kind, name}] = lamina::did_you_mean(name, names);
+  return hints_[{kind, name}] = guesses_.did_you_mean(name, names);
 }
 
 }  // namespace lamina::csg

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/arena.h"
+#include "base/similar.h"
 #include "csg/eval/code/argument_plan.h"
 #include "csg/eval/code/code.h"
 #include "csg/eval/code/dynamic_names.h"
@@ -108,7 +109,7 @@ struct DeclaredUnit : Unit {
   const ast::Program* program = nullptr;
   Scope* scope = nullptr;
   Activation activation;
-  std::vector<const ast::Use*> uses;
+  std::vector<const ast::Program*> used;  // in the order of program->uses
 };
 
 class Resolver : public LazyResolver {
@@ -174,7 +175,6 @@ class Resolver : public LazyResolver {
   std::span<Parameter> extended_parameters(
       std::span<const Parameter> parameters,
       const std::vector<std::string_view>& names, std::uint32_t first_slot);
-  DeclaredUnit* used_unit(const ast::Use& use);
   // Finds a function or module (`table`) that `scope` sees.
   template <typename Named>
   Callee<Named> find(
@@ -184,11 +184,10 @@ class Resolver : public LazyResolver {
       const auto found = (s->*table).find(name);
       if (found != (s->*table).end()) return {found->second, false};
     }
-    for (const ast::Use* use : scope.unit->uses) {
-      const DeclaredUnit* unit = used_unit(*use);
-      if (unit == nullptr) continue;
-      const auto found = (unit->scope->*table).find(name);
-      if (found != (unit->scope->*table).end()) return {found->second, true};
+    for (const ast::Program* used : scope.unit->used) {
+      const auto& declared = declared_unit(*used).scope->*table;
+      const auto found = declared.find(name);
+      if (found != declared.end()) return {found->second, true};
     }
     return {};
   }
@@ -243,7 +242,7 @@ class Resolver : public LazyResolver {
       extra_literals_;
   std::deque<DeclaredUnit> units_;
   std::map<std::pair<Named, std::string_view>, std::string> hints_;
-  std::size_t hint_work_ = 0;  // pairs of letters that were to be compared
+  Guesses guesses_;
   std::unordered_map<const ast::Program*, DeclaredUnit*> unit_of_;
   CodeCounts counts_;
 };

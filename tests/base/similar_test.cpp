@@ -1,0 +1,54 @@
+#include "base/similar.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace lamina {
+namespace {
+
+TEST(Similar, IsOneLetterInThreeAtMost) {
+  const std::vector<std::string_view> names = {"cube", "sphere", "square"};
+  EXPECT_EQ(most_similar("shpere", names), "sphere");  // swapped
+  EXPECT_EQ(most_similar("CUBES", names), "cube");
+  EXPECT_EQ(most_similar("squre", names), "square");
+  EXPECT_EQ(most_similar("cone", names), "cube");
+  EXPECT_EQ(most_similar("cylinder", names), "");
+  EXPECT_EQ(most_similar("cube", names), "");  // itself
+}
+
+// All of 20,000 among 20,000 would take minutes.
+TEST(Guesses, OfManyNamesAreForTheFirst) {
+  std::vector<std::string> texts;
+  for (int i = 0; i < 20'000; ++i) {
+    texts.push_back(fmt::format("variable_{:05}", i));
+  }
+  const std::vector<std::string_view> names(texts.begin(), texts.end());
+  Guesses guesses;
+  std::size_t count = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    if (guesses.are_over()) break;
+    const std::string hint =
+        guesses.did_you_mean(fmt::format("variables_{:05}", i), names);
+    if (!hint.empty()) ++count;
+  }
+  EXPECT_TRUE(guesses.are_over());
+  EXPECT_EQ(guesses.did_you_mean("variabel_00001", names), "");
+  // 15 letters beside 14 in each of the names, 30 million pairs in all.
+  EXPECT_EQ(count, 30'000'000 / (15 * 14 * 20'000));
+}
+
+TEST(Guesses, OfAFewNamesAreForAll) {
+  const std::vector<std::string_view> names = {"cube", "sphere", "square"};
+  Guesses guesses;
+  for (int i = 0; i < 10'000; ++i) {
+    ASSERT_EQ(guesses.did_you_mean("shpere", names), "did you mean 'sphere'?");
+  }
+}
+
+}  // namespace
+}  // namespace lamina
