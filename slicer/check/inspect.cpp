@@ -30,6 +30,18 @@ void Inspector::add_defect(std::string words) {
   }
 }
 
+// Adds a defect for each loop; of the first one it says where it is.
+void Inspector::add_faulty_loops(const FaultyLoops& loops,
+                                 std::string_view fault) {
+  if (loops.count == 0) return;
+  const std::string more =
+      loops.count > 1 ? fmt::format(" (the first of {})", loops.count) : "";
+  add_defect(fmt::format("layer {} at z {}: a loop {}, near x {} y {}{}",
+                         loops.layer, found_.layers.at(loops.layer - 1).bottom,
+                         fault, loops.place.x, loops.place.y, more));
+  found_.defects += loops.count - 1;
+}
+
 // Layers without thickness are sections.
 void Inspector::check_heights(const Layer& layer) {
   const auto add = [&](const std::string& words) {
@@ -96,13 +108,8 @@ Inspection Inspector::finish(std::string name, LayerFileFacts file) {
           "the end record's top, z {}, lies below the last layer", found_.top));
     }
   }
-  if (found_.file.open_loops > 0) {
-    add_defect(
-        fmt::format("{} not closed in the file",
-                    found_.file.open_loops == 1
-                        ? "1 loop is"
-                        : fmt::format("{} loops are", found_.file.open_loops)));
-  }
+  add_faulty_loops(found_.file.open_loops, "is not closed in the file");
+  add_faulty_loops(found_.file.short_loops, "has fewer than 3 points");
   if (collector_) found_.features = collector_->finish();
   if (graph_) found_.print = graph_->finish();
   return std::move(found_);

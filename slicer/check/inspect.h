@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec.h"
@@ -64,6 +65,7 @@ class Inspector : public LayerSink {
 
  private:
   void add_defect(std::string words);
+  void add_faulty_loops(const FaultyLoops& loops, std::string_view fault);
   void check_heights(const Layer& layer);
 
   Inspection found_;

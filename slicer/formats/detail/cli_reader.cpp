@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,30 +61,26 @@ class LayerMaker {
   // direction  0: clockwise, 1: counter-clockwise, or kOpen
   void add_polyline(std::int64_t direction, std::vector<Vec2>& points) {
     if (direction == kOpen) {
-      ++open_polylines_;
+      ++facts_.left_out["open polyline"];
       return;
     }
-    if (points.empty() || points.front() != points.back()) ++open_loops_;
     for (Vec2& point : points) point *= header_.unit;
+    if (points.empty() || points.front() != points.back()) {
+      facts_.open_loops.add(count_, points);
+    }
     add_loop(points, direction == 0 ? LoopKind::kHole : LoopKind::kOuter,
-             layer_.contours);
+             count_, layer_.contours, facts_);
   }
 
   void finish() {
     if (count_ > 0) finish_layer(std::nullopt);
   }
 
-  void add_hatches() { ++hatches_; }
+  void add_hatches() { ++facts_.left_out["hatch block"]; }
 
   std::size_t count() const { return count_; }
-  std::uint64_t open_loops() const { return open_loops_; }
-
-  std::map<std::string, std::uint64_t> left_out() const {
-    std::map<std::string, std::uint64_t> kinds;
-    if (hatches_ > 0) kinds["hatch block"] = hatches_;
-    if (open_polylines_ > 0) kinds["open polyline"] = open_polylines_;
-    return kinds;
-  }
+  // What was noted on the way.
+  const LayerFileFacts& facts() const { return facts_; }
 
  private:
   // next  top of the layer above, if there is one
@@ -113,9 +108,7 @@ class LayerMaker {
   const TakeLayer& take_;
   Layer layer_;  // in hand
   std::size_t count_ = 0;
-  std::uint64_t hatches_ = 0;
-  std::uint64_t open_polylines_ = 0;
-  std::uint64_t open_loops_ = 0;  // that should be closed
+  LayerFileFacts facts_;
   double first_top_ = 0;
   double last_top_ = 0;
   bool has_thickness_ = true;
@@ -422,10 +415,8 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
                                    "holds {}",
                                    *header.layers, maker.count()));
   }
-  LayerFileFacts facts;
+  LayerFileFacts facts = maker.facts();
   facts.format = header.is_binary ? "CLI, binary" : "CLI, ASCII";
-  facts.left_out = maker.left_out();
-  facts.open_loops = maker.open_loops();
   return facts;
 }
 

@@ -128,6 +128,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool has_layers() const { return has_layers_; }
+  // What was noted on the way.
+  const LayerFileFacts& facts() const { return facts_; }
 
  private:
   Place place() const {
@@ -220,8 +222,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   void finish_contour() {
     // Where the file does not say, the sense in which the loop runs decides.
     const bool is_hole = is_hole_.value_or(signed_area(points_) < 0);
-    add_loop(points_, is_hole ? LoopKind::kHole : LoopKind::kOuter,
-             layer_.contours);
+    add_loop(points_, is_hole ? LoopKind::kHole : LoopKind::kOuter, count_,
+             layer_.contours, facts_);
   }
 
   static std::string printable(std::string_view token) {
@@ -256,6 +258,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   std::array<double, 2> point_{};
   std::size_t coordinates_ = 0;
   bool has_layers_ = false;
+  LayerFileFacts facts_;
 };
 
 // Walks over bytes, and notes for others how far it is.
@@ -292,7 +295,7 @@ LayerFileFacts read_layers_json(const std::string& path, const TakeLayer& take,
   nlohmann::json::sax_parse(Walker(text.data(), &at),
                             Walker(text.data() + text.size(), &at), &handler);
   if (!handler.has_layers()) fail_to_read(path, "it has no list \"layers\"");
-  LayerFileFacts facts;
+  LayerFileFacts facts = handler.facts();
   facts.format = "layers.json";
   facts.is_float32 = false;
   return facts;

@@ -207,6 +207,37 @@ TEST(ReadLayers, RefusesWhatLiesTooFarAway) {
       "layer 1 reaches farther than 1e+09 mm from the origin");
 }
 
+// In every format: a layer without loops, then one with a loop of two points.
+TEST(ReadLayers, NotesLoopsThatAreTooShort) {
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.cli", "$$HEADERSTART\n$$ASCII\n$$UNITS/2\n$$HEADEREND\n"
+                "$$GEOMETRYSTART\n$$LAYER/1\n$$LAYER/2\n"
+                "$$POLYLINE/1,1,3,1,2,3,2,1,2\n$$GEOMETRYEND\n"},
+      {"a.svg", "<svg><!-- Slic3r --><g slic3r:z=\"1\"/><g slic3r:z=\"2\">"
+                "<polygon slic3r:type=\"contour\" points=\"2,4 6,4\"/></g>"
+                "</svg>"},
+      {"a.3mf",
+       csg::make_zip(
+           {{"3D/3dmodel.model",
+             "<model><resources><s:slicestack><s:slice ztop=\"1\"/>"
+             "<s:slice ztop=\"2\"><s:vertices><s:vertex x=\"2\" y=\"4\"/>"
+             "<s:vertex x=\"6\" y=\"4\"/></s:vertices><s:polygon "
+             "startv=\"0\"><s:segment v2=\"1\"/><s:segment v2=\"0\"/>"
+             "</s:polygon></s:slice></s:slicestack></resources></model>"}})},
+      {"a.layers.json", R"({"layers":[{"z":1},{"z":2,"contours":[)"
+                        R"({"points":[[2,4],[6,4]]}]}]})"}};
+  for (const auto& [name, bytes] : files) {
+    SCOPED_TRACE(name);
+    const Content content = read(name, bytes);
+    EXPECT_EQ(content.facts.short_loops.count, 1U);
+    EXPECT_EQ(content.facts.short_loops.layer, 2U);
+    EXPECT_EQ(content.facts.short_loops.place, Vec2(2, 4));
+    EXPECT_EQ(content.facts.open_loops.count, 0U);
+    EXPECT_EQ(left_out_text(content.facts), "1 loop of fewer than 3 points");
+    EXPECT_TRUE(content.layers.at(1).contours.is_empty());
+  }
+}
+
 // --- CLI --------------------------------------------------------------------
 
 const std::string kAsciiHead =
@@ -293,7 +324,8 @@ TEST(ReadCli, CountsLoopsThatAreOpen) {
   const Content content =
       read("a.cli", ascii("$$LAYER/1$$POLYLINE/1,1,3,0,0,200,0,200,200"
                           "$$POLYLINE/1,1,4,0,0,9,0,9,9,0,0"));
-  EXPECT_EQ(content.facts.open_loops, 1U);
+  EXPECT_EQ(content.facts.open_loops.count, 1U);
+  EXPECT_EQ(content.facts.open_loops.layer, 1U);
   EXPECT_EQ(content.layers.at(0).contours.loop_count(), 2U);
 }
 
@@ -439,7 +471,7 @@ const std::string kTwoSegments = "<s:segment v2=\"1\"/><s:segment v2=\"2\"/>";
 
 TEST(ReadThreemf, CountsLoopsThatAreOpen) {
   const auto open_loops = [](const std::string& segments) {
-    return read("a.3mf", threemf(slice(segments))).facts.open_loops;
+    return read("a.3mf", threemf(slice(segments))).facts.open_loops.count;
   };
   EXPECT_EQ(open_loops(kTwoSegments + "<s:segment v2=\"0\"/>"), 0U);
   EXPECT_EQ(open_loops(kTwoSegments), 1U);
