@@ -15,7 +15,8 @@ constexpr std::size_t kReportedDefects = 20;
 
 }  // namespace
 
-Inspector::Inspector(const InspectOptions& options) {
+Inspector::Inspector(const InspectOptions& options)
+    : finds_defects_(options.finds_defects) {
   found_.min_feature = options.min_feature;
   if (options.min_feature > 0) {
     finder_.emplace(options.min_feature);
@@ -68,12 +69,8 @@ void Inspector::check_heights(const Layer& layer) {
   }
 }
 
-void Inspector::take(const Layer& layer) {
-  take(layer, closed_loops(layer.contours));
-}
-
-void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
-  check_heights(layer);
+void Inspector::add_loop_defects(const Layer& layer,
+                                 std::span<const WrittenLoop> loops) {
   const std::size_t number = found_.layers.size() + 1;
   for (const Defect& defect : find_defects(loops)) {
     add_defect(fmt::format("layer {} at z {}: loop {} {}, near x {} y {}",
@@ -81,6 +78,16 @@ void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
                            describe(defect.kind), defect.place.x,
                            defect.place.y));
   }
+}
+
+void Inspector::take(const Layer& layer) {
+  take(layer, finds_defects_ ? closed_loops(layer.contours)
+                             : std::vector<WrittenLoop>());
+}
+
+void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
+  check_heights(layer);
+  if (finds_defects_) add_loop_defects(layer, loops);
   for (const Vec2& point : layer.contours.points) {
     found_.box.add(Box3{Vec3(point, layer.bottom), Vec3(point, layer.top)});
   }
