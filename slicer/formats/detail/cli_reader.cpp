@@ -33,6 +33,7 @@ constexpr std::int64_t kOpen = 2;  // direction of lines that bound nothing
 
 struct CliHeader {
   bool is_binary = false;
+  bool is_aligned = false;       // commands begin at every fourth byte
   double unit = 1;               // [mm]
   std::optional<double> bottom;  // lower side of the part [mm]
   std::optional<double> layers;  // how many there should be
@@ -227,7 +228,7 @@ CliHeader read_header(const std::string& path, std::string_view bytes) {
       header.is_binary = name == "BINARY";
       has_encoding = true;
     } else if (name == "ALIGN") {
-      commands.fail("aligned numbers ($$ALIGN) are not supported");
+      header.is_aligned = true;
     } else if (name == "UNITS") {
       header.unit = commands.number();
       if (!(header.unit > 0)) commands.fail("the unit must be more than 0");
@@ -310,6 +311,14 @@ class BinaryNumbers {
     return number;
   }
 
+  // Passes over what fills up the word of four bytes in hand, counted from the
+  // begin of the file.
+  void skip_to_word() {
+    constexpr std::size_t kWord = 4;
+    const std::size_t words = (place_ + kWord - 1) / kWord;
+    place_ = std::min(kWord * words, bytes_.size());
+  }
+
   // Checks the count before it asks for memory.
   template <typename Number>
   void take_points(std::int64_t count, std::vector<Vec2>& points) {
@@ -363,12 +372,25 @@ struct Parameters {
   [[noreturn]] void fail(std::string_view message) { numbers.fail(message); }
 };
 
-void read_binary(BinaryNumbers& numbers, LayerMaker& maker) {
+// is_aligned  two bytes follow each command, so that all that is behind it
+//             begins a word; descriptions of CLI do not say the same of numbers
+//             of two bytes, which are refused then
+void read_binary(BinaryNumbers& numbers, bool is_aligned, LayerMaker& maker) {
   Parameters<std::uint16_t, std::uint16_t> short_ones = {numbers};
   Parameters<std::int32_t, float> long_ones = {numbers};
   std::vector<Vec2> points;
+  if (is_aligned) numbers.skip_to_word();
   while (!numbers.is_at_end()) {
     const auto command = numbers.take<std::uint16_t>();
+    if (is_aligned) {
+      if (command >= kShortLayer && command != kLongPolyline &&
+          command != kLongHatches) {
+        numbers.fail(fmt::format(
+            "command {} is not supported in an aligned file ($$ALIGN)",
+            command));
+      }
+      numbers.skip_to_word();
+    }
     const bool is_layer = command == kLongLayer || command == kShortLayer;
     if (maker.count() == 0 && !is_layer) {
       numbers.fail(fmt::format("command {} stands before any layer", command));
@@ -403,7 +425,7 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
   LayerMaker maker(header, take);
   if (header.is_binary) {
     BinaryNumbers numbers(path, file, header.size);
-    read_binary(numbers, maker);
+    read_binary(numbers, header.is_aligned, maker);
   } else {
     read_ascii(path, file, header.size, maker);
   }

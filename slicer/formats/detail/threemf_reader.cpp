@@ -172,7 +172,8 @@ class ThreemfReader {
         facts_.open_loops.add(count_, loop_);
       }
       // The positive fill rule: what runs clockwise takes away.
-      add_loop(loop_, signed_area(loop_) < 0 ? LoopKind::kHole : LoopKind::kOuter,
+      add_loop(loop_,
+               signed_area(loop_) < 0 ? LoopKind::kHole : LoopKind::kOuter,
                count_, contours, facts_);
     });
   }

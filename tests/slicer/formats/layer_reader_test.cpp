@@ -210,12 +210,14 @@ TEST(ReadLayers, RefusesWhatLiesTooFarAway) {
 // In every format: a layer without loops, then one with a loop of two points.
 TEST(ReadLayers, NotesLoopsThatAreTooShort) {
   const std::vector<std::pair<std::string, std::string>> files = {
-      {"a.cli", "$$HEADERSTART\n$$ASCII\n$$UNITS/2\n$$HEADEREND\n"
-                "$$GEOMETRYSTART\n$$LAYER/1\n$$LAYER/2\n"
-                "$$POLYLINE/1,1,3,1,2,3,2,1,2\n$$GEOMETRYEND\n"},
-      {"a.svg", "<svg><!-- Slic3r --><g slic3r:z=\"1\"/><g slic3r:z=\"2\">"
-                "<polygon slic3r:type=\"contour\" points=\"2,4 6,4\"/></g>"
-                "</svg>"},
+      {"a.cli",
+       "$$HEADERSTART\n$$ASCII\n$$UNITS/2\n$$HEADEREND\n"
+       "$$GEOMETRYSTART\n$$LAYER/1\n$$LAYER/2\n"
+       "$$POLYLINE/1,1,3,1,2,3,2,1,2\n$$GEOMETRYEND\n"},
+      {"a.svg",
+       "<svg><!-- Slic3r --><g slic3r:z=\"1\"/><g slic3r:z=\"2\">"
+       "<polygon slic3r:type=\"contour\" points=\"2,4 6,4\"/></g>"
+       "</svg>"},
       {"a.3mf",
        csg::make_zip(
            {{"3D/3dmodel.model",
@@ -284,6 +286,31 @@ TEST(ReadCli, ReadsShortNumbers) {
   EXPECT_EQ(content.layers[0].top, 2);
   EXPECT_EQ(loops(content.layers[0]),
             (std::vector<std::vector<Vec2>>{{{0, 0}, {1, 0}, {1, 1}}}));
+}
+
+// Each command and the header are filled up to four bytes.
+TEST(ReadCli, ReadsAlignedNumbers) {
+  const std::string head = "$$HEADERSTART\n$$BINARY\n$$UNITS/1\n$$ALIGN\n";
+  for (const std::string blanks : {"", " ", "  ", "   "}) {
+    std::string file = head + blanks + "$$HEADEREND";
+    file.resize((file.size() + 3) / 4 * 4);
+    file +=
+        "\x7F\x00\x00\x00\x00\x00\x00\x40"  // a layer at 2
+        "\x82\x00\x00\x00\x01\x00\x00\x00\x01\x00\x00\x00\x04\x00\x00\x00"
+        "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x40\x00\x00\x00\x00"
+        "\x00\x00\x00\x40\x00\x00\x00\x40\x00\x00\x00\x00\x00\x00\x00\x00"s;
+    const Content content = read("a.cli", file);
+    ASSERT_EQ(content.layers.size(), 1U);
+    EXPECT_EQ(content.layers[0].top, 2);
+    EXPECT_EQ(loops(content.layers[0]),
+              (std::vector<std::vector<Vec2>>{{{0, 0}, {2, 0}, {2, 2}}}));
+  }
+  std::string file = head + "$$HEADEREND";
+  file.resize((file.size() + 3) / 4 * 4);
+  EXPECT_EQ(error_of("a.cli", file + "\x80\x00\x00\x00\x04\x00\x00\x00"s),
+            fmt::format("byte {}: command 128 is not supported in an aligned "
+                        "file ($$ALIGN)",
+                        file.size() + 2));
 }
 
 TEST(ReadCli, SectionsWithoutThicknessAreAtTheirHeights) {
