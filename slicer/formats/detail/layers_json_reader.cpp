@@ -54,7 +54,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     return take_number(value);
   }
   bool string(string_t& value) override {
-    if (place() == Place::kDocument && key_ == "units" && value != "mm") {
+    if (place() == Place::kDocument && key_ == "units") {
+      if (value == "mm") return true;
       fail(fmt::format("unknown unit '{}' (mm was expected)", value));
     }
     return take_other();
@@ -170,6 +171,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
         fail("a point (two numbers) was expected");
       case Place::kDocument:
         if (key_ == "layers") fail("\"layers\" must be a list");
+        if (key_ == "units") fail("\"units\" must be a text");
         break;
       case Place::kLayer:
         if (key_ == "contours") fail("\"contours\" must be a list");

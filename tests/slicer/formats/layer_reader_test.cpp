@@ -621,6 +621,7 @@ TEST(ReadLayersJson, NamesThePlaceOfAFault) {
   EXPECT_EQ(error("{}"), "it has no list \"layers\"");
   EXPECT_EQ(error("{\"units\":\"inch\"}"),
             "line 1: unknown unit 'inch' (mm was expected)");
+  EXPECT_EQ(error("{\"units\":25.4}"), "line 1: \"units\" must be a text");
   EXPECT_EQ(error("{\"layers\":\n[{\"contours\":[]}]}"),
             "line 2: layer 1 has no z");
   EXPECT_EQ(error("{\"layers\":[{\"z\":true}]}"),
