@@ -167,6 +167,7 @@ class Commands {
 
   void take_points(std::int64_t count, std::vector<Vec2>& points) {
     points.clear();
+    if (count < 0) fail(fmt::format("{} points", count));
     for (std::int64_t i = 0; i < count; ++i) {
       const double x = number();
       points.emplace_back(x, number());

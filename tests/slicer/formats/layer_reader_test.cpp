@@ -336,6 +336,8 @@ TEST(ReadCli, NamesThePlaceOfAFault) {
             "line 8: a number was expected");
   EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,1,3,0,0\n")),
             "line 10: ',' and a number were expected");
+  EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,1,-3\n")),
+            "line 9: -3 points");
   EXPECT_EQ(error_of("a.cli", ascii("$$WARM/1\n")),
             "line 8: unknown command '$$WARM'");
   const std::string binary = "$$HEADERSTART\n$$BINARY\n$$UNITS/1\n$$HEADEREND";
