@@ -113,7 +113,8 @@ class CheckCommand : public Command {
       refuse_design_option(design_option_, request_.design);
       const slicer::Inspection found = compiler::inspect_file(
           request_.design,
-          {.self_supporting = request_.settings.self_supporting},
+          {.finds_defects = false,
+           .self_supporting = request_.settings.self_supporting},
           compilation.file_access());
       compilation.report.slice.print = found.print;
       tell_left_out(compilation, found.file);

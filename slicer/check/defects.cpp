@@ -102,6 +102,10 @@ class EdgeGrid {
     // A layer without width has one column.
     constexpr double kNoSize = 1e-150;
     const Vec2 size = glm::max(box.size(), Vec2(kNoSize));
+    // Beyond the numbers' range no cell has a size: there is one then.
+    if (!std::isfinite(size.x + size.y) || !std::isfinite(way.x + way.y)) {
+      return;
+    }
     const auto wanted = static_cast<double>(edges_.size());
     const Vec2 most = kMostCells * wanted * size / glm::max(way, size);
     const double columns = std::clamp(std::sqrt(wanted * size.x / size.y), 1.0,
@@ -117,6 +121,7 @@ class EdgeGrid {
   // beside them.
   template <typename Visit>
   void visit_cells(const Edge& edge, const Visit& visit) const {
+    if (grid_.size() == 1) return visit(0);
     // Far above rounding, far below a cell.
     const Vec2 margin = 1e-6 / grid_.cells_per_mm();
     grid_.visit_cells(edge.from, edge.to, margin, visit);

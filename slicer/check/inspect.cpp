@@ -15,7 +15,8 @@ constexpr std::size_t kReportedDefects = 20;
 
 }  // namespace
 
-Inspector::Inspector(const InspectOptions& options) {
+Inspector::Inspector(const InspectOptions& options)
+    : finds_defects_(options.finds_defects) {
   found_.min_feature = options.min_feature;
   if (options.min_feature > 0) {
     finder_.emplace(options.min_feature);
@@ -28,6 +29,18 @@ void Inspector::add_defect(std::string words) {
   if (++found_.defects <= kReportedDefects) {
     found_.reported_defects.push_back(std::move(words));
   }
+}
+
+// Adds a defect for each loop; of the first one it says where it is.
+void Inspector::add_faulty_loops(const FaultyLoops& loops,
+                                 std::string_view fault) {
+  if (loops.count == 0) return;
+  const std::string more =
+      loops.count > 1 ? fmt::format(" (the first of {})", loops.count) : "";
+  add_defect(fmt::format("layer {} at z {}: a loop {}, near x {} y {}{}",
+                         loops.layer, found_.layers.at(loops.layer - 1).bottom,
+                         fault, loops.place.x, loops.place.y, more));
+  found_.defects += loops.count - 1;
 }
 
 // Layers without thickness are sections.
@@ -56,12 +69,8 @@ void Inspector::check_heights(const Layer& layer) {
   }
 }
 
-void Inspector::take(const Layer& layer) {
-  take(layer, closed_loops(layer.contours));
-}
-
-void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
-  check_heights(layer);
+void Inspector::add_loop_defects(const Layer& layer,
+                                 std::span<const WrittenLoop> loops) {
   const std::size_t number = found_.layers.size() + 1;
   for (const Defect& defect : find_defects(loops)) {
     add_defect(fmt::format("layer {} at z {}: loop {} {}, near x {} y {}",
@@ -69,6 +78,16 @@ void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
                            describe(defect.kind), defect.place.x,
                            defect.place.y));
   }
+}
+
+void Inspector::take(const Layer& layer) {
+  take(layer, finds_defects_ ? closed_loops(layer.contours)
+                             : std::vector<WrittenLoop>());
+}
+
+void Inspector::take(const Layer& layer, std::span<const WrittenLoop> loops) {
+  check_heights(layer);
+  if (finds_defects_) add_loop_defects(layer, loops);
   for (const Vec2& point : layer.contours.points) {
     found_.box.add(Box3{Vec3(point, layer.bottom), Vec3(point, layer.top)});
   }
@@ -96,13 +115,8 @@ Inspection Inspector::finish(std::string name, LayerFileFacts file) {
           "the end record's top, z {}, lies below the last layer", found_.top));
     }
   }
-  if (found_.file.open_loops > 0) {
-    add_defect(
-        fmt::format("{} not closed in the file",
-                    found_.file.open_loops == 1
-                        ? "1 loop is"
-                        : fmt::format("{} loops are", found_.file.open_loops)));
-  }
+  add_faulty_loops(found_.file.open_loops, "is not closed in the file");
+  add_faulty_loops(found_.file.short_loops, "has fewer than 3 points");
   if (collector_) found_.features = collector_->finish();
   if (graph_) found_.print = graph_->finish();
   return std::move(found_);

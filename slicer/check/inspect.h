@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec.h"
@@ -44,6 +45,8 @@ struct Inspection {
 };
 
 struct InspectOptions {
+  // Whether loops are searched for defects.
+  bool finds_defects = true;
   // Width below which walls and gaps are reported [mm]; 0: none.
   double min_feature = 0;
   // Whether a layer graph is made; of a design the slicer makes it.
@@ -64,9 +67,12 @@ class Inspector : public LayerSink {
 
  private:
   void add_defect(std::string words);
+  void add_faulty_loops(const FaultyLoops& loops, std::string_view fault);
+  void add_loop_defects(const Layer& layer, std::span<const WrittenLoop> loops);
   void check_heights(const Layer& layer);
 
   Inspection found_;
+  const bool finds_defects_;
   std::optional<ThinFinder> finder_;
   std::optional<FeatureCollector> collector_;
   std::optional<LayerGraph> graph_;

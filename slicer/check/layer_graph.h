@@ -9,7 +9,7 @@
 //
 //   island       solid region above the first layer with no arc downwards:
 //                resin in mid-air
-//   loose part   component of solid that reaches neither the bed nor another one
+//   loose part   component of solid that reaches neither bed nor another one
 //   overhang     part of a solid region that is farther than its reach from
 //                all that is solid below
 //   suction cup  void that no way leads out of through the layers built so far.
@@ -122,7 +122,7 @@ class LayerGraph {
     bool is_anchored = false;  // solid: to the bed; void: open to the outside
     bool touches_bed = false;  // a void that only the plate closes
     Finding finding;           // what it is as long as it is not anchored
-    std::uint32_t island = kNone;  // in findings_, until another part is reached
+    std::uint32_t island = kNone;  // in findings_, until it is joined
   };
   static constexpr std::uint32_t kNone = 0xffffffff;
 
@@ -161,7 +161,7 @@ class LayerGraph {
   std::vector<double> areas_;
   std::vector<std::uint32_t> members_;
   std::vector<std::uint32_t> next_members_;  // of the layer in hand
-  std::vector<Component> components_;  // the first is the outside
+  std::vector<Component> components_;        // the first is the outside
   std::vector<Finding> findings_;
   std::vector<Finding> overhangs_;
   std::vector<std::uint32_t> overhang_parents_;

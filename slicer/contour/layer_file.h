@@ -3,9 +3,11 @@
 // readers (slicer/formats) fill it in, checks (slicer/check) judge it.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,19 @@ inline std::vector<WrittenLoop> closed_loops(const ldni::Contours& contours) {
   return closed;
 }
 
+// Loops of a file that have the same fault.
+struct FaultyLoops {
+  std::uint64_t count = 0;
+  std::size_t layer = 0;  // of the first one, from 1
+  Vec2 place = Vec2(0);   // its first point; 0, 0 where it has none [mm]
+
+  void add(std::size_t number_of_layer, std::span<const Vec2> points) {
+    if (count++ > 0) return;
+    layer = number_of_layer;
+    if (!points.empty()) place = points.front();
+  }
+};
+
 struct LayerFileFacts {
   std::string format;  // "SLC 2.0", "CLI, binary"; empty: layers of a design
   std::string writer;  // program that made it; empty: not known
@@ -49,7 +64,9 @@ struct LayerFileFacts {
   bool has_sides = true;
   // Loops of which the format asks for their first point at their end, and that
   // end with another: readers close them.
-  std::uint64_t open_loops = 0;
+  FaultyLoops open_loops;
+  // Loops of fewer than three points, which readers leave out.
+  FaultyLoops short_loops;
   // What of the file was not taken, each kind with its number: "open
   // polyline", "circle element".
   std::map<std::string, std::uint64_t> left_out;

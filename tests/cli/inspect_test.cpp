@@ -58,8 +58,29 @@ TEST(Inspect, ALoopThatItsReaderClosedIsADefect) {
                "$$GEOMETRYEND\n");
   const auto result = run(folder, {"inspect", "a.cli"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(has(result.output, "1 loop is not closed in the file"))
+  EXPECT_TRUE(has(result.output,
+                  "layer 1 at z 1: a loop is not closed in the file, near x 0 "
+                  "y 0\n"))
       << result.output;
+}
+
+TEST(Inspect, ALoopThatItsReaderLeftOutIsADefect) {
+  const TemporaryFolder folder;
+  folder.write("a.layers.json",
+               R"({"layers":[{"z":0,"bottom":0,"top":1,"contours":[)"
+               R"({"points":[[0,0],[5,0],[5,5]]}]},)"
+               R"({"z":1,"bottom":1,"top":2,"contours":[)"
+               R"({"points":[[7,8],[9,8]]},{"points":[[3,3]]}]}]})");
+  const auto result = run(folder, {"inspect", "a.layers.json"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(has(result.output,
+                  "layer 2 at z 1: a loop has fewer than 3 points, near x 7 y "
+                  "8 (the first of 2)\n"))
+      << result.output;
+  EXPECT_TRUE(has(result.output, "defects   2\n")) << result.output;
+  const auto checked = run(folder, {"check", "a.layers.json"});
+  EXPECT_TRUE(has(checked.errors, "2 loops of fewer than 3 points"))
+      << checked.errors;
 }
 
 TEST(Inspect, NoCommandTakesAFileWithoutLayers) {

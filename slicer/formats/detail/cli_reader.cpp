@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +33,7 @@ constexpr std::int64_t kOpen = 2;  // direction of lines that bound nothing
 
 struct CliHeader {
   bool is_binary = false;
+  bool is_aligned = false;       // commands begin at every fourth byte
   double unit = 1;               // [mm]
   std::optional<double> bottom;  // lower side of the part [mm]
   std::optional<double> layers;  // how many there should be
@@ -62,30 +62,26 @@ class LayerMaker {
   // direction  0: clockwise, 1: counter-clockwise, or kOpen
   void add_polyline(std::int64_t direction, std::vector<Vec2>& points) {
     if (direction == kOpen) {
-      ++open_polylines_;
+      ++facts_.left_out["open polyline"];
       return;
     }
-    if (points.empty() || points.front() != points.back()) ++open_loops_;
     for (Vec2& point : points) point *= header_.unit;
+    if (points.empty() || points.front() != points.back()) {
+      facts_.open_loops.add(count_, points);
+    }
     add_loop(points, direction == 0 ? LoopKind::kHole : LoopKind::kOuter,
-             layer_.contours);
+             count_, layer_.contours, facts_);
   }
 
   void finish() {
     if (count_ > 0) finish_layer(std::nullopt);
   }
 
-  void add_hatches() { ++hatches_; }
+  void add_hatches() { ++facts_.left_out["hatch block"]; }
 
   std::size_t count() const { return count_; }
-  std::uint64_t open_loops() const { return open_loops_; }
-
-  std::map<std::string, std::uint64_t> left_out() const {
-    std::map<std::string, std::uint64_t> kinds;
-    if (hatches_ > 0) kinds["hatch block"] = hatches_;
-    if (open_polylines_ > 0) kinds["open polyline"] = open_polylines_;
-    return kinds;
-  }
+  // What was noted on the way.
+  const LayerFileFacts& facts() const { return facts_; }
 
  private:
   // next  top of the layer above, if there is one
@@ -113,9 +109,7 @@ class LayerMaker {
   const TakeLayer& take_;
   Layer layer_;  // in hand
   std::size_t count_ = 0;
-  std::uint64_t hatches_ = 0;
-  std::uint64_t open_polylines_ = 0;
-  std::uint64_t open_loops_ = 0;  // that should be closed
+  LayerFileFacts facts_;
   double first_top_ = 0;
   double last_top_ = 0;
   bool has_thickness_ = true;
@@ -173,6 +167,7 @@ class Commands {
 
   void take_points(std::int64_t count, std::vector<Vec2>& points) {
     points.clear();
+    if (count < 0) fail(fmt::format("{} points", count));
     for (std::int64_t i = 0; i < count; ++i) {
       const double x = number();
       points.emplace_back(x, number());
@@ -234,7 +229,7 @@ CliHeader read_header(const std::string& path, std::string_view bytes) {
       header.is_binary = name == "BINARY";
       has_encoding = true;
     } else if (name == "ALIGN") {
-      commands.fail("aligned numbers ($$ALIGN) are not supported");
+      header.is_aligned = true;
     } else if (name == "UNITS") {
       header.unit = commands.number();
       if (!(header.unit > 0)) commands.fail("the unit must be more than 0");
@@ -317,6 +312,14 @@ class BinaryNumbers {
     return number;
   }
 
+  // Passes over what fills up the word of four bytes in hand, counted from the
+  // begin of the file.
+  void skip_to_word() {
+    constexpr std::size_t kWord = 4;
+    const std::size_t words = (place_ + kWord - 1) / kWord;
+    place_ = std::min(kWord * words, bytes_.size());
+  }
+
   // Checks the count before it asks for memory.
   template <typename Number>
   void take_points(std::int64_t count, std::vector<Vec2>& points) {
@@ -370,12 +373,25 @@ struct Parameters {
   [[noreturn]] void fail(std::string_view message) { numbers.fail(message); }
 };
 
-void read_binary(BinaryNumbers& numbers, LayerMaker& maker) {
+// is_aligned  two bytes follow each command, so that all that is behind it
+//             begins a word; descriptions of CLI do not say the same of numbers
+//             of two bytes, which are refused then
+void read_binary(BinaryNumbers& numbers, bool is_aligned, LayerMaker& maker) {
   Parameters<std::uint16_t, std::uint16_t> short_ones = {numbers};
   Parameters<std::int32_t, float> long_ones = {numbers};
   std::vector<Vec2> points;
+  if (is_aligned) numbers.skip_to_word();
   while (!numbers.is_at_end()) {
     const auto command = numbers.take<std::uint16_t>();
+    if (is_aligned) {
+      if (command >= kShortLayer && command != kLongPolyline &&
+          command != kLongHatches) {
+        numbers.fail(fmt::format(
+            "command {} is not supported in an aligned file ($$ALIGN)",
+            command));
+      }
+      numbers.skip_to_word();
+    }
     const bool is_layer = command == kLongLayer || command == kShortLayer;
     if (maker.count() == 0 && !is_layer) {
       numbers.fail(fmt::format("command {} stands before any layer", command));
@@ -410,7 +426,7 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
   LayerMaker maker(header, take);
   if (header.is_binary) {
     BinaryNumbers numbers(path, file, header.size);
-    read_binary(numbers, maker);
+    read_binary(numbers, header.is_aligned, maker);
   } else {
     read_ascii(path, file, header.size, maker);
   }
@@ -422,10 +438,8 @@ LayerFileFacts read_cli(const std::string& path, const TakeLayer& take,
                                    "holds {}",
                                    *header.layers, maker.count()));
   }
-  LayerFileFacts facts;
+  LayerFileFacts facts = maker.facts();
   facts.format = header.is_binary ? "CLI, binary" : "CLI, ASCII";
-  facts.left_out = maker.left_out();
-  facts.open_loops = maker.open_loops();
   return facts;
 }
 

@@ -54,7 +54,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     return take_number(value);
   }
   bool string(string_t& value) override {
-    if (place() == Place::kDocument && key_ == "units" && value != "mm") {
+    if (place() == Place::kDocument && key_ == "units") {
+      if (value == "mm") return true;
       fail(fmt::format("unknown unit '{}' (mm was expected)", value));
     }
     return take_other();
@@ -128,6 +129,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool has_layers() const { return has_layers_; }
+  // What was noted on the way.
+  const LayerFileFacts& facts() const { return facts_; }
 
  private:
   Place place() const {
@@ -168,6 +171,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
         fail("a point (two numbers) was expected");
       case Place::kDocument:
         if (key_ == "layers") fail("\"layers\" must be a list");
+        if (key_ == "units") fail("\"units\" must be a text");
         break;
       case Place::kLayer:
         if (key_ == "contours") fail("\"contours\" must be a list");
@@ -220,8 +224,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   void finish_contour() {
     // Where the file does not say, the sense in which the loop runs decides.
     const bool is_hole = is_hole_.value_or(signed_area(points_) < 0);
-    add_loop(points_, is_hole ? LoopKind::kHole : LoopKind::kOuter,
-             layer_.contours);
+    add_loop(points_, is_hole ? LoopKind::kHole : LoopKind::kOuter, count_,
+             layer_.contours, facts_);
   }
 
   static std::string printable(std::string_view token) {
@@ -256,6 +260,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   std::array<double, 2> point_{};
   std::size_t coordinates_ = 0;
   bool has_layers_ = false;
+  LayerFileFacts facts_;
 };
 
 // Walks over bytes, and notes for others how far it is.
@@ -292,7 +297,7 @@ LayerFileFacts read_layers_json(const std::string& path, const TakeLayer& take,
   nlohmann::json::sax_parse(Walker(text.data(), &at),
                             Walker(text.data() + text.size(), &at), &handler);
   if (!handler.has_layers()) fail_to_read(path, "it has no list \"layers\"");
-  LayerFileFacts facts;
+  LayerFileFacts facts = handler.facts();
   facts.format = "layers.json";
   facts.is_float32 = false;
   return facts;

@@ -54,12 +54,15 @@ bool take_number(std::string_view& text, double& value) {
   return true;
 }
 
-void add_loop(std::span<const Vec2> points, LoopKind kind,
-              ldni::Contours& contours) {
+void add_loop(std::span<const Vec2> points, LoopKind kind, std::size_t layer,
+              ldni::Contours& contours, LayerFileFacts& facts) {
   if (points.size() > 1 && points.front() == points.back()) {
     points = points.first(points.size() - 1);
   }
-  if (points.size() < 3) return;
+  if (points.size() < 3) {
+    facts.short_loops.add(layer, points);
+    return;
+  }
   const bool is_clockwise = signed_area(points) < 0;
   auto& all = contours.points;
   if (is_clockwise == (kind == LoopKind::kHole)) {

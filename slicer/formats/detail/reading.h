@@ -41,9 +41,11 @@ inline constexpr std::string_view kPadding{"\0 \t\r\n\x1A", 6};
 enum class LoopKind { kOuter, kHole };
 
 // Appends a loop without its closing point, turned round where it does not run
-// as its kind must. What has fewer than three points is left out.
-void add_loop(std::span<const Vec2> points, LoopKind kind,
-              ldni::Contours& contours);
+// as its kind must. What has fewer than three points is left out and noted.
+//
+// layer  its number, from 1
+void add_loop(std::span<const Vec2> points, LoopKind kind, std::size_t layer,
+              ldni::Contours& contours, LayerFileFacts& facts);
 
 // The readers behind read_layers(): one for each format, in a source file of
 // its name. SLC has slc_reader.h.

@@ -50,7 +50,7 @@ class SvgReader {
       Layer layer;
       set_heights(layer, i);
       for (const pugi::xml_node node : groups_[i].children()) {
-        if (node.type() == pugi::node_element) take_element(node, layer);
+        if (node.type() == pugi::node_element) take_element(node, layer, i + 1);
       }
       take(layer);
     }
@@ -171,7 +171,9 @@ class SvgReader {
     layer.top = z + above;
   }
 
-  void take_element(const pugi::xml_node& node, Layer& layer) {
+  // number  the layer's, from 1
+  void take_element(const pugi::xml_node& node, Layer& layer,
+                    std::size_t number) {
     const std::string_view name = node.name();
     const std::string_view type = node.attribute("slic3r:type").value();
     const bool is_contour = type == "contour";
@@ -188,8 +190,8 @@ class SvgReader {
       return;
     }
     read_points(node);
-    add_loop(points_, is_contour ? LoopKind::kOuter : LoopKind::kHole,
-             layer.contours);
+    add_loop(points_, is_contour ? LoopKind::kOuter : LoopKind::kHole, number,
+             layer.contours, facts_);
   }
 
   // "x,y x,y …", or as SVG also allows, any commas and blanks.

@@ -85,9 +85,8 @@ class ThreemfReader {
       });
     });
     if (stacks == 0) fail_to_read(path_, "it holds no slices");
-    LayerFileFacts facts;
+    LayerFileFacts facts = facts_;
     facts.format = "3MF with slices";
-    facts.open_loops = open_loops_;
     visit_children(root(), "resources", [&](const pugi::xml_node& resources) {
       visit_children(resources, "object", [&](const pugi::xml_node& object) {
         facts.deviation = deviation_of(object.attribute("name").value());
@@ -148,6 +147,7 @@ class ThreemfReader {
       layer.bottom = bottom;
       layer.top = bottom = number(slice, "ztop");
       layer.section_z = (layer.bottom + layer.top) / 2;
+      ++count_;
       read_slice(slice, layer.contours);
       take(layer);
     });
@@ -169,11 +169,12 @@ class ThreemfReader {
       if (loop_.size() > 1 && loop_.front() == loop_.back()) {
         loop_.pop_back();
       } else {
-        ++open_loops_;
+        facts_.open_loops.add(count_, loop_);
       }
       // The positive fill rule: what runs clockwise takes away.
-      add_loop(loop_, signed_area(loop_) < 0 ? LoopKind::kHole : LoopKind::kOuter,
-               contours);
+      add_loop(loop_,
+               signed_area(loop_) < 0 ? LoopKind::kHole : LoopKind::kOuter,
+               count_, contours, facts_);
     });
   }
 
@@ -183,7 +184,8 @@ class ThreemfReader {
   double unit_ = 1;
   std::vector<Vec2> vertices_;  // of the slice in hand
   std::vector<Vec2> loop_;
-  std::uint64_t open_loops_ = 0;
+  std::size_t count_ = 0;  // of slices, with the one in hand
+  LayerFileFacts facts_;   // what was noted on the way
 };
 
 }  // namespace

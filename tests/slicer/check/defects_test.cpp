@@ -81,6 +81,16 @@ TEST(FindDefects, EqualNeighboursAreARepeat) {
             Kinds{DefectKind::kRepeat});
 }
 
+TEST(FindDefects, LoopsMayReachToTheEndOfTheNumbers) {
+  constexpr double kFar = 1.5e308;
+  const std::vector<Vec2> square = {
+      {-kFar, -kFar}, {kFar, -kFar}, {kFar, kFar}, {-kFar, kFar}};
+  EXPECT_EQ(kinds(closed({square})), Kinds{});
+  // As wide as no number says, and as high as others.
+  EXPECT_EQ(kinds(closed({{{-kFar, 0}, {kFar, 0}, {kFar, 1}, {-kFar, 1}}})),
+            Kinds{});
+}
+
 TEST(FindDefects, ALoopOfTwoVerticesHasNoArea) {
   EXPECT_EQ(kinds(closed({{{0, 0}, {1, 0}}})).front(), DefectKind::kZeroArea);
 }

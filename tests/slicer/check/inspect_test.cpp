@@ -27,6 +27,17 @@ Inspection inspect(const std::vector<Layer>& layers) {
 
 using Words = std::vector<std::string>;
 
+TEST(Inspector, SearchesLoopsForDefectsWhereItIsAsked) {
+  for (const bool finds_defects : {false, true}) {
+    Inspector inspector({.finds_defects = finds_defects});
+    inspector.take(
+        layer_at(0, 1, {{{0, 0}, {5, 5}, {5, 0}, {0, 5}}}));  // crosses itself
+    const Inspection found = inspector.finish("a", {});
+    EXPECT_EQ(found.defects > 0, finds_defects);
+    EXPECT_EQ(found.layers.size(), 1U);
+  }
+}
+
 TEST(Inspector, LayersStandOneOnTheOther) {
   const auto defects = [](const std::vector<Layer>& layers) {
     return inspect(layers).reported_defects;

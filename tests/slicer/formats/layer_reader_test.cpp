@@ -207,6 +207,39 @@ TEST(ReadLayers, RefusesWhatLiesTooFarAway) {
       "layer 1 reaches farther than 1e+09 mm from the origin");
 }
 
+// In every format: a layer without loops, then one with a loop of two points.
+TEST(ReadLayers, NotesLoopsThatAreTooShort) {
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.cli",
+       "$$HEADERSTART\n$$ASCII\n$$UNITS/2\n$$HEADEREND\n"
+       "$$GEOMETRYSTART\n$$LAYER/1\n$$LAYER/2\n"
+       "$$POLYLINE/1,1,3,1,2,3,2,1,2\n$$GEOMETRYEND\n"},
+      {"a.svg",
+       "<svg><!-- Slic3r --><g slic3r:z=\"1\"/><g slic3r:z=\"2\">"
+       "<polygon slic3r:type=\"contour\" points=\"2,4 6,4\"/></g>"
+       "</svg>"},
+      {"a.3mf",
+       csg::make_zip(
+           {{"3D/3dmodel.model",
+             "<model><resources><s:slicestack><s:slice ztop=\"1\"/>"
+             "<s:slice ztop=\"2\"><s:vertices><s:vertex x=\"2\" y=\"4\"/>"
+             "<s:vertex x=\"6\" y=\"4\"/></s:vertices><s:polygon "
+             "startv=\"0\"><s:segment v2=\"1\"/><s:segment v2=\"0\"/>"
+             "</s:polygon></s:slice></s:slicestack></resources></model>"}})},
+      {"a.layers.json", R"({"layers":[{"z":1},{"z":2,"contours":[)"
+                        R"({"points":[[2,4],[6,4]]}]}]})"}};
+  for (const auto& [name, bytes] : files) {
+    SCOPED_TRACE(name);
+    const Content content = read(name, bytes);
+    EXPECT_EQ(content.facts.short_loops.count, 1U);
+    EXPECT_EQ(content.facts.short_loops.layer, 2U);
+    EXPECT_EQ(content.facts.short_loops.place, Vec2(2, 4));
+    EXPECT_EQ(content.facts.open_loops.count, 0U);
+    EXPECT_EQ(left_out_text(content.facts), "1 loop of fewer than 3 points");
+    EXPECT_TRUE(content.layers.at(1).contours.is_empty());
+  }
+}
+
 // --- CLI --------------------------------------------------------------------
 
 const std::string kAsciiHead =
@@ -255,6 +288,31 @@ TEST(ReadCli, ReadsShortNumbers) {
             (std::vector<std::vector<Vec2>>{{{0, 0}, {1, 0}, {1, 1}}}));
 }
 
+// Each command and the header are filled up to four bytes.
+TEST(ReadCli, ReadsAlignedNumbers) {
+  const std::string head = "$$HEADERSTART\n$$BINARY\n$$UNITS/1\n$$ALIGN\n";
+  for (const std::string blanks : {"", " ", "  ", "   "}) {
+    std::string file = head + blanks + "$$HEADEREND";
+    file.resize((file.size() + 3) / 4 * 4);
+    file +=
+        "\x7F\x00\x00\x00\x00\x00\x00\x40"  // a layer at 2
+        "\x82\x00\x00\x00\x01\x00\x00\x00\x01\x00\x00\x00\x04\x00\x00\x00"
+        "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x40\x00\x00\x00\x00"
+        "\x00\x00\x00\x40\x00\x00\x00\x40\x00\x00\x00\x00\x00\x00\x00\x00"s;
+    const Content content = read("a.cli", file);
+    ASSERT_EQ(content.layers.size(), 1U);
+    EXPECT_EQ(content.layers[0].top, 2);
+    EXPECT_EQ(loops(content.layers[0]),
+              (std::vector<std::vector<Vec2>>{{{0, 0}, {2, 0}, {2, 2}}}));
+  }
+  std::string file = head + "$$HEADEREND";
+  file.resize((file.size() + 3) / 4 * 4);
+  EXPECT_EQ(error_of("a.cli", file + "\x80\x00\x00\x00\x04\x00\x00\x00"s),
+            fmt::format("byte {}: command 128 is not supported in an aligned "
+                        "file ($$ALIGN)",
+                        file.size() + 2));
+}
+
 TEST(ReadCli, SectionsWithoutThicknessAreAtTheirHeights) {
   Layer low = layer_at(1, 1, {{{0, 0}, {1, 0}, {1, 1}}});
   Layer high = layer_at(4, 4, {{{0, 0}, {1, 0}, {1, 1}}});
@@ -278,6 +336,8 @@ TEST(ReadCli, NamesThePlaceOfAFault) {
             "line 8: a number was expected");
   EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,1,3,0,0\n")),
             "line 10: ',' and a number were expected");
+  EXPECT_EQ(error_of("a.cli", ascii("$$LAYER/1\n$$POLYLINE/1,1,-3\n")),
+            "line 9: -3 points");
   EXPECT_EQ(error_of("a.cli", ascii("$$WARM/1\n")),
             "line 8: unknown command '$$WARM'");
   const std::string binary = "$$HEADERSTART\n$$BINARY\n$$UNITS/1\n$$HEADEREND";
@@ -293,7 +353,8 @@ TEST(ReadCli, CountsLoopsThatAreOpen) {
   const Content content =
       read("a.cli", ascii("$$LAYER/1$$POLYLINE/1,1,3,0,0,200,0,200,200"
                           "$$POLYLINE/1,1,4,0,0,9,0,9,9,0,0"));
-  EXPECT_EQ(content.facts.open_loops, 1U);
+  EXPECT_EQ(content.facts.open_loops.count, 1U);
+  EXPECT_EQ(content.facts.open_loops.layer, 1U);
   EXPECT_EQ(content.layers.at(0).contours.loop_count(), 2U);
 }
 
@@ -439,7 +500,7 @@ const std::string kTwoSegments = "<s:segment v2=\"1\"/><s:segment v2=\"2\"/>";
 
 TEST(ReadThreemf, CountsLoopsThatAreOpen) {
   const auto open_loops = [](const std::string& segments) {
-    return read("a.3mf", threemf(slice(segments))).facts.open_loops;
+    return read("a.3mf", threemf(slice(segments))).facts.open_loops.count;
   };
   EXPECT_EQ(open_loops(kTwoSegments + "<s:segment v2=\"0\"/>"), 0U);
   EXPECT_EQ(open_loops(kTwoSegments), 1U);
@@ -562,6 +623,7 @@ TEST(ReadLayersJson, NamesThePlaceOfAFault) {
   EXPECT_EQ(error("{}"), "it has no list \"layers\"");
   EXPECT_EQ(error("{\"units\":\"inch\"}"),
             "line 1: unknown unit 'inch' (mm was expected)");
+  EXPECT_EQ(error("{\"units\":25.4}"), "line 1: \"units\" must be a text");
   EXPECT_EQ(error("{\"layers\":\n[{\"contours\":[]}]}"),
             "line 2: layer 1 has no z");
   EXPECT_EQ(error("{\"layers\":[{\"z\":true}]}"),
