@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace lamina::ldni::detail {
 
@@ -336,11 +337,14 @@ void RayBoundary::start_arc(Entry& entry) {
   entry.split_cluster = cluster_.number;
 }
 
-// The point of a crossing may be off a steep chain by what the cluster's width
-// makes of it. More was a tie at the end of a segment.
+// The point of a crossing may be off a steep chain by what the cluster's width,
+// or the rounding of x, makes of it. More was a tie at the end of a segment.
 void RayBoundary::note_moved_end(const ChainCursor& cursor, const Vec2& point) {
   const double distance = std::abs(cursor.y_at(point.x) - point.y);
-  const double reach = 2 * kClusterWidth * (1 + std::abs(cursor.slope()));
+  const double width =
+      std::max(kClusterWidth,
+               std::abs(point.x) * std::numeric_limits<double>::epsilon());
+  const double reach = 2 * width * (1 + std::abs(cursor.slope()));
   // I5; several ties may be at work in one cluster.
   assert(distance <= 4 * tie_distance_ + reach);
   if (distance > reach) stitcher_.note_jump();
