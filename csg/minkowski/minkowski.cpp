@@ -334,6 +334,7 @@ Leaf make_leaf(const Operand& sum) {
     ++count;
   }
   leaf.may_overlap_itself = count > 1 || !sum.pairs.empty();
+  leaf.is_convex = !leaf.may_overlap_itself;
   if (count > 0) leaf.meshes.push_back(std::move(mesh));
   for (const SurfacePair& pair : sum.pairs) {
     leaf.meshes.push_back(add_surfaces(*pair.a, *pair.b, pair.shift));
