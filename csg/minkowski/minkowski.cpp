@@ -31,8 +31,19 @@ Convex add_prism(const Prism& prism, const Convex& other) {
   return add_flat(prism.base, swept);
 }
 
-Convex hull_of(std::vector<Vec3> points) {
-  const Mesh hull = convex_hull(std::move(points));
+// Sums that rounding has put side by side count as one point: the facets
+// between them have normals of noise.
+std::vector<Vec3> without_twins(const std::vector<Vec3>& points) {
+  const std::vector<std::uint32_t> names = join_near(points);
+  std::vector<Vec3> first;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (names[i] == i) first.push_back(points[i]);
+  }
+  return first;
+}
+
+Convex hull_of(const std::vector<Vec3>& points) {
+  const Mesh hull = convex_hull(without_twins(points));
   std::vector<std::vector<std::uint32_t>> loops;
   for (planar::Face& face :
        planar::merge_to_convex(hull.vertices, hull.triangles)) {
