@@ -49,7 +49,9 @@ Convex hull_of(const std::vector<Vec3>& points) {
        planar::merge_to_convex(hull.vertices, hull.triangles)) {
     loops.push_back(std::move(face.corners));
   }
-  return make_solid(hull.vertices, loops);
+  Convex body = make_solid(hull.vertices, loops);
+  body.is_hull = true;
+  return body;
 }
 
 // The same body with few more vertices than it needs. A sum has facets side by
@@ -61,9 +63,13 @@ Convex without_seams(Convex sum) {
   return sum;
 }
 
+// Two flat sums cost a share of a hull, but pass over corners where rounding
+// bends facets.
 Convex add_solids(const Convex& a, const Convex& b) {
-  if (const auto prism = as_prism(a)) return add_prism(*prism, b);
-  if (const auto prism = as_prism(b)) return add_prism(*prism, a);
+  if (!a.is_hull && !b.is_hull) {
+    if (const auto prism = as_prism(a)) return add_prism(*prism, b);
+    if (const auto prism = as_prism(b)) return add_prism(*prism, a);
+  }
   return hull_of(extreme_sums(a, b));
 }
 

@@ -321,6 +321,17 @@ TEST(MinkowskiLaws, NestedCopiesOfAConvexSolidEnlargeIt) {
   }
 }
 
+TEST(MinkowskiLaws, NestedCopiesOfTwoConvexSolidsEnlargeBoth) {
+  const std::string a =
+      "rotate(45) linear_extrude(1, scale = 0.5) circle(1, $fn = 9);";
+  const std::string b = "rotate([30, 20, 45]) cube([1, 0.3, 1]);";
+  expect_equal("minkowski() {" + a + "minkowski() {" + a +
+                   "minkowski() { minkowski() { minkowski() {" + a + b + "}" +
+                   a + "}" + b + "} } }",
+               "minkowski() { scale(4) " + a + "scale(2) " + b + "}",
+               {-0.5, 0.5, 3, 5.5});
+}
+
 TEST(MinkowskiLaws, ATinyBoxChangesTinily) {
   for (const std::string a : kBodies) {
     const auto with =
