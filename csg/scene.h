@@ -63,6 +63,9 @@ struct Leaf {
   // false: surface known to be embedded, so that each crossing toggles
   // inside/outside; true: may overlap itself, winding must be counted.
   bool may_overlap_itself = false;
+  // true: known to be convex but for rounding, as hulls are and sums of what is
+  // convex; false says nothing.
+  bool is_convex = false;
 };
 
 // A leaf put into the world. Where the linear part of world_from_leaf has a

@@ -71,6 +71,7 @@ bool are_equal(const Loft& a, const Loft& b) {
 
 bool are_equal(const Leaf& a, const Leaf& b) {
   return a.may_overlap_itself == b.may_overlap_itself &&
+         a.is_convex == b.is_convex &&
          std::equal(
              a.lofts.begin(), a.lofts.end(), b.lofts.begin(), b.lofts.end(),
              [](const Loft& x, const Loft& y) { return are_equal(x, y); }) &&

@@ -143,6 +143,7 @@ Shape Lowerer::lower_op(const Hull&, const Place& at) {
   if (apart.scene.instances.empty()) return {};
   Leaf leaf;
   leaf.meshes.push_back(shared_.hulls.find_or_make(std::move(apart.scene)));
+  leaf.is_convex = true;
   place_leaf(std::move(leaf), at);
   return {Dimension::kSolid};
 }

@@ -175,13 +175,17 @@ class Stars {
     return body_.vertices[vertex];
   }
 
-  // A vertex that lies farthest along `direction`, climbing from `start`.
+  // A vertex that lies farthest along `direction`, climbing from `start`. Each
+  // step rises in one number for each vertex: signs of differences may lead
+  // around in a ring, where rounding decides.
   std::uint32_t climb(std::uint32_t start, const Vec3& direction) const {
+    double height = glm::dot(position(start), direction);
     for (std::uint32_t best = start;; start = best) {
       for (const std::uint32_t next : neighbours_[start]) {
-        if (glm::dot(position(next) - position(best), direction) > 0) {
-          best = next;
-        }
+        const double other = glm::dot(position(next), direction);
+        if (other <= height) continue;
+        height = other;
+        best = next;
       }
       if (best == start) return best;
     }

@@ -15,7 +15,8 @@
 // rounding.
 //
 // A prism is its base ⊕ its axis, two flat sums. The sum of any other two
-// solids is the hull of the vertices that it can have (extreme_sums()).
+// solids, and of what is a hull itself, is the hull of the vertices that it can
+// have (extreme_sums()).
 
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +49,7 @@ struct Convex {
   std::vector<Edge> edges;                // none in a sum: see find_edges()
   bool is_flat = false;                   // then facet 0 is the polygon
   bool is_closed = false;  // every side of a facet has its partner
+  bool is_hull = false;    // of sums or a mesh: rounding may bend its facets
 
   std::size_t facet_count() const { return facet_ends.size(); }
   std::span<const std::uint32_t> facet(std::size_t i) const {

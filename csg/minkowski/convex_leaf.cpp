@@ -203,7 +203,7 @@ std::optional<std::vector<Convex>> convex_parts(const Leaf& leaf,
     return parts;
   }
   parts.push_back(place(draft_of(explicit_mesh(leaf)), matrix));
-  if (is_convex(parts[0])) return parts;
+  if (leaf.is_convex || is_convex(parts[0])) return parts;
   return std::nullopt;
 }
 

@@ -23,30 +23,6 @@ namespace {
 // edges of a region are one, a tenth of the tie distance of the sweep.
 constexpr double kJoinDistance = 1e-7;
 
-// For each point the first of a cluster of near ones.
-std::vector<std::uint32_t> join_near(std::span<const Vec3> points) {
-  // Near points are near along any direction; along this one, few others are.
-  const Vec3 direction = glm::normalize(Vec3(0.5772156649, 0.6931471806, 0.4));
-  std::vector<std::pair<double, std::uint32_t>> order;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    order.emplace_back(glm::dot(points[i], direction), i);
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<std::uint32_t> names(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto [place, point] = order[i];
-    names[point] = point;
-    for (std::size_t k = i; k-- > 0;) {
-      const auto [other_place, other] = order[k];
-      if (place - other_place > kJoinDistance) break;
-      if (glm::distance(points[point], points[other]) > kJoinDistance) continue;
-      names[point] = names[other];
-      break;
-    }
-  }
-  return names;
-}
-
 // A corner this near [mm] to a face lies on it: the tie distance of the sweep.
 constexpr double kTouchDistance = 1e-6;
 
@@ -117,6 +93,29 @@ bool touch(const Face& a, const Face& b) {
 constexpr double kFlatDistance = 1e-7;
 
 }  // namespace
+
+std::vector<std::uint32_t> join_near(std::span<const Vec3> points) {
+  // Near points are near along any direction; along this one, few others are.
+  const Vec3 direction = glm::normalize(Vec3(0.5772156649, 0.6931471806, 0.4));
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    order.emplace_back(glm::dot(points[i], direction), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> names(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto [place, point] = order[i];
+    names[point] = point;
+    for (std::size_t k = i; k-- > 0;) {
+      const auto [other_place, other] = order[k];
+      if (place - other_place > kJoinDistance) break;
+      if (glm::distance(points[point], points[other]) > kJoinDistance) continue;
+      names[point] = names[other];
+      break;
+    }
+  }
+  return names;
+}
 
 JoinedFaces::JoinedFaces(std::vector<Vec3> vertices,
                          std::vector<std::vector<std::uint32_t>> loops,

@@ -109,4 +109,7 @@ bool is_convex(std::span<const BoundaryFace> faces);
 // The faces as triangles; equal vertices are one.
 Mesh triangulate(std::span<const BoundaryFace> faces);
 
+// For each point the first of a cluster of near ones, within 1e-7 mm.
+std::vector<std::uint32_t> join_near(std::span<const Vec3> points);
+
 }  // namespace lamina::csg

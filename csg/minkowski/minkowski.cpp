@@ -31,14 +31,27 @@ Convex add_prism(const Prism& prism, const Convex& other) {
   return add_flat(prism.base, swept);
 }
 
-Convex hull_of(std::vector<Vec3> points) {
-  const Mesh hull = convex_hull(std::move(points));
+// Sums that rounding has put side by side count as one point: the facets
+// between them have normals of noise.
+std::vector<Vec3> without_twins(const std::vector<Vec3>& points) {
+  const std::vector<std::uint32_t> names = join_near(points);
+  std::vector<Vec3> first;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (names[i] == i) first.push_back(points[i]);
+  }
+  return first;
+}
+
+Convex hull_of(const std::vector<Vec3>& points) {
+  const Mesh hull = convex_hull(without_twins(points));
   std::vector<std::vector<std::uint32_t>> loops;
   for (planar::Face& face :
        planar::merge_to_convex(hull.vertices, hull.triangles)) {
     loops.push_back(std::move(face.corners));
   }
-  return make_solid(hull.vertices, loops);
+  Convex body = make_solid(hull.vertices, loops);
+  body.is_hull = true;
+  return body;
 }
 
 // The same body with few more vertices than it needs. A sum has facets side by
@@ -50,9 +63,13 @@ Convex without_seams(Convex sum) {
   return sum;
 }
 
+// Two flat sums cost a share of a hull, but pass over corners where rounding
+// bends facets.
 Convex add_solids(const Convex& a, const Convex& b) {
-  if (const auto prism = as_prism(a)) return add_prism(*prism, b);
-  if (const auto prism = as_prism(b)) return add_prism(*prism, a);
+  if (!a.is_hull && !b.is_hull) {
+    if (const auto prism = as_prism(a)) return add_prism(*prism, b);
+    if (const auto prism = as_prism(b)) return add_prism(*prism, a);
+  }
   return hull_of(extreme_sums(a, b));
 }
 
@@ -334,6 +351,7 @@ Leaf make_leaf(const Operand& sum) {
     ++count;
   }
   leaf.may_overlap_itself = count > 1 || !sum.pairs.empty();
+  leaf.is_convex = !leaf.may_overlap_itself;
   if (count > 0) leaf.meshes.push_back(std::move(mesh));
   for (const SurfacePair& pair : sum.pairs) {
     leaf.meshes.push_back(add_surfaces(*pair.a, *pair.b, pair.shift));

@@ -285,21 +285,51 @@ TEST(MinkowskiLaws, CopiesOfAConvexSolidEnlargeIt) {
                    {-0.3 * count, 0.1 * count, 0.4 * count, 0.9 * count});
     }
   }
-  // Nested, each sum is a solid of its own, which took minutes.
-  const auto nested = [](const std::string& solid, int count) {
-    std::string text = solid;
-    for (int i = 1; i < count; ++i) text = "minkowski() {" + solid + text + "}";
-    return text;
+}
+
+// Nested, each sum is a solid of its own: on its left side, on its right side,
+// or as two halves.
+TEST(MinkowskiLaws, NestedCopiesOfAConvexSolidEnlargeIt) {
+  const auto sum = [](const std::string& a, const std::string& b) {
+    return "minkowski() {" + a + b + "}";
   };
-  for (const char* const solid :
-       {"sphere(1, $fn = 12);", "rotate([10, 20, 30]) sphere(1, $fn = 12);",
-        "translate([0, 0, -0.5]) cube(1);"}) {
-    for (const int count : {2, 4, 7}) {
-      expect_equal(nested(solid, count),
-                   fmt::format("scale({}) {}", count, solid),
-                   {-0.3 * count, 0.1 * count, 0.4 * count});
+  const std::string turn = "rotate([10, 20, 30]) ";
+  for (const std::string& solid :
+       {std::string("sphere(1, $fn = 12);"), turn + "sphere(1, $fn = 12);",
+        std::string("translate([0, 0, -0.5]) cube(1);"),
+        turn + "translate([0, 0, -0.5]) cube(1);",
+        turn + "cylinder(r = 1, h = 1, $fn = 12);",
+        turn + "cylinder(r1 = 1, r2 = 0.5, h = 1, $fn = 20);",
+        turn + "hull() { sphere(1, $fn = 12);"
+               " translate([1, 1, 0]) cylinder(r = 0.3, h = 1, $fn = 9); }"}) {
+    std::string left = solid;
+    std::string right = solid;
+    for (int count = 2; count <= 8; ++count) {
+      left = sum(left, solid);
+      right = sum(solid, right);
+      const std::string whole = fmt::format("scale({}) {}", count, solid);
+      const std::vector<double> heights = {-0.3 * count, 0.1 * count,
+                                           0.4 * count};
+      expect_equal(left, whole, heights);
+      expect_equal(right, whole, heights);
+      if (count != 4) continue;
+      expect_equal(sum(sum(solid, solid), sum(solid, solid)), whole, heights);
+      expect_equal(turn + left, turn + whole, heights);
     }
+    expect_equal("minkowski() {" + solid + solid + solid + "}",
+                 "scale(3) " + solid, {-0.9, 0.3, 1.2});
   }
+}
+
+TEST(MinkowskiLaws, NestedCopiesOfTwoConvexSolidsEnlargeBoth) {
+  const std::string a =
+      "rotate(45) linear_extrude(1, scale = 0.5) circle(1, $fn = 9);";
+  const std::string b = "rotate([30, 20, 45]) cube([1, 0.3, 1]);";
+  expect_equal("minkowski() {" + a + "minkowski() {" + a +
+                   "minkowski() { minkowski() { minkowski() {" + a + b + "}" +
+                   a + "}" + b + "} } }",
+               "minkowski() { scale(4) " + a + "scale(2) " + b + "}",
+               {-0.5, 0.5, 3, 5.5});
 }
 
 TEST(MinkowskiLaws, ATinyBoxChangesTinily) {
