@@ -128,8 +128,8 @@ Lowerer Lowerer::make_inner(const Place& at) {
 Lowerer::Apart Lowerer::lower_apart(const Place& at, bool takes_corners) {
   Lowerer inner = make_inner(at);
   inner.takes_corners_ = takes_corners;
-  Operands operands =
-      inner.lower_operands({at.node, Affine(1.0)}, true, Dimension::kNone);
+  Operands operands = inner.lower_operands({at.node, Affine(1.0)},
+                                           BooleanOp::kUnion, Dimension::kNone);
   report_strays(operands);
   return {operands.dimension, std::move(operands.regions), inner.take_scene(),
           is_boolean(BooleanOp::kUnion, operands)};
@@ -245,8 +245,8 @@ Shape Lowerer::lower_op(const Resize& op, const Place& at) {
 
 Shape Lowerer::lower_op(const Projection& op, const Place& at) {
   Lowerer inner = make_inner(at);
-  Operands operands =
-      inner.lower_operands({at.node, Affine(1.0)}, true, Dimension::kSolid);
+  Operands operands = inner.lower_operands(
+      {at.node, Affine(1.0)}, BooleanOp::kUnion, Dimension::kSolid);
   operands.first_mixed = nullptr;
   if (op.cut) report_strays(operands);
   const Scene scene = inner.take_scene();

@@ -66,7 +66,7 @@ Shape Lowerer::lower_op(const Minkowski&, const Place& at) {
   apart.options_.decimation /= shares;
   apart.options_.hull_share = kHullShare;
   const Operands operands =
-      apart.lower_operands({at.node, Affine(1.0)}, false, Dimension::kNone);
+      apart.lower_operands({at.node, Affine(1.0)}, {}, Dimension::kNone);
   report_strays(operands);
   switch (operands.dimension) {
     case Dimension::kNone:

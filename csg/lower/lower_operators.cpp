@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,33 @@ planar::Region combine_regions(BooleanOp op,
   return planar::unite(regions);
 }
 
+// An operator's result; its operands where an operator above joins them.
+Shape combine(BooleanOp op, std::vector<planar::Region> regions,
+              bool is_joined) {
+  if (regions.empty()) return {Dimension::kFlat};
+  if (!is_joined) return {Dimension::kFlat, combine_regions(op, regions)};
+  if (regions.size() > 1) planar::require_near(regions);
+  planar::Region first = std::move(regions.front());
+  regions.erase(regions.begin());
+  return {Dimension::kFlat, std::move(first), false, std::move(regions)};
+}
+
+// Whether nothing is left of a shape in the plane.
+bool is_empty_region(std::optional<BooleanOp> joins, const Shape& shape) {
+  if (!joins || shape.more_regions.empty()) return shape.region.is_empty();
+  std::vector<planar::Region> regions = shape.more_regions;
+  regions.insert(regions.begin(), shape.region);
+  return combine_regions(*joins, regions).is_empty();
+}
+
+// The operator that the i-th operand's own operands may join: (A - B) - C is
+// A - B - C, A - (B ∪ C) as well, and A ∩ (B ∩ C) is A ∩ B ∩ C. Level by level
+// each operator would sweep again what those below it leave.
+std::optional<BooleanOp> joint_of(std::optional<BooleanOp> op, std::size_t i) {
+  const bool is_subtrahend = op == BooleanOp::kDifference && i > 0;
+  return is_subtrahend ? BooleanOp::kUnion : op;
+}
+
 // A child of an operator, an operator or an instance itself.
 struct Child {
   std::uint32_t index = 0;
@@ -90,12 +118,19 @@ Shape Lowerer::lower_op(const Transform& op, const Place& at) {
                          "Infinity - removing object.");
     return {};
   }
-  Shape shape = lower_children({at.node, compose(at.world, *op.matrix)},
-                               BooleanOp::kUnion);
+  Shape shape = lower_children(
+      {at.node, compose(at.world, *op.matrix), at.joins}, BooleanOp::kUnion);
   if (shape.dimension == Dimension::kFlat) {
-    return {Dimension::kFlat,
-            transform_region(std::move(shape.region), *op.matrix, at.node.range,
-                             diagnostics_)};
+    const auto transform = [&](planar::Region& region) {
+      region = transform_region(std::move(region), *op.matrix, at.node.range,
+                                diagnostics_);
+    };
+    transform(shape.region);
+    // Of nothing, or without a first operand, nothing is left.
+    if (shape.region.is_empty()) shape.more_regions.clear();
+    std::for_each(shape.more_regions.begin(), shape.more_regions.end(),
+                  transform);
+    return shape;
   }
   if (is_singular(Affine(*op.matrix))) flatten(mark, shape, at.node.range);
   return shape;
@@ -110,13 +145,16 @@ void Lowerer::flatten(std::size_t mark, const Shape& shape, SourceRange range) {
 
 // --- Children ----------------------------------------------------------------
 
-Lowerer::Operands Lowerer::lower_operands(const Place& at, bool is_union,
+Lowerer::Operands Lowerer::lower_operands(const Place& at,
+                                          std::optional<BooleanOp> op,
                                           Dimension dimension) {
+  const bool is_union = op == BooleanOp::kUnion;
   Operands operands;
   operands.dimension = dimension;
   for (const Node* child : at.node.children) {
-    if (!child->is_background)
-      add_operand({*child, at.world}, is_union, operands);
+    if (child->is_background) continue;
+    const auto joins = joint_of(op, operands.count);
+    add_operand({*child, at.world, joins}, is_union, operands);
   }
   return operands;
 }
@@ -129,11 +167,13 @@ void Lowerer::add_operand(const Place& child, bool is_union,
     operands.dimension = shape.dimension;
   } else if (shape.dimension != Dimension::kNone &&
              shape.dimension != operands.dimension) {
-    const bool is_empty = shape.region.is_empty() && builder_.mark() == begin;
+    const bool is_empty =
+        is_empty_region(child.joins, shape) && builder_.mark() == begin;
     if (!is_empty && !operands.first_mixed) operands.first_mixed = &child.node;
     operands.strays.push_back(&child.node);
     builder_.drop(begin);
     shape.region = {};
+    shape.more_regions.clear();
   }
   ++operands.count;
   if (builder_.mark() > begin) {
@@ -144,6 +184,8 @@ void Lowerer::add_operand(const Place& child, bool is_union,
   if (operands.dimension != Dimension::kSolid &&
       !(is_union && shape.region.is_empty())) {
     operands.regions.push_back(std::move(shape.region));
+    std::move(shape.more_regions.begin(), shape.more_regions.end(),
+              std::back_inserter(operands.regions));
   }
 }
 
@@ -168,19 +210,19 @@ void Lowerer::report_strays(const Operands& operands) {
 }
 
 Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
+  // An operator of one operand is that operand, and any operator.
+  if (at.joins && at.node.children.size() == 1) op = *at.joins;
   const std::size_t mark = builder_.mark();
   const bool took_corners = takes_corners_;
   takes_corners_ = takes_corners_ && at.node.children.size() == 1;
-  const Operands operands =
-      lower_operands(at, op == BooleanOp::kUnion, Dimension::kNone);
+  Operands operands = lower_operands(at, op, Dimension::kNone);
   takes_corners_ = took_corners;
   report_strays(operands);
   switch (operands.dimension) {
     case Dimension::kNone:
       return {};
     case Dimension::kFlat:
-      if (operands.regions.empty()) return {Dimension::kFlat};
-      return {Dimension::kFlat, combine_regions(op, operands.regions)};
+      return combine(op, std::move(operands.regions), at.joins == op);
     case Dimension::kSolid:
       break;
   }

@@ -95,7 +95,7 @@ Shape Lowerer::lower_op(const Offset& op, const Place& at) {
 }
 
 Shape Lowerer::lower_op(const Fill&, const Place& at) {
-  Shape shape = lower_children(at, BooleanOp::kUnion);
+  Shape shape = lower_children({at.node, at.world}, BooleanOp::kUnion);
   shape.region = planar::fill(shape.region);
   if (shape.dimension != Dimension::kSolid) return shape;
   for (const Node* child : at.node.children) {
@@ -120,7 +120,7 @@ Shape Lowerer::lower_op(const Text& text, const Place& at) {
 }
 
 Shape Lowerer::flatten_children(const Place& at) {
-  Operands operands = lower_operands(at, true, Dimension::kFlat);
+  Operands operands = lower_operands(at, BooleanOp::kUnion, Dimension::kFlat);
   operands.first_mixed = nullptr;
   report_strays(operands);
   if (operands.regions.empty()) {

@@ -97,6 +97,10 @@ Region evaluate(csg::BooleanOp op, std::span<const Region> regions) {
 
 }  // namespace
 
+void require_near(std::span<const Region> regions) {
+  for (const Region& region : regions) reach_of(region.contours);
+}
+
 Region unite(std::span<const Region> regions) {
   if (regions.empty()) return {};
   if (regions.size() == 1) return regions[0];

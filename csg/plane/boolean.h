@@ -19,6 +19,8 @@ namespace lamina::planar {
 // All of these throw csg::LimitExceeded for coordinates beyond
 // csg::kGreatestCoordinate.
 
+void require_near(std::span<const Region> regions);
+
 Region unite(std::span<const Region> regions);
 
 // The first region without the others.

@@ -41,6 +41,9 @@ struct Shape {
   // else it holds one list of faces. Scaled by 0, the result of a Boolean is
   // removed, and a list of faces becomes flat.
   bool is_boolean = false;
+  // The operands that follow `region`, where the operator above takes them for
+  // its own (Place::joins).
+  std::vector<planar::Region> more_regions = {};
 };
 
 struct Operand;
@@ -49,6 +52,9 @@ struct Operand;
 struct Place {
   const Node& node;
   const Affine& world;
+  // Of an operand: the operator that takes the operands of the node for its
+  // own, where the node is such an operator, too.
+  std::optional<BooleanOp> joins = std::nullopt;
 };
 
 // What only unites its children.
@@ -115,8 +121,10 @@ class Lowerer {
     std::size_t solid_count = 0;  // of those that are not empty
     bool has_boolean = false;     // among these
   };
-  // All children; `dimension` decides unless it is kNone.
-  Operands lower_operands(const Place& at, bool is_union, Dimension dimension);
+  // All children; `dimension` decides unless it is kNone. Without an operator
+  // each is kept, and has one region at most.
+  Operands lower_operands(const Place& at, std::optional<BooleanOp> op,
+                          Dimension dimension);
   void add_operand(const Place& child, bool is_union, Operands& operands);
   static bool is_boolean(BooleanOp op, const Operands& operands);
   void report_strays(const Operands& operands);
@@ -189,7 +197,7 @@ class Lowerer {
   // A node's children lowered by themselves, in the node's coordinates.
   struct Apart {
     Dimension dimension = Dimension::kNone;
-    std::vector<planar::Region> regions;  // one for each child that has one
+    std::vector<planar::Region> regions;  // of their union
     Scene scene;                          // their union
     bool is_boolean = false;              // as Shape's
   };

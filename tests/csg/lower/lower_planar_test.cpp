@@ -1,4 +1,8 @@
+#include <bitset>
+#include <cstddef>
 #include <limits>
+#include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -7,7 +11,122 @@
 namespace lamina::csg {
 namespace {
 
-class LowerPlanarTest : public LowerFixture {};
+class LowerPlanarTest : public LowerFixture {
+ protected:
+  // Unit squares of a grid of 16 x 16.
+  using Cells = std::bitset<256>;
+
+  // A random tree of operators over rectangles of the grid, and its cells.
+  std::pair<const Node*, Cells> grow(std::mt19937& random, int depth) {
+    const auto below = [&](unsigned n) {
+      return static_cast<int>(random() % n);
+    };
+    if (depth == 0) {
+      const int x = below(12);
+      const int y = below(12);
+      const int w = 1 + below(static_cast<unsigned>(16 - x));
+      const int h = 1 + below(static_cast<unsigned>(16 - y));
+      Cells cells;
+      for (int i = x; i < x + w; ++i) {
+        for (int k = y; k < y + h; ++k) {
+          cells.set(static_cast<std::size_t>(16 * k + i));
+        }
+      }
+      return {b.translate(Vec3(x, y, 0), {b.node(Square{Vec2(w, h), false})}),
+              cells};
+    }
+    const int op = below(4);
+    TreeBuilder::Children children;
+    Cells cells;
+    for (int i = 1 + below(4); i > 0; --i) {
+      const auto [child, more] = grow(random, below(3) > 0 ? depth - 1 : 0);
+      cells = children.empty() ? more
+              : op == 0        ? cells & more
+              : op == 1        ? cells | more
+                               : cells & ~more;
+      children.push_back(child);
+    }
+    return {op == 0   ? b.node(Intersection{}, children)
+            : op == 1 ? b.node(Union{}, children)
+                      : b.node(Difference{}, children),
+            cells};
+  }
+};
+
+// Operators in each other are one where they can be; the set is that of each
+// in turn.
+TEST_F(LowerPlanarTest, NestedOperatorsHoldTheCellsThatTheyDoOneByOne) {
+  std::mt19937 random(1);
+  int full = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto [node, cells] = grow(random, 5);
+    const Lowered lowered = run({node});
+    const double area =
+        lowered.outline() ? planar::area(*lowered.outline()) : 0;
+    EXPECT_NEAR(area, static_cast<double>(cells.count()), 1e-6);
+    if (cells.any()) ++full;
+  }
+  EXPECT_GT(full, 100);
+}
+
+TEST_F(LowerPlanarTest, ADifferenceOfManyLevelsLosesEachBar) {
+  const Node* node = b.node(Square{{100, 300}, false});
+  for (int i = 0; i < 100; ++i) {
+    node =
+        b.node(Difference{}, {b.node(Group{}, {node}),
+                              b.translate(Vec3(10, 3 * i + 1, 0),
+                                          {b.node(Square{{80, 1}, false})})});
+  }
+  const auto region = run_flat({node});
+  EXPECT_NEAR(planar::area(region), 100 * 300 - 100 * 80, 1e-6);
+  EXPECT_EQ(region.contours.size(), 101u);
+}
+
+// What an operator leaves decides whether it is mixed in, not its operands.
+TEST_F(LowerPlanarTest, TransformsBetweenOperatorsMoveAllOperands) {
+  const Node* frame = b.node(
+      Difference{}, {b.node(Square{{4, 4}, false}),
+                     b.translate({1, 1, 0}, {b.node(Square{{2, 2}, false})})});
+  const auto region = run_flat(
+      {b.node(Difference{},
+              {b.scale({-2, 1, 1}, {b.translate({1, 0, 0}, {frame})}),
+               b.translate({-4, 0, 0}, {b.node(Square{{2, 9}, false})})})});
+  // The frame stands from -10 to -2; the hole from -8 to -4.
+  EXPECT_NEAR(planar::area(region), 2 * 12 - 2 * 4, 1e-6);
+  EXPECT_TRUE(run({b.node(Union{}, {b.scale({0, 1, 1}, {b.node(Square{}),
+                                                        b.node(Circle{})})})})
+                  .is_empty());
+  EXPECT_EQ(messages(), (std::vector<std::string>{
+                            "Scaling a 2D object with 0 - removing object"}));
+}
+
+TEST_F(LowerPlanarTest, ADifferenceThatLeavesNothingIsNotMixed) {
+  const auto nothing = [&] {
+    return b.node(Difference{}, {b.node(Square{{1, 1}, false}),
+                                 b.node(Square{{2, 2}, false})});
+  };
+  run_solid({b.node(Intersection{}, {b.cube(Vec3(1)), b.cube(Vec3(1))}),
+             b.node(Union{}, {nothing()})});
+  EXPECT_EQ(
+      messages(),
+      (std::vector<std::string>{"Ignoring 2D child object for 3D operation"}));
+}
+
+TEST_F(LowerPlanarTest, WhatStandsBetweenOperatorsSeesTheResult) {
+  const auto frame = [&] {
+    return b.node(Difference{},
+                  {b.node(Square{{4, 4}, true}), b.node(Square{{2, 2}, true})});
+  };
+  const Node* cut = b.node(Square{{1, 9}, true});
+  EXPECT_NEAR(planar::area(run_flat(
+                  {b.node(Difference{}, {b.node(Fill{}, {frame()}), cut})})),
+              12, 1e-6);
+  EXPECT_NEAR(
+      planar::area(run_flat({b.node(
+          Difference{},
+          {b.node(Offset{.amount = 0.5, .is_delta = true}, {frame()}), cut})})),
+      25 - 1 - 4, 1e-6);
+}
 
 TEST_F(LowerPlanarTest, AFlatDesignGivesItsOutline) {
   const auto region =
