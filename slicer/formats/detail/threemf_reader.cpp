@@ -161,8 +161,8 @@ class ThreemfReader {
       });
     });
     visit_children(slice, "polygon", [&](const pugi::xml_node& polygon) {
-      loop_.assign(1, vertices_.empty() ? Vec2(0)
-                                        : vertices_[index(polygon, "startv")]);
+      loop_.assign(
+          1, vertices_.empty() ? Vec2(0) : vertices_[index(polygon, "startv")]);
       visit_children(polygon, "segment", [&](const pugi::xml_node& segment) {
         loop_.push_back(vertices_[index(segment, "v2")]);
       });
