@@ -13,6 +13,16 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+// `inspect` ends with 1 and says all of these.
+void expect_defects(const TemporaryFolder& folder, const std::string& file,
+                    const std::vector<std::string>& words) {
+  const auto result = run(folder, {"inspect", file});
+  EXPECT_EQ(result.status, 1);
+  for (const std::string& part : words) {
+    EXPECT_TRUE(has(result.output, part)) << part << "\n" << result.output;
+  }
+}
+
 TEST(Inspect, ASoundFileEndsWithZeroAndShowsItsFigures) {
   const TemporaryFolder folder;
   folder.write("a.scad",
@@ -45,9 +55,7 @@ TEST(Inspect, ADefectEndsWithOne) {
   std::string bytes = support::read_file(folder.file("a.slc"));
   bytes[bytes.size() - 9] = 0x41;  // of the last vertex
   folder.write("b.slc", bytes);
-  const auto result = run(folder, {"inspect", "b.slc"});
-  EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(has(result.output, "is not closed")) << result.output;
+  expect_defects(folder, "b.slc", {"is not closed"});
 }
 
 TEST(Inspect, ALoopThatItsReaderClosedIsADefect) {
@@ -56,12 +64,9 @@ TEST(Inspect, ALoopThatItsReaderClosedIsADefect) {
                "$$HEADERSTART\n$$ASCII\n$$UNITS/1\n$$HEADEREND\n"
                "$$GEOMETRYSTART\n$$LAYER/1\n$$POLYLINE/1,1,3,0,0,5,0,5,5\n"
                "$$GEOMETRYEND\n");
-  const auto result = run(folder, {"inspect", "a.cli"});
-  EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(has(result.output,
-                  "layer 1 at z 1: a loop is not closed in the file, near x 0 "
-                  "y 0\n"))
-      << result.output;
+  expect_defects(folder, "a.cli",
+                 {"layer 1 at z 1: a loop is not closed in the file, near x 0 "
+                  "y 0\n"});
 }
 
 TEST(Inspect, ALoopThatItsReaderLeftOutIsADefect) {
@@ -71,13 +76,10 @@ TEST(Inspect, ALoopThatItsReaderLeftOutIsADefect) {
                R"({"points":[[0,0],[5,0],[5,5]]}]},)"
                R"({"z":1,"bottom":1,"top":2,"contours":[)"
                R"({"points":[[7,8],[9,8]]},{"points":[[3,3]]}]}]})");
-  const auto result = run(folder, {"inspect", "a.layers.json"});
-  EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(has(result.output,
-                  "layer 2 at z 1: a loop has fewer than 3 points, near x 7 y "
-                  "8 (the first of 2)\n"))
-      << result.output;
-  EXPECT_TRUE(has(result.output, "defects   2\n")) << result.output;
+  expect_defects(folder, "a.layers.json",
+                 {"layer 2 at z 1: a loop has fewer than 3 points, near x 7 y "
+                  "8 (the first of 2)\n",
+                  "defects   2\n"});
   const auto checked = run(folder, {"check", "a.layers.json"});
   EXPECT_TRUE(has(checked.errors, "2 loops of fewer than 3 points"))
       << checked.errors;

@@ -82,7 +82,6 @@ TEST_F(LowerPlanarTest, ADifferenceOfManyLevelsLosesEachBar) {
   EXPECT_EQ(region.contours.size(), 101u);
 }
 
-// What an operator leaves decides whether it is mixed in, not its operands.
 TEST_F(LowerPlanarTest, TransformsBetweenOperatorsMoveAllOperands) {
   const Node* frame = b.node(
       Difference{}, {b.node(Square{{4, 4}, false}),
@@ -100,6 +99,7 @@ TEST_F(LowerPlanarTest, TransformsBetweenOperatorsMoveAllOperands) {
                             "Scaling a 2D object with 0 - removing object"}));
 }
 
+// What an operator leaves decides whether it is mixed in, not its operands.
 TEST_F(LowerPlanarTest, ADifferenceThatLeavesNothingIsNotMixed) {
   const auto nothing = [&] {
     return b.node(Difference{}, {b.node(Square{{1, 1}, false}),
