@@ -248,18 +248,24 @@ Shape Lowerer::lower_op(const Roof& op, const Place& at) {
   if (shape.region.is_empty()) return {Dimension::kSolid};
   Fineness corners = fineness(op.facets, at.world);
   corners.chordal_error *= 1 - kShare;
-  RoofParts roof = op.is_straight ? sharp_roof(shape.region)
-                                  : round_roof(shape.region, corners);
-  const std::size_t mark = builder_.mark();
-  LinearExtrudeParams prism;
-  prism.height = roof.top;
-  place_leaf(extrude_linearly(prism, shape.region, {}), at);
-  const std::array begins = {mark, builder_.mark()};
-  Leaf cutters;
-  cutters.may_overlap_itself = true;
-  cutters.meshes.push_back(std::move(roof.cutters));
-  place_leaf(std::move(cutters), at);
-  builder_.apply(BooleanOp::kDifference, begins);
+  std::vector<RoofStage> stages = op.is_straight
+                                      ? sharp_roof(shape.region)
+                                      : round_roof(shape.region, corners);
+  for (RoofStage& stage : stages) {
+    const std::size_t mark = builder_.mark();
+    LinearExtrudeParams prism;
+    prism.height = stage.top - stage.bottom;
+    Mat4 shift(1.0);
+    shift[3].z = stage.bottom;
+    place_leaf(extrude_linearly(prism, stage.region, {}),
+               {at.node, at.world * shift});
+    const std::array begins = {mark, builder_.mark()};
+    Leaf cutters;
+    cutters.may_overlap_itself = true;
+    cutters.meshes.push_back(std::move(stage.cutters));
+    place_leaf(std::move(cutters), at);
+    builder_.apply(BooleanOp::kDifference, begins);
+  }
   return {Dimension::kSolid};
 }
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/plane.h"
+#include "csg/boundary/box_tree.h"
 #include "csg/boundary/convex_hull.h"
 #include "csg/degrees.h"
 #include "csg/lower/detail/tracks.h"
@@ -25,24 +26,126 @@ using planar::Region;
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-// How far cutters go, for them to cut through the prism's top [tops].
+// How far the cutters of a stage go, for them to cut through its top [tops].
 constexpr double kBeyond = 1.01;
+
+// Where the cutters of later stages begin [bottoms].
+constexpr double kRear = 0.95;
+
+// Where the prisms of later stages begin, so that they do not only touch those
+// below [bottoms].
+constexpr double kOverlap = 0.98;
+
+// Stages grow by this factor: more stages cost prisms, fewer let cutters of one
+// stage cross each other more often.
+constexpr double kGrowth = 1.5;
+
+// How far back over both strips the part between them reaches, so that no two
+// faces only touch.
+constexpr double kReach = 120 * kRadians;
+// The same where it begins behind the front, as a share of the way there.
+constexpr double kRearReach = 0.1;
 
 Vec2 turned(Vec2 v, double angle) {
   return std::cos(angle) * v + std::sin(angle) * left_of(v);
 }
 
-// Convex solids, each the hull of its points, that go up to one height.
-class Cutters {
+// A part of the outline that was straight at a time.
+struct Front {
+  Vec2 begin{0};
+  Vec2 end{0};
+};
+
+bool are_near(const Front& a, const Front& b, double reach) {
+  const auto is_near = [reach](Vec2 point, const Front& front) {
+    return distance_to_segment(point, front.begin, front.end) <= reach;
+  };
+  return is_near(a.begin, b) || is_near(a.end, b) || is_near(b.begin, a) ||
+         is_near(b.end, a) ||
+         (orientation(a.begin, a.end, b.begin) !=
+              orientation(a.begin, a.end, b.end) &&
+          orientation(b.begin, b.end, a.begin) !=
+              orientation(b.begin, b.end, a.end));
+}
+
+Box3 box_of(const Front& front, double margin) {
+  Box3 box;
+  for (const Vec2 point : {front.begin, front.end}) {
+    box.add(Vec3(point - Vec2(margin), 0));
+    box.add(Vec3(point + Vec2(margin), 0));
+  }
+  return box;
+}
+
+// The border of what is left of a region, to find the parts of the outline that
+// still bound it.
+class Border {
  public:
-  // Begins with the strips along all edges of the region.
-  Cutters(const Region& region, double top) {
-    for (const Contour& contour : region.contours) {
-      for (const Edge& edge : edges_of(contour)) add_strip(edge, top);
-    }
+  explicit Border(const Region& region)
+      : edges_(edges_in(region)), tree_(boxes_of(edges_)) {}
+
+  bool has_near(const Front& front, double reach) const {
+    bool has_any = false;
+    const Box3 box = box_of(front, reach);
+    tree_.visit(
+        [&](const Box3& other) { return !has_any && do_meet(box, other); },
+        [&](std::uint32_t i) {
+          has_any = has_any || are_near(front, edges_[i], reach);
+        });
+    return has_any;
   }
 
+ private:
+  static std::vector<Front> edges_in(const Region& region) {
+    std::vector<Front> edges;
+    for (const Contour& contour : region.contours) {
+      for (const Edge& edge : edges_of(contour)) {
+        edges.push_back({edge.begin, edge.end});
+      }
+    }
+    return edges;
+  }
+
+  static std::vector<Box3> boxes_of(const std::vector<Front>& edges) {
+    std::vector<Box3> boxes;
+    for (const Front& edge : edges) boxes.push_back(box_of(edge, 0));
+    return boxes;
+  }
+
+  std::vector<Front> edges_;
+  BoxTree tree_;
+};
+
+// Convex solids, each the hull of its points, that go up to one height: what
+// the outline sweeps while it moves on from one time, the bottom, to another
+// one, the top. At each height z between them they cover what is left at the
+// bottom and swept by the time z. What was swept before, they cover if the
+// bottom is 0 and need not else.
+class Cutters {
+ public:
+  Cutters(double bottom, double top)
+      : bottom_(bottom), top_(top), rear_(kRear * bottom) {}
+
+  double bottom() const { return bottom_; }
+  double top() const { return top_; }
+  double rear() const { return rear_; }
+
   void add(std::vector<Vec3> points) { solids_.push_back(std::move(points)); }
+
+  // What has moved from an edge, straight on. From the outline it goes to both
+  // sides.
+  void add_strip(const Edge& edge) {
+    const Vec2 normal = edge.normal();
+    std::vector<Vec3> points;
+    for (const Vec2 end : {edge.begin, edge.end}) {
+      points.emplace_back(end + rear_ * normal, rear_);
+      points.emplace_back(end + (is_first() ? -top_ : rear_) * normal, top_);
+      points.emplace_back(end + top_ * normal, top_);
+    }
+    add(std::move(points));
+  }
+
+  bool is_first() const { return !(bottom_ > 0); }
 
   Mesh mesh() {
     Mesh mesh;
@@ -59,75 +162,154 @@ class Cutters {
   }
 
   // What they leave of the region at their top.
-  Region rest(const Region& region, double top) const {
-    std::vector<Box2> boxes;
-    for (const Contour& contour : region.contours) {
-      boxes.emplace_back().add(contour);
-    }
+  Region rest(const Region& region) const {
     std::vector<Region> regions = {region};
     for (const std::vector<Vec3>& points : solids_) {
       std::vector<Vec2> section;
-      Box2 box;
       for (const Vec3 point : points) {
-        if (point.z != top) continue;
-        section.emplace_back(point);
-        box.add(section.back());
+        if (point.z == top_) section.emplace_back(point);
       }
-      const auto meets = [&box](Box2 other) {
-        other.intersect(box);
-        return !other.is_empty();
-      };
-      if (std::none_of(boxes.begin(), boxes.end(), meets)) continue;
       regions.push_back(planar::convex_hull(std::move(section)));
     }
     return planar::subtract(regions);
   }
 
  private:
-  // At each height z the strip that is nearer than z to the edge.
-  void add_strip(const Edge& edge, double top) {
-    const Vec2 out = edge.normal() * top;
-    add({Vec3(edge.begin, 0), Vec3(edge.end, 0), Vec3(edge.begin - out, top),
-         Vec3(edge.begin + out, top), Vec3(edge.end - out, top),
-         Vec3(edge.end + out, top)});
-  }
-
+  double bottom_;
+  double top_;
+  double rear_;  // the time from which they cover what was swept
   std::vector<std::vector<Vec3>> solids_;
 };
 
-// How far back over both strips the part between them reaches, so that no two
-// faces only touch.
-constexpr double kReach = 120 * kRadians;
+// What moves at a time, and stays within reach of the border for as long as it
+// matters.
+Front front_of(const Edge& edge, double time) {
+  const Vec2 way = edge.normal() * time;
+  return {edge.begin + way, edge.end + way};
+}
 
-void add_fan(Cutters& cutters, const ReflexCorner& corner, double top,
-             double step_deg) {
+// The directions of the corners of a polygon in the arc around a reflex corner.
+std::vector<Vec2> fan_of(const ReflexCorner& corner, double step_deg) {
   const Vec2 first = corner.before.normal();
   const double turn = corner.turn();
   const int parts = std::max(
       1, static_cast<int>(std::ceil(-turn / (step_deg * kRadians) - 1e-9)));
-  std::vector<Vec3> points = {Vec3(corner.point, 0)};
+  std::vector<Vec2> directions;
+  for (int i = 0; i < parts; ++i) {
+    directions.push_back(turned(first, turn * i / parts));
+  }
+  directions.push_back(corner.after.normal());
+  return directions;
+}
+
+// The whole fan, from its corner on.
+void add_fan(Cutters& cutters, Vec2 corner, const std::vector<Vec2>& fan) {
+  std::vector<Vec3> points = {Vec3(corner, 0)};
   const auto add = [&](Vec2 direction) {
-    points.emplace_back(corner.point + direction * top, top);
+    points.emplace_back(corner + direction * cutters.top(), cutters.top());
   };
-  add(turned(first, kReach));
-  for (int i = 0; i < parts; ++i) add(turned(first, turn * i / parts));
-  add(corner.after.normal());
-  add(turned(corner.after.normal(), -kReach));
+  add(turned(fan.front(), kReach));
+  for (const Vec2 direction : fan) add(direction);
+  add(turned(fan.back(), -kReach));
   cutters.add(std::move(points));
 }
 
-// What the front of one edge sweeps beside a track that ended, after that.
-void add_flank(Cutters& cutters, const Track& track, Vec2 normal, double top) {
-  const Vec2 start = track.start;
-  const Vec2 end = track.at(track.end_time);
-  cutters.add({Vec3(start, track.start_time), Vec3(end, track.end_time),
-               Vec3(start, top), Vec3(end, top),
-               Vec3(start + (top - track.start_time) * normal, top),
-               Vec3(end + (top - track.end_time) * normal, top)});
+// From a point beside the end of an edge's strip, a little back over the strip:
+// the edge before a corner or the one after it.
+Vec2 back_over(const Edge& edge, bool is_before, double rear) {
+  const double length = glm::distance(edge.begin, edge.end);
+  const double way = std::min(length, kRearReach * rear);
+  return edge.direction() * (is_before ? -way : way);
 }
 
-// The sharp join along a track, and what it leaves behind.
-void add_track(Cutters& cutters, const Track& track, double top) {
+// What the sides of a fan's polygon that are near the border sweep, from the
+// rear on. Each reaches a little over what is beside it.
+void add_blades(Cutters& cutters, const ReflexCorner& corner,
+                const std::vector<Vec2>& fan, const Border& border,
+                double reach) {
+  const double rear = cutters.rear();
+  const double top = cutters.top();
+  const std::size_t n = fan.size();
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (!border.has_near({corner.point + cutters.bottom() * fan[i],
+                          corner.point + cutters.bottom() * fan[i + 1]},
+                         reach)) {
+      continue;
+    }
+    const Vec2 first = fan[i] * rear;
+    const Vec2 last = fan[i + 1] * rear;
+    const Vec2 before = i > 0 ? glm::mix(first, fan[i - 1] * rear, kRearReach)
+                              : first + back_over(corner.before, true, rear);
+    const Vec2 after = i + 2 < n ? glm::mix(last, fan[i + 2] * rear, kRearReach)
+                                 : last + back_over(corner.after, false, rear);
+    std::vector<Vec3> points;
+    for (const Vec2 way : {before, first, last, after}) {
+      points.emplace_back(corner.point + way, rear);
+      points.emplace_back(corner.point + way, top);
+    }
+    points.emplace_back(corner.point + fan[i] * top, top);
+    points.emplace_back(corner.point + fan[i + 1] * top, top);
+    cutters.add(std::move(points));
+  }
+}
+
+// The front of one edge beside a track: where it moves straight on from the
+// track's start, and where it ends, on the track and later beside it.
+struct Flank {
+  const Track& track;
+  bool is_before;  // of the edge before the corner
+
+  const Edge& edge() const { return is_before ? track.before : track.after; }
+  Vec2 normal() const { return edge().normal(); }
+  Vec2 inner(double time) const {
+    return track.start + (time - track.start_time) * normal();
+  }
+  Vec2 outer(double time) const {
+    const double on_track = std::min(time, track.end_time);
+    return track.at(on_track) + (time - on_track) * normal();
+  }
+  Front front(double time) const { return {inner(time), outer(time)}; }
+};
+
+// What it sweeps after the track has ended.
+void add_flank(Cutters& cutters, const Flank& flank) {
+  const double top = cutters.top();
+  const Track& track = flank.track;
+  const Vec2 end = flank.outer(track.end_time);
+  cutters.add({Vec3(track.start, track.start_time), Vec3(end, track.end_time),
+               Vec3(track.start, top), Vec3(end, top),
+               Vec3(flank.inner(top), top), Vec3(flank.outer(top), top)});
+}
+
+// What it sweeps from the rear on.
+void add_late_flank(Cutters& cutters, const Flank& flank) {
+  const double rear = cutters.rear();
+  const double top = cutters.top();
+  const Track& track = flank.track;
+  std::vector<Vec3> points;
+  const auto add = [&](Vec2 point, double time) {
+    points.emplace_back(point, time);
+    points.emplace_back(point, top);
+  };
+  add(flank.inner(rear), rear);
+  add(flank.outer(rear), rear);
+  add(flank.inner(rear) + back_over(flank.edge(), flank.is_before, rear), rear);
+  if (track.end_time > cutters.bottom()) {
+    // A little over the track.
+    const Vec2 beyond = Flank{track, !flank.is_before}.inner(rear);
+    add(glm::mix(flank.outer(rear), beyond, kRearReach / 2), rear);
+  }
+  if (track.end_time > rear && track.end_time < top) {
+    add(flank.outer(track.end_time), track.end_time);
+  }
+  points.emplace_back(flank.inner(top), top);
+  points.emplace_back(flank.outer(top), top);
+  cutters.add(std::move(points));
+}
+
+// The sharp join along a track, from its start on, and what it leaves behind.
+void add_track(Cutters& cutters, const Track& track) {
+  const double top = cutters.top();
   const double end_time = std::min(track.end_time, top);
   const double length = end_time - track.start_time;
   if (!(length > 0)) return;
@@ -141,34 +323,16 @@ void add_track(Cutters& cutters, const Track& track, double top) {
   }
   cutters.add(std::move(points));
   if (track.end_time < top) {
-    add_flank(cutters, track, before, top);
-    add_flank(cutters, track, after, top);
+    add_flank(cutters, {track, true});
+    add_flank(cutters, {track, false});
   }
 }
 
-Cutters sharp_cutters(const Region& region, const std::vector<Track>& tracks,
-                      double top) {
-  Cutters cutters(region, top);
-  for (const Track& track : tracks) add_track(cutters, track, top);
-  return cutters;
-}
-
-// The least depth beyond which nothing is left of the region, or up to a share
-// of 2e-5 more.
+// Halves the range until it is `digits` of itself, and returns its end.
+// `is_beyond` does not hold at `low`, and holds at `high`.
 template <typename IsBeyond>
-double find_depth(const Region& region, IsBeyond is_beyond) {
+double find_depth(double low, double high, IsBeyond is_beyond) {
   constexpr double kDigits = 1e-5;
-  double border = 0;
-  for (const Contour& contour : region.contours) {
-    for (const Edge& edge : edges_of(contour)) {
-      border += glm::distance(edge.begin, edge.end);
-    }
-  }
-  // That of a convex region is no less, and at most twice that; that of a band
-  // is that.
-  double low = 0;
-  double high = planar::area(region) / border;
-  for (; !is_beyond(high); high *= 1.5) low = high;
   while (high - low > high * kDigits) {
     const double middle = (low + high) / 2;
     (is_beyond(middle) ? high : low) = middle;
@@ -176,37 +340,127 @@ double find_depth(const Region& region, IsBeyond is_beyond) {
   return high;
 }
 
+// A front nearer than this to a border may be part of it [tops].
+constexpr double kNear = 1e-3;
+
+double border_of(const Region& region) {
+  double border = 0;
+  for (const Contour& contour : region.contours) {
+    for (const Edge& edge : edges_of(contour)) {
+      border += glm::distance(edge.begin, edge.end);
+    }
+  }
+  return border;
+}
+
+// Raises the roof stage by stage. `cut(border, bottom, top)` makes the cutters
+// of those parts of the outline that still bound what is left at the bottom.
+template <typename Cut>
+std::vector<RoofStage> raise(const Region& region, Cut cut) {
+  std::size_t edge_count = 0;
+  Box2 box;
+  for (const Contour& contour : region.contours) {
+    edge_count += contour.size();
+    box.add(contour);
+  }
+  // No point is farther from the outline.
+  const double most = std::min(box.size().x, box.size().y) / 2 * kBeyond;
+  std::vector<RoofStage> stages;
+  Region left = region;
+  double bottom = 0;
+  double top =
+      std::min(border_of(region) / static_cast<double>(edge_count), most);
+  while (true) {
+    const Border border(left);
+    Region rest = cut(border, bottom, top).rest(left);
+    const bool is_last = rest.is_empty() || top >= most;
+    if (is_last) {
+      Region some = left;  // what is left at the greatest depth that leaves any
+      top = find_depth(bottom, top, [&](double depth) {
+        Region next = cut(border, bottom, depth).rest(some);
+        if (next.is_empty()) return true;
+        some = std::move(next);
+        return false;
+      });
+    }
+    stages.push_back({std::move(left), kOverlap * bottom, top,
+                      cut(border, bottom, top * kBeyond).mesh()});
+    if (is_last) return stages;
+    left = std::move(rest);
+    bottom = top;
+    top = std::min(top * kGrowth, most);
+  }
+}
+
 }  // namespace
 
-RoofParts round_roof(const Region& region, const Fineness& corners) {
+std::vector<RoofStage> round_roof(const Region& region,
+                                  const Fineness& corners) {
   constexpr double kTolerance = 1e-5;  // of an arc [depths]
-  const double depth = find_depth(region, [&](double amount) {
+  const auto is_beyond = [&](double amount) {
     return planar::offset(region, -amount, planar::Join::kRound,
                           amount * kTolerance)
         .is_empty();
-  });
-  const double step_deg = arc_step_deg(depth, corners);
-  // A polygon in a circle leaves more than the circle.
-  const double top = depth / cos_deg(step_deg / 2);
-  Cutters cutters(region, top * kBeyond);
-  for (const Contour& contour : region.contours) {
-    for (const ReflexCorner& corner : reflex_corners(contour)) {
-      add_fan(cutters, corner, top * kBeyond, step_deg);
+  };
+  // That of a convex region is no less, and at most twice that; that of a band
+  // is that.
+  double low = 0;
+  double high = planar::area(region) / border_of(region);
+  for (; !is_beyond(high); high *= 1.5) low = high;
+  const double step_deg =
+      arc_step_deg(find_depth(low, high, is_beyond), corners);
+
+  // A polygon's side moves slower than its corners: by this share of the way it
+  // may be behind.
+  const double lag = 1 / cos_deg(step_deg / 2) - 1;
+  return raise(region, [&](const Border& border, double bottom, double top) {
+    const double reach = lag * (top - bottom) + kNear * top;
+    Cutters cutters(bottom, top);
+    for (const Contour& contour : region.contours) {
+      for (const Edge& edge : edges_of(contour)) {
+        if (border.has_near(front_of(edge, bottom), reach)) {
+          cutters.add_strip(edge);
+        }
+      }
+      for (const ReflexCorner& corner : reflex_corners(contour)) {
+        const std::vector<Vec2> fan = fan_of(corner, step_deg);
+        if (cutters.is_first()) {
+          add_fan(cutters, corner.point, fan);
+        } else {
+          add_blades(cutters, corner, fan, border, reach);
+        }
+      }
     }
-  }
-  return {top, cutters.mesh()};
+    return cutters;
+  });
 }
 
-RoofParts sharp_roof(const Region& region) {
+std::vector<RoofStage> sharp_roof(const Region& region) {
   const std::vector<Track> tracks = trace_corners(region);
-  Region rest = region;  // of the greatest depth that leaves any
-  const double top = find_depth(region, [&](double depth) {
-    Region next = sharp_cutters(region, tracks, depth).rest(rest, depth);
-    if (next.is_empty()) return true;
-    rest = std::move(next);
-    return false;
+  return raise(region, [&](const Border& border, double bottom, double top) {
+    const double reach = kNear * top;
+    Cutters cutters(bottom, top);
+    for (const Contour& contour : region.contours) {
+      for (const Edge& edge : edges_of(contour)) {
+        if (border.has_near(front_of(edge, bottom), reach)) {
+          cutters.add_strip(edge);
+        }
+      }
+    }
+    for (const Track& track : tracks) {
+      if (track.start_time >= cutters.rear()) {
+        add_track(cutters, track);
+        continue;
+      }
+      for (const bool is_before : {true, false}) {
+        const Flank flank = {track, is_before};
+        if (border.has_near(flank.front(bottom), reach)) {
+          add_late_flank(cutters, flank);
+        }
+      }
+    }
+    return cutters;
   });
-  return {top, sharp_cutters(region, tracks, top * kBeyond).mesh()};
 }
 
 }  // namespace lamina::csg

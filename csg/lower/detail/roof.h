@@ -18,23 +18,29 @@
 //   skeleton: these are the lower envelope of the planes of the edges, each
 //   bounded by such tracks (Cheng, Vigneron 2007; Huber, Held 2012).
 
+#include <vector>
+
 #include "csg/lower/detail/fineness.h"
 #include "csg/plane/region.h"
 #include "csg/scene.h"
 
 namespace lamina::csg {
 
-struct RoofParts {
-  // Of the prism [mm]: that of the roof, or a share of 2e-5 more.
-  double top = 0;
-  Mesh cutters;  // they overlap each other, and reach beyond the prism
+// The prism over `region` from `bottom` to `top`, less the cutters. The roof is
+// the union of all stages.
+struct RoofStage {
+  planar::Region region;
+  double bottom = 0;  // [mm]
+  double top = 0;     // [mm]; the roof's own, or a share of 2e-5 more
+  Mesh cutters;       // they overlap each other, and reach beyond the prism
 };
 
 // "voronoi"; `corners` says how fine its rounded corners are.
-RoofParts round_roof(const planar::Region& region, const Fineness& corners);
+std::vector<RoofStage> round_roof(const planar::Region& region,
+                                  const Fineness& corners);
 
 // "straight". Throws LimitExceeded where the region has more than kMostTracks
 // reflex corners.
-RoofParts sharp_roof(const planar::Region& region);
+std::vector<RoofStage> sharp_roof(const planar::Region& region);
 
 }  // namespace lamina::csg
