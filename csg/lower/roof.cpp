@@ -50,22 +50,39 @@ Vec2 turned(Vec2 v, double angle) {
   return std::cos(angle) * v + std::sin(angle) * left_of(v);
 }
 
-// A part of the outline that was straight at a time.
+// A part of the outline, straight, at one time.
 struct Front {
   Vec2 begin{0};
   Vec2 end{0};
+
+  Vec2 at(double share) const { return glm::mix(begin, end, share); }
 };
 
-bool are_near(const Front& a, const Front& b, double reach) {
-  const auto is_near = [reach](Vec2 point, const Front& front) {
-    return distance_to_segment(point, front.begin, front.end) <= reach;
+// From one share of a front to another one.
+struct Part {
+  double from = 1;
+  double to = 0;
+
+  bool is_empty() const { return !(from < to); }
+};
+
+// Of the front, at least what is within `reach` of the edge.
+Part near_part(const Front& front, const Front& edge, double reach) {
+  const double length = glm::distance(front.begin, front.end);
+  const Vec2 along = (front.end - front.begin) / length;
+  Vec2 from = edge.begin - front.begin;
+  Vec2 to = edge.end - front.begin;
+  from = {dot(along, from), cross(along, from)};
+  to = {dot(along, to), cross(along, to)};
+  if (from.y > to.y) std::swap(from, to);
+  if (from.y > reach || to.y < -reach) return {};
+  const auto at_level = [&](double y) {
+    return glm::mix(from.x, to.x, (y - from.y) / (to.y - from.y));
   };
-  return is_near(a.begin, b) || is_near(a.end, b) || is_near(b.begin, a) ||
-         is_near(b.end, a) ||
-         (orientation(a.begin, a.end, b.begin) !=
-              orientation(a.begin, a.end, b.end) &&
-          orientation(b.begin, b.end, a.begin) !=
-              orientation(b.begin, b.end, a.end));
+  const double first = from.y < -reach ? at_level(-reach) : from.x;
+  const double last = to.y > reach ? at_level(reach) : to.x;
+  return {std::max((std::min(first, last) - reach) / length, 0.0),
+          std::min((std::max(first, last) + reach) / length, 1.0)};
 }
 
 Box3 box_of(const Front& front, double margin) {
@@ -84,15 +101,18 @@ class Border {
   explicit Border(const Region& region)
       : edges_(edges_in(region)), tree_(boxes_of(edges_)) {}
 
-  bool has_near(const Front& front, double reach) const {
-    bool has_any = false;
+  // The part of the front, if any, that may be the border or come to be.
+  Part near_part(const Front& front, double reach) const {
+    Part part;
     const Box3 box = box_of(front, reach);
-    tree_.visit(
-        [&](const Box3& other) { return !has_any && do_meet(box, other); },
-        [&](std::uint32_t i) {
-          has_any = has_any || are_near(front, edges_[i], reach);
-        });
-    return has_any;
+    tree_.visit([&](const Box3& other) { return do_meet(box, other); },
+                [&](std::uint32_t i) {
+                  const Part one = csg::near_part(front, edges_[i], reach);
+                  if (one.is_empty()) return;
+                  part.from = std::min(part.from, one.from);
+                  part.to = std::max(part.to, one.to);
+                });
+    return part;
   }
 
  private:
@@ -132,12 +152,12 @@ class Cutters {
 
   void add(std::vector<Vec3> points) { solids_.push_back(std::move(points)); }
 
-  // What has moved from an edge, straight on. From the outline it goes to both
-  // sides.
-  void add_strip(const Edge& edge) {
-    const Vec2 normal = edge.normal();
+  // What moves on from a part of an edge that moves along its normal. From the
+  // outline it goes to both sides.
+  void add_strip(const Front& edge, Vec2 normal, Part part) {
+    if (part.is_empty()) return;
     std::vector<Vec3> points;
-    for (const Vec2 end : {edge.begin, edge.end}) {
+    for (const Vec2 end : {edge.at(part.from), edge.at(part.to)}) {
       points.emplace_back(end + rear_ * normal, rear_);
       points.emplace_back(end + (is_first() ? -top_ : rear_) * normal, top_);
       points.emplace_back(end + top_ * normal, top_);
@@ -181,36 +201,52 @@ class Cutters {
   std::vector<std::vector<Vec3>> solids_;
 };
 
-// What moves at a time, and stays within reach of the border for as long as it
-// matters.
-Front front_of(const Edge& edge, double time) {
-  const Vec2 way = edge.normal() * time;
-  return {edge.begin + way, edge.end + way};
-}
-
-// The directions of the corners of a polygon in the arc around a reflex corner.
-std::vector<Vec2> fan_of(const ReflexCorner& corner, double step_deg) {
-  const Vec2 first = corner.before.normal();
-  const double turn = corner.turn();
-  const int parts = std::max(
-      1, static_cast<int>(std::ceil(-turn / (step_deg * kRadians) - 1e-9)));
-  std::vector<Vec2> directions;
-  for (int i = 0; i < parts; ++i) {
-    directions.push_back(turned(first, turn * i / parts));
+// The strips of those edges that still bound what is left.
+void add_strips(Cutters& cutters, const Region& region, const Border& border,
+                double reach) {
+  for (const Contour& contour : region.contours) {
+    for (const Edge& edge : edges_of(contour)) {
+      const Vec2 normal = edge.normal();
+      const Vec2 way = normal * cutters.bottom();
+      const Part part =
+          border.near_part({edge.begin + way, edge.end + way}, reach);
+      cutters.add_strip({edge.begin, edge.end}, normal, part);
+    }
   }
-  directions.push_back(corner.after.normal());
-  return directions;
 }
 
-// The whole fan, from its corner on.
-void add_fan(Cutters& cutters, Vec2 corner, const std::vector<Vec2>& fan) {
+// The polygon that stands for the arc around a reflex corner.
+struct Fan {
+  Fan(const ReflexCorner& around, double step_deg) : corner(around) {
+    const Vec2 first = corner.before.normal();
+    const double turn = corner.turn();
+    const int parts = std::max(
+        1, static_cast<int>(std::ceil(-turn / (step_deg * kRadians) - 1e-9)));
+    for (int i = 0; i < parts; ++i) {
+      directions.push_back(turned(first, turn * i / parts));
+    }
+    directions.push_back(corner.after.normal());
+  }
+
+  // A side moves slower than the corners: by this share of their way more.
+  double lag() const {
+    return 1 / glm::length((directions[0] + directions[1]) / 2.0) - 1;
+  }
+
+  ReflexCorner corner;
+  std::vector<Vec2> directions;  // of its corners
+};
+
+// The whole fan, from the reflex corner on.
+void add_fan(Cutters& cutters, const Fan& fan) {
+  const Vec2 corner = fan.corner.point;
   std::vector<Vec3> points = {Vec3(corner, 0)};
   const auto add = [&](Vec2 direction) {
     points.emplace_back(corner + direction * cutters.top(), cutters.top());
   };
-  add(turned(fan.front(), kReach));
-  for (const Vec2 direction : fan) add(direction);
-  add(turned(fan.back(), -kReach));
+  add(turned(fan.directions.front(), kReach));
+  for (const Vec2 direction : fan.directions) add(direction);
+  add(turned(fan.directions.back(), -kReach));
   cutters.add(std::move(points));
 }
 
@@ -224,31 +260,41 @@ Vec2 back_over(const Edge& edge, bool is_before, double rear) {
 
 // What the sides of a fan's polygon that are near the border sweep, from the
 // rear on. Each reaches a little over what is beside it.
-void add_blades(Cutters& cutters, const ReflexCorner& corner,
-                const std::vector<Vec2>& fan, const Border& border,
+void add_blades(Cutters& cutters, const Fan& fan, const Border& border,
                 double reach) {
   const double rear = cutters.rear();
   const double top = cutters.top();
-  const std::size_t n = fan.size();
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    if (!border.has_near({corner.point + cutters.bottom() * fan[i],
-                          corner.point + cutters.bottom() * fan[i + 1]},
-                         reach)) {
-      continue;
-    }
-    const Vec2 first = fan[i] * rear;
-    const Vec2 last = fan[i + 1] * rear;
-    const Vec2 before = i > 0 ? glm::mix(first, fan[i - 1] * rear, kRearReach)
-                              : first + back_over(corner.before, true, rear);
-    const Vec2 after = i + 2 < n ? glm::mix(last, fan[i + 2] * rear, kRearReach)
-                                 : last + back_over(corner.after, false, rear);
+  const ReflexCorner& corner = fan.corner;
+  const auto& directions = fan.directions;
+  const auto at = [&](Vec2 direction, double time) {
+    return corner.point + direction * time;
+  };
+  for (std::size_t i = 0; i + 1 < directions.size(); ++i) {
+    const Front side = {directions[i], directions[i + 1]};
+    const Part part = border.near_part(
+        {at(side.begin, cutters.bottom()), at(side.end, cutters.bottom())},
+        reach);
+    if (part.is_empty()) continue;
+    const Vec2 first = side.at(part.from);
+    const Vec2 last = side.at(part.to);
     std::vector<Vec3> points;
-    for (const Vec2 way : {before, first, last, after}) {
-      points.emplace_back(corner.point + way, rear);
-      points.emplace_back(corner.point + way, top);
+    const auto add = [&](Vec2 point) {
+      points.emplace_back(point, rear);
+      points.emplace_back(point, top);
+    };
+    for (const Vec2 direction : {first, last}) {
+      add(at(direction, rear));
+      points.emplace_back(at(direction, top), top);
     }
-    points.emplace_back(corner.point + fan[i] * top, top);
-    points.emplace_back(corner.point + fan[i + 1] * top, top);
+    if (part.from == 0) {
+      add(i > 0 ? at(glm::mix(first, directions[i - 1], kRearReach), rear)
+                : at(first, rear) + back_over(corner.before, true, rear));
+    }
+    if (part.to == 1) {
+      add(i + 2 < directions.size()
+              ? at(glm::mix(last, directions[i + 2], kRearReach), rear)
+              : at(last, rear) + back_over(corner.after, false, rear));
+    }
     cutters.add(std::move(points));
   }
 }
@@ -340,8 +386,8 @@ double find_depth(double low, double high, IsBeyond is_beyond) {
   return high;
 }
 
-// A front nearer than this to a border may be part of it [tops].
-constexpr double kNear = 1e-3;
+// A front nearer than this to a border may be part of it.
+double rounding(double top) { return 1e-7 + 1e-6 * top; }
 
 double border_of(const Region& region) {
   double border = 0;
@@ -368,8 +414,8 @@ std::vector<RoofStage> raise(const Region& region, Cut cut) {
   std::vector<RoofStage> stages;
   Region left = region;
   double bottom = 0;
-  double top =
-      std::min(border_of(region) / static_cast<double>(edge_count), most);
+  double top = std::min({border_of(region) / static_cast<double>(edge_count),
+                         planar::area(region) / border_of(region), most});
   while (true) {
     const Border border(left);
     Region rest = cut(border, bottom, top).rest(left);
@@ -410,25 +456,23 @@ std::vector<RoofStage> round_roof(const Region& region,
   const double step_deg =
       arc_step_deg(find_depth(low, high, is_beyond), corners);
 
-  // A polygon's side moves slower than its corners: by this share of the way it
-  // may be behind.
-  const double lag = 1 / cos_deg(step_deg / 2) - 1;
+  std::vector<Fan> fans;
+  double lag = 0;
+  for (const Contour& contour : region.contours) {
+    for (const ReflexCorner& corner : reflex_corners(contour)) {
+      fans.emplace_back(corner, step_deg);
+      lag = std::max(lag, fans.back().lag());
+    }
+  }
   return raise(region, [&](const Border& border, double bottom, double top) {
-    const double reach = lag * (top - bottom) + kNear * top;
+    const double reach = lag * (top - bottom) + rounding(top);
     Cutters cutters(bottom, top);
-    for (const Contour& contour : region.contours) {
-      for (const Edge& edge : edges_of(contour)) {
-        if (border.has_near(front_of(edge, bottom), reach)) {
-          cutters.add_strip(edge);
-        }
-      }
-      for (const ReflexCorner& corner : reflex_corners(contour)) {
-        const std::vector<Vec2> fan = fan_of(corner, step_deg);
-        if (cutters.is_first()) {
-          add_fan(cutters, corner.point, fan);
-        } else {
-          add_blades(cutters, corner, fan, border, reach);
-        }
+    add_strips(cutters, region, border, reach);
+    for (const Fan& fan : fans) {
+      if (cutters.is_first()) {
+        add_fan(cutters, fan);
+      } else {
+        add_blades(cutters, fan, border, reach);
       }
     }
     return cutters;
@@ -438,15 +482,9 @@ std::vector<RoofStage> round_roof(const Region& region,
 std::vector<RoofStage> sharp_roof(const Region& region) {
   const std::vector<Track> tracks = trace_corners(region);
   return raise(region, [&](const Border& border, double bottom, double top) {
-    const double reach = kNear * top;
+    const double reach = rounding(top);
     Cutters cutters(bottom, top);
-    for (const Contour& contour : region.contours) {
-      for (const Edge& edge : edges_of(contour)) {
-        if (border.has_near(front_of(edge, bottom), reach)) {
-          cutters.add_strip(edge);
-        }
-      }
-    }
+    add_strips(cutters, region, border, reach);
     for (const Track& track : tracks) {
       if (track.start_time >= cutters.rear()) {
         add_track(cutters, track);
@@ -454,7 +492,7 @@ std::vector<RoofStage> sharp_roof(const Region& region) {
       }
       for (const bool is_before : {true, false}) {
         const Flank flank = {track, is_before};
-        if (border.has_near(flank.front(bottom), reach)) {
+        if (!border.near_part(flank.front(bottom), reach).is_empty()) {
           add_late_flank(cutters, flank);
         }
       }

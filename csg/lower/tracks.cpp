@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -29,6 +30,13 @@ constexpr double kSame = 2e-8;
 constexpr double kStraight = 1e-9;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// From one edge to the next, at a reflex corner, in (-π, 0].
+double turn_at(const Edge& before, const Edge& after) {
+  const Vec2 from = before.direction();
+  const Vec2 to = after.direction();
+  return std::min(std::atan2(cross(from, to), glm::dot(from, to)), 0.0);
+}
 
 class Tracer {
  public:
@@ -194,9 +202,20 @@ class Tracer {
           [&](std::size_t a, std::size_t b) { return angle(a) < angle(b); });
       const std::size_t n = meeting.tracks.size();
       for (std::size_t i = 0; i < n; ++i) {
-        const Edge before = tracks_[meeting.tracks[(i + 1) % n]].before;
-        const Edge after = tracks_[meeting.tracks[i]].after;
-        if (cross(before.direction(), after.direction()) < -kStraight) {
+        const Track& here = tracks_[meeting.tracks[i]];
+        const Track& next = tracks_[meeting.tracks[(i + 1) % n]];
+        const Edge before = next.before;
+        const Edge after = here.after;
+        double between =
+            angle(meeting.tracks[(i + 1) % n]) - angle(meeting.tracks[i]);
+        if (i + 1 == n) between += 2 * std::numbers::pi;
+        // Of the region there; below 0 where nothing is left between them.
+        const double interior = between - std::numbers::pi -
+                                (turn_at(here.before, here.after) +
+                                 turn_at(next.before, next.after)) /
+                                    2;
+        if (interior > 0 &&
+            cross(before.direction(), after.direction()) < -kStraight) {
           start(meeting.point, meeting.time, before, after);
         }
       }
@@ -217,11 +236,7 @@ Vec2 Edge::direction() const { return glm::normalize(end - begin); }
 
 Vec2 Edge::normal() const { return left_of(direction()); }
 
-double ReflexCorner::turn() const {
-  const Vec2 from = before.direction();
-  const Vec2 to = after.direction();
-  return std::min(std::atan2(cross(from, to), glm::dot(from, to)), 0.0);
-}
+double ReflexCorner::turn() const { return turn_at(before, after); }
 
 std::vector<Edge> edges_of(const Contour& contour) {
   std::vector<Edge> edges;

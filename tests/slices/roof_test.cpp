@@ -35,7 +35,12 @@ constexpr auto kStar =
 constexpr auto kWasher =
     "difference() { circle(9, $fn = 24); circle(4, $fn = 15); "
     "translate([6, 0]) square(3, center = true); }";
-constexpr std::array kDrawings = {kAngle, kCross, kFrame, kStar, kWasher};
+// Its edges are short against its depth, and corners of holes in a column meet.
+constexpr auto kHoles =
+    "difference() { square(14); for (x = [2, 4, 6, 9], y = [3, 5, 8]) "
+    "translate([x, y + x / 9]) circle(0.4, $fn = 16); }";
+constexpr std::array kDrawings = {kAngle, kCross,  kFrame,
+                                  kStar,  kWasher, kHoles};
 
 Contours section(const std::string& text, double z) {
   const Design design = Design::from_text(text);
@@ -178,11 +183,27 @@ TEST(Roof, StraightOfAStarOfManyCornersShrinks) {
   EXPECT_NEAR(roof.scene().box.high.z, distance, distance * 3e-5);
 }
 
+TEST(Roof, HasTheSameVolumeOnItsSide) {
+  for (const std::string text : kDrawings) {
+    for (const std::string& roof :
+         {"roof() { " + text + " }", straight(text)}) {
+      const double expected = volume(roof, 6);
+      EXPECT_NEAR(
+          volume("translate([0, 0, 14]) rotate([90, 0, 0]) " + roof, 28),
+          expected, 1e-3 * expected)
+          << roof;
+    }
+  }
+}
+
 TEST(Roof, VoronoiIsWhereTheOutlineIsFartherThanTheHeight) {
   for (const std::string text : kDrawings) {
     const Contours outline = drawing(text);
     for (const double z : {0.2, 0.8, 1.3, 1.8}) {
       const Contours roof = section("roof($fn = 720) { " + text + " }", z);
+      const double left = planar::area(planar::offset(
+          planar::to_region(outline), -z, planar::Join::kRound, 1e-5));
+      EXPECT_NEAR(support::total_area(roof), left, 1e-3) << text;
       for (std::size_t l = 0; l < roof.loop_count(); ++l) {
         for (const Vec2 p : roof.loop(l)) {
           EXPECT_NEAR(support::distance_to_edges(outline, p), z, 1e-4 * z)

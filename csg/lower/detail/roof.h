@@ -7,6 +7,13 @@
 // z. So no skeleton is ever built, and the Booleans that layers need anyway
 // join the faces.
 //
+// Cutters as high as the roof would all cross each other near its top. So it is
+// raised in stages, each over what the outline has left at its bottom. What
+// bounds a point of the roof bounds what is left at each height below that
+// point, too, as the part of the outline that comes there first has come
+// straight: so a stage has the cutters of those parts alone that bound what is
+// left at its bottom, and these reach back no farther than that.
+//
 // The swept part is a strip along each edge and a part at each reflex corner:
 //
 // - "voronoi": a sector of a circle, drawn as a polygon that it contains. What
