@@ -8,12 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "base/plane.h"
-#include "csg/boundary/box_tree.h"
 #include "csg/boundary/convex_hull.h"
 #include "csg/degrees.h"
+#include "csg/lower/detail/roof_border.h"
 #include "csg/lower/detail/tracks.h"
 #include "csg/plane/boolean.h"
 #include "csg/plane/offset.h"
@@ -49,92 +50,6 @@ constexpr double kRearReach = 0.1;
 Vec2 turned(Vec2 v, double angle) {
   return std::cos(angle) * v + std::sin(angle) * left_of(v);
 }
-
-// A part of the outline, straight, at one time.
-struct Front {
-  Vec2 begin{0};
-  Vec2 end{0};
-
-  Vec2 at(double share) const { return glm::mix(begin, end, share); }
-};
-
-// From one share of a front to another one.
-struct Part {
-  double from = 1;
-  double to = 0;
-
-  bool is_empty() const { return !(from < to); }
-};
-
-// Of the front, at least what is within `reach` of the edge.
-Part near_part(const Front& front, const Front& edge, double reach) {
-  const double length = glm::distance(front.begin, front.end);
-  const Vec2 along = (front.end - front.begin) / length;
-  Vec2 from = edge.begin - front.begin;
-  Vec2 to = edge.end - front.begin;
-  from = {dot(along, from), cross(along, from)};
-  to = {dot(along, to), cross(along, to)};
-  if (from.y > to.y) std::swap(from, to);
-  if (from.y > reach || to.y < -reach) return {};
-  const auto at_level = [&](double y) {
-    return glm::mix(from.x, to.x, (y - from.y) / (to.y - from.y));
-  };
-  const double first = from.y < -reach ? at_level(-reach) : from.x;
-  const double last = to.y > reach ? at_level(reach) : to.x;
-  return {std::max((std::min(first, last) - reach) / length, 0.0),
-          std::min((std::max(first, last) + reach) / length, 1.0)};
-}
-
-Box3 box_of(const Front& front, double margin) {
-  Box3 box;
-  for (const Vec2 point : {front.begin, front.end}) {
-    box.add(Vec3(point - Vec2(margin), 0));
-    box.add(Vec3(point + Vec2(margin), 0));
-  }
-  return box;
-}
-
-// The border of what is left of a region, to find the parts of the outline that
-// still bound it.
-class Border {
- public:
-  explicit Border(const Region& region)
-      : edges_(edges_in(region)), tree_(boxes_of(edges_)) {}
-
-  // The part of the front, if any, that may be the border or come to be.
-  Part near_part(const Front& front, double reach) const {
-    Part part;
-    const Box3 box = box_of(front, reach);
-    tree_.visit([&](const Box3& other) { return do_meet(box, other); },
-                [&](std::uint32_t i) {
-                  const Part one = csg::near_part(front, edges_[i], reach);
-                  if (one.is_empty()) return;
-                  part.from = std::min(part.from, one.from);
-                  part.to = std::max(part.to, one.to);
-                });
-    return part;
-  }
-
- private:
-  static std::vector<Front> edges_in(const Region& region) {
-    std::vector<Front> edges;
-    for (const Contour& contour : region.contours) {
-      for (const Edge& edge : edges_of(contour)) {
-        edges.push_back({edge.begin, edge.end});
-      }
-    }
-    return edges;
-  }
-
-  static std::vector<Box3> boxes_of(const std::vector<Front>& edges) {
-    std::vector<Box3> boxes;
-    for (const Front& edge : edges) boxes.push_back(box_of(edge, 0));
-    return boxes;
-  }
-
-  std::vector<Front> edges_;
-  BoxTree tree_;
-};
 
 // Convex solids, each the hull of its points, that go up to one height: what
 // the outline sweeps while it moves on from one time, the bottom, to another
@@ -202,8 +117,8 @@ class Cutters {
 };
 
 // The strips of those edges that still bound what is left.
-void add_strips(Cutters& cutters, const Region& region, const Border& border,
-                double reach) {
+void add_strips(Cutters& cutters, const Region& region,
+                const RoofBorder& border, double reach) {
   for (const Contour& contour : region.contours) {
     for (const Edge& edge : edges_of(contour)) {
       const Vec2 normal = edge.normal();
@@ -260,7 +175,7 @@ Vec2 back_over(const Edge& edge, bool is_before, double rear) {
 
 // What the sides of a fan's polygon that are near the border sweep, from the
 // rear on. Each reaches a little over what is beside it.
-void add_blades(Cutters& cutters, const Fan& fan, const Border& border,
+void add_blades(Cutters& cutters, const Fan& fan, const RoofBorder& border,
                 double reach) {
   const double rear = cutters.rear();
   const double top = cutters.top();
@@ -417,7 +332,7 @@ std::vector<RoofStage> raise(const Region& region, Cut cut) {
   double top = std::min({border_of(region) / static_cast<double>(edge_count),
                          planar::area(region) / border_of(region), most});
   while (true) {
-    const Border border(left);
+    const RoofBorder border(left);
     Region rest = cut(border, bottom, top).rest(left);
     const bool is_last = rest.is_empty() || top >= most;
     if (is_last) {
@@ -464,41 +379,43 @@ std::vector<RoofStage> round_roof(const Region& region,
       lag = std::max(lag, fans.back().lag());
     }
   }
-  return raise(region, [&](const Border& border, double bottom, double top) {
-    const double reach = lag * (top - bottom) + rounding(top);
-    Cutters cutters(bottom, top);
-    add_strips(cutters, region, border, reach);
-    for (const Fan& fan : fans) {
-      if (cutters.is_first()) {
-        add_fan(cutters, fan);
-      } else {
-        add_blades(cutters, fan, border, reach);
-      }
-    }
-    return cutters;
-  });
+  return raise(region,
+               [&](const RoofBorder& border, double bottom, double top) {
+                 const double reach = lag * (top - bottom) + rounding(top);
+                 Cutters cutters(bottom, top);
+                 add_strips(cutters, region, border, reach);
+                 for (const Fan& fan : fans) {
+                   if (cutters.is_first()) {
+                     add_fan(cutters, fan);
+                   } else {
+                     add_blades(cutters, fan, border, reach);
+                   }
+                 }
+                 return cutters;
+               });
 }
 
 std::vector<RoofStage> sharp_roof(const Region& region) {
   const std::vector<Track> tracks = trace_corners(region);
-  return raise(region, [&](const Border& border, double bottom, double top) {
-    const double reach = rounding(top);
-    Cutters cutters(bottom, top);
-    add_strips(cutters, region, border, reach);
-    for (const Track& track : tracks) {
-      if (track.start_time >= cutters.rear()) {
-        add_track(cutters, track);
-        continue;
-      }
-      for (const bool is_before : {true, false}) {
-        const Flank flank = {track, is_before};
-        if (!border.near_part(flank.front(bottom), reach).is_empty()) {
-          add_late_flank(cutters, flank);
+  return raise(
+      region, [&](const RoofBorder& border, double bottom, double top) {
+        const double reach = rounding(top);
+        Cutters cutters(bottom, top);
+        add_strips(cutters, region, border, reach);
+        for (const Track& track : tracks) {
+          if (track.start_time >= cutters.rear()) {
+            add_track(cutters, track);
+            continue;
+          }
+          for (const bool is_before : {true, false}) {
+            const Flank flank = {track, is_before};
+            if (!border.near_part(flank.front(bottom), reach).is_empty()) {
+              add_late_flank(cutters, flank);
+            }
+          }
         }
-      }
-    }
-    return cutters;
-  });
+        return cutters;
+      });
 }
 
 }  // namespace lamina::csg
