@@ -221,8 +221,13 @@ Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
   switch (operands.dimension) {
     case Dimension::kNone:
       return {};
-    case Dimension::kFlat:
-      return combine(op, std::move(operands.regions), at.joins == op);
+    case Dimension::kFlat: {
+      Shape shape = combine(op, std::move(operands.regions), at.joins == op);
+      // Around one empty outline OpenSCAD makes no outline: what stands beside
+      // the operator may be solid.
+      if (operands.count == 1 && shape.region.is_empty()) return {};
+      return shape;
+    }
     case Dimension::kSolid:
       break;
   }

@@ -200,6 +200,7 @@ class Lowerer {
     std::vector<planar::Region> regions;  // of their union
     Scene scene;                          // their union
     bool is_boolean = false;              // as Shape's
+    std::size_t count = 0;                // of the children
   };
   Apart lower_apart(const Place& at, bool takes_corners = false);
   // A lowerer for those children; nothing lowered yet.

@@ -3,6 +3,7 @@
 #include <limits>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -106,10 +107,33 @@ TEST_F(LowerPlanarTest, ADifferenceThatLeavesNothingIsNotMixed) {
                                  b.node(Square{{2, 2}, false})});
   };
   run_solid({b.node(Intersection{}, {b.cube(Vec3(1)), b.cube(Vec3(1))}),
-             b.node(Union{}, {nothing()})});
+             b.node(Union{}, {nothing(), nothing()})});
   EXPECT_EQ(
       messages(),
       (std::vector<std::string>{"Ignoring 2D child object for 3D operation"}));
+}
+
+// As in OpenSCAD. An empty outline itself is one, and so are two.
+TEST_F(LowerPlanarTest, OperatorsAroundOneEmptyOutlineAreNothing) {
+  const auto empty = [&]() -> const Node* {
+    return b.node(Square{{0, 1}, false});
+  };
+  const Node* difference =
+      b.node(Difference{},
+             {b.node(Square{{1, 1}, false}), b.node(Square{{2, 2}, false})});
+  for (const Node* nothing : std::vector<const Node*>{
+           b.node(Group{}, {empty()}), b.node(Union{}, {difference}),
+           b.node(Intersection{}, {b.node(Difference{}, {empty()})}),
+           b.translate({1, 2, 3}, {empty()}),
+           b.scale({0, 1, 1}, {b.node(Render{}, {empty()})}),
+           b.node(Resize{Vec3(3), {}}, {empty()})}) {
+    EXPECT_EQ(run_solid({nothing, b.cube(Vec3(1))}).instances.size(), 1u);
+  }
+  EXPECT_TRUE(diagnostics.all().empty());
+  for (const Node* outline : std::vector<const Node*>{
+           empty(), difference, b.node(Union{}, {empty(), empty()})}) {
+    EXPECT_TRUE(run({outline, b.cube(Vec3(1))}).is_empty());
+  }
 }
 
 TEST_F(LowerPlanarTest, WhatStandsBetweenOperatorsSeesTheResult) {
