@@ -239,7 +239,9 @@ Shape Lowerer::lower_op(const Resize& op, const Place& at) {
             transform_region(std::move(apart.regions[0]), scale, at.node.range,
                              diagnostics_)};
   }
-  if (apart.scene.instances.empty()) return {apart.dimension};
+  if (apart.scene.instances.empty()) {
+    return {apart.count > 1 ? Dimension::kNone : apart.dimension};
+  }
   place_scene(apart.scene, at.world * scale);
   return {Dimension::kSolid, {}, apart.is_boolean};
 }

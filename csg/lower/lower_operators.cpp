@@ -175,11 +175,16 @@ void Lowerer::add_operand(const Place& child, bool is_union,
     shape.region = {};
     shape.more_regions.clear();
   }
-  ++operands.count;
+  if (operands.count == 0) {
+    operands.is_first_none = shape.dimension == Dimension::kNone;
+  }
   if (builder_.mark() > begin) {
     ++operands.solid_count;
     operands.has_boolean = operands.has_boolean || shape.is_boolean;
+  } else if (operands.count > 0) {
+    operands.is_later_empty = true;
   }
+  ++operands.count;
   if (!is_union) operands.begins.push_back(begin);
   if (operands.dimension != Dimension::kSolid &&
       !(is_union && shape.region.is_empty())) {
@@ -194,6 +199,18 @@ bool Lowerer::is_boolean(BooleanOp op, const Operands& operands) {
   const bool is_union = op == BooleanOp::kUnion;
   return operands.has_boolean ||
          (is_union ? operands.solid_count : operands.count) > 1;
+}
+
+bool Lowerer::is_nothing(BooleanOp op, const Operands& operands) {
+  switch (op) {
+    case BooleanOp::kUnion:
+      return operands.count > 1 && operands.solid_count == 0;
+    case BooleanOp::kDifference:
+      return operands.is_first_none;
+    case BooleanOp::kIntersection:
+      break;
+  }
+  return operands.is_first_none || operands.is_later_empty;
 }
 
 void Lowerer::report_strays(const Operands& operands) {
@@ -212,7 +229,6 @@ void Lowerer::report_strays(const Operands& operands) {
 Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
   // An operator of one operand is that operand, and any operator.
   if (at.joins && at.node.children.size() == 1) op = *at.joins;
-  const std::size_t mark = builder_.mark();
   const bool took_corners = takes_corners_;
   takes_corners_ = takes_corners_ && at.node.children.size() == 1;
   Operands operands = lower_operands(at, op, Dimension::kNone);
@@ -232,8 +248,7 @@ Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
       break;
   }
   builder_.apply(op, operands.begins);
-  const bool is_nothing = builder_.mark() == mark && operands.count > 1;
-  return {is_nothing ? Dimension::kNone : Dimension::kSolid,
+  return {is_nothing(op, operands) ? Dimension::kNone : Dimension::kSolid,
           {},
           is_boolean(op, operands)};
 }

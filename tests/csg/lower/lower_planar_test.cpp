@@ -136,6 +136,32 @@ TEST_F(LowerPlanarTest, OperatorsAroundOneEmptyOutlineAreNothing) {
   }
 }
 
+// As in OpenSCAD: solids that leave nothing are an empty solid, unless they are
+// united, or one that another is intersected with is empty itself.
+TEST_F(LowerPlanarTest, EmptySolidsDecideTheDimension) {
+  const auto empty = [&]() -> const Node* { return b.cube(Vec3(0)); };
+  const auto none = [&]() -> const Node* { return b.node(Group{}, {}); };
+  const auto cube = [&]() -> const Node* { return b.cube(Vec3(1)); };
+  const auto far_cube = [&]() -> const Node* {
+    return b.translate({5, 0, 0}, {b.cube(Vec3(1))});
+  };
+  for (const Node* solid :
+       std::vector<const Node*>{empty(), b.node(Union{}, {empty()}),
+                                b.node(Difference{}, {empty(), cube()}),
+                                b.node(Intersection{}, {cube(), far_cube()}),
+                                b.node(Intersection{}, {empty(), cube()})}) {
+    EXPECT_TRUE(run({solid, b.node(Square{})}).is_empty());
+  }
+  for (const Node* nothing :
+       std::vector<const Node*>{b.node(Union{}, {empty(), empty()}),
+                                b.node(Resize{Vec3(3), {}}, {empty(), empty()}),
+                                b.node(Difference{}, {none(), cube()}),
+                                b.node(Intersection{}, {cube(), empty()}),
+                                b.node(Intersection{}, {none(), cube()})}) {
+    EXPECT_EQ(planar::area(run_flat({nothing, b.node(Square{})})), 1);
+  }
+}
+
 TEST_F(LowerPlanarTest, WhatStandsBetweenOperatorsSeesTheResult) {
   const auto frame = [&] {
     return b.node(Difference{},
