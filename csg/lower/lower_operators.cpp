@@ -59,12 +59,45 @@ planar::Region combine_regions(BooleanOp op,
   return planar::unite(regions);
 }
 
+std::size_t count_corners(const planar::Region& region) {
+  std::size_t count = 0;
+  for (const planar::Contour& contour : region.contours) {
+    count += contour.size();
+  }
+  return count;
+}
+
+// Combines those operands of an operator that are no larger than the smaller
+// ones together. So what an operator above sweeps again is at least doubled
+// each time, and of operands that overlap deeply it gets little.
+//
+// regions  a minuend first
+void combine_small_ones(BooleanOp op, std::vector<planar::Region>& regions) {
+  const bool is_difference = op == BooleanOp::kDifference;
+  auto small = regions.begin() + (is_difference ? 1 : 0);
+  std::stable_sort(small, regions.end(), [](const auto& a, const auto& b) {
+    return count_corners(a) > count_corners(b);
+  });
+  std::size_t rest = 0;
+  for (auto it = small; it != regions.end(); ++it) rest += count_corners(*it);
+  for (; small != regions.end(); ++small) {
+    const std::size_t count = count_corners(*small);
+    rest -= count;
+    if (count <= rest) break;
+  }
+  if (regions.end() - small < 2) return;
+  *small = combine_regions(is_difference ? BooleanOp::kUnion : op,
+                           {small, regions.end()});
+  regions.erase(small + 1, regions.end());
+}
+
 // An operator's result; its operands where an operator above joins them.
 Shape combine(BooleanOp op, std::vector<planar::Region> regions,
               bool is_joined) {
   if (regions.empty()) return {Dimension::kFlat};
   if (!is_joined) return {Dimension::kFlat, combine_regions(op, regions)};
   if (regions.size() > 1) planar::require_near(regions);
+  combine_small_ones(op, regions);
   planar::Region first = std::move(regions.front());
   regions.erase(regions.begin());
   return {Dimension::kFlat, std::move(first), false, std::move(regions)};
