@@ -2,11 +2,11 @@
 // From the CSG tree to the scene.
 //
 // Transforms are pushed down to the leaves, colours and groups vanish, 2D
-// subtrees become regions and then extrusions (operators that one operator can
-// stand for are evaluated as that one), and what remains is a flat Boolean
-// program over instances of few shared leaves. Parts that are provably
-// empty are left out. What is 2D, 3D, empty or mixed follows OpenSCAD 2021.01,
-// warnings included.
+// subtrees become regions and then extrusions (of operators that one operator
+// can stand for, operands of like size are combined at once), and what remains
+// is a flat Boolean program over instances of few shared leaves. Parts that are
+// provably empty are left out. What is 2D, 3D, empty or mixed follows OpenSCAD
+// 2021.01, warnings included.
 
 #include <string>
 #include <variant>

@@ -132,7 +132,7 @@ Lowerer::Apart Lowerer::lower_apart(const Place& at, bool takes_corners) {
                                            BooleanOp::kUnion, Dimension::kNone);
   report_strays(operands);
   return {operands.dimension, std::move(operands.regions), inner.take_scene(),
-          is_boolean(BooleanOp::kUnion, operands)};
+          is_boolean(BooleanOp::kUnion, operands), operands.count};
 }
 
 Shape Lowerer::lower_op(const Hull&, const Place& at) {
@@ -234,11 +234,14 @@ Shape Lowerer::lower_op(const Resize& op, const Place& at) {
   Apart& apart = resized.apart;
   const Mat4 scale = scaling(resized.factor.value_or(Vec3(1)));
   if (apart.dimension == Dimension::kFlat) {
+    if (apart.count == 1 && apart.regions[0].is_empty()) return {};
     return {Dimension::kFlat,
             transform_region(std::move(apart.regions[0]), scale, at.node.range,
                              diagnostics_)};
   }
-  if (apart.scene.instances.empty()) return {apart.dimension};
+  if (apart.scene.instances.empty()) {
+    return {apart.count > 1 ? Dimension::kNone : apart.dimension};
+  }
   place_scene(apart.scene, at.world * scale);
   return {Dimension::kSolid, {}, apart.is_boolean};
 }

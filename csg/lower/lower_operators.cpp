@@ -59,12 +59,45 @@ planar::Region combine_regions(BooleanOp op,
   return planar::unite(regions);
 }
 
+std::size_t count_corners(const planar::Region& region) {
+  std::size_t count = 0;
+  for (const planar::Contour& contour : region.contours) {
+    count += contour.size();
+  }
+  return count;
+}
+
+// Combines those operands of an operator that are no larger than the smaller
+// ones together. So what an operator above sweeps again is at least doubled
+// each time, and of operands that overlap deeply it gets little.
+//
+// regions  a minuend first
+void combine_small_ones(BooleanOp op, std::vector<planar::Region>& regions) {
+  const bool is_difference = op == BooleanOp::kDifference;
+  auto small = regions.begin() + (is_difference ? 1 : 0);
+  std::stable_sort(small, regions.end(), [](const auto& a, const auto& b) {
+    return count_corners(a) > count_corners(b);
+  });
+  std::size_t rest = 0;
+  for (auto it = small; it != regions.end(); ++it) rest += count_corners(*it);
+  for (; small != regions.end(); ++small) {
+    const std::size_t count = count_corners(*small);
+    rest -= count;
+    if (count <= rest) break;
+  }
+  if (regions.end() - small < 2) return;
+  *small = combine_regions(is_difference ? BooleanOp::kUnion : op,
+                           {small, regions.end()});
+  regions.erase(small + 1, regions.end());
+}
+
 // An operator's result; its operands where an operator above joins them.
 Shape combine(BooleanOp op, std::vector<planar::Region> regions,
               bool is_joined) {
   if (regions.empty()) return {Dimension::kFlat};
   if (!is_joined) return {Dimension::kFlat, combine_regions(op, regions)};
   if (regions.size() > 1) planar::require_near(regions);
+  combine_small_ones(op, regions);
   planar::Region first = std::move(regions.front());
   regions.erase(regions.begin());
   return {Dimension::kFlat, std::move(first), false, std::move(regions)};
@@ -175,11 +208,16 @@ void Lowerer::add_operand(const Place& child, bool is_union,
     shape.region = {};
     shape.more_regions.clear();
   }
-  ++operands.count;
+  if (operands.count == 0) {
+    operands.is_first_none = shape.dimension == Dimension::kNone;
+  }
   if (builder_.mark() > begin) {
     ++operands.solid_count;
     operands.has_boolean = operands.has_boolean || shape.is_boolean;
+  } else if (operands.count > 0) {
+    operands.is_later_empty = true;
   }
+  ++operands.count;
   if (!is_union) operands.begins.push_back(begin);
   if (operands.dimension != Dimension::kSolid &&
       !(is_union && shape.region.is_empty())) {
@@ -194,6 +232,18 @@ bool Lowerer::is_boolean(BooleanOp op, const Operands& operands) {
   const bool is_union = op == BooleanOp::kUnion;
   return operands.has_boolean ||
          (is_union ? operands.solid_count : operands.count) > 1;
+}
+
+bool Lowerer::is_nothing(BooleanOp op, const Operands& operands) {
+  switch (op) {
+    case BooleanOp::kUnion:
+      return operands.count > 1 && operands.solid_count == 0;
+    case BooleanOp::kDifference:
+      return operands.is_first_none;
+    case BooleanOp::kIntersection:
+      break;
+  }
+  return operands.is_first_none || operands.is_later_empty;
 }
 
 void Lowerer::report_strays(const Operands& operands) {
@@ -212,7 +262,6 @@ void Lowerer::report_strays(const Operands& operands) {
 Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
   // An operator of one operand is that operand, and any operator.
   if (at.joins && at.node.children.size() == 1) op = *at.joins;
-  const std::size_t mark = builder_.mark();
   const bool took_corners = takes_corners_;
   takes_corners_ = takes_corners_ && at.node.children.size() == 1;
   Operands operands = lower_operands(at, op, Dimension::kNone);
@@ -221,14 +270,18 @@ Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
   switch (operands.dimension) {
     case Dimension::kNone:
       return {};
-    case Dimension::kFlat:
-      return combine(op, std::move(operands.regions), at.joins == op);
+    case Dimension::kFlat: {
+      Shape shape = combine(op, std::move(operands.regions), at.joins == op);
+      // Around one empty outline OpenSCAD makes no outline: what stands beside
+      // the operator may be solid.
+      if (operands.count == 1 && shape.region.is_empty()) return {};
+      return shape;
+    }
     case Dimension::kSolid:
       break;
   }
   builder_.apply(op, operands.begins);
-  const bool is_nothing = builder_.mark() == mark && operands.count > 1;
-  return {is_nothing ? Dimension::kNone : Dimension::kSolid,
+  return {is_nothing(op, operands) ? Dimension::kNone : Dimension::kSolid,
           {},
           is_boolean(op, operands)};
 }

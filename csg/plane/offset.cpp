@@ -63,7 +63,8 @@ Vec2 round_to_grid(Vec2 point) {
 
 // The region's contours without corners that are nearer than `distance` to the
 // ones before them. An edge so short may go anywhere, be it by rounding: its
-// corners would turn to the wrong side, or become spikes.
+// corners would turn to the wrong side, or become spikes. A sliver, which has
+// two other edges, stays as it is; a contour that has none is left out.
 std::vector<Contour> border_of(const Region& region, double distance) {
   std::vector<Contour> border;
   for (const Contour& contour : region.contours) {
@@ -77,7 +78,8 @@ std::vector<Contour> border_of(const Region& region, double distance) {
            glm::distance(kept.back(), kept.front()) <= distance) {
       kept.pop_back();
     }
-    if (kept.size() > 2) border.push_back(std::move(kept));
+    if (kept.size() < 2) continue;
+    border.push_back(kept.size() > 2 ? std::move(kept) : contour);
   }
   return border;
 }

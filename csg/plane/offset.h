@@ -29,7 +29,7 @@ enum class ArcSteps { kNearest, kUp };
 
 // Moves the border outwards by `amount` [mm], inwards if that is negative.
 // Edges of the border shorter than a tie, and than a hundredth of the amount,
-// are left out: their directions are rounding.
+// are left out: their directions are rounding. Those of slivers are not.
 //
 // arc_tolerance  greatest distance of a round join's steps from its arc [mm]
 Region offset(const Region& region, double amount, Join join,

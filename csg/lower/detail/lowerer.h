@@ -120,6 +120,8 @@ class Lowerer {
     const Node* first_mixed = nullptr;
     std::size_t solid_count = 0;  // of those that are not empty
     bool has_boolean = false;     // among these
+    bool is_first_none = false;   // of the first one's dimension
+    bool is_later_empty = false;  // of solids: any but the first
   };
   // All children; `dimension` decides unless it is kNone. Without an operator
   // each is kept, and has one region at most.
@@ -127,6 +129,9 @@ class Lowerer {
                           Dimension dimension);
   void add_operand(const Place& child, bool is_union, Operands& operands);
   static bool is_boolean(BooleanOp op, const Operands& operands);
+  // Whether OpenSCAD makes nothing of solids, be it empty, rather than an empty
+  // solid: then what stands beside the operator may be flat.
+  static bool is_nothing(BooleanOp op, const Operands& operands);
   void report_strays(const Operands& operands);
   Shape lower_children(const Place& at, BooleanOp op);
 
@@ -200,6 +205,7 @@ class Lowerer {
     std::vector<planar::Region> regions;  // of their union
     Scene scene;                          // their union
     bool is_boolean = false;              // as Shape's
+    std::size_t count = 0;                // of the children
   };
   Apart lower_apart(const Place& at, bool takes_corners = false);
   // A lowerer for those children; nothing lowered yet.

@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <bitset>
 #include <cstddef>
 #include <limits>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "base/thread_clock.h"
+#include "csg/degrees.h"
 #include "tests/csg/lower/lower_fixture.h"
 
 namespace lamina::csg {
@@ -69,6 +73,33 @@ TEST_F(LowerPlanarTest, NestedOperatorsHoldTheCellsThatTheyDoOneByOne) {
   EXPECT_GT(full, 100);
 }
 
+// Each level leaves hardly more corners than a disc has; all discs at once have
+// crossings that grow with the square.
+TEST_F(LowerPlanarTest, UnionsOfManyLevelsTakeTimeInProportion) {
+  constexpr int kSides = 998;  // so that edges are at the top and the bottom
+  constexpr double kRadius = 10;
+  constexpr double kShift = 0.01;
+  const auto seconds_of = [&](int levels) {
+    const auto disc = [&] { return b.node(Circle{kRadius, {.fn = kSides}}); };
+    const Node* node = disc();
+    for (int i = 1; i < levels; ++i) {
+      node = b.node(Union{}, {b.node(Group{}, {node}),
+                              b.translate({kShift * i, 0, 0}, {disc()})});
+    }
+    double area = 0;
+    const double seconds =
+        measure_seconds([&] { area = planar::area(run_flat({node})); });
+    const double height = 2 * kRadius * cos_deg(180.0 / kSides);
+    EXPECT_NEAR(area,
+                kSides / 2.0 * kRadius * kRadius * sin_deg(360.0 / kSides) +
+                    kShift * (levels - 1) * height,
+                1e-5);
+    return seconds;
+  };
+  const double few = std::min(seconds_of(60), seconds_of(60));
+  EXPECT_LT(seconds_of(600), 20 * few);
+}
+
 TEST_F(LowerPlanarTest, ADifferenceOfManyLevelsLosesEachBar) {
   const Node* node = b.node(Square{{100, 300}, false});
   for (int i = 0; i < 100; ++i) {
@@ -106,10 +137,59 @@ TEST_F(LowerPlanarTest, ADifferenceThatLeavesNothingIsNotMixed) {
                                  b.node(Square{{2, 2}, false})});
   };
   run_solid({b.node(Intersection{}, {b.cube(Vec3(1)), b.cube(Vec3(1))}),
-             b.node(Union{}, {nothing()})});
+             b.node(Union{}, {nothing(), nothing()})});
   EXPECT_EQ(
       messages(),
       (std::vector<std::string>{"Ignoring 2D child object for 3D operation"}));
+}
+
+// As in OpenSCAD. An empty outline itself is one, and so are two.
+TEST_F(LowerPlanarTest, OperatorsAroundOneEmptyOutlineAreNothing) {
+  const auto empty = [&]() -> const Node* {
+    return b.node(Square{{0, 1}, false});
+  };
+  const Node* difference =
+      b.node(Difference{},
+             {b.node(Square{{1, 1}, false}), b.node(Square{{2, 2}, false})});
+  for (const Node* nothing : std::vector<const Node*>{
+           b.node(Group{}, {empty()}), b.node(Union{}, {difference}),
+           b.node(Intersection{}, {b.node(Difference{}, {empty()})}),
+           b.translate({1, 2, 3}, {empty()}),
+           b.scale({0, 1, 1}, {b.node(Render{}, {empty()})}),
+           b.node(Resize{Vec3(3), {}}, {empty()})}) {
+    EXPECT_EQ(run_solid({nothing, b.cube(Vec3(1))}).instances.size(), 1u);
+  }
+  EXPECT_TRUE(diagnostics.all().empty());
+  for (const Node* outline : std::vector<const Node*>{
+           empty(), difference, b.node(Union{}, {empty(), empty()})}) {
+    EXPECT_TRUE(run({outline, b.cube(Vec3(1))}).is_empty());
+  }
+}
+
+// As in OpenSCAD: solids that leave nothing are an empty solid, unless they are
+// united, or one that another is intersected with is empty itself.
+TEST_F(LowerPlanarTest, EmptySolidsDecideTheDimension) {
+  const auto empty = [&]() -> const Node* { return b.cube(Vec3(0)); };
+  const auto none = [&]() -> const Node* { return b.node(Group{}, {}); };
+  const auto cube = [&]() -> const Node* { return b.cube(Vec3(1)); };
+  const auto far_cube = [&]() -> const Node* {
+    return b.translate({5, 0, 0}, {b.cube(Vec3(1))});
+  };
+  for (const Node* solid :
+       std::vector<const Node*>{empty(), b.node(Union{}, {empty()}),
+                                b.node(Difference{}, {empty(), cube()}),
+                                b.node(Intersection{}, {cube(), far_cube()}),
+                                b.node(Intersection{}, {empty(), cube()})}) {
+    EXPECT_TRUE(run({solid, b.node(Square{})}).is_empty());
+  }
+  for (const Node* nothing :
+       std::vector<const Node*>{b.node(Union{}, {empty(), empty()}),
+                                b.node(Resize{Vec3(3), {}}, {empty(), empty()}),
+                                b.node(Difference{}, {none(), cube()}),
+                                b.node(Intersection{}, {cube(), empty()}),
+                                b.node(Intersection{}, {none(), cube()})}) {
+    EXPECT_EQ(planar::area(run_flat({nothing, b.node(Square{})})), 1);
+  }
 }
 
 TEST_F(LowerPlanarTest, WhatStandsBetweenOperatorsSeesTheResult) {

@@ -510,5 +510,15 @@ TEST(Offset, EdgesShorterThanATieMakeNoCornersOfTheirOwn) {
   }
 }
 
+TEST(Offset, SliversThinnerThanATieAreNotLost) {
+  for (const double width : {1e-7, 5e-7, 2e-6}) {
+    const Region sliver = square({10, width}, false);
+    EXPECT_NEAR(area(offset(sliver, 1, Join::kMiter, 1e-3)), 12 * 2, 1e-4);
+    EXPECT_NEAR(area(offset(sliver, 1, Join::kRound, 1e-6)),
+                20 + std::numbers::pi, 1e-4);
+    EXPECT_TRUE(offset(sliver, -1, Join::kMiter, 1e-3).is_empty());
+  }
+}
+
 }  // namespace
 }  // namespace lamina::planar
