@@ -177,18 +177,31 @@ class Stars {
 
   // A vertex that lies farthest along `direction`, climbing from `start`. Each
   // step rises in one number for each vertex: signs of differences may lead
-  // around in a ring, where rounding decides.
+  // around in a ring, where rounding decides. Of a corner within a straight
+  // edge that lies level no neighbour may be higher: so the climb goes on from
+  // all that are as high, up to rounding.
   std::uint32_t climb(std::uint32_t start, const Vec3& direction) const {
+    const double slack = kSlack * glm::length(direction);
     double height = glm::dot(position(start), direction);
-    for (std::uint32_t best = start;; start = best) {
-      for (const std::uint32_t next : neighbours_[start]) {
+    std::vector<std::uint32_t> level(1, start);
+    for (std::size_t i = 0; i < level.size();) {
+      std::uint32_t best = level[0];
+      for (const std::uint32_t next : neighbours_[level[i]]) {
         const double other = glm::dot(position(next), direction);
-        if (other <= height) continue;
-        height = other;
-        best = next;
+        if (other > height) {
+          height = other;
+          best = next;
+        } else if (other >= height - slack &&
+                   std::find(level.begin(), level.end(), next) == level.end()) {
+          level.push_back(next);
+        }
       }
-      if (best == start) return best;
+      ++i;
+      if (best == level[0]) continue;
+      level.assign(1, best);
+      i = 0;
     }
+    return level[0];
   }
 
   // Whether some edge at `vertex` rises along all these directions, so that

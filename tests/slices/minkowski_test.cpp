@@ -332,6 +332,26 @@ TEST(MinkowskiLaws, NestedCopiesOfTwoConvexSolidsEnlargeBoth) {
                {-0.5, 0.5, 3, 5.5});
 }
 
+// A turned cube of eight: rounding leaves corners within its edges.
+TEST(MinkowskiLaws, CornersWithinTheEdgesOfAHullChangeNothing) {
+  const std::string eight =
+      "for (x = [-1, 0], y = [-1, 0], z = [-1, 0]) translate([x, y, z])"
+      " cube(1);";
+  const std::string octahedron =
+      "hull() { cylinder(r1 = 1, r2 = 0, h = 1, $fn = 4); mirror([0, 0, 1])"
+      " cylinder(r1 = 1, r2 = 0, h = 1, $fn = 4); }";
+  for (const int angle : {14, 29, 49, 57, 78, 86}) {
+    const std::string turn = fmt::format("rotate([{0}, {0}, {0}]) ", angle);
+    for (const std::string& other :
+         {octahedron, std::string("sphere(1, $fn = 8);")}) {
+      const std::string sum = "minkowski() {" + turn + other;
+      expect_equal(sum + "hull() {" + turn + eight + "} }",
+                   sum + turn + "cube(2, center = true); }",
+                   {-1.9, -0.7, 0.4, 1.3, 2.1});
+    }
+  }
+}
+
 TEST(MinkowskiLaws, ATinyBoxChangesTinily) {
   for (const std::string a : kBodies) {
     const auto with =
