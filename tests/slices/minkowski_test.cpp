@@ -126,6 +126,23 @@ TEST(Minkowski, AConcavePolyhedronGrowsByABox) {
               1e-9);
 }
 
+// A triangle of no width and its reverse, beside a box.
+TEST(Minkowski, ANeedleBesideABoxAddsNothingElsewhere) {
+  for (const std::string width : {"1e-9"}) {
+    const std::string sum =
+        "minkowski() { cube(1); polyhedron([[0, 0, 0], [9, 0, 0], [9, 9, 0],"
+        " [0, 9, 0], [0, 0, 9], [9, 0, 9], [9, 9, 9], [0, 9, 9], [11, 5, 5],"
+        " [12, 5, 5], [11.5, 5 + " +
+        width +
+        ", 5]], [[0, 1, 2, 3], [0, 4, 5, 1],"
+        " [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0], [4, 7, 6, 5], [8, 9, 10],"
+        " [10, 9, 8]]); }";
+    for (const double z : {0.5, 4.9, 9.7}) {
+      EXPECT_NEAR(section_area(sum, z), 100, 1e-6) << width;
+    }
+  }
+}
+
 // Walls 1 thick around a cavity of 8; the small one has walls of 0.2.
 const std::string kBigHollow =
     "difference() { cube(10, center = true); cube(8, center = true); }";
