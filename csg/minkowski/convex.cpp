@@ -57,6 +57,12 @@ bool is_hit(const Convex& body, std::size_t facet, const Vec3& origin,
   return true;
 }
 
+// By Euler's formula. A needle and its reverse beside a solid are a piece of
+// their own, without normals that would tell.
+bool is_like_sphere(const Convex& body) {
+  return body.vertices.size() + body.facet_count() == body.edges.size() + 2;
+}
+
 // Whether a surface without reflex edges bounds a convex solid: its facets all
 // face away from the middle, which sees each direction once.
 bool is_seen_once(const Convex& body) {
@@ -307,8 +313,8 @@ Convex make_solid(std::vector<Vec3> vertices,
 }
 
 bool is_convex(const Convex& body) {
-  return body.is_closed && body.facet_count() >= 4 && !has_reflex_edge(body) &&
-         is_seen_once(body);
+  return body.is_closed && body.facet_count() >= 4 && is_like_sphere(body) &&
+         !has_reflex_edge(body) && is_seen_once(body);
 }
 
 Vec3 middle(const Convex& body) {

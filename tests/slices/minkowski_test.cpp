@@ -128,7 +128,7 @@ TEST(Minkowski, AConcavePolyhedronGrowsByABox) {
 
 // A triangle of no width and its reverse, beside a box.
 TEST(Minkowski, ANeedleBesideABoxAddsNothingElsewhere) {
-  for (const std::string width : {"1e-9"}) {
+  for (const std::string width : {"0", "1e-13", "1e-9"}) {
     const std::string sum =
         "minkowski() { cube(1); polyhedron([[0, 0, 0], [9, 0, 0], [9, 9, 0],"
         " [0, 9, 0], [0, 0, 9], [9, 0, 9], [9, 9, 9], [0, 9, 9], [11, 5, 5],"
