@@ -294,16 +294,27 @@ Convex make_flat(std::vector<Vec3> polygon, Vec3 normal) {
   return body;
 }
 
+std::vector<Vec3> normals_of(
+    std::span<const Vec3> vertices,
+    std::span<const std::vector<std::uint32_t>> loops) {
+  const double thin = kNeedlePrecision * greatest_length(vertices);
+  std::vector<Vec3> normals;
+  for (const auto& loop : loops) {
+    const Vec3 area = area_of(vertices, loop);
+    const double size = glm::length(area);
+    const bool is_line = size <= thin * longest_side(vertices, loop);
+    normals.push_back(is_line ? Vec3(0) : area / size);
+  }
+  return normals;
+}
+
 Convex make_solid(std::vector<Vec3> vertices,
                   std::span<const std::vector<std::uint32_t>> loops) {
   Convex body;
   body.vertices = std::move(vertices);
-  const double thin = kNeedlePrecision * greatest_length(body.vertices);
-  for (const auto& loop : loops) {
-    const Vec3 area = area_of(body.vertices, loop);
-    const double size = glm::length(area);
-    const bool is_line = size <= thin * longest_side(body.vertices, loop);
-    body.add_facet(loop, is_line ? Vec3(0) : area / size);
+  const std::vector<Vec3> normals = normals_of(body.vertices, loops);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    body.add_facet(loops[i], normals[i]);
   }
   std::span facets(&body.corners, 1);
   keep_named_points(body.vertices, facets);

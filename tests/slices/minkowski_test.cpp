@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -347,6 +348,26 @@ TEST(MinkowskiLaws, NestedCopiesOfTwoConvexSolidsEnlargeBoth) {
                    a + "}" + b + "} } }",
                "minkowski() { scale(4) " + a + "scale(2) " + b + "}",
                {-0.5, 0.5, 3, 5.5});
+}
+
+TEST(MinkowskiLaws, NestedCopiesAroundAnEllEnlargeIt) {
+  for (const auto& [angle, solid] : {std::pair(20, "sphere(1, $fn = 6);"),
+                                     {3, "sphere(1, $fn = 8);"},
+                                     {24, "sphere(1, $fn = 8);"},
+                                     {71, "sphere(1, $fn = 8);"},
+                                     {71, "cube(1);"},
+                                     {73, "cube(1);"}}) {
+    const std::string turn = fmt::format("rotate([{0}, {0}, {0}]) ", angle);
+    const std::string ell =
+        turn +
+        "linear_extrude(1, scale = 0.5)"
+        " polygon([[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [0, 2]]);";
+    const std::string copy = turn + solid;
+    expect_equal("minkowski() {" + copy + "minkowski() {" + ell +
+                     "minkowski() {" + copy + copy + "} } }",
+                 "minkowski() {" + ell + "scale(3) " + copy + "}",
+                 {-2.17, -1.3, -0.41, 0.1, 0.6, 1.1, 2.3, 3.1, 4.2});
+  }
 }
 
 // A turned cube of eight: rounding leaves corners within its edges.
