@@ -57,6 +57,12 @@ bool is_hit(const Convex& body, std::size_t facet, const Vec3& origin,
   return true;
 }
 
+// By Euler's formula. A needle and its reverse beside a solid are a piece of
+// their own, without normals that would tell.
+bool is_like_sphere(const Convex& body) {
+  return body.vertices.size() + body.facet_count() == body.edges.size() + 2;
+}
+
 // Whether a surface without reflex edges bounds a convex solid: its facets all
 // face away from the middle, which sees each direction once.
 bool is_seen_once(const Convex& body) {
@@ -177,18 +183,31 @@ class Stars {
 
   // A vertex that lies farthest along `direction`, climbing from `start`. Each
   // step rises in one number for each vertex: signs of differences may lead
-  // around in a ring, where rounding decides.
+  // around in a ring, where rounding decides. Of a corner within a straight
+  // edge that lies level no neighbour may be higher: so the climb goes on from
+  // all that are as high, up to rounding.
   std::uint32_t climb(std::uint32_t start, const Vec3& direction) const {
+    const double slack = kSlack * glm::length(direction);
     double height = glm::dot(position(start), direction);
-    for (std::uint32_t best = start;; start = best) {
-      for (const std::uint32_t next : neighbours_[start]) {
+    std::vector<std::uint32_t> level(1, start);
+    for (std::size_t i = 0; i < level.size();) {
+      std::uint32_t best = level[0];
+      for (const std::uint32_t next : neighbours_[level[i]]) {
         const double other = glm::dot(position(next), direction);
-        if (other <= height) continue;
-        height = other;
-        best = next;
+        if (other > height) {
+          height = other;
+          best = next;
+        } else if (other >= height - slack &&
+                   std::find(level.begin(), level.end(), next) == level.end()) {
+          level.push_back(next);
+        }
       }
-      if (best == start) return best;
+      ++i;
+      if (best == level[0]) continue;
+      level.assign(1, best);
+      i = 0;
     }
+    return level[0];
   }
 
   // Whether some edge at `vertex` rises along all these directions, so that
@@ -275,16 +294,27 @@ Convex make_flat(std::vector<Vec3> polygon, Vec3 normal) {
   return body;
 }
 
+std::vector<Vec3> normals_of(
+    std::span<const Vec3> vertices,
+    std::span<const std::vector<std::uint32_t>> loops) {
+  const double thin = kNeedlePrecision * greatest_length(vertices);
+  std::vector<Vec3> normals;
+  for (const auto& loop : loops) {
+    const Vec3 area = area_of(vertices, loop);
+    const double size = glm::length(area);
+    const bool is_line = size <= thin * longest_side(vertices, loop);
+    normals.push_back(is_line ? Vec3(0) : area / size);
+  }
+  return normals;
+}
+
 Convex make_solid(std::vector<Vec3> vertices,
                   std::span<const std::vector<std::uint32_t>> loops) {
   Convex body;
   body.vertices = std::move(vertices);
-  const double thin = kNeedlePrecision * greatest_length(body.vertices);
-  for (const auto& loop : loops) {
-    const Vec3 area = area_of(body.vertices, loop);
-    const double size = glm::length(area);
-    const bool is_line = size <= thin * longest_side(body.vertices, loop);
-    body.add_facet(loop, is_line ? Vec3(0) : area / size);
+  const std::vector<Vec3> normals = normals_of(body.vertices, loops);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    body.add_facet(loops[i], normals[i]);
   }
   std::span facets(&body.corners, 1);
   keep_named_points(body.vertices, facets);
@@ -294,8 +324,8 @@ Convex make_solid(std::vector<Vec3> vertices,
 }
 
 bool is_convex(const Convex& body) {
-  return body.is_closed && body.facet_count() >= 4 && !has_reflex_edge(body) &&
-         is_seen_once(body);
+  return body.is_closed && body.facet_count() >= 4 && is_like_sphere(body) &&
+         !has_reflex_edge(body) && is_seen_once(body);
 }
 
 Vec3 middle(const Convex& body) {

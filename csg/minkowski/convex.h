@@ -65,6 +65,11 @@ struct Convex {
 //          any normal
 Convex make_flat(std::vector<Vec3> polygon, Vec3 normal);
 
+// Of polygons, counter-clockwise around them; of unit length, or 0 where the
+// polygon is a line but for rounding: its own would be noise.
+std::vector<Vec3> normals_of(std::span<const Vec3> vertices,
+                             std::span<const std::vector<std::uint32_t>> loops);
+
 // The solid with these facets. The caller knows that they are closed and
 // convex, or asks is_convex().
 //

@@ -126,7 +126,7 @@ JoinedFaces::JoinedFaces(std::vector<Vec3> vertices,
     for (std::uint32_t& corner : loop) corner = names[corner];
     loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
     while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-    if (loop.size() > 2) add_face(loop, normals[f]);
+    if (loop.size() > 2 && normals[f] != Vec3(0)) add_face(loop, normals[f]);
   }
   vertices_ = std::move(vertices);
   std::span faces(&corners_, 1);

@@ -37,7 +37,7 @@ class JoinedFaces {
   //
   // loops    convex polygons, counter-clockwise around their normals; straight
   //          corners may be among theirs
-  // normals  of unit length, one for each loop
+  // normals  of unit length, one for each loop; loops of normal 0 are left out
   JoinedFaces(std::vector<Vec3> vertices,
               std::vector<std::vector<std::uint32_t>> loops,
               std::span<const Vec3> normals);

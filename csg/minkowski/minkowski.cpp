@@ -93,13 +93,11 @@ Convex add_convex(const Convex& a, const Convex& b) {
 
 JoinedFaces join(Mesh mesh) {
   std::vector<std::vector<std::uint32_t>> loops;
-  std::vector<Vec3> normals;
   for (planar::Face& face :
        planar::merge_to_convex(mesh.vertices, mesh.triangles)) {
-    if (face.normal == Vec3(0)) continue;
     loops.push_back(std::move(face.corners));
-    normals.push_back(face.normal);
   }
+  const std::vector<Vec3> normals = normals_of(mesh.vertices, loops);
   return {std::move(mesh.vertices), std::move(loops), normals};
 }
 

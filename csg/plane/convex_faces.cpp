@@ -154,6 +154,7 @@ class FaceMerger {
     std::uint32_t first = h;
     while (twins_[previous_[first]] == next_[twins_[first]]) {
       first = previous_[first];
+      if (first == h) return;  // a triangle and its reverse share all of it
     }
     std::uint32_t last = h;
     while (twins_[next_[last]] == previous_[twins_[last]]) last = next_[last];

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -124,6 +125,23 @@ TEST(Minkowski, AConcavePolyhedronGrowsByABox) {
   // At 3.5 the notch is as wide as one that is 1 narrower and 0.5 higher.
   EXPECT_NEAR(section_area(sum, 3.5), 9 * 5 - 5 * (2 * (3.5 - 0.5 - 2) - 1),
               1e-9);
+}
+
+// A triangle of no width and its reverse, beside a box.
+TEST(Minkowski, ANeedleBesideABoxAddsNothingElsewhere) {
+  for (const std::string width : {"0", "1e-13", "1e-9"}) {
+    const std::string sum =
+        "minkowski() { cube(1); polyhedron([[0, 0, 0], [9, 0, 0], [9, 9, 0],"
+        " [0, 9, 0], [0, 0, 9], [9, 0, 9], [9, 9, 9], [0, 9, 9], [11, 5, 5],"
+        " [12, 5, 5], [11.5, 5 + " +
+        width +
+        ", 5]], [[0, 1, 2, 3], [0, 4, 5, 1],"
+        " [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0], [4, 7, 6, 5], [8, 9, 10],"
+        " [10, 9, 8]]); }";
+    for (const double z : {0.5, 4.9, 9.7}) {
+      EXPECT_NEAR(section_area(sum, z), 100, 1e-6) << width;
+    }
+  }
 }
 
 // Walls 1 thick around a cavity of 8; the small one has walls of 0.2.
@@ -330,6 +348,46 @@ TEST(MinkowskiLaws, NestedCopiesOfTwoConvexSolidsEnlargeBoth) {
                    a + "}" + b + "} } }",
                "minkowski() { scale(4) " + a + "scale(2) " + b + "}",
                {-0.5, 0.5, 3, 5.5});
+}
+
+TEST(MinkowskiLaws, NestedCopiesAroundAnEllEnlargeIt) {
+  for (const auto& [angle, solid] : {std::pair(20, "sphere(1, $fn = 6);"),
+                                     {3, "sphere(1, $fn = 8);"},
+                                     {24, "sphere(1, $fn = 8);"},
+                                     {71, "sphere(1, $fn = 8);"},
+                                     {71, "cube(1);"},
+                                     {73, "cube(1);"}}) {
+    const std::string turn = fmt::format("rotate([{0}, {0}, {0}]) ", angle);
+    const std::string ell =
+        turn +
+        "linear_extrude(1, scale = 0.5)"
+        " polygon([[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [0, 2]]);";
+    const std::string copy = turn + solid;
+    expect_equal("minkowski() {" + copy + "minkowski() {" + ell +
+                     "minkowski() {" + copy + copy + "} } }",
+                 "minkowski() {" + ell + "scale(3) " + copy + "}",
+                 {-2.17, -1.3, -0.41, 0.1, 0.6, 1.1, 2.3, 3.1, 4.2});
+  }
+}
+
+// A turned cube of eight: rounding leaves corners within its edges.
+TEST(MinkowskiLaws, CornersWithinTheEdgesOfAHullChangeNothing) {
+  const std::string eight =
+      "for (x = [-1, 0], y = [-1, 0], z = [-1, 0]) translate([x, y, z])"
+      " cube(1);";
+  const std::string octahedron =
+      "hull() { cylinder(r1 = 1, r2 = 0, h = 1, $fn = 4); mirror([0, 0, 1])"
+      " cylinder(r1 = 1, r2 = 0, h = 1, $fn = 4); }";
+  for (const int angle : {14, 29, 49, 57, 78, 86}) {
+    const std::string turn = fmt::format("rotate([{0}, {0}, {0}]) ", angle);
+    for (const std::string& other :
+         {octahedron, std::string("sphere(1, $fn = 8);")}) {
+      const std::string sum = "minkowski() {" + turn + other;
+      expect_equal(sum + "hull() {" + turn + eight + "} }",
+                   sum + turn + "cube(2, center = true); }",
+                   {-1.9, -0.7, 0.4, 1.3, 2.1});
+    }
+  }
 }
 
 TEST(MinkowskiLaws, ATinyBoxChangesTinily) {
