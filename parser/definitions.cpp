@@ -1,6 +1,10 @@
 #include "parser/definitions.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -33,6 +37,38 @@ Assigned find_assigned(const ast::Program& program, const Loader& loader) {
   return assigned;
 }
 
+bool is_letter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+bool has_word(std::string_view text, std::string_view word) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos;
+       at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_letter(text[at - 1])) &&
+        (end == text.size() || !is_letter(text[end]))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Whether a file has the name without assigning it: a design may ask
+// is_undef(name). In a comment it counts, too.
+bool is_read(std::string_view name, const ast::Program& program,
+             const Loader& loader) {
+  std::set<const Source*> sources;
+  for (const ast::Program* file : loader.with_used(program)) {
+    for (const ast::Statement* statement : file->statements) {
+      sources.insert(statement->range.source);
+    }
+  }
+  return std::any_of(sources.begin(), sources.end(), [&](const Source* source) {
+    const std::string_view text = source->text();
+    return has_word(text.substr(0, source->definitions_begin()), name);
+  });
+}
+
 }  // namespace
 
 void check_definitions(const ast::Program& program, const Loader& loader,
@@ -48,7 +84,9 @@ void check_definitions(const ast::Program& program, const Loader& loader,
     if (set == nullptr || !statement->range.is_defined_by_option()) continue;
     const auto own = assigned.find(set->name);
     if (own == assigned.end()) {
-      if (set->name.starts_with('$')) continue;
+      if (set->name.starts_with('$') || is_read(set->name, program, loader)) {
+        continue;
+      }
       diagnostics.own_warning(
           statement->range,
           fmt::format("the design has no variable '{}'", set->name),

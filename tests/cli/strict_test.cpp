@@ -101,6 +101,17 @@ TEST_F(Strict, NamesThatTheDesignLacks) {
   expect({"d.scad", "--strict", "-D", "$fn=9", "-D", "inner=20"}, 0, "d.slc: ");
 }
 
+// A design may leave a name to whoever runs it.
+TEST_F(Strict, NamesThatTheDesignOnlyAsksForAreNotLacking) {
+  folder_.write("asks.scad", "cube(is_undef(edge) ? 3 : edge);");
+  folder_.write("includes.scad", "include <asks.scad>\ncube(1);");
+  for (const std::string design : {"asks.scad", "includes.scad"}) {
+    expect({design, "--strict", "-D", "edge=4"}, 0, "d.slc: 80 layers, ");
+    expect_warning({design, "-D", "edg=4"},
+                   "-D edg=4: warning: the design has no variable 'edg'\n");
+  }
+}
+
 TEST_F(Strict, TextsWhoseQuotesTheShellTook) {
   expect_warning({"d.scad", "-D", "initials=XY"},
                  "-D initials=XY: warning: Ignoring unknown variable 'XY'\n"
