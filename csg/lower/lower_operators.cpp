@@ -91,14 +91,26 @@ void combine_small_ones(BooleanOp op, std::vector<planar::Region>& regions) {
   regions.erase(small + 1, regions.end());
 }
 
-// An operator's result; its operands where an operator above joins them.
-Shape combine(BooleanOp op, std::vector<planar::Region> regions,
-              bool is_joined) {
-  if (regions.empty()) return {Dimension::kFlat};
-  if (!is_joined) return {Dimension::kFlat, combine_regions(op, regions)};
+// An operator's result; its operands where an operator above joins them. It
+// stays out of line, as frames of operators stand in each other.
+//
+// count  of the operands, of which a union leaves out the empty ones; around
+//        one empty outline OpenSCAD makes none: what stands beside the operator
+//        may be solid
+[[gnu::noinline]] Shape combine(BooleanOp op,
+                                std::vector<planar::Region> regions,
+                                std::size_t count, bool is_joined) {
+  const Shape none = {count == 1 ? Dimension::kNone : Dimension::kFlat};
+  if (regions.empty()) return none;
+  if (!is_joined) {
+    planar::Region result = combine_regions(op, regions);
+    if (result.is_empty()) return none;
+    return {Dimension::kFlat, std::move(result)};
+  }
   if (regions.size() > 1) planar::require_near(regions);
   combine_small_ones(op, regions);
   planar::Region first = std::move(regions.front());
+  if (first.is_empty()) return none;
   regions.erase(regions.begin());
   return {Dimension::kFlat, std::move(first), false, std::move(regions)};
 }
@@ -270,13 +282,9 @@ Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
   switch (operands.dimension) {
     case Dimension::kNone:
       return {};
-    case Dimension::kFlat: {
-      Shape shape = combine(op, std::move(operands.regions), at.joins == op);
-      // Around one empty outline OpenSCAD makes no outline: what stands beside
-      // the operator may be solid.
-      if (operands.count == 1 && shape.region.is_empty()) return {};
-      return shape;
-    }
+    case Dimension::kFlat:
+      return combine(op, std::move(operands.regions), operands.count,
+                     at.joins == op);
     case Dimension::kSolid:
       break;
   }
