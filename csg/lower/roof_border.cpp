@@ -35,6 +35,7 @@ std::vector<Front> edges_in(const planar::Region& region) {
 
 std::vector<Box3> boxes_of(const std::vector<Front>& edges) {
   std::vector<Box3> boxes;
+  boxes.reserve(edges.size());
   for (const Front& edge : edges) boxes.push_back(box_of(edge, 0));
   return boxes;
 }
