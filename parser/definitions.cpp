@@ -53,16 +53,21 @@ bool has_word(std::string_view text, std::string_view word) {
   return false;
 }
 
-// Whether a file has the name without assigning it: a design may ask
-// is_undef(name). In a comment it counts, too.
-bool is_read(std::string_view name, const ast::Program& program,
-             const Loader& loader) {
+// All texts of the design.
+std::set<const Source*> find_sources(const ast::Program& program,
+                                     const Loader& loader) {
   std::set<const Source*> sources;
   for (const ast::Program* file : loader.with_used(program)) {
     for (const ast::Statement* statement : file->statements) {
       sources.insert(statement->range.source);
     }
   }
+  return sources;
+}
+
+// Whether a text has the name without assigning it: a design may ask
+// is_undef(name). In a comment it counts, too.
+bool is_read(std::string_view name, const std::set<const Source*>& sources) {
   return std::any_of(sources.begin(), sources.end(), [&](const Source* source) {
     const std::string_view text = source->text();
     return has_word(text.substr(0, source->definitions_begin()), name);
@@ -75,6 +80,7 @@ void check_definitions(const ast::Program& program, const Loader& loader,
                        Diagnostics& diagnostics) {
   if (program.source->definitions_begin() == std::string::npos) return;
   const Assigned assigned = find_assigned(program, loader);
+  const std::set<const Source*> sources = find_sources(program, loader);
   std::vector<std::string_view> names;
   for (const auto& [name, statement] : assigned) names.push_back(name);
   const Customizer customizer = Customizer::read(program);
@@ -84,7 +90,7 @@ void check_definitions(const ast::Program& program, const Loader& loader,
     if (set == nullptr || !statement->range.is_defined_by_option()) continue;
     const auto own = assigned.find(set->name);
     if (own == assigned.end()) {
-      if (set->name.starts_with('$') || is_read(set->name, program, loader)) {
+      if (set->name.starts_with('$') || is_read(set->name, sources)) {
         continue;
       }
       diagnostics.own_warning(
