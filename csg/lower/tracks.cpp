@@ -38,6 +38,11 @@ double turn_at(const Edge& before, const Edge& after) {
   return std::min(std::atan2(cross(from, to), glm::dot(from, to)), 0.0);
 }
 
+// Of the way that it goes, in (-π, π].
+double angle_of(const Track& track) {
+  return std::atan2(track.velocity.y, track.velocity.x);
+}
+
 class Tracer {
  public:
   explicit Tracer(const Region& region) {
@@ -193,21 +198,17 @@ class Tracer {
     std::vector<Meeting> meetings = std::move(meetings_);
     meetings_.clear();
     for (Meeting& meeting : meetings) {
-      const auto angle = [&](std::size_t i) {
-        const Vec2 v = tracks_[i].velocity;
-        return std::atan2(v.y, v.x);
-      };
-      std::sort(
-          meeting.tracks.begin(), meeting.tracks.end(),
-          [&](std::size_t a, std::size_t b) { return angle(a) < angle(b); });
+      std::sort(meeting.tracks.begin(), meeting.tracks.end(),
+                [&](std::size_t a, std::size_t b) {
+                  return angle_of(tracks_[a]) < angle_of(tracks_[b]);
+                });
       const std::size_t n = meeting.tracks.size();
       for (std::size_t i = 0; i < n; ++i) {
         const Track& here = tracks_[meeting.tracks[i]];
         const Track& next = tracks_[meeting.tracks[(i + 1) % n]];
         const Edge before = next.before;
         const Edge after = here.after;
-        double between =
-            angle(meeting.tracks[(i + 1) % n]) - angle(meeting.tracks[i]);
+        double between = angle_of(next) - angle_of(here);
         if (i + 1 == n) between += 2 * std::numbers::pi;
         // Of the region there; below 0 where nothing is left between them.
         const double interior = between - std::numbers::pi -
