@@ -59,14 +59,6 @@ planar::Region combine_regions(BooleanOp op,
   return planar::unite(regions);
 }
 
-std::size_t count_corners(const planar::Region& region) {
-  std::size_t count = 0;
-  for (const planar::Contour& contour : region.contours) {
-    count += contour.size();
-  }
-  return count;
-}
-
 // Combines those operands of an operator that are no larger than the smaller
 // ones together. So what an operator above sweeps again is at least doubled
 // each time, and of operands that overlap deeply it gets little.
@@ -76,12 +68,14 @@ void combine_small_ones(BooleanOp op, std::vector<planar::Region>& regions) {
   const bool is_difference = op == BooleanOp::kDifference;
   auto small = regions.begin() + (is_difference ? 1 : 0);
   std::stable_sort(small, regions.end(), [](const auto& a, const auto& b) {
-    return count_corners(a) > count_corners(b);
+    return planar::corner_count(a) > planar::corner_count(b);
   });
   std::size_t rest = 0;
-  for (auto it = small; it != regions.end(); ++it) rest += count_corners(*it);
+  for (auto it = small; it != regions.end(); ++it) {
+    rest += planar::corner_count(*it);
+  }
   for (; small != regions.end(); ++small) {
-    const std::size_t count = count_corners(*small);
+    const std::size_t count = planar::corner_count(*small);
     rest -= count;
     if (count <= rest) break;
   }

@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/loop_area.h"
 #include "base/plane.h"
 #include "csg/boundary/convex_hull.h"
 #include "csg/degrees.h"
@@ -289,7 +290,7 @@ void add_track(Cutters& cutters, const Track& track) {
   }
 }
 
-// Halves the range until it is `digits` of itself, and returns its end.
+// Halves the range until it is a share of 1e-5 of its end, and returns its end.
 // `is_beyond` does not hold at `low`, and holds at `high`.
 template <typename IsBeyond>
 double find_depth(double low, double high, IsBeyond is_beyond) {
@@ -306,11 +307,7 @@ double rounding(double top) { return 1e-7 + 1e-6 * top; }
 
 double border_of(const Region& region) {
   double border = 0;
-  for (const Contour& contour : region.contours) {
-    for (const Edge& edge : edges_of(contour)) {
-      border += glm::distance(edge.begin, edge.end);
-    }
-  }
+  for (const Contour& contour : region.contours) border += perimeter(contour);
   return border;
 }
 
@@ -318,19 +315,17 @@ double border_of(const Region& region) {
 // of those parts of the outline that still bound what is left at the bottom.
 template <typename Cut>
 std::vector<RoofStage> raise(const Region& region, Cut cut) {
-  std::size_t edge_count = 0;
   Box2 box;
-  for (const Contour& contour : region.contours) {
-    edge_count += contour.size();
-    box.add(contour);
-  }
+  for (const Contour& contour : region.contours) box.add(contour);
   // No point is farther from the outline.
   const double most = std::min(box.size().x, box.size().y) / 2 * kBeyond;
   std::vector<RoofStage> stages;
   Region left = region;
   double bottom = 0;
-  double top = std::min({border_of(region) / static_cast<double>(edge_count),
-                         planar::area(region) / border_of(region), most});
+  const double border_length = border_of(region);
+  const auto edge_count = static_cast<double>(planar::corner_count(region));
+  double top = std::min(
+      {border_length / edge_count, planar::area(region) / border_length, most});
   while (true) {
     const RoofBorder border(left);
     Region rest = cut(border, bottom, top).rest(left);

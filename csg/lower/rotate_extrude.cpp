@@ -200,10 +200,7 @@ Leaf extrude_around(const Region& region, double start_deg, double angle_deg,
     }
     return turn.take();
   }
-  double points = 0;
-  for (const Contour& contour : region.contours) {
-    points += static_cast<double>(contour.size());
-  }
+  const auto points = static_cast<double>(planar::corner_count(region));
   require_triangles(2 * points * fragments);
   Leaf leaf;
   leaf.meshes.push_back(PartTurn(region, start_deg, angle_deg, fragments)

@@ -37,6 +37,12 @@ double area(const Region& region) {
   return sum;
 }
 
+std::size_t corner_count(const Region& region) {
+  std::size_t count = 0;
+  for (const Contour& contour : region.contours) count += contour.size();
+  return count;
+}
+
 void drop_hairlines(Region& region, double width) {
   std::erase_if(region.contours, [&](const Contour& contour) {
     return std::abs(sliver_area(contour)) < 0.5 * width * perimeter(contour);

@@ -6,6 +6,7 @@
 // need an owner for each hole. So each contour is a simple polygon by itself,
 // and its direction shows what it is.
 
+#include <cstddef>
 #include <vector>
 
 #include "base/vec.h"
@@ -32,6 +33,8 @@ struct Region {
 
 // Of all contours: holes count negative [mm²].
 double area(const Region& region);
+
+std::size_t corner_count(const Region& region);
 
 // Drops contours whose mean width is less than `width` [mm].
 void drop_hairlines(Region& region, double width);
