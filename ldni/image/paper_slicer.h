@@ -87,7 +87,8 @@ class PaperSlicer {
   std::unique_ptr<Sampler> sampler_;
   RayBoolean boolean_;
   LoopBuilder loop_builder_;
-  LeafImages images_;  // of the block
+  std::vector<LeafBox> leaves_;  // of the block
+  LeafImages images_;            // of them
 
   // Of the layer at hand: the samples of all leaves, ray by ray.
   std::vector<std::uint32_t> ray_ends_;

@@ -17,11 +17,15 @@
 
 namespace lamina::ldni {
 
-// The samples of one leaf instance in a box of rays and layers: the adaptive
-// LDNI of the paper where the box is the leaf's own.
-struct LeafImage {
+// A leaf instance, and the rays and layers where it is sampled (not empty).
+struct LeafBox {
   std::uint32_t instance = 0;  // into csg::Scene::instances
   GridBox box;
+};
+
+// The samples of one leaf instance: the adaptive LDNI of the paper where the
+// box is the leaf's own.
+struct LeafImage : LeafBox {
   std::size_t first_pixel = 0;  // into LeafImages::ends
 };
 
@@ -60,11 +64,10 @@ class Sampler {
  public:
   virtual ~Sampler() = default;
 
-  // Appends the image of `instance` in the rays and layers of `box` (not
-  // empty). Every pixel gets as many entries as exits, in no particular order;
-  // a vertex on a section counts as below it (LayerGrid::layers_below).
-  virtual void sample(std::uint32_t instance, const GridBox& box,
-                      LeafImages& out) = 0;
+  // Appends the image of each leaf, in their order. Every pixel gets as many
+  // entries as exits, in no particular order; a vertex on a section counts as
+  // below it (LayerGrid::layers_below).
+  virtual void sample(std::span<const LeafBox> leaves, LeafImages& out) = 0;
 
   // Pixels so far that had to be sampled another way to keep this contract.
   virtual std::uint64_t repaired_pixels() const { return 0; }
@@ -83,10 +86,13 @@ std::unique_ptr<Sampler> make_scanline_sampler(const csg::Scene& scene,
 // The sampler of Zeng et al. 2011, by OpenGL. Scene and grids must outlive it;
 // layers must be of equal thickness.
 //
+// Leaves that are sampled in one call are drawn together, each in its place, so
+// that many small ones cost few drawings.
+//
 // Cost of an image: the leaf's vertices and triangles, made for it if it is a
-// loft; a drawing of those that can cover a pixel; the samples, the pixels of
-// the box. Memory: for the leaf, and at most 128 MiB for what is drawn at a
-// time.
+// loft; its share of a drawing of those that can cover a pixel; the samples,
+// the pixels of the box. Memory: for the leaves that are drawn together, and at
+// most 128 MiB for what is drawn at a time.
 std::unique_ptr<Sampler> make_gl_sampler(const csg::Scene& scene,
                                          const RayGrid& rays,
                                          const LayerGrid& layers,

@@ -78,10 +78,12 @@ class ScanlineSampler final : public Sampler {
                   const LayerGrid& layers)
       : scene_(scene), rays_(rays), layers_(layers) {}
 
-  void sample(std::uint32_t instance, const GridBox& box,
-              LeafImages& out) override;
+  void sample(std::span<const LeafBox> leaves, LeafImages& out) override {
+    for (const LeafBox& leaf : leaves) sample_leaf(leaf, out);
+  }
 
  private:
+  void sample_leaf(const LeafBox& leaf_box, LeafImages& out);
   void sample_loft(const csg::Loft& loft, bool is_inside_out);
   void place_loft(const csg::Loft& loft);
   void fill_ring(std::size_t ring, std::vector<std::uint32_t>& levels) const;
@@ -134,13 +136,12 @@ class ScanlineSampler final : public Sampler {
   std::vector<Vec2> ends_;
 };
 
-void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
-                             LeafImages& out) {
-  const csg::Instance& placed = scene_.instances[instance];
+void ScanlineSampler::sample_leaf(const LeafBox& leaf_box, LeafImages& out) {
+  const csg::Instance& placed = scene_.instances[leaf_box.instance];
   const csg::Leaf& leaf = scene_.leaves[placed.leaf];
-  instance_ = instance;
+  instance_ = leaf_box.instance;
   world_from_leaf_ = placed.world_from_leaf;
-  box_ = box;
+  box_ = leaf_box.box;
   samples_.clear();
   pixels_.clear();
 
@@ -152,7 +153,7 @@ void ScanlineSampler::sample(std::uint32_t instance, const GridBox& box,
   }
   for (const csg::Mesh& mesh : leaf.meshes) sample_mesh(mesh, is_mirrored);
 
-  out.images.push_back({instance, box, out.ends.size()});
+  out.images.push_back({leaf_box, out.ends.size()});
   sort_by_pixel(out);
 }
 
