@@ -1,11 +1,13 @@
 // Lexer, parser and the printer of syntax trees, which takes its own text back:
-// a printed program, parsed and printed again, is the same text. But for one
-// thing: as OpenSCAD does, it prints a function as an operand without the
-// brackets that it needs, "(1 + function(x) x)".
+// a printed program, parsed and printed again, is the same text. But for two
+// things, as OpenSCAD prints them: a function as an operand goes without the
+// brackets that it needs, "(1 + function(x) x)", and "1e3.x" becomes "1000.x",
+// which is the number "1000." before a name.
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <regex>
 #include <string>
 
 #include "base/diagnostic.h"
@@ -35,6 +37,12 @@ std::optional<std::string> print(const std::string& text) {
   return printed;
 }
 
+bool may_be_unreadable(const std::string& printed) {
+  static const std::regex member_of_number("[0-9]\\.[A-Za-z_]");
+  return printed.find("function(") != std::string::npos ||
+         std::regex_search(printed, member_of_number);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
@@ -45,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   const auto printed = print("module m() {" + text + "\n}");
   if (!printed) return 0;
   const auto again = print(*printed);
-  const bool has_function = printed->find("function(") != std::string::npos;
-  fuzz::require(again ? again == printed : has_function, "prints itself");
+  fuzz::require(again ? again == printed : may_be_unreadable(*printed),
+                "prints itself");
   return 0;
 }
