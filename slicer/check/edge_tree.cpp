@@ -78,18 +78,18 @@ std::size_t EdgeTree::nearest(Vec2 point, std::size_t guess,
 void EdgeTree::lower(Vec2 point, double enough, double& best,
                      std::size_t& guess) const {
   struct Place {
+    double square;  // of the box's distance
     std::uint32_t level;
     std::uint32_t index;
   };
-  // As deep as 64 bits can count, and kFanOut open on each level.
+  // As deep as 64 bits can count, and kFanOut open on each level; of those the
+  // nearest is last.
   std::array<Place, 32 * kFanOut> open;
   std::size_t count = 0;
-  open[count++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  open[count++] = {0, static_cast<std::uint32_t>(levels_.size() - 1), 0};
   while (count > 0) {
-    const auto [level, index] = open[--count];
-    if (squared_distance_to(levels_[level][index], point) >= best * best) {
-      continue;
-    }
+    const auto [box_square, level, index] = open[--count];
+    if (box_square >= best * best) continue;
     const std::size_t begin = index * kFanOut;
     if (level == 0) {
       const std::size_t end = std::min(begin + kFanOut, edges_.size());
@@ -106,9 +106,15 @@ void EdgeTree::lower(Vec2 point, double enough, double& best,
     }
     const std::vector<Box2>& boxes = levels_[level - 1];
     const std::size_t end = std::min(begin + kFanOut, boxes.size());
-    for (std::size_t i = end; i > begin; --i) {
-      if (squared_distance_to(boxes[i - 1], point) >= best * best) continue;
-      open[count++] = {level - 1, static_cast<std::uint32_t>(i - 1)};
+    const std::size_t first = count;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double square = squared_distance_to(boxes[i], point);
+      if (square >= best * best) continue;
+      std::size_t place = count++;
+      for (; place > first && open[place - 1].square < square; --place) {
+        open[place] = open[place - 1];
+      }
+      open[place] = {square, level - 1, static_cast<std::uint32_t>(i)};
     }
   }
 }
