@@ -103,6 +103,24 @@ void warn_of_settings(Compilation& c, const csg::Lowered& lowered) {
                       fmt::join(settings, ", ")));
 }
 
+// Heights in other units, or of a design that was placed elsewhere, would make
+// empty layers without a word.
+void warn_of_heights(Compilation& c, const csg::Lowered& lowered) {
+  const std::vector<double>& heights = c.request.settings.heights;
+  if (lowered.scene() == nullptr || heights.empty()) return;
+  const Box3& box = lowered.scene()->box;
+  if (box.is_empty()) return;
+  const auto outside = static_cast<std::size_t>(std::count_if(
+      heights.begin(), heights.end(),
+      [&box](double z) { return z < box.low.z || z > box.high.z; }));
+  if (outside == 0) return;
+  c.diagnostics.own_warning(
+      {}, fmt::format("{} of {} outside the design, which reaches from z {:g} "
+                      "to {:g} mm",
+                      outside, counted(heights.size(), "height"), box.low.z,
+                      box.high.z));
+}
+
 // Whether messages end the run here, without an output.
 bool ends_strictly(Compilation& c) {
   if (!c.is_strict()) return false;
@@ -286,6 +304,7 @@ csg::Lowered lower_tree(Compilation& c) {
   require_sliceable(c, lowered);
   warn_of_size(c, lowered);
   warn_of_settings(c, lowered);
+  warn_of_heights(c, lowered);
   return lowered;
 }
 

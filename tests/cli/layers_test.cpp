@@ -149,6 +149,25 @@ TEST(Layers, WhatCannotHoldSeveralThicknessesSaysSo) {
           "one thickness");
 }
 
+TEST(Layers, AWarningCountsHeightsOutsideTheDesign) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(10);");
+  const auto some =
+      run(folder, {"a.scad", "--heights", "-1,0,5,10,254", "-o", "some.slc"});
+  EXPECT_EQ(some.status, 0);
+  EXPECT_TRUE(has(some.errors,
+                  "2 of 5 heights outside the design, which reaches from z 0 "
+                  "to 10 mm"))
+      << some.errors;
+  const auto none =
+      run(folder, {"a.scad", "--heights", "0,5,10", "-o", "none.slc"});
+  EXPECT_FALSE(has(none.errors, "outside the design")) << none.errors;
+  const auto one =
+      run(folder, {"a.scad", "--heights", "11", "-o", "one.slc", "--strict"});
+  EXPECT_TRUE(has(one.errors, "1 of 1 height outside")) << one.errors;
+  EXPECT_EQ(one.status, 1);
+}
+
 TEST(Layers, AnyNumberOfThreadsGivesTheSameAdaptiveLayers) {
   const TemporaryFolder folder;
   folder.write("a.scad", kBall);
