@@ -106,12 +106,15 @@ bool lock(int file) {
   return ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
+bool is_same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 // Whether the open file is the one of that name. Once it is locked, only we may
 // remove it.
 bool stands_at(const std::string& path, const struct stat& open) {
   struct stat named = {};
-  return ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
-         open.st_ino == named.st_ino;
+  return ::lstat(path.c_str(), &named) == 0 && is_same_file(open, named);
 }
 
 // Removes what an ended run left under this name; false if there is no such.
@@ -130,11 +133,24 @@ bool remove_abandoned(const std::string& path, RunFiles* run) {
   return is_abandoned && ::lstat(path.c_str(), &status) != 0;
 }
 
-// Locks what was just made under this name. False if another run was faster,
-// to which it looked abandoned.
-bool keep(int file, const std::string& path) {
-  struct stat status = {};
-  return lock(file) && ::fstat(file, &status) == 0 && stands_at(path, status);
+// Locks what was just made under this name. Returns it, or −1 (errno): EEXIST
+// where another run was faster, to which it looked abandoned.
+int keep(int file, const std::string& path) {
+  struct stat open = {};
+  struct stat named = {};
+  int error = 0;
+  if (!lock(file)) {
+    error = EEXIST;
+  } else if (::fstat(file, &open) != 0 || ::lstat(path.c_str(), &named) != 0) {
+    error = errno == ENOENT ? EEXIST : errno;
+  } else if (!is_same_file(open, named)) {
+    error = EEXIST;
+  }
+  if (error == 0) return file;
+  if (error != EEXIST) std::remove(path.c_str());
+  ::close(file);
+  errno = error;
+  return -1;
 }
 
 // Makes something under a hidden name beside `target`, locked.
@@ -150,18 +166,15 @@ int make_hidden(const std::string& target, std::string& name,
   for (int attempt = 0;;) {
     name = hidden_sibling(target, attempt);
     names.push_back(name);
-    int file = make(name.c_str());
-    if (file >= 0) {
-      if (keep(file, name)) return file;
-      close_quietly(file);
-      ++attempt;
-    } else if (errno != EEXIST) {
+    const int made = make(name.c_str());
+    const int file = made < 0 ? made : keep(made, name);
+    if (file >= 0) return file;
+    if (errno != EEXIST) {
       names.pop_back();
       name.clear();
       return -1;
-    } else if (!remove_abandoned(name, run)) {
-      ++attempt;
     }
+    if (!remove_abandoned(name, run)) ++attempt;
     names.pop_back();
   }
 }

@@ -71,6 +71,18 @@ def failing_calls(harness):
         if runs:
             harness.case(f"{call}() fails: {', '.join(errors)}",
                          harness.some(runs, 5))
+    _folders_that_tell_nothing(harness)
+
+
+def _folders_that_tell_nothing(harness):
+    """A new folder that could not be looked at was once taken for another
+    run's, and the next name tried, without end."""
+    job = jobs.named("png")
+    faults = [f"fstat {k + 1}{more} errno {errno.EIO}"
+              for k in range(harness.count_calls(job, "fstat", False))
+              for more in ("", "+")]
+    harness.case("fstat() fails: EIO, of an output that is a folder",
+                 [(fault, dict(job=job, fault=fault)) for fault in faults])
 
 
 # Libraries that crash, or end the program, where an allocation fails.
