@@ -15,6 +15,8 @@
 %option 8bit full
 
 %top{
+#include <new>
+
 #include "parser/detail/reader.h"
 #include "scad_grammar.h"
 }
@@ -33,6 +35,9 @@ YY_DECL;
 
 #define YY_INPUT(buffer, result, most) \
   (result) = static_cast<int>(yyextra->feed(buffer, most))
+
+// By itself Flex would end the program, with status 2.
+#define YY_FATAL_ERROR(message) throw std::bad_alloc()
 
 #define YY_USER_ACTION *range = yyextra->take(static_cast<std::uint32_t>(yyleng));
 

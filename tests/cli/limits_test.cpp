@@ -353,6 +353,23 @@ TEST(MaxMemory, OfTheSystemIsNamed) {
   expect_no_output(folder);
 }
 
+// Below 46 MiB the stacks leave some kB, which may be too few for the buffers
+// of the lexer.
+TEST(MaxMemory, OfTheSystemMayDenyTheLexerItsBuffers) {
+  const TemporaryFolder folder;
+  folder.write("a.scad", "cube(1);");
+  for (int kib = 44000; kib <= 48000; kib += 12) {
+    const auto result = support::run_process(
+        {"bash", "-c",
+         fmt::format("ulimit -v {}; exec {} a.scad -o a.ast", kib,
+                     LAMINA_PROGRAM)},
+        folder.path());
+    EXPECT_TRUE(result.status == 0 ||
+                (result.status == 1 && has(result.errors, "(ulimit -v)")))
+        << kib << ": " << result.status << ' ' << result.errors;
+  }
+}
+
 // A stack takes what it can have, which may leave a second thread without one.
 TEST(MaxMemory, OfTheSystemMayDenyAThreadItsStack) {
   const TemporaryFolder folder;
