@@ -138,15 +138,14 @@ bool remove_abandoned(const std::string& path, RunFiles* run) {
 int keep(int file, const std::string& path) {
   struct stat open = {};
   struct stat named = {};
-  int error = 0;
-  if (!lock(file)) {
-    error = EEXIST;
-  } else if (::fstat(file, &open) != 0 || ::lstat(path.c_str(), &named) != 0) {
-    error = errno == ENOENT ? EEXIST : errno;
-  } else if (!is_same_file(open, named)) {
-    error = EEXIST;
+  int error = EEXIST;
+  if (lock(file)) {
+    if (::fstat(file, &open) != 0 || ::lstat(path.c_str(), &named) != 0) {
+      if (errno != ENOENT) error = errno;
+    } else if (is_same_file(open, named)) {
+      return file;
+    }
   }
-  if (error == 0) return file;
   if (error != EEXIST) std::remove(path.c_str());
   ::close(file);
   errno = error;
