@@ -252,6 +252,7 @@ TEST(TopLevel, HoldsWhatTheMapNames) {
                                           "LICENSE",
                                           "CMakePresets.json",
                                           "CHANGELOG.md",
+                                          "CONTRIBUTING.md",
                                           "SECURITY.md",
                                           "build",
                                           "api"};
