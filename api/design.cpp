@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "base/loop_area.h"
 #include "compiler/compile.h"
 #include "compiler/passes.h"
 #include "parser/customizer.h"
+#include "plane/loop_area.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/plan/orientation.h"
 

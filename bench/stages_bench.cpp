@@ -12,7 +12,7 @@
 
 #include "compiler/passes.h"
 #include "ldni/section/leaf_section.h"
-#include "ldni/sweep/kinetic_ray.h"
+#include "plane/cascade/kinetic_ray.h"
 
 namespace {
 
@@ -64,7 +64,7 @@ void lower(benchmark::State& state, const std::string& scene,
 // Calls `visit` with every block of layers of the scene, cut into chains.
 template <typename Visit>
 void for_each_block(const csg::Scene& scene, double thickness,
-                    ldni::ChainBlock& block, const Visit& visit) {
+                    ldni::SectionBlock& block, const Visit& visit) {
   const auto grid =
       ldni::LayerGrid::uniform(scene.box.low.z, scene.box.high.z, thickness);
   const ldni::LeafSectioner sectioner(scene, grid);
@@ -81,7 +81,7 @@ void cut_leaves(benchmark::State& state, const std::string& scene_name,
                 const std::string& definitions, double thickness) {
   Design design(scene_name, definitions);
   const csg::Scene scene = design.make_scene();
-  ldni::ChainBlock block;
+  ldni::SectionBlock block;
   std::size_t points = 0;
   for (auto _ : state) {
     points = 0;
@@ -96,9 +96,10 @@ void cut_and_sweep(benchmark::State& state, const std::string& scene_name,
                    const std::string& definitions, double thickness) {
   Design design(scene_name, definitions);
   const csg::Scene scene = design.make_scene();
-  ldni::ChainBlock block;
-  ldni::KineticRay ray(scene);
-  ldni::Contours contours;
+  ldni::SectionBlock block;
+  const plane::BooleanProgram program = csg::program_of(scene);
+  plane::KineticRay ray(program);
+  plane::Contours contours;
   std::size_t points = 0;
   for (auto _ : state) {
     points = 0;

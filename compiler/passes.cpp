@@ -197,7 +197,7 @@ slicer::SliceReport slice(const csg::Lowered& lowered,
                           const ldni::LayerGrid& grid,
                           const slicer::Settings& settings,
                           slicer::LayerSink& sink, Diagnostics& diagnostics) {
-  if (const planar::Region* outline = lowered.outline()) {
+  if (const plane::Region* outline = lowered.outline()) {
     return slicer::slice_outline(*outline, settings, sink, diagnostics);
   }
   return slicer::slice(*lowered.scene(), grid, settings, sink, diagnostics);

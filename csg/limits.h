@@ -1,15 +1,13 @@
 #pragma once
 // What no design needs and no memory holds: numbers that a few letters of text
-// can ask for, and coordinates too large for exact layers.
+// can ask for. plane/limits.h has those of the plane.
 //
 // They are checked before anything is made of them. The check does not know the
 // place in the text; the walk over the tree does, and adds it to the error.
 
-#include <cmath>
 #include <cstddef>
-#include <string>
 
-#include "base/diagnostic.h"
+#include "plane/limits.h"
 
 namespace lamina::csg {
 
@@ -43,30 +41,9 @@ constexpr double kMostSwelling = 50;
 // bytes of memory. Ten thousand objects have a million.
 constexpr std::size_t kMostXmlParts = 1 << 23;
 
-// Of a region of the plane, and of all outlines of a FreeCAD file together. A
-// star of 3,001 points crosses itself 4.5 million times.
-constexpr double kMostCorners = 1 << 22;
-
-// Up to here doubles are ten times finer than the distance at which faces tie
-// [mm]. Layers of what lies beyond would be wrong, so it is refused.
-constexpr double kGreatestCoordinate = 1e9;
-
-// A GeometryError without a place.
-struct LimitExceeded : GeometryError {
-  using GeometryError::GeometryError;
-};
-
-// These throw LimitExceeded where there are more.
+// These throw plane::LimitExceeded where there are more.
 void require_fragments(double count);
 void require_triangles(double count);
 void require_heights(std::size_t columns, std::size_t rows);
-void require_corners(std::size_t count);
-
-[[noreturn]] void fail_too_far();
-
-// NaN is too far as well.
-inline bool is_too_far(double coordinate) {
-  return !(std::abs(coordinate) <= kGreatestCoordinate);
-}
 
 }  // namespace lamina::csg

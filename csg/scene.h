@@ -14,6 +14,7 @@
 #include "base/source.h"
 #include "base/vec.h"
 #include "csg/tree.h"
+#include "plane/program/boolean_program.h"
 
 namespace lamina::csg {
 
@@ -84,25 +85,18 @@ struct Instance {
   const CallSite* caller = nullptr;
 };
 
-enum class BooleanOp : std::uint8_t { kUnion, kIntersection, kDifference };
-
-// One operator. Children (operators and instances alike) name their parent;
-// parents stand before their children, the root is 0.
-struct BooleanNode {
-  BooleanOp op = BooleanOp::kUnion;
-  std::uint32_t parent = 0;  // of the root: 0
-  bool is_minuend = false;   // this node is the first operand of its parent
-  std::uint32_t child_count = 0;
-};
-
 struct Scene {
   std::vector<Leaf> leaves;
   std::vector<Instance> instances;
-  std::vector<BooleanNode> program;  // never empty: a union of nothing
+  std::vector<plane::BooleanNode> program;  // never empty: a union of nothing
   // Boolean-aware bounds of the result: union = all, difference = that of the
   // first operand, intersection = the overlap. Of vertices, not of boxes of
   // boxes, as long as no intersection is involved. Empty for an empty scene.
   Box3 box;
 };
+
+// The scene's program and, of its instances, what the program asks. The boxes
+// are those of the instances, as seen from above.
+plane::BooleanProgram program_of(const Scene& scene);
 
 }  // namespace lamina::csg

@@ -81,7 +81,7 @@ struct LinearExtrudeParams {
   int convexity = 1;
   double twist_deg = 0;
   bool has_twist = false;
-  int slices = 0;  // 0: not given; csg/plane/facets.h has the rules
+  int slices = 0;  // 0: not given; csg/facets.h has the rules
   // Of each contour; 0: edges stay whole. Not given: the language decides.
   std::optional<int> segments = {};
   Vec2 scale = Vec2(1);

@@ -7,7 +7,7 @@
 namespace lamina::rival {
 namespace {
 
-using csg::BooleanOp;
+using plane::BooleanOp;
 
 // Whether the outline comes near the box.
 bool reaches(std::span<const Loop> outline, const IntBox& box) {
@@ -72,7 +72,7 @@ void LayerBoolean::Operand::clear() {
 }
 
 LayerBoolean::LayerBoolean(const csg::Scene& scene) : scene_(scene) {
-  for (const csg::BooleanNode& node : scene.program) {
+  for (const plane::BooleanNode& node : scene.program) {
     nodes_.push_back({node.op, {}, {}});
     if (node.op != BooleanOp::kIntersection) {
       nodes_.back().operands.resize(node.op == BooleanOp::kUnion ? 1 : 2);

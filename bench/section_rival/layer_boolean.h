@@ -50,7 +50,7 @@ class LayerBoolean {
     std::uint32_t operand;
   };
   struct Node {
-    csg::BooleanOp op;
+    plane::BooleanOp op;
     Slot parent;
     std::vector<Operand> operands;  // union 1, difference 2, intersection all
   };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "csg/plane/triangulate.h"
+#include "plane/region/triangulate.h"
 
 namespace lamina::rival {
 namespace {
@@ -91,7 +91,7 @@ class LoftMesher {
       return;
     }
     for (const Triangle& t :
-         planar::triangulate(planar::Region{{*loft_.outline}})) {
+         plane::triangulate(plane::Region{{*loft_.outline}})) {
       add_cap_triangle(begin, t[0], t[1], t[2], faces_down);
     }
   }

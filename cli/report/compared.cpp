@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
-#include "base/loop_area.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/openscad.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
 #include "compiler/request.h"
+#include "plane/loop_area.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/deviation.h"
 #include "slicer/formats/layer_reader.h"

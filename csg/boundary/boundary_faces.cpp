@@ -15,16 +15,16 @@
 #include "csg/boundary/box_tree.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
-#include "csg/plane/boolean.h"
-#include "csg/program_state.h"
-#include "csg/ternary_program.h"
-#include "csg/tie_distance.h"
+#include "plane/program/program_state.h"
+#include "plane/program/ternary_program.h"
+#include "plane/region/boolean.h"
+#include "plane/tie_distance.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 using Side = WindowSection::Side;
 
 Box3 expand(const Box3& box) {
@@ -59,8 +59,8 @@ class Finder {
       : scene_(scene),
         is_wanted_(is_wanted),
         take_(take),
-        state_(scene),
-        program_(scene, Ternary::kFalse) {
+        state_(program_of(scene)),
+        program_(program_of(scene), plane::Ternary::kFalse) {
     for (const Instance& instance : scene.instances) {
       leaves_.emplace_back(scene.leaves[instance.leaf],
                            instance.world_from_leaf);
@@ -76,13 +76,13 @@ class Finder {
       std::vector<std::uint32_t> near;
       tree.visit([&](const Box3& box) { return do_meet(box, boxes_[self_]); },
                  [&](std::uint32_t other) {
-                   program_.set(other, Ternary::kUnknown);
+                   program_.set(other, plane::Ternary::kUnknown);
                    if (other != self_) near.push_back(other);
                  });
       descend(0, near);
-      program_.set(self_, Ternary::kFalse);
+      program_.set(self_, plane::Ternary::kFalse);
       for (const std::uint32_t other : near) {
-        program_.set(other, Ternary::kFalse);
+        program_.set(other, plane::Ternary::kFalse);
       }
     }
   }
@@ -137,20 +137,20 @@ class Finder {
     if (is_around) {
       settled.around.push_back(other);
       state_.flip(other, true);
-      program_.set(other, Ternary::kTrue);
+      program_.set(other, plane::Ternary::kTrue);
     } else {
       settled.apart.push_back(other);
-      program_.set(other, Ternary::kFalse);
+      program_.set(other, plane::Ternary::kFalse);
     }
   }
 
   void forget(const Settled& settled) {
     for (const std::uint32_t other : settled.around) {
       state_.flip(other, false);
-      program_.set(other, Ternary::kUnknown);
+      program_.set(other, plane::Ternary::kUnknown);
     }
     for (const std::uint32_t other : settled.apart) {
-      program_.set(other, Ternary::kUnknown);
+      program_.set(other, plane::Ternary::kUnknown);
     }
   }
 
@@ -241,18 +241,18 @@ class Finder {
 
     if (!earlier.empty()) {
       earlier.insert(earlier.begin(), outline);
-      outline = planar::subtract(earlier);
+      outline = plane::subtract(earlier);
     }
     if (outline.is_empty()) return;
-    if (is_embedded()) program_.set(self_, Ternary::kFalse);
+    if (is_embedded()) program_.set(self_, plane::Ternary::kFalse);
     const auto outside = evaluate(cuts, Side::kAbove, outline);
     if (is_embedded()) {
       state_.flip(self_, true);
-      program_.set(self_, Ternary::kTrue);
+      program_.set(self_, plane::Ternary::kTrue);
     }
     const auto inside = evaluate(cuts, Side::kBelow, outline);
     if (is_embedded()) state_.flip(self_, false);
-    program_.set(self_, Ternary::kUnknown);
+    program_.set(self_, plane::Ternary::kUnknown);
     emit(plane, normal, outline, inside, outside, false);
     emit(plane, -normal, outline, outside, inside, true);
   }
@@ -274,7 +274,7 @@ class Finder {
     const Region& region(Side side, const Region& outline) {
       Known& known = at(side);
       if (!known.region) {
-        known.region = planar::clip(section_.contours(side).contours, outline);
+        known.region = plane::clip(section_.contours(side).contours, outline);
       }
       return *known.region;
     }
@@ -341,7 +341,7 @@ class Finder {
       }
       if (!is_coplanar) continue;
       // All counter-clockwise, or opposite faces would cancel.
-      if (planar::area(region) < 0) {
+      if (plane::area(region) < 0) {
         for (Contour& flat : region.contours) {
           std::reverse(flat.begin(), flat.end());
         }
@@ -358,9 +358,9 @@ class Finder {
     Region region = solid.value_or(outline);
     if (!empty->is_empty()) {
       const std::array<Region, 2> operands{std::move(region), *empty};
-      region = planar::subtract(operands);
+      region = plane::subtract(operands);
     }
-    planar::drop_hairlines(region, kTieDistance);
+    plane::drop_hairlines(region, kTieDistance);
     if (region.is_empty()) return;
     BoundaryFace face{normal, {}};
     for (const Contour& contour : region.contours) {
@@ -374,8 +374,9 @@ class Finder {
   const Scene& scene_;
   const IsWanted& is_wanted_;
   const Take& take_;
-  ProgramState state_;      // of those known to be inside
-  TernaryProgram program_;  // of all; those that are nowhere near are false
+  plane::ProgramState state_;  // of those known to be inside
+  plane::TernaryProgram
+      program_;  // of all; those that are nowhere near are false
   std::vector<PlacedLeaf> leaves_;
   std::vector<Box3> boxes_;  // of instances
   std::uint32_t self_ = 0;   // the instance whose faces are judged

@@ -18,8 +18,8 @@
 #include "csg/boundary/leaf_mesh.h"
 #include "csg/boundary/united.h"
 #include "csg/limits.h"
-#include "csg/plane/region.h"
-#include "csg/tie_distance.h"
+#include "plane/region/region.h"
+#include "plane/tie_distance.h"
 
 namespace lamina::csg {
 namespace {
@@ -44,7 +44,7 @@ void make_unique(std::vector<Vec3>& points) {
   std::erase_if(points, [](Vec3 p) { return glm::dot(p, Vec3(0)) != 0; });
   for (Vec3& point : points) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (is_too_far(point[axis])) fail_too_far();
+      if (plane::is_too_far(point[axis])) plane::fail_too_far();
       if (std::abs(point[axis]) < kLeastCoordinate) point[axis] = 0;
     }
   }
@@ -139,7 +139,7 @@ FlatHull hull_in_plane(const std::vector<Vec3>& points, Vec3 normal) {
     shadow.emplace_back(point[(drop + 1) % 3], point[(drop + 2) % 3]);
     from_shadow[{shadow.back().x, shadow.back().y}] = point;
   }
-  const planar::Region hull = planar::convex_hull(std::move(shadow));
+  const plane::Region hull = plane::convex_hull(std::move(shadow));
   if (hull.is_empty()) return {points, normal};
   FlatHull result{{}, normal[drop] > 0 ? normal : -normal};
   for (const Vec2 corner : hull.contours[0]) {

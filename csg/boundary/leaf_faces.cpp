@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/plane/convex_faces.h"
-#include "csg/plane/triangulate.h"
+#include "plane/region/convex_faces.h"
+#include "plane/region/triangulate.h"
 
 namespace lamina::csg {
 namespace {
@@ -92,11 +92,11 @@ class FaceMaker {
   }
 
   void add_cap(std::span<const Rim> rims, bool faces_down) {
-    planar::Region region;
+    plane::Region region;
     std::vector<std::uint32_t> vertices;  // of the region's points in order
     for (const Rim& rim : rims) {
       const auto n = static_cast<std::uint32_t>(rim.outline->size());
-      planar::Contour& contour = region.contours.emplace_back();
+      plane::Contour& contour = region.contours.emplace_back();
       std::vector<std::uint32_t> loop;
       for (std::uint32_t i = 0; i < n; ++i) {
         const std::uint32_t point = rim.is_hole ? n - 1 - i : i;
@@ -107,7 +107,7 @@ class FaceMaker {
       if (faces_down) std::reverse(loop.begin(), loop.end());
       add_loop(loop);
     }
-    for (auto t : planar::triangulate(region)) {
+    for (auto t : plane::triangulate(region)) {
       if (faces_down) std::swap(t[1], t[2]);
       result_.triangles.push_back(
           {vertices[t[0]], vertices[t[1]], vertices[t[2]]});
@@ -121,8 +121,8 @@ class FaceMaker {
     const std::uint32_t shift = next_vertex();
     result_.vertices.insert(result_.vertices.end(), mesh.vertices.begin(),
                             mesh.vertices.end());
-    for (planar::Face& face :
-         planar::merge_to_convex(mesh.vertices, mesh.triangles)) {
+    for (plane::Face& face :
+         plane::merge_to_convex(mesh.vertices, mesh.triangles)) {
       std::vector<std::uint32_t>& loop = face.corners;
       for (std::uint32_t& corner : loop) corner += shift;
       add_loop(loop);

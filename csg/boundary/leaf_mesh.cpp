@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/plane/triangulate.h"
+#include "plane/region/triangulate.h"
 
 namespace lamina::csg {
 namespace {
@@ -68,8 +68,8 @@ class LoftExpander {
 
   void add_cap(std::size_t ring, bool faces_down) {
     if (is_apex(ring)) return;
-    const planar::Region cap{{*loft_.outline}};
-    for (const Triangle& t : planar::triangulate(cap)) {
+    const plane::Region cap{{*loft_.outline}};
+    for (const Triangle& t : plane::triangulate(cap)) {
       add_triangle(
           mesh_, loft_.is_cavity != faces_down,
           {vertex(ring, t[0]), vertex(ring, t[1]), vertex(ring, t[2])});

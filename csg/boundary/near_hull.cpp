@@ -13,8 +13,8 @@
 
 #include "csg/boundary/box_tree.h"
 #include "csg/boundary/convex_hull.h"
-#include "csg/plane/convex_faces.h"
 #include "csg/vertex_table.h"
+#include "plane/region/convex_faces.h"
 
 namespace lamina::csg {
 namespace {
@@ -37,10 +37,10 @@ struct Plane {
 // The facets of a hull by their corners.
 class HullFacets {
  public:
-  HullFacets(const Mesh& hull, std::span<const planar::Face> faces)
+  HullFacets(const Mesh& hull, std::span<const plane::Face> faces)
       : names_(hull.vertices.size()), planes_(hull.vertices.size()) {
     for (const Vec3& vertex : hull.vertices) names_.name(vertex);
-    for (const planar::Face& face : faces) {
+    for (const plane::Face& face : faces) {
       for (const std::uint32_t corner : face.corners) {
         planes_[corner].push_back({face.normal, hull.vertices[corner]});
       }
@@ -97,7 +97,7 @@ bool lies_near(const Mesh& mesh, const HullFacets& facets, double depth) {
 
 using Polygon = std::vector<Vec3>;
 
-Polygon corners_of(const Mesh& mesh, const planar::Face& face) {
+Polygon corners_of(const Mesh& mesh, const plane::Face& face) {
   Polygon corners;
   for (const std::uint32_t i : face.corners) {
     corners.push_back(mesh.vertices[i]);
@@ -179,15 +179,15 @@ void take_away(std::span<const Bound> bounds, std::vector<Polygon>& pieces) {
 // the mesh lies so near and faces about the same side. A sheet's need not: all
 // of it lies near the facets of its hull, but it does not fill them.
 bool covers(const Mesh& mesh, const Mesh& hull,
-            std::span<const planar::Face> facets, double depth) {
+            std::span<const plane::Face> facets, double depth) {
   // Steep faces end before what is near their plane. Facets of a round solid
   // lean by less against each other, however few there are.
   constexpr double kLeastCosine = 0.5;
-  const std::vector<planar::Face> faces =
-      planar::merge_to_convex(mesh.vertices, mesh.triangles);
+  const std::vector<plane::Face> faces =
+      plane::merge_to_convex(mesh.vertices, mesh.triangles);
   std::vector<Polygon> polygons;
   std::vector<Box3> boxes;
-  for (const planar::Face& face : faces) {
+  for (const plane::Face& face : faces) {
     polygons.push_back(corners_of(mesh, face));
     boxes.emplace_back().add(polygons.back());
   }
@@ -217,8 +217,8 @@ bool covers(const Mesh& mesh, const Mesh& hull,
 std::optional<Mesh> near_hull(const Mesh& mesh, double depth) {
   Mesh hull = convex_hull(mesh.vertices);
   if (hull.triangles.empty()) return std::nullopt;
-  std::vector<planar::Face> facets =
-      planar::merge_to_convex(hull.vertices, hull.triangles);
+  std::vector<plane::Face> facets =
+      plane::merge_to_convex(hull.vertices, hull.triangles);
   std::erase_if(facets,
                 [](const auto& facet) { return facet.normal == Vec3(0); });
   if (!lies_near(mesh, HullFacets(hull, facets), depth) ||

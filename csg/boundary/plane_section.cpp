@@ -11,13 +11,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/plane.h"
-#include "csg/tie_distance.h"
+#include "plane/predicates.h"
+#include "plane/tie_distance.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
+using plane::Contour;
 using Side = WindowSection::Side;
 using EdgeKey = std::uint64_t;
 
@@ -361,13 +361,13 @@ std::optional<bool> WindowSection::uniform_value(Side side) const {
   return section_winding(leaf_, plane_, side, window_.low) != 0;
 }
 
-planar::Region WindowSection::contours(Side side) const {
+plane::Region WindowSection::contours(Side side) const {
   const Cutter cutter(leaf_.faces, plane_, side);
   std::vector<Segment> segments;
   for (const CutTriangle& t : triangles_) cutter.cut(t, segments);
   Chains chains = Chainer(segments).take();
   const Frame frame(window_, chains);
-  planar::Region result;
+  plane::Region result;
   for (Contour& chain : chains.closed) {
     result.contours.push_back(std::move(chain));
   }
@@ -387,8 +387,8 @@ planar::Region WindowSection::contours(Side side) const {
   return result;
 }
 
-planar::Region whole_section(const PlacedLeaf& leaf, const Plane& plane,
-                             Side side) {
+plane::Region whole_section(const PlacedLeaf& leaf, const Plane& plane,
+                            Side side) {
   const Cutter cutter(leaf.faces, plane, side);
   std::vector<Segment> segments;
   leaf.tree.visit([&](const Box3& box) { return plane.meets(box); },

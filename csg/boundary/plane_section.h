@@ -17,8 +17,8 @@
 
 #include "csg/boundary/box_tree.h"
 #include "csg/boundary/leaf_faces.h"
-#include "csg/plane/region.h"
 #include "csg/scene.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 
@@ -115,7 +115,7 @@ class WindowSection {
 
   // Contours that have, at each point of the window, the leaf's winding number.
   // Outside of the window they mean nothing.
-  planar::Region contours(Side side) const;
+  plane::Region contours(Side side) const;
 
  private:
   const PlacedLeaf& leaf_;
@@ -127,7 +127,7 @@ class WindowSection {
 };
 
 // The leaf's whole section.
-planar::Region whole_section(const PlacedLeaf& leaf, const Plane& plane,
-                             WindowSection::Side side);
+plane::Region whole_section(const PlacedLeaf& leaf, const Plane& plane,
+                            WindowSection::Side side);
 
 }  // namespace lamina::csg

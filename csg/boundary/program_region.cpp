@@ -4,12 +4,12 @@
 #include <map>
 #include <utility>
 
-#include "csg/plane/boolean.h"
+#include "plane/region/boolean.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Region;
+using plane::Region;
 
 // No value: the whole window.
 using Value = std::optional<Region>;
@@ -32,7 +32,7 @@ Value unite(const LiveNode& node) {
     if (!value->is_empty()) regions.push_back(*value);
   }
   if (regions.empty()) return Region{};
-  return planar::unite(regions);
+  return plane::unite(regions);
 }
 
 Value intersect(const LiveNode& node, std::uint32_t child_count) {
@@ -45,7 +45,7 @@ Value intersect(const LiveNode& node, std::uint32_t child_count) {
     if (value) regions.push_back(*value);
   }
   if (regions.empty()) return {};
-  return planar::intersect(regions);
+  return plane::intersect(regions);
 }
 
 Value subtract(const LiveNode& node, const Region& window) {
@@ -60,12 +60,12 @@ Value subtract(const LiveNode& node, const Region& window) {
     if (!value->is_empty()) regions.push_back(*value);
   }
   if (regions.size() == 1) return minuend;
-  return planar::subtract(regions);
+  return plane::subtract(regions);
 }
 
 class Evaluation {
  public:
-  Evaluation(const Scene& scene, const ProgramState& state,
+  Evaluation(const Scene& scene, const plane::ProgramState& state,
              const Region& window)
       : scene_(scene), state_(state), window_(window) {}
 
@@ -83,7 +83,7 @@ class Evaluation {
     }
     // Children come after their parents.
     for (auto& [index, node] : nodes_) {
-      const BooleanNode& self = scene_.program[index];
+      const plane::BooleanNode& self = scene_.program[index];
       if (index == 0) return value_of(self, node);
       // What it counted for as if the live leaves were empty.
       LiveNode& parent = nodes_.at(self.parent);
@@ -94,33 +94,34 @@ class Evaluation {
   }
 
  private:
-  std::int32_t weight(const BooleanNode& node) const {
-    return is_subtrahend(scene_, node) ? -1 : 1;
+  std::int32_t weight(const plane::BooleanNode& node) const {
+    return plane::is_subtrahend(scene_.program, node) ? -1 : 1;
   }
 
   void add(std::uint32_t parent, bool is_minuend, Value value) {
     LiveNode& node = nodes_.at(parent);
-    if (is_minuend && scene_.program[parent].op == BooleanOp::kDifference) {
+    if (is_minuend &&
+        scene_.program[parent].op == plane::BooleanOp::kDifference) {
       node.minuend = std::move(value);
     } else {
       node.others.push_back(std::move(value));
     }
   }
 
-  Value value_of(const BooleanNode& self, const LiveNode& node) const {
+  Value value_of(const plane::BooleanNode& self, const LiveNode& node) const {
     switch (self.op) {
-      case BooleanOp::kUnion:
+      case plane::BooleanOp::kUnion:
         return unite(node);
-      case BooleanOp::kIntersection:
+      case plane::BooleanOp::kIntersection:
         return intersect(node, self.child_count);
-      case BooleanOp::kDifference:
+      case plane::BooleanOp::kDifference:
         break;
     }
     return subtract(node, window_);
   }
 
   const Scene& scene_;
-  const ProgramState& state_;
+  const plane::ProgramState& state_;
   const Region& window_;
   std::map<std::uint32_t, LiveNode, std::greater<>> nodes_;
 };
@@ -128,7 +129,7 @@ class Evaluation {
 }  // namespace
 
 std::optional<Region> evaluate_in_window(const Scene& scene,
-                                         const ProgramState& state,
+                                         const plane::ProgramState& state,
                                          const std::vector<LiveInstance>& live,
                                          const Region& window) {
   return Evaluation(scene, state, window).evaluate(live);

@@ -5,16 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "csg/plane/region.h"
-#include "csg/program_state.h"
 #include "csg/scene.h"
+#include "plane/program/program_state.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 
 // A leaf that is neither wholly inside nor wholly outside.
 struct LiveInstance {
   std::uint32_t instance = 0;
-  planar::Region section;  // in the window
+  plane::Region section;  // in the window
 };
 
 // Where in the window the program holds, given the sections of the leaves that
@@ -23,8 +23,8 @@ struct LiveInstance {
 // are looked at.
 //
 // throws  LimitExceeded for coordinates beyond kGreatestCoordinate
-std::optional<planar::Region> evaluate_in_window(
-    const Scene& scene, const ProgramState& state,
-    const std::vector<LiveInstance>& live, const planar::Region& window);
+std::optional<plane::Region> evaluate_in_window(
+    const Scene& scene, const plane::ProgramState& state,
+    const std::vector<LiveInstance>& live, const plane::Region& window);
 
 }  // namespace lamina::csg

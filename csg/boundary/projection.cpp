@@ -7,20 +7,20 @@
 #include <utility>
 #include <vector>
 
-#include "base/plane.h"
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/plane_section.h"
 #include "csg/boundary/program_region.h"
 #include "csg/boundary/united.h"
-#include "csg/plane/boolean.h"
-#include "csg/program_state.h"
-#include "csg/tie_distance.h"
+#include "plane/predicates.h"
+#include "plane/program/program_state.h"
+#include "plane/region/boolean.h"
+#include "plane/tie_distance.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 using Side = WindowSection::Side;
 
 // The sum of polygons: an edge that comes in both directions cancels. A mesh
@@ -85,7 +85,7 @@ Region flatten(const std::vector<std::vector<Vec3>>& contours) {
 }
 
 void add_if_upwards(const Region& face, PolygonSum& sum) {
-  if (!(planar::area(face) > 0)) return;
+  if (!(plane::area(face) > 0)) return;
   for (const Contour& contour : face.contours) sum.add(contour);
 }
 
@@ -108,10 +108,10 @@ Region evaluate_at(const Scene& scene, const Plane& plane,
   for (std::size_t i = 0; i < near.size(); ++i) {
     live.push_back(
         {near[i],
-         planar::clip(whole_section(leaves[i], plane, side).contours, window)});
+         plane::clip(whole_section(leaves[i], plane, side).contours, window)});
   }
   const auto value =
-      evaluate_in_window(scene, ProgramState(scene), live, window);
+      evaluate_in_window(scene, plane::ProgramState(program_of(scene)), live, window);
   return value.value_or(window);
 }
 
@@ -126,7 +126,7 @@ Region flat_at_zero(const Scene& scene) {
     add_shadow(scene.leaves[instance.leaf], instance.world_from_leaf, sum);
     for (Contour& contour : sum.take()) shadows.push_back(std::move(contour));
   }
-  return planar::from_contours(shadows, planar::FillRule::kNonZero);
+  return plane::from_contours(shadows, plane::FillRule::kNonZero);
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ Region project(Scene scene) {
     add_if_upwards(flatten(face.contours), sum);
   }
   add(sum);
-  return planar::from_contours(shadows, planar::FillRule::kNonZero);
+  return plane::from_contours(shadows, plane::FillRule::kNonZero);
 }
 
 Region cut_at_zero(const Scene& scene) {
@@ -164,7 +164,7 @@ Region cut_at_zero(const Scene& scene) {
   const Region flat = flat_at_zero(scene);
   if (above == below && flat.is_empty()) return above;
   const std::vector<Region> all{above, below, flat};
-  return planar::unite(all);
+  return plane::unite(all);
 }
 
 bool misses_zero(Scene scene) {

@@ -12,7 +12,7 @@ namespace lamina::csg {
 // the scene; what is left needs a Boolean.
 inline std::vector<Instance> take_united(Scene& scene) {
   std::vector<Instance> united;
-  if (scene.program[0].op != BooleanOp::kUnion) return united;
+  if (scene.program[0].op != plane::BooleanOp::kUnion) return united;
   std::erase_if(scene.instances, [&](const Instance& instance) {
     if (instance.parent != 0) return false;
     united.push_back(instance);

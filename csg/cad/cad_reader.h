@@ -76,7 +76,7 @@ class Reader {
   // Shells and faces that belong to no solid are sewn together first.
   //
   // throws  FormatError for what cannot be read, whatever OpenCASCADE did then;
-  //         GeometryError where the module is missing; csg::LimitExceeded for
+  //         GeometryError where the module is missing; plane::LimitExceeded for
   //         too many triangles; std::bad_alloc
   Part read(std::string_view bytes, Format format, const Fineness& fineness);
 

@@ -206,9 +206,10 @@ class Reader {
   }
 
   std::uint32_t snap(Vec2 point) {
-    if (is_too_far(point.x) || is_too_far(point.y)) {
+    if (plane::is_too_far(point.x) || plane::is_too_far(point.y)) {
       throw FormatError(fmt::format("DXF line {}, a coordinate beyond {} mm",
-                                    lines_.number(), kGreatestCoordinate));
+                                    lines_.number(),
+                                    plane::kGreatestCoordinate));
     }
     return grid_.snap(point);
   }

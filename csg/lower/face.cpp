@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/loop_area.h"
-#include "base/plane.h"
-#include "csg/plane/triangulate.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
+#include "plane/region/triangulate.h"
 
 namespace lamina::csg {
 namespace {
@@ -60,12 +60,12 @@ glm::vec3 typical_normal(std::span<const Vec3> vertices,
 
 // The polygon on the coordinate plane that shows most of it (so the
 // coordinates stay the vertices' own, not rounded again), counter-clockwise.
-planar::Contour project(std::span<const Vec3> vertices,
-                        std::span<const std::uint32_t> face) {
+plane::Contour project(std::span<const Vec3> vertices,
+                       std::span<const std::uint32_t> face) {
   const glm::vec3 size = glm::abs(typical_normal(vertices, face));
   int drop = size.y > size.x ? 1 : 0;
   if (size.z > size[drop]) drop = 2;
-  planar::Contour contour;
+  plane::Contour contour;
   for (const std::uint32_t i : face) {
     contour.push_back(
         {vertices[i][(drop + 1) % 3], vertices[i][(drop + 2) % 3]});
@@ -79,7 +79,7 @@ planar::Contour project(std::span<const Vec3> vertices,
 // Where both diagonals of a quad are equally good, as in a grid of squares,
 // OpenSCAD's choice is that of a sweep from right to left in single precision:
 // its first diagonal leaves the second vertex from the left.
-std::vector<Triangle> split_quad(const planar::Contour& quad) {
+std::vector<Triangle> split_quad(const plane::Contour& quad) {
   std::array<std::uint32_t, 4> order{0, 1, 2, 3};
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const glm::vec2 p(quad[a]);
@@ -100,7 +100,7 @@ std::vector<Triangle> split_quad(const planar::Contour& quad) {
         return orientation(quad[t[0]], quad[t[1]], quad[t[2]]) > 0;
       });
   if (is_diagonal && is_inside) return halves;
-  return planar::triangulate({{quad}});
+  return plane::triangulate({{quad}});
 }
 
 }  // namespace
@@ -110,10 +110,10 @@ void add_face(Mesh& mesh, std::span<const std::uint32_t> face) {
     mesh.triangles.push_back({face[0], face[1], face[2]});
     return;
   }
-  const planar::Region shadow{{project(mesh.vertices, face)}};
+  const plane::Region shadow{{project(mesh.vertices, face)}};
   auto triangles = face.size() == 4 ? split_quad(shadow.contours[0])
-                                    : planar::triangulate(shadow);
-  planar::make_delaunay(shadow.contours[0], triangles);
+                                    : plane::triangulate(shadow);
+  plane::make_delaunay(shadow.contours[0], triangles);
   for (const Triangle& t : triangles) {
     mesh.triangles.push_back({face[t[0]], face[t[1]], face[t[2]]});
   }

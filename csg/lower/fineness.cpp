@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "csg/facets.h"
 #include "csg/limits.h"
-#include "csg/plane/facets.h"
 
 namespace lamina::csg {
 namespace {
@@ -77,14 +77,14 @@ ExtrusionSteps steps_within(const LinearExtrudeParams& params,
 
 int circle_fragments(double r, const Fineness& fineness) {
   if (!fineness.is_by_error()) {
-    return planar::fragment_count(r, fineness.facets, fineness.language);
+    return csg::fragment_count(r, fineness.facets, fineness.language);
   }
   return circle_fragments_within(r, fineness.chordal_error);
 }
 
 int sphere_fragments(double r, const Fineness& fineness) {
   if (!fineness.is_by_error()) {
-    return planar::fragment_count(r, fineness.facets, fineness.language);
+    return csg::fragment_count(r, fineness.facets, fineness.language);
   }
   // About π²/n² of the radius; a little fewer to begin with.
   const double error = fineness.chordal_error;
@@ -103,8 +103,8 @@ int turn_fragments(const ProfileRange& range, double angle_deg,
                  360),
         1);
   }
-  return planar::fragment_count(range.high - range.low, fineness.facets,
-                                fineness.language, angle);
+  return csg::fragment_count(range.high - range.low, fineness.facets,
+                             fineness.language, angle);
 }
 
 double arc_step_deg(double r, const Fineness& fineness) {
@@ -124,8 +124,7 @@ ExtrusionSteps extrusion_steps(const LinearExtrudeParams& params,
   if (fineness.is_by_error()) {
     return steps_within(params, max_radius, fineness.chordal_error);
   }
-  return {
-      planar::slice_count(params, max_radius, max_shift, fineness.language)};
+  return {csg::slice_count(params, max_radius, max_shift, fineness.language)};
 }
 
 double greatest_stretch(const Affine& map) {

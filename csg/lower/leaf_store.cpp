@@ -9,8 +9,8 @@
 #include "csg/boundary/convex_hull.h"
 #include "csg/boundary/leaf_mesh.h"
 #include "csg/degrees.h"
+#include "csg/facets.h"
 #include "csg/limits.h"
-#include "csg/plane/facets.h"
 
 namespace lamina::csg {
 namespace {
@@ -94,7 +94,7 @@ std::uint32_t LeafStore::unit_cube(bool center) {
     const double high = low + 1;
     Loft loft;
     loft.outline = std::make_shared<const std::vector<Vec2>>(
-        planar::square(Vec2(1), center).contours.front());
+        square(Vec2(1), center).contours.front());
     loft.profile = {{1, low}, {1, high}};
     return loft;
   });
@@ -131,7 +131,7 @@ std::uint32_t LeafStore::add(Leaf leaf) {
 SharedOutline LeafStore::circle(int n) {
   SharedOutline& table = circles_[n];
   if (!table) {
-    table = std::make_shared<const std::vector<Vec2>>(planar::unit_circle(n));
+    table = std::make_shared<const std::vector<Vec2>>(csg::unit_circle(n));
   }
   return table;
 }
@@ -146,7 +146,7 @@ HullTable::Key HullTable::key_of(const Scene& scene) {
   std::vector<std::uint32_t> ids;
   for (const Leaf& leaf : scene.leaves) ids.push_back(leaves_.add(leaf));
   Key key{scene.program.size()};
-  for (const BooleanNode& node : scene.program) {
+  for (const plane::BooleanNode& node : scene.program) {
     key.push_back(static_cast<std::uint64_t>(node.op));
     key.push_back(node.parent);
     key.push_back(node.is_minuend ? 1 : 0);

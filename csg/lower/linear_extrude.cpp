@@ -11,19 +11,19 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/loop_area.h"
 #include "csg/degrees.h"
 #include "csg/limits.h"
 #include "csg/lower/detail/extrude.h"
 #include "csg/lower/detail/fineness.h"
 #include "csg/lower/detail/split_contours.h"
-#include "csg/plane/triangulate.h"
+#include "plane/loop_area.h"
+#include "plane/region/triangulate.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 
 // Diagonals are equal where they differ by less than this share: rounding
 // must not choose.
@@ -197,7 +197,7 @@ class TwistedExtruder {
   // The top is the bottom's triangulation moved up. An extrusion that ends in
   // a line keeps it, flat as it is: it closes the mesh.
   void add_caps() {
-    for (const auto& t : planar::triangulate(region_)) {
+    for (const auto& t : plane::triangulate(region_)) {
       mesh_.triangles.push_back(
           {vertex(0, t[0]), vertex(0, t[2]), vertex(0, t[1])});
       if (is_apex(slices_)) continue;

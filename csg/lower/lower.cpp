@@ -45,7 +45,7 @@ template <typename Work>
 auto add_place(SourceRange range, const CallSite* caller, const Work& work) {
   try {
     return work();
-  } catch (const LimitExceeded& limit) {
+  } catch (const plane::LimitExceeded& limit) {
     throw GeometryError({Severity::kError, range, limit.diagnostic().message,
                          call_chain(caller)});
   }
@@ -54,8 +54,10 @@ auto add_place(SourceRange range, const CallSite* caller, const Work& work) {
 // Whether the instance makes the scene's box too large.
 bool stretches(const Box3& box, const Box3& whole) {
   for (int i = 0; i < 3; ++i) {
-    if (box.low[i] == whole.low[i] && is_too_far(box.low[i])) return true;
-    if (box.high[i] == whole.high[i] && is_too_far(box.high[i])) return true;
+    if (box.low[i] == whole.low[i] && plane::is_too_far(box.low[i]))
+      return true;
+    if (box.high[i] == whole.high[i] && plane::is_too_far(box.high[i]))
+      return true;
   }
   return false;
 }
@@ -65,7 +67,7 @@ void check_range(const Scene& scene) {
   if (scene.box.is_empty()) return;
   for (const Instance& instance : scene.instances) {
     if (!stretches(instance.box, scene.box)) continue;
-    add_place(instance.range, instance.caller, fail_too_far);
+    add_place(instance.range, instance.caller, plane::fail_too_far);
   }
 }
 
@@ -115,7 +117,7 @@ Lowered lower(const Tree& tree, const LowerOptions& options,
   Shape shape = lowerer.lower(
       {*root, options.world_from_design * Mat4(glm::dmat3(options.scale))});
   if (!shape.region.is_empty()) {
-    for (planar::Contour& contour : shape.region.contours) {
+    for (plane::Contour& contour : shape.region.contours) {
       for (Vec2& point : contour) point *= options.scale;
     }
     return {std::move(shape.region)};

@@ -14,9 +14,9 @@
 
 #include "base/diagnostic.h"
 #include "base/file/file_access.h"
-#include "csg/plane/region.h"
 #include "csg/scene.h"
 #include "csg/tree.h"
+#include "plane/region/region.h"
 
 namespace lamina::cad {
 class Reader;
@@ -58,11 +58,11 @@ struct LowerOptions {
 
 // A design is nothing, an outline in the plane, or a solid.
 struct Lowered {
-  std::variant<std::monostate, planar::Region, Scene> geometry;
+  std::variant<std::monostate, plane::Region, Scene> geometry;
 
   bool is_empty() const { return geometry.index() == 0; }
-  const planar::Region* outline() const {
-    return std::get_if<planar::Region>(&geometry);
+  const plane::Region* outline() const {
+    return std::get_if<plane::Region>(&geometry);
   }
   const Scene* scene() const { return std::get_if<Scene>(&geometry); }
 };

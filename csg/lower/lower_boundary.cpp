@@ -12,20 +12,20 @@
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/projection.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/plane/boolean.h"
-#include "csg/plane/region.h"
+#include "plane/region/boolean.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 namespace {
 
-planar::Region hull_of(const std::vector<planar::Region>& regions) {
+plane::Region hull_of(const std::vector<plane::Region>& regions) {
   std::vector<Vec2> points;
-  for (const planar::Region& region : regions) {
-    for (const planar::Contour& contour : region.contours) {
+  for (const plane::Region& region : regions) {
+    for (const plane::Contour& contour : region.contours) {
       points.insert(points.end(), contour.begin(), contour.end());
     }
   }
-  return planar::convex_hull(std::move(points));
+  return plane::convex_hull(std::move(points));
 }
 
 Mat4 scaling(Vec3 factor) {
@@ -35,7 +35,8 @@ Mat4 scaling(Vec3 factor) {
 }
 
 bool only_unites(const Scene& scene) {
-  return scene.program.size() == 1 && scene.program[0].op == BooleanOp::kUnion;
+  return scene.program.size() == 1 &&
+         scene.program[0].op == plane::BooleanOp::kUnion;
 }
 
 // The box of the solid itself, however its leaves are combined.
@@ -100,10 +101,10 @@ glm::vec<kDimensions, double> factor_for(
 
 // None of what is empty.
 std::optional<Vec3> resize_factor(const Resize& op,
-                                  const planar::Region& region) {
+                                  const plane::Region& region) {
   if (region.is_empty()) return std::nullopt;
   Box2 box;
-  for (const planar::Contour& contour : region.contours) box.add(contour);
+  for (const plane::Contour& contour : region.contours) box.add(contour);
   return Vec3(factor_for<2>(op, box.size(), false), 1);
 }
 
@@ -128,11 +129,11 @@ Lowerer Lowerer::make_inner(const Place& at) {
 Lowerer::Apart Lowerer::lower_apart(const Place& at, bool takes_corners) {
   Lowerer inner = make_inner(at);
   inner.takes_corners_ = takes_corners;
-  Operands operands = inner.lower_operands({at.node, Affine(1.0)},
-                                           BooleanOp::kUnion, Dimension::kNone);
+  Operands operands = inner.lower_operands(
+      {at.node, Affine(1.0)}, plane::BooleanOp::kUnion, Dimension::kNone);
   report_strays(operands);
   return {operands.dimension, std::move(operands.regions), inner.take_scene(),
-          is_boolean(BooleanOp::kUnion, operands), operands.count};
+          is_boolean(plane::BooleanOp::kUnion, operands), operands.count};
 }
 
 Shape Lowerer::lower_op(const Hull&, const Place& at) {
@@ -154,8 +155,8 @@ Lowerer::Resized Lowerer::resize(const Resize& op, const Place& at) {
   Resized resized{lower_apart({at.node, at.world * scaling(growth)}), {}};
   Apart& apart = resized.apart;
   if (apart.dimension == Dimension::kFlat) {
-    apart.regions = {apart.regions.empty() ? planar::Region()
-                                           : planar::unite(apart.regions)};
+    apart.regions = {apart.regions.empty() ? plane::Region()
+                                           : plane::unite(apart.regions)};
     resized.factor = resize_factor(op, apart.regions[0]);
   } else {
     resized.factor = resize_factor(op, apart.scene, apart.is_boolean);
@@ -249,12 +250,12 @@ Shape Lowerer::lower_op(const Resize& op, const Place& at) {
 Shape Lowerer::lower_op(const Projection& op, const Place& at) {
   Lowerer inner = make_inner(at);
   Operands operands = inner.lower_operands(
-      {at.node, Affine(1.0)}, BooleanOp::kUnion, Dimension::kSolid);
+      {at.node, Affine(1.0)}, plane::BooleanOp::kUnion, Dimension::kSolid);
   operands.first_mixed = nullptr;
   if (op.cut) report_strays(operands);
   const Scene scene = inner.take_scene();
   if (scene.instances.empty()) return {};
-  planar::Region region = op.cut ? cut_at_zero(scene) : project(scene);
+  plane::Region region = op.cut ? cut_at_zero(scene) : project(scene);
   if (!region.is_empty()) return {Dimension::kFlat, std::move(region)};
   if (op.cut && misses_zero(scene)) {
     diagnostics_.warning({}, "Projection() failed.");

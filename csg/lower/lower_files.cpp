@@ -21,8 +21,8 @@
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/repair.h"
-#include "csg/plane/boolean.h"
-#include "csg/plane/offset.h"
+#include "plane/region/boolean.h"
+#include "plane/region/offset.h"
 
 namespace lamina::csg {
 namespace {
@@ -42,8 +42,8 @@ Mesh make_sound(RawMesh raw, SourceRange range, Diagnostics& diagnostics) {
 
 // Puts the middle of the box of all faces at the origin.
 void center_meshes(std::vector<Mesh>& meshes) {
-  Vec3 low(kGreatestCoordinate);
-  Vec3 high(-kGreatestCoordinate);
+  Vec3 low(plane::kGreatestCoordinate);
+  Vec3 high(-plane::kGreatestCoordinate);
   for (const Mesh& mesh : meshes) {
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t corner : triangle) {
@@ -100,34 +100,33 @@ Leaf make_import_leaf(std::vector<RawMesh> bodies, const ImportParams& params,
 
 // Fills each shape where its contours enclose a point an odd number of times,
 // and unites all shapes.
-planar::Region fill_shapes(
-    std::span<const std::vector<planar::Contour>> shapes) {
-  std::vector<planar::Region> regions;
-  for (const std::vector<planar::Contour>& contours : shapes) {
-    regions.push_back(planar::from_contours(contours));
+plane::Region fill_shapes(std::span<const std::vector<plane::Contour>> shapes) {
+  std::vector<plane::Region> regions;
+  for (const std::vector<plane::Contour>& contours : shapes) {
+    regions.push_back(plane::from_contours(contours));
   }
-  return regions.empty() ? planar::Region() : planar::unite(regions);
+  return regions.empty() ? plane::Region() : plane::unite(regions);
 }
 
 // Puts the middle of the box of all contours at the origin.
-void center_contours(std::vector<planar::Contour>& contours) {
-  Vec2 low(kGreatestCoordinate);
-  Vec2 high(-kGreatestCoordinate);
-  for (const planar::Contour& contour : contours) {
+void center_contours(std::vector<plane::Contour>& contours) {
+  Vec2 low(plane::kGreatestCoordinate);
+  Vec2 high(-plane::kGreatestCoordinate);
+  for (const plane::Contour& contour : contours) {
     for (const Vec2 point : contour) {
       low = glm::min(low, point);
       high = glm::max(high, point);
     }
   }
   const Vec2 middle = (low + high) / 2.0;
-  for (planar::Contour& contour : contours) {
+  for (plane::Contour& contour : contours) {
     for (Vec2& point : contour) point -= middle;
   }
 }
 
-planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
-                        const FileAccess& access, SourceRange range,
-                        Diagnostics& diagnostics) {
+plane::Region read_dxf(const ImportParams& params, const Fineness& fineness,
+                       const FileAccess& access, SourceRange range,
+                       Diagnostics& diagnostics) {
   DxfOptions options{std::string(params.layer.value_or("")),
                      params.origin,
                      params.scale,
@@ -164,7 +163,7 @@ planar::Region read_dxf(const ImportParams& params, const Fineness& fineness,
                     "lines",
                     drawing.straightened_arcs, quoted_path(options.path)));
   }
-  std::vector<planar::Contour> contours;
+  std::vector<plane::Contour> contours;
   for (DxfPath& path : drawing.paths) {
     contours.push_back(std::move(path.points));  // open ones are closed, too
   }
@@ -187,15 +186,15 @@ double arc_tolerance(double width, Language rules) {
 SvgContours outline_stroke(std::span<const Vec2> path, const SvgStroke& stroke,
                            Language rules) {
   const double tolerance = arc_tolerance(stroke.width, rules);
-  const planar::Join join =
-      stroke.join == SvgStroke::Join::kRound   ? planar::Join::kRound
-      : stroke.join == SvgStroke::Join::kBevel ? planar::Join::kBevel
-                                               : planar::Join::kMiter;
-  const planar::Cap cap =
-      stroke.cap == SvgStroke::Cap::kButt    ? planar::Cap::kButt
-      : stroke.cap == SvgStroke::Cap::kRound ? planar::Cap::kRound
-                                             : planar::Cap::kSquare;
-  return planar::stroke(path, stroke.width, join, cap, tolerance).contours;
+  const plane::Join join =
+      stroke.join == SvgStroke::Join::kRound   ? plane::Join::kRound
+      : stroke.join == SvgStroke::Join::kBevel ? plane::Join::kBevel
+                                               : plane::Join::kMiter;
+  const plane::Cap cap = stroke.cap == SvgStroke::Cap::kButt ? plane::Cap::kButt
+                         : stroke.cap == SvgStroke::Cap::kRound
+                             ? plane::Cap::kRound
+                             : plane::Cap::kSquare;
+  return plane::stroke(path, stroke.width, join, cap, tolerance).contours;
 }
 
 // In 2021.01 the fineness of curves is the same whatever $fn, $fa and $fs are.
@@ -243,9 +242,9 @@ void report_undrawn(const SvgDrawing& drawing, const ImportParams& params,
   }
 }
 
-planar::Region read_svg(const ImportParams& params, const Fineness& fineness,
-                        const FileAccess& access, SourceRange range,
-                        Diagnostics& diagnostics) {
+plane::Region read_svg(const ImportParams& params, const Fineness& fineness,
+                       const FileAccess& access, SourceRange range,
+                       Diagnostics& diagnostics) {
   const auto bytes = access.read_regular(std::string(params.path));
   if (!bytes) {
     diagnostics.error(range,

@@ -218,7 +218,7 @@ Shape Lowerer::lower_op(const RotateExtrude& op, const Place& at) {
   constexpr double kShare = 0.5;
   const Shape shape = flatten_finely(at, kShare);
   if (shape.dimension == Dimension::kNone || op.angle_deg == 0) return {};
-  const planar::Region profile = put_on_axis(shape.region);
+  const plane::Region profile = put_on_axis(shape.region);
   const ProfileRange range = profile_range(profile);
   if (range.crosses_axis()) {
     diagnostics_.error(
@@ -264,7 +264,7 @@ Shape Lowerer::lower_op(const Roof& op, const Place& at) {
     cutters.may_overlap_itself = true;
     cutters.meshes.push_back(std::move(stage.cutters));
     place_leaf(std::move(cutters), at);
-    builder_.apply(BooleanOp::kDifference, begins);
+    builder_.apply(plane::BooleanOp::kDifference, begins);
   }
   return {Dimension::kSolid};
 }

@@ -12,7 +12,7 @@
 #include "csg/boundary/convex_hull.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/minkowski/minkowski.h"
-#include "csg/plane/minkowski.h"
+#include "plane/region/minkowski.h"
 
 namespace lamina::csg {
 namespace {
@@ -43,15 +43,15 @@ constexpr double kHullShare = 0.5;
 
 // The sum of all regions that are not empty; empty where the first one is, or
 // all others are.
-planar::Region add_regions(std::span<const planar::Region> regions) {
-  planar::Region sum = regions[0];
+plane::Region add_regions(std::span<const plane::Region> regions) {
+  plane::Region sum = regions[0];
   bool has_sum = regions.size() == 1;
-  for (const planar::Region& region : regions.subspan(1)) {
+  for (const plane::Region& region : regions.subspan(1)) {
     if (region.is_empty()) continue;
-    sum = planar::add(sum, region);
+    sum = plane::add(sum, region);
     has_sum = true;
   }
-  return has_sum ? sum : planar::Region{};
+  return has_sum ? sum : plane::Region{};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/lower/detail/lowerer.h"
-#include "csg/plane/boolean.h"
+#include "plane/region/boolean.h"
 
 namespace lamina::csg {
 namespace {
@@ -46,17 +46,17 @@ bool is_singular(Affine m) {
   return glm::dot(m[0], glm::cross(m[1], m[2])) == 0;
 }
 
-planar::Region combine_regions(BooleanOp op,
-                               std::span<const planar::Region> regions) {
+plane::Region combine_regions(plane::BooleanOp op,
+                              std::span<const plane::Region> regions) {
   switch (op) {
-    case BooleanOp::kDifference:
-      return planar::subtract(regions);
-    case BooleanOp::kIntersection:
-      return planar::intersect(regions);
-    case BooleanOp::kUnion:
+    case plane::BooleanOp::kDifference:
+      return plane::subtract(regions);
+    case plane::BooleanOp::kIntersection:
+      return plane::intersect(regions);
+    case plane::BooleanOp::kUnion:
       break;
   }
-  return planar::unite(regions);
+  return plane::unite(regions);
 }
 
 // Combines those operands of an operator that are no larger than the smaller
@@ -64,23 +64,24 @@ planar::Region combine_regions(BooleanOp op,
 // each time, and of operands that overlap deeply it gets little.
 //
 // regions  a minuend first
-void combine_small_ones(BooleanOp op, std::vector<planar::Region>& regions) {
-  const bool is_difference = op == BooleanOp::kDifference;
+void combine_small_ones(plane::BooleanOp op,
+                        std::vector<plane::Region>& regions) {
+  const bool is_difference = op == plane::BooleanOp::kDifference;
   auto small = regions.begin() + (is_difference ? 1 : 0);
   std::stable_sort(small, regions.end(), [](const auto& a, const auto& b) {
-    return planar::corner_count(a) > planar::corner_count(b);
+    return plane::corner_count(a) > plane::corner_count(b);
   });
   std::size_t rest = 0;
   for (auto it = small; it != regions.end(); ++it) {
-    rest += planar::corner_count(*it);
+    rest += plane::corner_count(*it);
   }
   for (; small != regions.end(); ++small) {
-    const std::size_t count = planar::corner_count(*small);
+    const std::size_t count = plane::corner_count(*small);
     rest -= count;
     if (count <= rest) break;
   }
   if (regions.end() - small < 2) return;
-  *small = combine_regions(is_difference ? BooleanOp::kUnion : op,
+  *small = combine_regions(is_difference ? plane::BooleanOp::kUnion : op,
                            {small, regions.end()});
   regions.erase(small + 1, regions.end());
 }
@@ -91,28 +92,29 @@ void combine_small_ones(BooleanOp op, std::vector<planar::Region>& regions) {
 // count  of the operands, of which a union leaves out the empty ones; around
 //        one empty outline OpenSCAD makes none: what stands beside the operator
 //        may be solid
-[[gnu::noinline]] Shape combine(BooleanOp op,
-                                std::vector<planar::Region> regions,
+[[gnu::noinline]] Shape combine(plane::BooleanOp op,
+                                std::vector<plane::Region> regions,
                                 std::size_t count, bool is_joined) {
   const Shape none = {count == 1 ? Dimension::kNone : Dimension::kFlat};
   if (regions.empty()) return none;
   if (!is_joined) {
-    planar::Region result = combine_regions(op, regions);
+    plane::Region result = combine_regions(op, regions);
     if (result.is_empty()) return none;
     return {Dimension::kFlat, std::move(result)};
   }
-  if (regions.size() > 1) planar::require_near(regions);
+  if (regions.size() > 1) plane::require_near(regions);
   combine_small_ones(op, regions);
-  planar::Region first = std::move(regions.front());
+  plane::Region first = std::move(regions.front());
   if (first.is_empty()) return none;
   regions.erase(regions.begin());
   return {Dimension::kFlat, std::move(first), false, std::move(regions)};
 }
 
 // Whether nothing is left of a shape in the plane.
-bool is_empty_region(std::optional<BooleanOp> joins, const Shape& shape) {
+bool is_empty_region(std::optional<plane::BooleanOp> joins,
+                     const Shape& shape) {
   if (!joins || shape.more_regions.empty()) return shape.region.is_empty();
-  std::vector<planar::Region> regions = shape.more_regions;
+  std::vector<plane::Region> regions = shape.more_regions;
   regions.insert(regions.begin(), shape.region);
   return combine_regions(*joins, regions).is_empty();
 }
@@ -120,9 +122,11 @@ bool is_empty_region(std::optional<BooleanOp> joins, const Shape& shape) {
 // The operator that the i-th operand's own operands may join: (A - B) - C is
 // A - B - C, A - (B ∪ C) as well, and A ∩ (B ∩ C) is A ∩ B ∩ C. Level by level
 // each operator would sweep again what those below it leave.
-std::optional<BooleanOp> joint_of(std::optional<BooleanOp> op, std::size_t i) {
-  const bool is_subtrahend = op == BooleanOp::kDifference && i > 0;
-  return is_subtrahend ? BooleanOp::kUnion : op;
+std::optional<plane::BooleanOp> joint_of(std::optional<plane::BooleanOp> op,
+                                         std::size_t i) {
+  const bool is_subtrahend =
+      op == plane::BooleanOp::kDifference && i > 0;
+  return is_subtrahend ? plane::BooleanOp::kUnion : op;
 }
 
 // A child of an operator, an operator or an instance itself.
@@ -157,10 +161,11 @@ Shape Lowerer::lower_op(const Transform& op, const Place& at) {
                          "Infinity - removing object.");
     return {};
   }
-  Shape shape = lower_children(
-      {at.node, compose(at.world, *op.matrix), at.joins}, BooleanOp::kUnion);
+  Shape shape =
+      lower_children({at.node, compose(at.world, *op.matrix), at.joins},
+                     plane::BooleanOp::kUnion);
   if (shape.dimension == Dimension::kFlat) {
-    const auto transform = [&](planar::Region& region) {
+    const auto transform = [&](plane::Region& region) {
       region = transform_region(std::move(region), *op.matrix, at.node.range,
                                 diagnostics_);
     };
@@ -185,9 +190,9 @@ void Lowerer::flatten(std::size_t mark, const Shape& shape, SourceRange range) {
 // --- Children ----------------------------------------------------------------
 
 Lowerer::Operands Lowerer::lower_operands(const Place& at,
-                                          std::optional<BooleanOp> op,
+                                          std::optional<plane::BooleanOp> op,
                                           Dimension dimension) {
-  const bool is_union = op == BooleanOp::kUnion;
+  const bool is_union = op == plane::BooleanOp::kUnion;
   Operands operands;
   operands.dimension = dimension;
   for (const Node* child : at.node.children) {
@@ -233,20 +238,20 @@ void Lowerer::add_operand(const Place& child, bool is_union,
   }
 }
 
-bool Lowerer::is_boolean(BooleanOp op, const Operands& operands) {
+bool Lowerer::is_boolean(plane::BooleanOp op, const Operands& operands) {
   // What is empty takes no part in a union.
-  const bool is_union = op == BooleanOp::kUnion;
+  const bool is_union = op == plane::BooleanOp::kUnion;
   return operands.has_boolean ||
          (is_union ? operands.solid_count : operands.count) > 1;
 }
 
-bool Lowerer::is_nothing(BooleanOp op, const Operands& operands) {
+bool Lowerer::is_nothing(plane::BooleanOp op, const Operands& operands) {
   switch (op) {
-    case BooleanOp::kUnion:
+    case plane::BooleanOp::kUnion:
       return operands.count > 1 && operands.solid_count == 0;
-    case BooleanOp::kDifference:
+    case plane::BooleanOp::kDifference:
       return operands.is_first_none;
-    case BooleanOp::kIntersection:
+    case plane::BooleanOp::kIntersection:
       break;
   }
   return operands.is_first_none || operands.is_later_empty;
@@ -265,7 +270,7 @@ void Lowerer::report_strays(const Operands& operands) {
   }
 }
 
-Shape Lowerer::lower_children(const Place& at, BooleanOp op) {
+Shape Lowerer::lower_children(const Place& at, plane::BooleanOp op) {
   // An operator of one operand is that operand, and any operator.
   if (at.joins && at.node.children.size() == 1) op = *at.joins;
   const bool took_corners = takes_corners_;

@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "csg/degrees.h"
+#include "csg/facets.h"
 #include "csg/lower/detail/lowerer.h"
-#include "csg/plane/boolean.h"
-#include "csg/plane/facets.h"
-#include "csg/plane/minkowski.h"
-#include "csg/plane/offset.h"
 #include "csg/text/typesetter.h"
+#include "plane/region/boolean.h"
+#include "plane/region/minkowski.h"
+#include "plane/region/offset.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
+using plane::Contour;
 
 std::vector<Contour> read_paths(const PolygonParams& polygon, SourceRange range,
                                 Diagnostics& diagnostics) {
@@ -50,20 +50,20 @@ void check_contours(std::vector<Contour>& contours, SourceRange range,
   contours.erase(wrong, contours.end());
 }
 
-planar::Join join_of(const Offset& offset) {
-  if (!offset.is_delta) return planar::Join::kRound;
-  return offset.chamfer ? planar::Join::kBevel : planar::Join::kMiter;
+plane::Join join_of(const Offset& offset) {
+  if (!offset.is_delta) return plane::Join::kRound;
+  return offset.chamfer ? plane::Join::kBevel : plane::Join::kMiter;
 }
 
 }  // namespace
 
 Shape Lowerer::lower_op(const Square& square, const Place&) {
-  return {Dimension::kFlat, planar::square(square.size, square.center)};
+  return {Dimension::kFlat, csg::square(square.size, square.center)};
 }
 
 Shape Lowerer::lower_op(const Circle& circle, const Place& at) {
   const int n = circle_fragments(circle.r, fineness(circle.facets, at.world));
-  return {Dimension::kFlat, planar::circle(circle.r, n)};
+  return {Dimension::kFlat, csg::circle(circle.r, n)};
 }
 
 Shape Lowerer::lower_op(const Polygon& polygon, const Place& at) {
@@ -73,7 +73,7 @@ Shape Lowerer::lower_op(const Polygon& polygon, const Place& at) {
   }
   auto contours = read_paths(params, at.node.range, diagnostics_);
   check_contours(contours, at.node.range, diagnostics_);
-  return {Dimension::kFlat, planar::from_contours(contours)};
+  return {Dimension::kFlat, plane::from_contours(contours)};
 }
 
 Shape Lowerer::lower_op(const Offset& op, const Place& at) {
@@ -88,15 +88,15 @@ Shape Lowerer::lower_op(const Offset& op, const Place& at) {
   const double arc_tolerance = distance * (1 - cos_deg(180.0 / n));
   const auto steps =
       options_.language == Language::k2021 && !corners.is_by_error()
-          ? planar::ArcSteps::kNearest
-          : planar::ArcSteps::kUp;
-  return {Dimension::kFlat, planar::offset(shape.region, op.amount, join_of(op),
-                                           arc_tolerance, steps)};
+          ? plane::ArcSteps::kNearest
+          : plane::ArcSteps::kUp;
+  return {Dimension::kFlat, plane::offset(shape.region, op.amount, join_of(op),
+                                          arc_tolerance, steps)};
 }
 
 Shape Lowerer::lower_op(const Fill&, const Place& at) {
-  Shape shape = lower_children({at.node, at.world}, BooleanOp::kUnion);
-  shape.region = planar::fill(shape.region);
+  Shape shape = lower_children({at.node, at.world}, plane::BooleanOp::kUnion);
+  shape.region = plane::fill(shape.region);
   if (shape.dimension != Dimension::kSolid) return shape;
   for (const Node* child : at.node.children) {
     if (child->is_background) continue;
@@ -110,27 +110,27 @@ Shape Lowerer::lower_op(const Text& text, const Place& at) {
   const TextParams& params = *text.params;
   const Fineness fine = fineness(params.facets, at.world);
   const text::Chords chords = {
-      planar::curve_segment_count(params.size, params.facets,
-                                  options_.language),
+      csg::curve_segment_count(params.size, params.facets, options_.language),
       fine.is_by_error() ? fine.chordal_error : 0};
   const auto contours =
       options_.typesetter->outline(params, chords, at.node.range, diagnostics_);
   return {Dimension::kFlat,
-          planar::from_contours(contours, planar::FillRule::kNonZero)};
+          plane::from_contours(contours, plane::FillRule::kNonZero)};
 }
 
 Shape Lowerer::flatten_children(const Place& at) {
-  Operands operands = lower_operands(at, BooleanOp::kUnion, Dimension::kFlat);
+  Operands operands =
+      lower_operands(at, plane::BooleanOp::kUnion, Dimension::kFlat);
   operands.first_mixed = nullptr;
   report_strays(operands);
   if (operands.regions.empty()) {
     return {operands.count > 1 ? Dimension::kFlat : Dimension::kNone};
   }
-  return {Dimension::kFlat, planar::unite(operands.regions)};
+  return {Dimension::kFlat, plane::unite(operands.regions)};
 }
 
-planar::Region transform_region(planar::Region region, const Mat4& m,
-                                SourceRange range, Diagnostics& diagnostics) {
+plane::Region transform_region(plane::Region region, const Mat4& m,
+                               SourceRange range, Diagnostics& diagnostics) {
   const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   if (det == 0) {
     diagnostics.warning(range, "Scaling a 2D object with 0 - removing object");

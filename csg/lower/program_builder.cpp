@@ -39,7 +39,7 @@ std::span<const ProgramBuilder::Part> ProgramBuilder::parts_above(
   return std::span(stack_).subspan(mark);
 }
 
-ProgramBuilder::Part ProgramBuilder::make_operator(BooleanOp op,
+ProgramBuilder::Part ProgramBuilder::make_operator(plane::BooleanOp op,
                                                    std::span<const Part> parts,
                                                    Box3 box) {
   const auto first = static_cast<std::uint32_t>(children_.size());
@@ -52,7 +52,7 @@ ProgramBuilder::Part ProgramBuilder::make_operator(BooleanOp op,
 ProgramBuilder::Part ProgramBuilder::unite(std::span<const Part> parts,
                                            const Box3& box) {
   if (parts.size() == 1) return parts[0];
-  return make_operator(BooleanOp::kUnion, parts, box);
+  return make_operator(plane::BooleanOp::kUnion, parts, box);
 }
 
 void ProgramBuilder::flatten(std::size_t mark) {
@@ -65,11 +65,12 @@ void ProgramBuilder::drop_flat() {
   std::erase_if(stack_, [&](Part part) { return is_flat(part); });
 }
 
-void ProgramBuilder::apply(BooleanOp op, std::span<const std::size_t> begins) {
+void ProgramBuilder::apply(plane::BooleanOp op,
+                           std::span<const std::size_t> begins) {
   if (begins.size() < 2) return;
-  if (op == BooleanOp::kDifference) {
+  if (op == plane::BooleanOp::kDifference) {
     apply_difference(begins);
-  } else if (op == BooleanOp::kIntersection) {
+  } else if (op == plane::BooleanOp::kIntersection) {
     apply_intersection(begins);
   }
 }
@@ -97,7 +98,7 @@ void ProgramBuilder::apply_difference(std::span<const std::size_t> begins) {
     return;
   }
   operands.front() = unite(minuend, box);
-  stack_.push_back(make_operator(BooleanOp::kDifference, operands, box));
+  stack_.push_back(make_operator(plane::BooleanOp::kDifference, operands, box));
 }
 
 void ProgramBuilder::apply_intersection(std::span<const std::size_t> begins) {
@@ -125,7 +126,8 @@ void ProgramBuilder::apply_intersection(std::span<const std::size_t> begins) {
     operands.push_back(unite(kept, box));
   }
   drop(mark);
-  stack_.push_back(make_operator(BooleanOp::kIntersection, operands, box));
+  stack_.push_back(
+      make_operator(plane::BooleanOp::kIntersection, operands, box));
 }
 
 void ProgramBuilder::emit(Part part, std::uint32_t parent, bool is_minuend,
@@ -136,7 +138,7 @@ void ProgramBuilder::emit(Part part, std::uint32_t parent, bool is_minuend,
     instance.is_minuend = is_minuend;
     return;
   }
-  const BooleanOp op = operators_[part.index].op;
+  const plane::BooleanOp op = operators_[part.index].op;
   const auto self = static_cast<std::uint32_t>(scene.program.size());
   scene.program.push_back({op, parent, is_minuend, 0});
   emit_operands(part, self, scene);
@@ -145,7 +147,7 @@ void ProgramBuilder::emit(Part part, std::uint32_t parent, bool is_minuend,
 void ProgramBuilder::emit_operands(Part part, std::uint32_t self,
                                    Scene& scene) {
   const Operator& node = operators_[part.index];
-  const bool is_difference = node.op == BooleanOp::kDifference;
+  const bool is_difference = node.op == plane::BooleanOp::kDifference;
   for (std::uint32_t i = 0; i < node.child_count; ++i) {
     const Part child = children_[node.first_child + i];
     // (A - B) - C is A - B - C, A ∩ (B ∩ C) is A ∩ B ∩ C.
@@ -175,7 +177,8 @@ void ProgramBuilder::finish(Scene& scene) {
   scene.box = box_of(all);
   const bool is_operator = all.size() == 1 && all[0].is_operator;
   const Part root =
-      is_operator ? all[0] : make_operator(BooleanOp::kUnion, all, scene.box);
+      is_operator ? all[0]
+                  : make_operator(plane::BooleanOp::kUnion, all, scene.box);
   scene.program.clear();
   emit(root, 0, false, scene);
   std::erase_if(instances_, [](const Instance& instance) {

@@ -11,20 +11,20 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/loop_area.h"
-#include "base/plane.h"
 #include "csg/boundary/convex_hull.h"
 #include "csg/degrees.h"
 #include "csg/lower/detail/roof_border.h"
 #include "csg/lower/detail/tracks.h"
-#include "csg/plane/boolean.h"
-#include "csg/plane/offset.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
+#include "plane/region/boolean.h"
+#include "plane/region/offset.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 
 constexpr double kRadians = std::numbers::pi / 180;
 
@@ -105,9 +105,9 @@ class Cutters {
       for (const Vec3 point : points) {
         if (point.z == top_) section.emplace_back(point);
       }
-      regions.push_back(planar::convex_hull(std::move(section)));
+      regions.push_back(plane::convex_hull(std::move(section)));
     }
-    return planar::subtract(regions);
+    return plane::subtract(regions);
   }
 
  private:
@@ -323,9 +323,9 @@ std::vector<RoofStage> raise(const Region& region, Cut cut) {
   Region left = region;
   double bottom = 0;
   const double border_length = border_of(region);
-  const auto edge_count = static_cast<double>(planar::corner_count(region));
+  const auto edge_count = static_cast<double>(plane::corner_count(region));
   double top = std::min(
-      {border_length / edge_count, planar::area(region) / border_length, most});
+      {border_length / edge_count, plane::area(region) / border_length, most});
   while (true) {
     const RoofBorder border(left);
     Region rest = cut(border, bottom, top).rest(left);
@@ -354,14 +354,14 @@ std::vector<RoofStage> round_roof(const Region& region,
                                   const Fineness& corners) {
   constexpr double kTolerance = 1e-5;  // of an arc [depths]
   const auto is_beyond = [&](double amount) {
-    return planar::offset(region, -amount, planar::Join::kRound,
-                          amount * kTolerance)
+    return plane::offset(region, -amount, plane::Join::kRound,
+                         amount * kTolerance)
         .is_empty();
   };
   // That of a convex region is no less, and at most twice that; that of a band
   // is that.
   double low = 0;
-  double high = planar::area(region) / border_of(region);
+  double high = plane::area(region) / border_of(region);
   for (; !is_beyond(high); high *= 1.5) low = high;
   const double step_deg =
       arc_step_deg(find_depth(low, high, is_beyond), corners);

@@ -8,8 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/plane.h"
 #include "csg/lower/detail/tracks.h"
+#include "plane/predicates.h"
 
 namespace lamina::csg {
 namespace {
@@ -23,9 +23,9 @@ Box3 box_of(const Front& front, double margin) {
   return box;
 }
 
-std::vector<Front> edges_in(const planar::Region& region) {
+std::vector<Front> edges_in(const plane::Region& region) {
   std::vector<Front> edges;
-  for (const planar::Contour& contour : region.contours) {
+  for (const plane::Contour& contour : region.contours) {
     for (const Edge& edge : edges_of(contour)) {
       edges.push_back({edge.begin, edge.end});
     }
@@ -62,7 +62,7 @@ Part part_near_edge(const Front& front, const Front& edge, double reach) {
 
 }  // namespace
 
-RoofBorder::RoofBorder(const planar::Region& region)
+RoofBorder::RoofBorder(const plane::Region& region)
     : edges_(edges_in(region)), tree_(boxes_of(edges_)) {}
 
 Part RoofBorder::near_part(const Front& front, double reach) const {

@@ -11,17 +11,17 @@
 #include <cmath>
 #include <memory>
 
-#include "base/loop_area.h"
 #include "csg/degrees.h"
 #include "csg/limits.h"
 #include "csg/lower/detail/extrude.h"
-#include "csg/plane/triangulate.h"
+#include "plane/loop_area.h"
+#include "plane/region/triangulate.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 
 // The direction of the point (1, 0) of the profile, turned from +x by an angle
 // and then back by another. OpenSCAD 2021.01 counts from +y clockwise; its bits
@@ -142,7 +142,7 @@ class PartTurn {
   }
 
   void add_ends() {
-    for (const auto& t : planar::triangulate(region_)) {
+    for (const auto& t : plane::triangulate(region_)) {
       add_triangle(first_ring_[t[0]], first_ring_[t[1]], first_ring_[t[2]]);
       add_triangle(last_ring_[t[0]], last_ring_[t[2]], last_ring_[t[1]]);
     }
@@ -200,7 +200,7 @@ Leaf extrude_around(const Region& region, double start_deg, double angle_deg,
     }
     return turn.take();
   }
-  const auto points = static_cast<double>(planar::corner_count(region));
+  const auto points = static_cast<double>(plane::corner_count(region));
   require_triangles(2 * points * fragments);
   Leaf leaf;
   leaf.meshes.push_back(PartTurn(region, start_deg, angle_deg, fragments)

@@ -16,8 +16,8 @@
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 
 // An edge, and into how many parts it falls.
 struct SplitEdge {

@@ -12,14 +12,14 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "base/plane.h"
 #include "csg/limits.h"
+#include "plane/predicates.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 
 // Times and places nearer than this are one, as a share of the region's size
 // and at least [mm]. Twice the second, offsets round coordinates.
@@ -60,7 +60,7 @@ class Tracer {
     const double sum = 1 + glm::dot(before.direction(), after.direction());
     if (!(sum > 0)) return;
     if (tracks_.size() >= kMostTracks) {
-      throw LimitExceeded(fmt::format(
+      throw plane::LimitExceeded(fmt::format(
           "roof(method=\"straight\") has more than {} reflex corners",
           kMostTracks));
     }

@@ -7,17 +7,17 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/plane.h"
 #include "csg/boundary/convex_hull.h"
 #include "csg/boundary/leaf_mesh.h"
-#include "csg/plane/convex_faces.h"
-#include "csg/plane/minkowski.h"
-#include "csg/plane/region.h"
+#include "plane/predicates.h"
+#include "plane/region/convex_faces.h"
+#include "plane/region/minkowski.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 namespace {
 
-using planar::Contour;
+using plane::Contour;
 using Loop = std::vector<std::uint32_t>;
 
 // A convex solid in leaf coordinates.
@@ -37,8 +37,8 @@ Convex place(Draft draft, const Affine& matrix) {
 Draft draft_of(const Mesh& mesh) {
   Draft draft;
   draft.vertices = mesh.vertices;
-  for (planar::Face& face :
-       planar::merge_to_convex(mesh.vertices, mesh.triangles)) {
+  for (plane::Face& face :
+       plane::merge_to_convex(mesh.vertices, mesh.triangles)) {
     draft.loops.push_back(std::move(face.corners));
   }
   return draft;
@@ -61,14 +61,14 @@ bool is_extrusion(const Leaf& leaf) {
 }
 
 std::vector<Draft> draft_extrusion(const Leaf& leaf) {
-  planar::Region region;
+  plane::Region region;
   for (const Loft& loft : leaf.lofts) {
     Contour outline = *loft.outline;
     if (loft.is_cavity) std::reverse(outline.begin(), outline.end());
     region.contours.push_back(std::move(outline));
   }
   std::vector<Draft> drafts;
-  for (Contour& piece : planar::cut_into_convex(region)) {
+  for (Contour& piece : plane::cut_into_convex(region)) {
     drafts.push_back(
         draft_of({std::make_shared<const Contour>(std::move(piece)),
                   leaf.lofts[0].profile}));
@@ -99,8 +99,8 @@ bool is_revolution(const Leaf& leaf) {
 }
 
 // The profiles as a region of the plane of (scale, height).
-planar::Region section_through_axis(const Leaf& leaf) {
-  planar::Region region;
+plane::Region section_through_axis(const Leaf& leaf) {
+  plane::Region region;
   for (const Loft& loft : leaf.lofts) {
     Contour contour = loft.profile;
     if (!loft.is_closed_profile) {
@@ -177,7 +177,7 @@ std::vector<Draft> draft_revolution(const Leaf& leaf) {
   const auto& outline = leaf.lofts[0].outline;
   std::vector<Draft> drafts;
   for (const Contour& piece :
-       planar::cut_into_convex(section_through_axis(leaf))) {
+       plane::cut_into_convex(section_through_axis(leaf))) {
     if (spans_axis(piece)) {
       drafts.push_back(draft_turn(leaf.lofts[0], piece));
       continue;

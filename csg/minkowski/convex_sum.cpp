@@ -6,10 +6,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/plane.h"
 #include "base/vec.h"
 #include "csg/minkowski/convex.h"
-#include "csg/plane/minkowski.h"
+#include "plane/predicates.h"
+#include "plane/region/minkowski.h"
 
 namespace lamina::csg {
 namespace {
@@ -210,7 +210,7 @@ Convex add_parallel(const Convex& a, const Convex& b) {
   const Vec3 x_axis = glm::normalize(a.vertices[1] - a.vertices[0]);
   const Vec3 y_axis = glm::cross(normal, x_axis);
   const auto lay_out = [&](const Convex& flat) {
-    planar::Contour plan;
+    plane::Contour plan;
     for (const Vec3& v : flat.vertices) {
       plan.push_back({glm::dot(v, x_axis), glm::dot(v, y_axis)});
     }
@@ -222,7 +222,7 @@ Convex add_parallel(const Convex& a, const Convex& b) {
   const double height =
       glm::dot(a.vertices[0], normal) + glm::dot(b.vertices[0], normal);
   std::vector<Vec3> polygon;
-  for (const Vec2 p : planar::add_convex(lay_out(a), lay_out(b))) {
+  for (const Vec2 p : plane::add_convex(lay_out(a), lay_out(b))) {
     polygon.push_back(p.x * x_axis + p.y * y_axis + height * normal);
   }
   return make_flat(std::move(polygon), normal);

@@ -13,8 +13,8 @@
 
 #include "csg/boundary/box_tree.h"
 #include "csg/edge_table.h"
-#include "csg/plane/triangulate.h"
 #include "csg/vertex_table.h"
+#include "plane/region/triangulate.h"
 
 namespace lamina::csg {
 namespace {
@@ -302,7 +302,7 @@ Mesh triangulate(std::span<const BoundaryFace> faces) {
     const Vec3 other = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     const Vec3 x_axis = glm::normalize(glm::cross(other, n));
     const Vec3 y_axis = glm::cross(n, x_axis);
-    planar::Region region;
+    plane::Region region;
     std::vector<std::uint32_t> corners;
     for (const std::vector<Vec3>& contour : face.contours) {
       region.contours.emplace_back();
@@ -312,7 +312,7 @@ Mesh triangulate(std::span<const BoundaryFace> faces) {
         corners.push_back(names.name(p));
       }
     }
-    for (const auto& t : planar::triangulate(region)) {
+    for (const auto& t : plane::triangulate(region)) {
       mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
     }
   }

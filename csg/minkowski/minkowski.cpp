@@ -17,7 +17,7 @@
 #include "csg/minkowski/convex_leaf.h"
 #include "csg/minkowski/joined_faces.h"
 #include "csg/minkowski/surface_sum.h"
-#include "csg/plane/convex_faces.h"
+#include "plane/region/convex_faces.h"
 
 namespace lamina::csg {
 namespace {
@@ -45,8 +45,8 @@ std::vector<Vec3> without_twins(const std::vector<Vec3>& points) {
 Convex hull_of(const std::vector<Vec3>& points) {
   const Mesh hull = convex_hull(without_twins(points));
   std::vector<std::vector<std::uint32_t>> loops;
-  for (planar::Face& face :
-       planar::merge_to_convex(hull.vertices, hull.triangles)) {
+  for (plane::Face& face :
+       plane::merge_to_convex(hull.vertices, hull.triangles)) {
     loops.push_back(std::move(face.corners));
   }
   Convex body = make_solid(hull.vertices, loops);
@@ -93,8 +93,8 @@ Convex add_convex(const Convex& a, const Convex& b) {
 
 JoinedFaces join(Mesh mesh) {
   std::vector<std::vector<std::uint32_t>> loops;
-  for (planar::Face& face :
-       planar::merge_to_convex(mesh.vertices, mesh.triangles)) {
+  for (plane::Face& face :
+       plane::merge_to_convex(mesh.vertices, mesh.triangles)) {
     loops.push_back(std::move(face.corners));
   }
   const std::vector<Vec3> normals = normals_of(mesh.vertices, loops);
@@ -119,7 +119,7 @@ class Divider {
   explicit Divider(const Scene& scene) : scene_(scene) {}
 
   Operand divide() {
-    if (scene_.program[0].op != BooleanOp::kUnion) {
+    if (scene_.program[0].op != plane::BooleanOp::kUnion) {
       add_boolean(0);
       return std::move(operand_);
     }
@@ -162,7 +162,7 @@ class Divider {
     part.leaves.push_back(leaf);
     part.instances.push_back(instance);
     part.instances[0].leaf = 0;
-    part.program.push_back({BooleanOp::kUnion, 0, false, 1});
+    part.program.push_back({plane::BooleanOp::kUnion, 0, false, 1});
     part.box = instance.box;
     operand_.bodies.push_back(
         make_body(std::move(part), mesh_of(faces_of(leaf, matrix)),
@@ -175,7 +175,7 @@ class Divider {
     Scene part;
     std::vector<std::uint32_t> names(scene_.program.size(), kOutside);
     for (std::uint32_t n = root; n < scene_.program.size(); ++n) {
-      BooleanNode node = scene_.program[n];
+      plane::BooleanNode node = scene_.program[n];
       if (n != root && names[node.parent] == kOutside) continue;
       names[n] = static_cast<std::uint32_t>(part.program.size());
       node.parent = n == root ? 0 : names[node.parent];

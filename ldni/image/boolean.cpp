@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/check.h"
-#include "csg/tie_distance.h"
+#include "plane/tie_distance.h"
 
 namespace lamina::ldni {
 namespace {
@@ -18,7 +18,7 @@ Sample surface_sample(Sample sample, bool is_entry) {
 }  // namespace
 
 RayBoolean::RayBoolean(const csg::Scene& scene)
-    : program_(scene), winding_(scene.instances.size(), 0) {
+    : program_(csg::program_of(scene)), winding_(scene.instances.size(), 0) {
   counts_winding_.reserve(scene.instances.size());
   for (const csg::Instance& instance : scene.instances) {
     counts_winding_.push_back(scene.leaves[instance.leaf].may_overlap_itself);

@@ -18,9 +18,9 @@
 #include <span>
 #include <vector>
 
-#include "csg/program_state.h"
 #include "csg/scene.h"
 #include "ldni/image/sample.h"
+#include "plane/program/program_state.h"
 
 namespace lamina::ldni {
 
@@ -39,7 +39,7 @@ class RayBoolean {
  private:
   void flip_leaf(const Sample& sample);
 
-  csg::ProgramState program_;
+  plane::ProgramState program_;
   std::vector<std::int32_t> winding_;  // by instance; 0 between rays
   std::vector<bool> counts_winding_;   // by instance; else crossings toggle
 };

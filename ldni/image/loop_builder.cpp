@@ -74,7 +74,7 @@ void drop_collinear_points(std::vector<Vec2>& points, std::size_t first) {
 }  // namespace
 
 void LoopBuilder::build(const RayGrid& rays, const LayerIntervals& intervals,
-                        Contours& contours) {
+                        plane::Contours& contours) {
   next_.resize(2 * intervals.intervals.size());
   ray_of_interval_.clear();
   for (std::size_t ray = 0; ray < intervals.ray_count(); ++ray) {
@@ -115,7 +115,7 @@ void LoopBuilder::link_gap(const LayerIntervals& intervals, std::size_t gap) {
 // visited until the loop closes.
 void LoopBuilder::walk_links(const RayGrid& rays,
                              const LayerIntervals& intervals,
-                             Contours& contours) {
+                             plane::Contours& contours) {
   for (std::uint32_t start = 0; start < next_.size(); ++start) {
     if (next_[start] == kWalked) continue;
     const std::size_t first_point = contours.points.size();

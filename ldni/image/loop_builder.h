@@ -26,7 +26,7 @@
 
 #include "ldni/image/ray_grid.h"
 #include "ldni/image/sample.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::ldni {
 
@@ -40,12 +40,12 @@ class LoopBuilder {
   //
   // intervals  of all rays of `rays`
   void build(const RayGrid& rays, const LayerIntervals& intervals,
-             Contours& contours);
+             plane::Contours& contours);
 
  private:
   void link_gap(const LayerIntervals& intervals, std::size_t gap);
   void walk_links(const RayGrid& rays, const LayerIntervals& intervals,
-                  Contours& contours);
+                  plane::Contours& contours);
 
   // The link from each sample to the next of its loop; sample 2i enters
   // interval i, sample 2i+1 leaves it.

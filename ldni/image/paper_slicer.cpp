@@ -119,7 +119,7 @@ void PaperSlicer::sample_block(std::uint32_t first_layer,
   counts_.samples += images_.samples.size();
 }
 
-void PaperSlicer::build_layer(std::uint32_t layer, Contours& contours) {
+void PaperSlicer::build_layer(std::uint32_t layer, plane::Contours& contours) {
   counts_.boolean_seconds += measure_seconds([&] {
     gather_layer(layer);
     evaluate_layer();

@@ -29,8 +29,8 @@
 #include "ldni/image/ray_grid.h"
 #include "ldni/image/sample.h"
 #include "ldni/image/sampler.h"
-#include "ldni/section/contours.h"
 #include "ldni/section/grid.h"
+#include "plane/contours.h"
 
 namespace lamina::ldni {
 
@@ -75,7 +75,7 @@ class PaperSlicer {
 
   // Replaces `contours` by the loops of `layer` (of the grid), which the
   // sampled block holds: Boolean, then links.
-  void build_layer(std::uint32_t layer, Contours& contours);
+  void build_layer(std::uint32_t layer, plane::Contours& contours);
 
   PaperCounts counts() const;
 

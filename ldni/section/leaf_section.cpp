@@ -9,12 +9,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "ldni/section/chain_builder.h"
 #include "ldni/section/detail/csg_pruning.h"
 #include "ldni/section/detail/layer_index.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
 #include "ldni/section/detail/mesh_section.h"
+#include "plane/chain_builder.h"
 
 namespace lamina::ldni {
 
@@ -22,7 +22,7 @@ namespace detail {
 
 struct SectionScratch {
   BlockLayers layers;
-  ChainBuilder builder;
+  plane::ChainBuilder builder;
   LoftSectioner lofts;
   MeshSectioner meshes;
 };
@@ -68,22 +68,8 @@ std::vector<LayerSpan> layer_spans(const csg::Scene& scene,
 
 }  // namespace
 
-ChainBlock::ChainBlock() = default;
-ChainBlock::~ChainBlock() = default;
-ChainBlock::ChainBlock(ChainBlock&&) noexcept = default;
-ChainBlock& ChainBlock::operator=(ChainBlock&&) noexcept = default;
-
-bool ChainBlock::repeats(std::uint32_t i) const {
-  if (i == 0) return false;
-  const auto is_same = [this](const Chain& a, const Chain& b) {
-    if (a.instance != b.instance || a.winding != b.winding) return false;
-    // Where one wall was cut once for both, they have the same points.
-    return (a.first_point == b.first_point && a.point_count == b.point_count) ||
-           std::ranges::equal(a.points_in(points), b.points_in(points));
-  };
-  return std::ranges::equal(layer(i), layer(i - 1), is_same) &&
-         std::ranges::equal(loops_of(i), loops_of(i - 1));
-}
+SectionBlock::SectionBlock() = default;
+SectionBlock::~SectionBlock() = default;
 
 struct LeafSectioner::State {
   // Made by the first block that reaches the instance.
@@ -153,7 +139,7 @@ LeafSectioner::LeafSectioner(const csg::Scene& scene, const LayerGrid& grid)
 LeafSectioner::~LeafSectioner() = default;
 
 void LeafSectioner::cut(std::uint32_t first_layer, std::uint32_t layer_count,
-                        ChainBlock& block) const {
+                        SectionBlock& block) const {
   if (!block.scratch) {
     block.scratch = std::make_unique<detail::SectionScratch>();
   }

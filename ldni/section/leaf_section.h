@@ -14,10 +14,27 @@
 #include <memory>
 
 #include "csg/scene.h"
-#include "ldni/section/chains.h"
 #include "ldni/section/grid.h"
+#include "plane/chains.h"
 
 namespace lamina::ldni {
+
+namespace detail {
+struct SectionScratch;
+}
+
+// The chains of a block of layers as they were cut; operands are the scene's
+// instances.
+struct SectionBlock : plane::ChainBlock {
+  SectionBlock();
+  ~SectionBlock();
+
+  // Paths of meshes that broke their promise to be closed, closed by straight
+  // lines: 0 for every sound scene.
+  std::uint64_t open_paths = 0;
+  // Work space of LeafSectioner::cut, kept for the next one.
+  std::unique_ptr<detail::SectionScratch> scratch;
+};
 
 // Cuts leaves into chains, block by block. Const and shared by all threads: the
 // work space of a cut lives in the block. A layer's chains come in the same
@@ -33,7 +50,7 @@ class LeafSectioner {
   // Cost: the instances that reach these layers, their rings or triangles, and
   // the points made; not the facets of a loft.
   void cut(std::uint32_t first_layer, std::uint32_t layer_count,
-           ChainBlock& block) const;
+           SectionBlock& block) const;
 
  private:
   struct State;

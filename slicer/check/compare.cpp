@@ -10,14 +10,14 @@
 #include <glm/common.hpp>
 
 #include "base/diagnostic.h"
-#include "base/loop_area.h"
 #include "base/parallel.h"
+#include "plane/loop_area.h"
 #include "slicer/contour/layer_measures.h"
 
 namespace lamina::slicer {
 namespace {
 
-LoopCount count_loops(const ldni::Contours& contours) {
+LoopCount count_loops(const plane::Contours& contours) {
   const LayerMeasures measures = measure(contours);
   return {measures.loops - measures.holes, measures.holes};
 }
@@ -26,8 +26,8 @@ bool is_sliver(std::span<const Vec2> loop) {
   return 2 * std::abs(signed_area(loop)) <= kSliverWidth * perimeter(loop);
 }
 
-ldni::Contours without_slivers(const ldni::Contours& contours) {
-  ldni::Contours kept;
+plane::Contours without_slivers(const plane::Contours& contours) {
+  plane::Contours kept;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
     if (!is_sliver(loop)) kept.add_loop(loop);
@@ -89,8 +89,8 @@ std::optional<Vec3> low_corner_of(const std::vector<Layer>& layers) {
   return corner;
 }
 
-const ldni::Contours& contours_of(const Layer* layer) {
-  static const ldni::Contours none;
+const plane::Contours& contours_of(const Layer* layer) {
+  static const plane::Contours none;
   return layer != nullptr ? layer->contours : none;
 }
 
@@ -100,7 +100,7 @@ LayerDifference compare_pair(const LayerPair& pair, Vec2 shift) {
   assert(pair.a != nullptr || pair.b != nullptr);
   LayerDifference difference;
   if (pair.b != nullptr && shift != Vec2(0)) {
-    ldni::Contours shifted = pair.b->contours;
+    plane::Contours shifted = pair.b->contours;
     for (Vec2& point : shifted.points) point += shift;
     difference = compare_layers(contours_of(pair.a), shifted);
   } else {
@@ -125,8 +125,8 @@ void require_rising(const std::vector<Layer>& layers, const std::string& name) {
   }
 }
 
-LayerDifference compare_layers(const ldni::Contours& a,
-                               const ldni::Contours& b) {
+LayerDifference compare_layers(const plane::Contours& a,
+                               const plane::Contours& b) {
   LayerDifference difference;
   difference.areas = measure_regions(a, b);
   difference.loops_a = count_loops(a);

@@ -46,8 +46,8 @@ struct LayerDifference {
 // what float32 numbers of a part of 100 mm resolve.
 constexpr double kSliverWidth = 1e-5;
 
-LayerDifference compare_layers(const ldni::Contours& a,
-                               const ldni::Contours& b);
+LayerDifference compare_layers(const plane::Contours& a,
+                               const plane::Contours& b);
 
 // Throws GeometryError where a layer's section is not higher than the one
 // before.

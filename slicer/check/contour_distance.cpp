@@ -22,9 +22,8 @@ class Search {
   void run(const std::vector<EdgeTree::Edge>& from) {
     for (const EdgeTree::Edge& edge : from) {
       // Edges follow each other, and so do the nearest ones.
-      const End begin = edge.from == last_.point
-                            ? last_
-                            : end_at(edge.from, last_.nearest);
+      const End begin =
+          edge.from == last_.point ? last_ : end_at(edge.from, last_.nearest);
       last_ = end_at(edge.to, begin.nearest);
       parts_.assign(1, {begin, last_});
       while (!parts_.empty()) {
@@ -76,8 +75,8 @@ class Search {
 
 }  // namespace
 
-ContourDistance greatest_distance(const ldni::Contours& a,
-                                  const ldni::Contours& b) {
+ContourDistance greatest_distance(const plane::Contours& a,
+                                  const plane::Contours& b) {
   ContourDistance greatest;
   if (a.points.empty() && b.points.empty()) return greatest;
   if (a.points.empty() || b.points.empty()) {

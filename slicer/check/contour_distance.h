@@ -9,7 +9,7 @@
 // halved. A tree of boxes over successive edges finds nearest edges.
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -22,7 +22,7 @@ struct ContourDistance {
 // The result falls short of the exact distance by at most this [mm].
 constexpr double kDistanceResolution = 1e-7;
 
-ContourDistance greatest_distance(const ldni::Contours& a,
-                                  const ldni::Contours& b);
+ContourDistance greatest_distance(const plane::Contours& a,
+                                  const plane::Contours& b);
 
 }  // namespace lamina::slicer

@@ -8,9 +8,9 @@
 
 #include <glm/common.hpp>
 
-#include "base/cell_grid.h"
-#include "base/loop_area.h"
-#include "base/plane.h"
+#include "plane/cell_grid.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
 #include "slicer/contour/edge_order.h"
 
 namespace lamina::slicer {

@@ -30,7 +30,7 @@ constexpr double kRoundedUp = 1 + 1e-12;
 
 }  // namespace
 
-EdgeTree::EdgeTree(const ldni::Contours& contours) {
+EdgeTree::EdgeTree(const plane::Contours& contours) {
   edges_.reserve(contours.points.size());
   visit_edges(contours, [&](Vec2 from, Vec2 to) {
     edges_.push_back({from, to});

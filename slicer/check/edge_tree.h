@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/plane.h"
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 
@@ -22,7 +22,7 @@ class EdgeTree {
     Vec2 to;
   };
 
-  explicit EdgeTree(const ldni::Contours& contours);
+  explicit EdgeTree(const plane::Contours& contours);
 
   const std::vector<Edge>& edges() const { return edges_; }
 
@@ -39,8 +39,7 @@ class EdgeTree {
   // Lowers `best`, the distance of some edge that the caller knows of [mm], to
   // that of the nearest one, which becomes the guess; or to that of any that is
   // no farther than `enough`.
-  void lower(Vec2 point, double enough, double& best,
-             std::size_t& guess) const;
+  void lower(Vec2 point, double enough, double& best, std::size_t& guess) const;
 
  private:
   static constexpr std::size_t kFanOut = 6;

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "base/cell_grid.h"
 #include "base/vec.h"
+#include "plane/cell_grid.h"
 #include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {

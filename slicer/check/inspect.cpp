@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 #include "slicer/check/defects.h"
 
 namespace lamina::slicer {

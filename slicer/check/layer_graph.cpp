@@ -45,7 +45,7 @@ constexpr double kSameHeight = 0.001;
 
 // A place inside a region: the middle of its longest part on the upright line
 // through its box's middle.
-Vec2 inner_place(const ldni::Contours& region) {
+Vec2 inner_place(const plane::Contours& region) {
   Box2 box;
   box.add(std::span<const Vec2>(region.points));
   const double x = box.center().x;
@@ -209,9 +209,9 @@ void LayerGraph::take_area(double area) {
 }
 
 // The loops of a region.
-ldni::Contours LayerGraph::contours_of(const Layer& layer,
-                                       std::uint32_t region) const {
-  ldni::Contours contours;
+plane::Contours LayerGraph::contours_of(const Layer& layer,
+                                        std::uint32_t region) const {
+  plane::Contours contours;
   contours.add_loop(layer.contours.loop(region));
   for (const std::uint32_t loop : standing_in_[region]) {
     contours.add_loop(layer.contours.loop(loop));

@@ -27,8 +27,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/cell_grid.h"
 #include "base/vec.h"
+#include "plane/cell_grid.h"
 #include "slicer/check/layer_overlay.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/check/touching_boxes.h"
@@ -132,7 +132,7 @@ class LayerGraph {
   void take_solids(const Layer& layer, const LayerOverlay& overlay);
   void take_voids(const Layer& layer, const LayerOverlay& overlay);
   void take_area(double area);
-  ldni::Contours contours_of(const Layer& layer, std::uint32_t region) const;
+  plane::Contours contours_of(const Layer& layer, std::uint32_t region) const;
   void take_overhangs(const Layer& layer, const LayerOverlay& overlay);
   void extend(const Layer& layer);
   Finding begin_finding(FindingKind kind, const Layer& layer) const;
@@ -149,7 +149,7 @@ class LayerGraph {
   OverlaySweep sweep_;
   LayerOverlay own_overlay_;
   std::uint32_t layers_ = 0;
-  ldni::Contours last_;  // of the layer before
+  plane::Contours last_;  // of the layer before
   double last_bottom_ = 0;
   double last_top_ = 0;
   double last_z_ = 0;

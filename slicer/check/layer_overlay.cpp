@@ -8,14 +8,14 @@
 #include <span>
 
 #include "base/diagnostic.h"
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 #include "slicer/check/edge_tree.h"
 
 namespace lamina::slicer {
 namespace {
 
-using ldni::Chain;
-using ldni::kClusterWidth;
+using plane::Chain;
+using plane::kClusterWidth;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kNone = 0xffffffff;
@@ -207,7 +207,7 @@ Outlook look_along(const Sample& lower, const Sample& upper, double x,
 // between them, so its middle is asked.
 class OverhangSearch {
  public:
-  OverhangSearch(const ldni::Contours& below, const ldni::Contours& above,
+  OverhangSearch(const plane::Contours& below, const plane::Contours& above,
                  const std::vector<Ledge>& ledges, double reach,
                  std::vector<Overhang>& found)
       : tree_(below),
@@ -238,7 +238,7 @@ class OverhangSearch {
   }
 
  private:
-  static Box2 box_of(const ldni::Contours& contours) {
+  static Box2 box_of(const plane::Contours& contours) {
     Box2 box;
     box.add(std::span<const Vec2>(contours.points));
     return box;
@@ -472,7 +472,7 @@ void LayerOverlay::clear() {
   overhangs.clear();
 }
 
-void ChainedLayer::fill(const ldni::Contours& contours) {
+void ChainedLayer::fill(const plane::Contours& contours) {
   block_.layer_count = 1;
   areas_.clear();
   builder_.begin(block_);
@@ -486,11 +486,11 @@ void ChainedLayer::fill(const ldni::Contours& contours) {
 }
 
 struct OverlaySweep::State {
-  void start(const ldni::Contours& layer) {
+  void start(const plane::Contours& layer) {
     layers_[1].fill(layer);
     contours_ = &layer;
   }
-  void lay_over(const ldni::Contours& layer, double reach,
+  void lay_over(const plane::Contours& layer, double reach,
                 LayerOverlay& overlay);
 
  private:
@@ -506,8 +506,8 @@ struct OverlaySweep::State {
   void close(std::uint32_t lower, double x);
   void link(const Gap& gap);
   bool is_linked(const Gap& gap) const;
-  void find_overhangs(const ldni::Contours& below, const ldni::Contours& above,
-                      LayerOverlay& overlay);
+  void find_overhangs(const plane::Contours& below,
+                      const plane::Contours& above, LayerOverlay& overlay);
 
   bool is_below(const Sample& sample, const Sample& other, double x) const;
   Label above(const Sample& sample) const { return side(sample, true); }
@@ -527,7 +527,7 @@ struct OverlaySweep::State {
   }
 
   std::array<ChainedLayer, 2> layers_;
-  const ldni::Contours* contours_ = nullptr;  // of the layer before
+  const plane::Contours* contours_ = nullptr;  // of the layer before
   std::array<std::vector<std::uint32_t>, 2> around_;
   double reach_ = 0;
   LayerOverlay* overlay_ = nullptr;
@@ -547,7 +547,7 @@ struct OverlaySweep::State {
   std::array<std::vector<std::uint32_t>, 2> last_linked_;  // voids, solids
 };
 
-void OverlaySweep::State::lay_over(const ldni::Contours& layer, double reach,
+void OverlaySweep::State::lay_over(const plane::Contours& layer, double reach,
                                    LayerOverlay& overlay) {
   overlay.clear();
   overlay_ = &overlay;
@@ -579,17 +579,17 @@ void OverlaySweep::State::begin() {
   samples_.clear();
   endpoints_.clear();
   for (std::uint8_t layer = 0; layer < 2; ++layer) {
-    const ldni::LayerChains chains = layers_[layer].chains();
+    const plane::LayerChains chains = layers_[layer].chains();
     around_[layer].assign(layers_[layer].loop_count(), kNowhere);
     for (const Chain& chain : chains.chains) {
       const std::span<const Vec2> points = chain.points_in(chains.points);
       Sample sample;
       sample.last = &points.back();
       sample.set(points.data());
-      sample.loop = chain.instance;
+      sample.loop = chain.operand;
       sample.layer = layer;
       sample.is_solid_above = chain.winding > 0;
-      around_[layer][chain.instance] = kUnknown;
+      around_[layer][chain.operand] = kUnknown;
       const auto number = static_cast<std::uint32_t>(samples_.size());
       samples_.push_back(sample);
       endpoints_.push_back({points.front().x, number, false});
@@ -835,8 +835,8 @@ void OverlaySweep::State::link(const Gap& gap) {
       .push_back({below.region, above.region});
 }
 
-void OverlaySweep::State::find_overhangs(const ldni::Contours& below,
-                                         const ldni::Contours& above,
+void OverlaySweep::State::find_overhangs(const plane::Contours& below,
+                                         const plane::Contours& above,
                                          LayerOverlay& overlay) {
   std::vector<bool> overlaps_solid(overlay.around.size());
   for (const Overlap& overlap : overlay.solids) {
@@ -857,9 +857,9 @@ OverlaySweep::~OverlaySweep() = default;
 OverlaySweep::OverlaySweep(OverlaySweep&&) noexcept = default;
 OverlaySweep& OverlaySweep::operator=(OverlaySweep&&) noexcept = default;
 
-void OverlaySweep::start(const ldni::Contours& layer) { state_->start(layer); }
+void OverlaySweep::start(const plane::Contours& layer) { state_->start(layer); }
 
-void OverlaySweep::lay_over(const ldni::Contours& layer, double reach,
+void OverlaySweep::lay_over(const plane::Contours& layer, double reach,
                             LayerOverlay& overlay) {
   state_->lay_over(layer, reach, overlay);
 }

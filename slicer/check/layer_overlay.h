@@ -2,27 +2,27 @@
 // What of a layer lies over what of the layer below.
 //
 // A layer parts the plane into regions: **solid** ones, each an outer loop less
-// its holes, and **voids**, each a hole less what stands in it, and the outside.
-// Two regions of a kind in neighbouring layers **overlap** where their insides
-// have an area in common; to touch in a line is none. These overlaps are the
-// arcs of the layer graph (layer_graph.h), a Reeb graph of the height.
+// its holes, and **voids**, each a hole less what stands in it, and the
+// outside. Two regions of a kind in neighbouring layers **overlap** where their
+// insides have an area in common; to touch in a line is none. These overlaps
+// are the arcs of the layer graph (layer_graph.h), a Reeb graph of the height.
 //
-// A ray moves over both layers at once, as in ldni/sweep. Chains of one layer
+// A ray moves over both layers at once, as in plane/sweep. Chains of one layer
 // never cross, so only neighbours from different layers need a certificate:
 // half of them, and the order is all that the sweep keeps. Between two
-// neighbours on the ray there is one region of each layer. Where the layer below
-// is void and the one above is solid the gap is a **ledge**, and a ledge that
-// is wider than `reach` is searched for places that are farther than that from
-// all that holds it: an **overhang**.
+// neighbours on the ray there is one region of each layer. Where the layer
+// below is void and the one above is solid the gap is a **ledge**, and a ledge
+// that is wider than `reach` is searched for places that are farther than that
+// from all that holds it: an **overhang**.
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/chain_builder.h"
-#include "ldni/section/chains.h"
-#include "ldni/section/contours.h"
+#include "plane/chain_builder.h"
+#include "plane/chains.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -71,9 +71,9 @@ class ChainedLayer {
  public:
   // contours  disjoint simple loops, outer ones counter-clockwise and holes
   //           clockwise
-  void fill(const ldni::Contours& contours);
+  void fill(const plane::Contours& contours);
 
-  ldni::LayerChains chains() const { return block_.chains_of(0); }
+  plane::LayerChains chains() const { return block_.chains_of(0); }
   std::uint32_t loop_count() const {
     return static_cast<std::uint32_t>(areas_.size());
   }
@@ -81,8 +81,8 @@ class ChainedLayer {
   const std::vector<double>& areas() const { return areas_; }
 
  private:
-  ldni::ChainBuilder builder_;
-  ldni::ChainBlock block_;
+  plane::ChainBuilder builder_;
+  plane::ChainBlock block_;
   std::vector<double> areas_;
 };
 
@@ -95,14 +95,14 @@ class OverlaySweep {
 
   // Begins with a layer. It must stay until the next call, as must those of
   // lay_over().
-  void start(const ldni::Contours& layer);
+  void start(const plane::Contours& layer);
 
   // Lays a layer over the one of the call before.
   //
   // reach  how far it may stand out over that [mm]
   // throws GeometryError where the two cross each other so often that it would
   //        take minutes
-  void lay_over(const ldni::Contours& layer, double reach,
+  void lay_over(const plane::Contours& layer, double reach,
                 LayerOverlay& overlay);
 
  private:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <queue>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 #include "slicer/check/edge_tree.h"
 
 namespace lamina::slicer {
@@ -27,7 +27,7 @@ struct Square {
 
 }  // namespace
 
-Vec2 pole_of(const ldni::Contours& region) {
+Vec2 pole_of(const plane::Contours& region) {
   const EdgeTree tree(region);
   std::size_t guess = 0;
   const auto square_at = [&](Vec2 middle, double half) {
@@ -51,7 +51,8 @@ Vec2 pole_of(const ldni::Contours& region) {
     const Square square = open.top();
     open.pop();
     const double half = square.half / 2;
-    for (const Vec2 side : {Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
+    for (const Vec2 side :
+         {Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
       const Square part = square_at(square.middle + half * side, half);
       if (part.distance > best.distance) best = part;
       open.push(part);

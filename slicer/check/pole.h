@@ -7,7 +7,7 @@
 // the halving is that of Mapbox's polylabel).
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -15,6 +15,6 @@ namespace lamina::slicer {
 // returns a place inside whose distance from the boundary is 80 % of the
 //         greatest, where that takes no thousands of looks; of a sliver, a
 //         point of its boundary
-Vec2 pole_of(const ldni::Contours& region);
+Vec2 pole_of(const plane::Contours& region);
 
 }  // namespace lamina::slicer

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/cell_grid.h"
 #include "base/diagnostic.h"
+#include "plane/cell_grid.h"
 #include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
@@ -271,7 +271,7 @@ class BandSweep {
 // Cuts the edges into bands.
 class Bands {
  public:
-  void add(const ldni::Contours& contours, bool is_of_b) {
+  void add(const plane::Contours& contours, bool is_of_b) {
     visit_edges(contours, [&](Vec2 from, Vec2 to) {
       if (from != to) edges_.push_back({from, to, is_of_b});
     });
@@ -397,7 +397,8 @@ class Bands {
 
 }  // namespace
 
-RegionAreas measure_regions(const ldni::Contours& a, const ldni::Contours& b) {
+RegionAreas measure_regions(const plane::Contours& a,
+                            const plane::Contours& b) {
   Bands bands;
   bands.add(a, false);
   bands.add(b, true);

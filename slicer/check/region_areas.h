@@ -12,7 +12,7 @@
 // areas are exact but for rounding, 1e-15 of the part's size squared for each
 // edge.
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -29,6 +29,6 @@ struct RegionAreas {
 // The time grows with the number of edges times that of edges on a vertical
 // line within a band, and with crossings. Throws GeometryError where contours
 // cross so often that it would take minutes: 10⁵ edges at random.
-RegionAreas measure_regions(const ldni::Contours& a, const ldni::Contours& b);
+RegionAreas measure_regions(const plane::Contours& a, const plane::Contours& b);
 
 }  // namespace lamina::slicer

@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 namespace {

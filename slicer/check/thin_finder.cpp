@@ -52,7 +52,7 @@ void ThinFinder::Range::keep_where_positive(double c0, double c1) {
 
 ThinFinder::ThinFinder(double width) : width_(width - kSlack) {}
 
-void ThinFinder::find(const ldni::Contours& contours,
+void ThinFinder::find(const plane::Contours& contours,
                       std::vector<ThinStretch>& stretches) {
   stretches.clear();
   stretches_ = &stretches;

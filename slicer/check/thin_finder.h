@@ -31,7 +31,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "slicer/check/facing_cells.h"
 #include "slicer/contour/layer_edges.h"
 
@@ -72,7 +72,7 @@ class ThinFinder {
 
   // Replaces `stretches` by those of simple, disjoint loops with the solid on
   // the left.
-  void find(const ldni::Contours& contours,
+  void find(const plane::Contours& contours,
             std::vector<ThinStretch>& stretches);
 
  private:

@@ -6,17 +6,17 @@
 #include <limits>
 #include <vector>
 
-#include "base/loop_area.h"
-#include "base/plane.h"
-#include "csg/plane/offset.h"
-#include "csg/tie_distance.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
+#include "plane/region/offset.h"
+#include "plane/tie_distance.h"
 #include "slicer/contour/edge_order.h"
 
 namespace lamina::slicer {
 namespace {
 
-using planar::Contour;
-using planar::Region;
+using plane::Contour;
+using plane::Region;
 
 // Offsetting rounds the number of sides of an arc: one side where 1.5 were
 // asked for is 1.5² times as far from the circle.
@@ -138,13 +138,13 @@ CompensationCounts& CompensationCounts::operator+=(
   return *this;
 }
 
-CompensationCounts compensate(ldni::Contours& contours, double amount) {
+CompensationCounts compensate(plane::Contours& contours, double amount) {
   if (amount == 0 || contours.is_empty()) return {};
-  const Region before = planar::to_region(contours);
-  Region after = planar::offset(before, -amount, planar::Join::kRound,
-                                kArcTolerance / kArcExcess);
+  const Region before = plane::to_region(contours);
+  Region after = plane::offset(before, -amount, plane::Join::kRound,
+                               kArcTolerance / kArcExcess);
   // Drop what rounding left of walls exactly as thick as the beam.
-  planar::drop_hairlines(after, kTieDistance);
+  plane::drop_hairlines(after, kTieDistance);
   contours = to_contours(after);
   CompensationCounts counts;
   if (amount > 0) {

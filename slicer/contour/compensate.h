@@ -3,14 +3,14 @@
 //
 // A beam or a resin's bleeding cures beyond the path by some distance r, so the
 // path is the contour of the points that are at least r inside the solid, which
-// planar::offset gives: sides move by r, corners of a hole turn round, corners
+// plane::offset gives: sides move by r, corners of a hole turn round, corners
 // of the solid stay sharp. Moved outwards it is the other way round.
 //
 // Walls thinner than 2 r have no such path: they vanish and are counted.
 
 #include <cstdint>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -31,7 +31,7 @@ inline constexpr double kArcTolerance = 1e-4;
 
 // Moves contours into the solid by `amount` [mm], or out of it where that is
 // negative. Returns what is lost. Simple, disjoint loops stay so. Throws
-// csg::LimitExceeded for coordinates beyond 1e9 mm.
-CompensationCounts compensate(ldni::Contours& contours, double amount);
+// plane::LimitExceeded for coordinates beyond 1e9 mm.
+CompensationCounts compensate(plane::Contours& contours, double amount);
 
 }  // namespace lamina::slicer

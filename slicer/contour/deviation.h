@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "csg/tie_distance.h"
 #include "ldni/section/leaf_section.h"
+#include "plane/tie_distance.h"
 
 namespace lamina::slicer {
 
@@ -15,11 +15,11 @@ namespace lamina::slicer {
 // boundary of the Boolean of the leaves in the plane of the section, which
 // --compensate may have moved. Walls and gaps thinner than a tie have no bound.
 struct Deviation {
-  double ties = kTieDistance;             // faces this near are one
-  double clusters = ldni::kClusterWidth;  // what the ray takes for one x
-  double compensation = 0;                // arcs of moved contours
-  double simplification = 0;              // vertices left out
-  double rounding = 0;                    // of the format's coordinates
+  double ties = kTieDistance;              // faces this near are one
+  double clusters = plane::kClusterWidth;  // what the ray takes for one x
+  double compensation = 0;                 // arcs of moved contours
+  double simplification = 0;               // vertices left out
+  double rounding = 0;                     // of the format's coordinates
   std::optional<double> facets = {};  // of leaves, from their curves, if known
 
   // From the exact section of the facetted leaves.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 

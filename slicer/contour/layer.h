@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -16,7 +16,7 @@ struct Layer {
   // Every vertex is known to keep this far from foreign edges, in x or in y
   // [mm]; 0: nothing is known.
   double clearance = 0;
-  ldni::Contours contours;
+  plane::Contours contours;
   // The sink's encode() of the layer; empty where it was not asked.
   std::string encoded;
 };

@@ -4,7 +4,7 @@
 
 namespace lamina::slicer {
 
-void collect_edges(const ldni::Contours& contours,
+void collect_edges(const plane::Contours& contours,
                    std::vector<LayerEdge>& edges) {
   edges.clear();
   edges.reserve(contours.points.size());

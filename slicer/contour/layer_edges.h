@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "base/plane.h"
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 
@@ -26,7 +26,7 @@ struct LayerEdge {
 
 // Calls visit(from, to) for every edge, loop by loop.
 template <typename Visit>
-void visit_edges(const ldni::Contours& contours, const Visit& visit) {
+void visit_edges(const plane::Contours& contours, const Visit& visit) {
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const std::span<const Vec2> loop = contours.loop(i);
     for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -37,7 +37,7 @@ void visit_edges(const ldni::Contours& contours, const Visit& visit) {
 
 // Replaces `edges` by those of all loops, loop by loop. Points that repeat
 // their predecessor give none.
-void collect_edges(const ldni::Contours& contours,
+void collect_edges(const plane::Contours& contours,
                    std::vector<LayerEdge>& edges);
 
 }  // namespace lamina::slicer

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -30,7 +30,7 @@ struct SamplingRow {
 };
 
 // The loops as a sound file holds them: each ends with its first point again.
-inline std::vector<WrittenLoop> closed_loops(const ldni::Contours& contours) {
+inline std::vector<WrittenLoop> closed_loops(const plane::Contours& contours) {
   std::vector<WrittenLoop> closed(contours.loop_count());
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);

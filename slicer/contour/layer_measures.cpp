@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include "base/loop_area.h"
-#include "base/plane.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 namespace {
@@ -46,7 +46,7 @@ Outer* find_around(std::vector<Outer>& outers, Vec2 place) {
 
 }  // namespace
 
-LayerMeasures measure(const ldni::Contours& contours) {
+LayerMeasures measure(const plane::Contours& contours) {
   LayerMeasures measures;
   measures.loops = contours.loop_count();
   measures.vertices = contours.points.size();
@@ -60,7 +60,7 @@ LayerMeasures measure(const ldni::Contours& contours) {
   return measures;
 }
 
-double total_perimeter(const ldni::Contours& contours) {
+double total_perimeter(const plane::Contours& contours) {
   double length = 0;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     length += perimeter(contours.loop(i));
@@ -68,7 +68,7 @@ double total_perimeter(const ldni::Contours& contours) {
   return length;
 }
 
-std::vector<double> areas_of_regions(const ldni::Contours& contours) {
+std::vector<double> areas_of_regions(const plane::Contours& contours) {
   std::vector<Outer> outers;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const double area = signed_area(contours.loop(i));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -20,15 +20,15 @@ struct LayerMeasures {
   Box2 box;
 };
 
-LayerMeasures measure(const ldni::Contours& contours);
+LayerMeasures measure(const plane::Contours& contours);
 
 // The length of all loops [mm].
-double total_perimeter(const ldni::Contours& contours);
+double total_perimeter(const plane::Contours& contours);
 
 // The areas of the regions, each an outer loop less its holes [mm²], in the
 // order of the outer loops.
 //
 // contours  disjoint loops, outer ones counter-clockwise, holes clockwise
-std::vector<double> areas_of_regions(const ldni::Contours& contours);
+std::vector<double> areas_of_regions(const plane::Contours& contours);
 
 }  // namespace lamina::slicer

@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "base/lanes.h"
-#include "base/plane.h"
 #include "base/vec.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 

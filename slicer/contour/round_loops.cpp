@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/check.h"
-#include "base/loop_area.h"
-#include "base/plane.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 namespace {
@@ -39,9 +39,9 @@ Vec2 to_float(Vec2 point) { return {to_float(point.x), to_float(point.y)}; }
 
 LoopRounder::LoopRounder()
     : resolver_({.tie_distance = 0, .merge_distance = 0},
-                ldni::FillRule::kPositive) {}
+                plane::FillRule::kPositive) {}
 
-void LoopRounder::round(ldni::Contours& contours, double clearance) {
+void LoopRounder::round(plane::Contours& contours, double clearance) {
   if (contours.is_empty()) return;
   int exponent = 0;
   std::frexp(greatest_coordinate(contours.points), &exponent);
@@ -56,7 +56,7 @@ void LoopRounder::round(ldni::Contours& contours, double clearance) {
 
 // --- Proof ------------------------------------------------------------------
 
-bool LoopRounder::is_safe(const ldni::Contours& contours) {
+bool LoopRounder::is_safe(const plane::Contours& contours) {
   points_.clear();
   ends_.clear();
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
@@ -138,7 +138,7 @@ bool LoopRounder::touch(std::uint32_t vertex, std::uint32_t edge) const {
 // --- Snapping ---------------------------------------------------------------
 
 // In units of the spacing, times kUnit.
-void LoopRounder::snap(ldni::Contours& contours) {
+void LoopRounder::snap(plane::Contours& contours) {
   const double scale = kUnit / spacing_;
   for (Vec2& point : contours.points) point *= scale;
   int rounds = 0;
@@ -154,7 +154,7 @@ void LoopRounder::snap(ldni::Contours& contours) {
 // Routes every edge through the hot pixels that it meets. Returns false where
 // all points are middles of hot pixels and no edge had to bend: then edges meet
 // in vertices only, or in a vertex that lies on an edge exactly.
-bool LoopRounder::route_through_hot_pixels(ldni::Contours& contours) {
+bool LoopRounder::route_through_hot_pixels(plane::Contours& contours) {
   // Find the hot pixels.
   hot_pixels_.clear();
   bool is_changed = false;

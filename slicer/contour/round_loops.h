@@ -20,9 +20,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/point_grid.h"
-#include "ldni/section/contours.h"
-#include "ldni/sweep/loop_resolver.h"
+#include "plane/contours.h"
+#include "plane/point_grid.h"
+#include "plane/sweep/loop_resolver.h"
 #include "slicer/contour/loop_tree.h"
 
 namespace lamina::slicer {
@@ -36,7 +36,7 @@ class LoopRounder {
   // narrower than their spacing may vanish or be parted.
   //
   // clearance  as of Layer
-  void round(ldni::Contours& contours, double clearance = 0);
+  void round(plane::Contours& contours, double clearance = 0);
 
   // Layers that were snap-rounded since construction.
   std::uint64_t snapped_layers() const { return snapped_layers_; }
@@ -46,11 +46,11 @@ class LoopRounder {
   int most_moves() const { return most_moves_; }
 
  private:
-  bool is_safe(const ldni::Contours& contours);
+  bool is_safe(const plane::Contours& contours);
   bool is_safe_by_grid();
   bool touch(std::uint32_t vertex, std::uint32_t edge) const;
-  void snap(ldni::Contours& contours);
-  bool route_through_hot_pixels(ldni::Contours& contours);
+  void snap(plane::Contours& contours);
+  bool route_through_hot_pixels(plane::Contours& contours);
   bool bends_edge(Vec2 from, Vec2 to);
 
   double spacing_ = 0;  // of float32 at the layer's largest coordinate [mm]
@@ -64,13 +64,13 @@ class LoopRounder {
   std::vector<std::uint32_t> members_;
   PointGrid grid_;
   std::vector<Vec2> hot_pixels_;  // their middles
-  ldni::Contours routed_;
+  plane::Contours routed_;
   struct Passage {
     double place = 0;  // along the edge
     Vec2 hot_pixel = Vec2(0);
   };
   std::vector<Passage> passages_;
-  ldni::LoopResolver resolver_;
+  plane::LoopResolver resolver_;
   std::uint64_t snapped_layers_ = 0;
   int most_moves_ = 1;
 };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "base/loop_area.h"
-#include "base/plane.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
 #include "slicer/contour/detail/farthest_reach.h"
 
 namespace lamina::slicer {
@@ -52,7 +52,7 @@ struct Simplifier::Shortcut {
   }
 };
 
-void Simplifier::simplify(ldni::Contours& contours) {
+void Simplifier::simplify(plane::Contours& contours) {
   is_apart_ = false;
   if (!(tolerance_ > 0) || contours.is_empty()) return;
   copy_loops(contours);
@@ -79,7 +79,7 @@ void Simplifier::simplify(ldni::Contours& contours) {
   write_kept(contours);
 }
 
-void Simplifier::copy_loops(const ldni::Contours& contours) {
+void Simplifier::copy_loops(const plane::Contours& contours) {
   points_.clear();
   loops_.clear();
   Reach reach;
@@ -246,7 +246,7 @@ void Simplifier::thin_out(const Loop& loop, std::uint32_t k,
   }
 }
 
-void Simplifier::write_kept(ldni::Contours& contours) const {
+void Simplifier::write_kept(plane::Contours& contours) const {
   contours.ends.clear();
   contours.points.resize(vertices_.size());
   Vec2* const first = contours.points.data();

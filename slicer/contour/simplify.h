@@ -38,8 +38,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/point_grid.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
+#include "plane/point_grid.h"
 #include "slicer/contour/loop_tree.h"
 
 namespace lamina::slicer {
@@ -53,7 +53,7 @@ class Simplifier {
 
   // Simple, disjoint loops stay so, in the same order and orientation; each
   // begins at its lowest of the leftmost points.
-  void simplify(ldni::Contours& contours);
+  void simplify(plane::Contours& contours);
 
   // Vertices that simplify() left keep this far from foreign edges, in x or in
   // y [mm]: more than rounding to 32-bit numbers can move them towards each
@@ -70,7 +70,7 @@ class Simplifier {
   };
   struct Shortcut;
 
-  void copy_loops(const ldni::Contours& contours);
+  void copy_loops(const plane::Contours& contours);
   void choose(Loop& loop);
   void keep_all();
   void list_kept();
@@ -79,7 +79,7 @@ class Simplifier {
   bool repair();
   bool split_run(std::uint32_t k);
   void thin_out(const Loop& loop, std::uint32_t k, std::uint32_t end);
-  void write_kept(ldni::Contours& contours) const;
+  void write_kept(plane::Contours& contours) const;
 
   double doubled_area_kept(std::size_t begin, std::size_t end) const;
   Shortcut measure(std::uint32_t first, std::uint32_t last) const;

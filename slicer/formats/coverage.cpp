@@ -143,7 +143,7 @@ void Coverage::resolve_row(unsigned y, std::vector<GreyRun>& runs) const {
   if (run.count > 0) runs.push_back(run);
 }
 
-void add_contours(Coverage& coverage, const ldni::Contours& contours,
+void add_contours(Coverage& coverage, const plane::Contours& contours,
                   const PixelMap& map) {
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -62,7 +62,7 @@ struct PixelMap {
   }
 };
 
-void add_contours(Coverage& coverage, const ldni::Contours& contours,
+void add_contours(Coverage& coverage, const plane::Contours& contours,
                   const PixelMap& map);
 
 }  // namespace lamina::slicer

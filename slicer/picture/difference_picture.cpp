@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "base/loop_area.h"
-#include "csg/plane/boolean.h"
-#include "csg/plane/region.h"
+#include "plane/loop_area.h"
+#include "plane/region/boolean.h"
+#include "plane/region/region.h"
 #include "slicer/picture/detail/drawing.h"
 
 namespace lamina::slicer {
@@ -34,23 +34,23 @@ constexpr Rgb kMark = {0.25F, 0.24F, 0.22F};
 constexpr double kDistancesShown = 6;
 constexpr double kLeastShown = 1e-6;
 
-planar::Region region_of(const ldni::Contours& contours) {
-  return planar::from_contours(planar::to_region(contours).contours,
-                               planar::FillRule::kNonZero);
+plane::Region region_of(const plane::Contours& contours) {
+  return plane::from_contours(plane::to_region(contours).contours,
+                              plane::FillRule::kNonZero);
 }
 
 class DifferencePicture {
  public:
-  DifferencePicture(const ldni::Contours& a, const ldni::Contours& b,
+  DifferencePicture(const plane::Contours& a, const plane::Contours& b,
                     const LayerDifference& difference)
       : difference_(difference),
         image_(2 * kFieldSize + 3 * kMargin,
                kTopStrip + kFieldSize + kFootStrip, kPaper) {
     const std::array regions = {region_of(a), region_of(b)};
     const std::array turned = {regions[1], regions[0]};
-    both_ = to_contours(planar::intersect(regions));
-    only_a_ = to_contours(planar::subtract(regions));
-    only_b_ = to_contours(planar::subtract(turned));
+    both_ = to_contours(plane::intersect(regions));
+    only_a_ = to_contours(plane::subtract(regions));
+    only_b_ = to_contours(plane::subtract(turned));
     bounds_.add(a.points);
     bounds_.add(b.points);
     if (a.points.empty() && b.points.empty()) bounds_ = around({0, 0}, 1);
@@ -120,7 +120,7 @@ class DifferencePicture {
   }
 
   void solid(const Rectangle& field, const PixelMap& map,
-             const ldni::Contours& contours, Rgb color) {
+             const plane::Contours& contours, Rgb color) {
     Coverage coverage(field.width, field.height);
     add_contours(coverage, contours, map);
     blend(image_, coverage, field.x, field.y, color);
@@ -128,7 +128,7 @@ class DifferencePicture {
 
   // Outlines loops whose mean width is at least `least` pixels.
   void outline(const Rectangle& field, const PixelMap& map,
-               const ldni::Contours& contours, Rgb color, double least) {
+               const plane::Contours& contours, Rgb color, double least) {
     Coverage lines(field.width, field.height);
     for (std::size_t i = 0; i < contours.loop_count(); ++i) {
       const auto loop = contours.loop(i);
@@ -210,15 +210,15 @@ class DifferencePicture {
 
   const LayerDifference& difference_;
   Image image_;
-  ldni::Contours both_;
-  ldni::Contours only_a_;
-  ldni::Contours only_b_;
+  plane::Contours both_;
+  plane::Contours only_a_;
+  plane::Contours only_b_;
   Box2 bounds_;
 };
 
 }  // namespace
 
-Image draw_difference(const ldni::Contours& a, const ldni::Contours& b,
+Image draw_difference(const plane::Contours& a, const plane::Contours& b,
                       const LayerDifference& difference,
                       const std::array<std::string, 2>& names) {
   return DifferencePicture(a, b, difference).draw(names);

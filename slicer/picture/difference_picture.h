@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "slicer/check/compare.h"
 #include "slicer/picture/image.h"
 
@@ -14,7 +14,7 @@ namespace lamina::slicer {
 
 // difference  of the two, for its words and its place
 // names       of a and b
-Image draw_difference(const ldni::Contours& a, const ldni::Contours& b,
+Image draw_difference(const plane::Contours& a, const plane::Contours& b,
                       const LayerDifference& difference,
                       const std::array<std::string, 2>& names);
 

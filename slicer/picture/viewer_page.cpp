@@ -254,7 +254,7 @@ class PageMaker {
   }
 
   void add_contours(const Layer& layer) {
-    const ldni::Contours& contours = layer.contours;
+    const plane::Contours& contours = layer.contours;
     numbers_.add_count(contours.loop_count());
     for (std::size_t i = 0; i < contours.loop_count(); ++i) {
       numbers_.add_count(contours.loop(i).size());

@@ -11,7 +11,7 @@
 
 #include "csg/boundary/boundary_faces.h"
 #include "csg/boundary/move_scene.h"
-#include "csg/tie_distance.h"
+#include "plane/tie_distance.h"
 
 namespace lamina::slicer {
 namespace {

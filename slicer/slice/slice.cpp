@@ -96,7 +96,7 @@ void require_height(const csg::Scene& scene, const Settings& settings) {
 }
 
 // In the plane z = 0.
-Box3 box_of(const ldni::Contours& contours) {
+Box3 box_of(const plane::Contours& contours) {
   Box3 box;
   box.low.z = box.high.z = 0;
   for (const Vec2& point : contours.points) box.add(Vec3(point, 0));
@@ -183,7 +183,7 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
   return report;
 }
 
-SliceReport slice_outline(const planar::Region& outline,
+SliceReport slice_outline(const plane::Region& outline,
                           const Settings& settings, LayerSink& sink,
                           Diagnostics& diagnostics) {
   Layer layer;

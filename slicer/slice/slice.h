@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/diagnostic.h"
-#include "csg/plane/region.h"
 #include "csg/scene.h"
 #include "ldni/image/paper_counts.h"
 #include "ldni/section/grid.h"
-#include "ldni/sweep/kinetic_ray.h"
+#include "plane/cascade/kinetic_ray.h"
+#include "plane/region/region.h"
 #include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/contour/compensate.h"
@@ -25,7 +25,7 @@ namespace lamina::slicer {
 // What a job did (`--report`). Times are processor seconds summed over
 // threads.
 struct SliceReport {
-  ldni::SweepCounts sweep;
+  plane::SweepCounts sweep;
   ldni::PaperCounts paper;  // all 0 but for the paper's contours
   std::string renderer;     // what drew, if OpenGL did
   // Gaps in sections of leaves that had to be closed: 0 if all is well.
@@ -66,7 +66,7 @@ SliceReport slice(const csg::Scene& scene, const ldni::LayerGrid& grid,
                   Diagnostics& diagnostics);
 
 // The one layer of a 2D design, at height 0, with all its vertices.
-SliceReport slice_outline(const planar::Region& outline,
+SliceReport slice_outline(const plane::Region& outline,
                           const Settings& settings, LayerSink& sink,
                           Diagnostics& diagnostics);
 

@@ -85,7 +85,7 @@ TEST(Pages, LinkToFilesOfTheTree) {
 TEST(Pages, NameOnlyPathsOfTheTree) {
   const std::regex path(
       R"(`((?:api|base|bench|cli|cmake|compiler|csg|docs|examples|grammar|ldni|)"
-      R"(parser|scripts|slicer|tests)/[\w./-]*\w))");
+      R"(parser|plane|scripts|slicer|tests)/[\w./-]*\w))");
   for (const Name& name : names_on(pages_of_today(), path)) {
     EXPECT_TRUE(fs::exists(kRoot / name.words) ||
                 fs::exists(kRoot / (name.words + ".cpp")))

@@ -169,7 +169,7 @@ TEST(Certificate, FilesKeepTheBound) {
     slicer::SlcLayer layer;
     for (const json& json_layer : exact.at("layers")) {
       ASSERT_TRUE(reader.read_layer(layer));
-      ldni::Contours expected;
+      plane::Contours expected;
       for (const json& contour : json_layer.at("contours")) {
         std::vector<Vec2> points;
         for (const json& point : contour.at("points")) {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <signal.h>
 
-#include "base/loop_area.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
+#include "plane/loop_area.h"
 #include "slicer/formats/slc_reader.h"
 #include "tests/cli/lamina.h"
 

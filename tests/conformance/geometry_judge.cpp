@@ -30,7 +30,7 @@ constexpr double kOpenScadDistance = 2e-5;
 struct LaminaResult {
   bool is_empty = false;
   std::string complaint;  // why there are no layers
-  std::vector<ldni::Contours> layers;
+  std::vector<plane::Contours> layers;
 };
 
 LaminaResult run_lamina(const Design& design,
@@ -59,7 +59,7 @@ LaminaResult run_lamina(const Design& design,
   }
   const auto json = nlohmann::json::parse(support::read_file(output));
   for (const auto& layer : json["layers"]) {
-    ldni::Contours contours;
+    plane::Contours contours;
     for (const auto& contour : layer["contours"]) {
       for (const auto& p : contour["points"])
         contours.points.push_back({p[0], p[1]});

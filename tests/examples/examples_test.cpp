@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -41,7 +41,7 @@ struct SlicedLayer {
   double z = 0;
   double bottom = 0;
   double top = 0;
-  ldni::Contours contours;
+  plane::Contours contours;
 };
 using Layers = std::vector<SlicedLayer>;
 

@@ -28,7 +28,7 @@ void read_part(std::string_view bytes, cad::Format format) {
       }
     }
   } catch (const FormatError&) {
-  } catch (const csg::LimitExceeded&) {
+  } catch (const plane::LimitExceeded&) {
   } catch (const std::bad_alloc&) {
   }
 }

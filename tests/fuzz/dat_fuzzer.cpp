@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   try {
     csg::make_surface(csg::parse_dat(fuzz::as_text(data, size)), true);
-  } catch (const csg::LimitExceeded&) {
+  } catch (const plane::LimitExceeded&) {
   }
   return 0;
 }

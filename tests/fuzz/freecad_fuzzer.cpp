@@ -91,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     tree.root = &root;
     csg::print_csg(tree, root);
   } catch (const FormatError&) {
-  } catch (const csg::LimitExceeded&) {
+  } catch (const plane::LimitExceeded&) {
   }
   return 0;
 }

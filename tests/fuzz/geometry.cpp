@@ -41,7 +41,7 @@ void slice(const csg::Tree& tree) {
   FiniteSink sink;
   try {
     const csg::Lowered lowered = csg::lower(tree, {}, diagnostics);
-    if (const planar::Region* outline = lowered.outline()) {
+    if (const plane::Region* outline = lowered.outline()) {
       slicer::slice_outline(*outline, {}, sink, diagnostics);
     } else if (const csg::Scene* scene = lowered.scene()) {
       const slicer::Settings settings = settings_for(scene->box);

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
         csg::parse_png(fuzz::as_text(data, size), false);
     if (field.heights.size() <= kMostPixels) csg::make_surface(field, false);
   } catch (const FormatError&) {
-  } catch (const csg::LimitExceeded&) {
+  } catch (const plane::LimitExceeded&) {
   }
   return 0;
 }

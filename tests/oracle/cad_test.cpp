@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "csg/plane/boolean.h"
-#include "csg/plane/region.h"
+#include "plane/region/boolean.h"
+#include "plane/region/region.h"
 #include "tests/oracle/exact_region.h"
 #include "tests/oracle/judge.h"
 #include "tests/support/design.h"
@@ -27,16 +27,16 @@ const fs::path kParts = LAMINA_FREECAD_PARTS;
 struct Section {
   double height = 0;
   double area = 0;
-  planar::Region region;
+  plane::Region region;
 };
 
-planar::Region to_region(const nlohmann::json& loops) {
-  std::vector<planar::Contour> contours;
+plane::Region to_region(const nlohmann::json& loops) {
+  std::vector<plane::Contour> contours;
   for (const auto& loop : loops) {
-    planar::Contour& contour = contours.emplace_back();
+    plane::Contour& contour = contours.emplace_back();
     for (const auto& point : loop) contour.emplace_back(point[0], point[1]);
   }
-  return planar::from_contours(contours);
+  return plane::from_contours(contours);
 }
 
 std::vector<Section> sections_of(const std::string& name) {
@@ -44,13 +44,13 @@ std::vector<Section> sections_of(const std::string& name) {
   std::vector<Section> sections;
   const nlohmann::json all = nlohmann::json::parse(file);
   for (const auto& layer : all["layers"]) {
-    std::vector<planar::Region> solids;
+    std::vector<plane::Region> solids;
     for (const auto& loops : layer["solids"]) {
       solids.push_back(to_region(loops));
     }
     sections.push_back(
         {layer["height"], layer["area"],
-         solids.empty() ? planar::Region() : planar::unite(solids)});
+         solids.empty() ? plane::Region() : plane::unite(solids)});
   }
   return sections;
 }
@@ -68,7 +68,7 @@ void expect_sections(const std::string& file, const std::string& name,
   ASSERT_EQ(layers.size(), heights.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const Verdict verdict =
-        judge(region_of_loops(planar::to_contours(sections[i].region)),
+        judge(region_of_loops(plane::to_contours(sections[i].region)),
               layers[i].contours, {chordal_error, 2 * chordal_error});
     EXPECT_EQ(verdict.complaint, "") << file << " at " << heights[i];
     const Comparison& compared = verdict.comparison;

@@ -322,7 +322,7 @@ void append(std::vector<LabelledEdge>& all, std::span<const Edge> edges,
   for (const Edge& edge : edges) all.push_back({edge.from, edge.to, label});
 }
 
-std::vector<Edge> edges_of_loops(const ldni::Contours& contours) {
+std::vector<Edge> edges_of_loops(const plane::Contours& contours) {
   std::vector<Edge> edges;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
     const auto loop = contours.loop(l);
@@ -474,7 +474,7 @@ double overlap_of_section(const csg::Mesh& mesh, double z, double gap) {
   return compare_edges(ExactRegion(), cutter.edges()).overlap_area;
 }
 
-ExactRegion region_of_loops(const ldni::Contours& contours) {
+ExactRegion region_of_loops(const plane::Contours& contours) {
   return region_of_edges(edges_of_loops(contours));
 }
 
@@ -498,7 +498,7 @@ ExactRegion settle(const ExactRegion& region, double distance) {
   return shifted(settled, 2 * distance, Shift::kOutward);
 }
 
-Comparison compare(const ExactRegion& expected, const ldni::Contours& actual) {
+Comparison compare(const ExactRegion& expected, const plane::Contours& actual) {
   return compare_edges(expected, edges_of_loops(actual));
 }
 

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "csg/scene.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "tests/oracle/world_scene.h"
 
 namespace lamina::oracle {
@@ -59,7 +59,7 @@ ExactRegion exact_section(const csg::Mesh& mesh, double z, double gap);
 double overlap_of_section(const csg::Mesh& mesh, double z, double gap);
 
 // Where loops wind at least once.
-ExactRegion region_of_loops(const ldni::Contours& contours);
+ExactRegion region_of_loops(const plane::Contours& contours);
 
 RegionCounts count_regions(const ExactRegion& region);
 
@@ -88,7 +88,7 @@ struct Comparison {
   double worst_area = 0;       // [mm²]
   Vec2 worst_place = Vec2(0);  // a vertex of it
 };
-Comparison compare(const ExactRegion& expected, const ldni::Contours& actual);
+Comparison compare(const ExactRegion& expected, const plane::Contours& actual);
 Comparison compare(const ExactRegion& expected, const ExactRegion& actual);
 
 }  // namespace lamina::oracle

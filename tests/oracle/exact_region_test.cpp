@@ -11,7 +11,7 @@
 namespace lamina::oracle {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 
 using Loop = std::vector<Vec2>;
 
@@ -82,14 +82,14 @@ TEST(ExactSection, OfATetrahedronScalesWithTheSquareOfTheDistance) {
 TEST(ExactSection, OfAMirroredLeafIsTheSame) {
   csg::Mesh mesh = box({0, 0, 0}, {1, 2, 3});
   for (Vec3& vertex : mesh.vertices) vertex.x = -vertex.x;
-  const auto scene = scene_of(csg::BooleanOp::kUnion, {mesh});
+  const auto scene = scene_of(plane::BooleanOp::kUnion, {mesh});
   EXPECT_EQ(exact_area(exact_section(scene, 1.5)), "2");
 }
 
 TEST(ExactSection, RefusesALeafThatIsNotClosed) {
   csg::Mesh mesh = box({0, 0, 0}, {1, 1, 1});
   mesh.triangles.pop_back();
-  const auto scene = scene_of(csg::BooleanOp::kUnion, {mesh});
+  const auto scene = scene_of(plane::BooleanOp::kUnion, {mesh});
   EXPECT_THROW(exact_section(scene, 0.3), std::runtime_error);
 }
 
@@ -114,7 +114,7 @@ TEST(ExactSection, EvaluatesEachOperator) {
   const auto a = box({0, 0, 0}, {4, 4, 1});
   const auto b = box({1, 1, -1}, {2, 2, 2});
   const auto c = box({3, 3, -1}, {5, 5, 2});
-  using csg::BooleanOp;
+  using plane::BooleanOp;
   EXPECT_EQ(
       exact_area(exact_section(scene_of(BooleanOp::kUnion, {a, b, c}), 0.5)),
       "19");
@@ -133,14 +133,14 @@ TEST(ExactSection, LeavesNoSkinWhereCoplanarFacesCancel) {
   const auto a = box({0, 0, 0}, {4, 4, 1});
   const auto b = box({0, 1, 0}, {4, 2, 1});
   const auto region =
-      exact_section(scene_of(csg::BooleanOp::kDifference, {a, b}), 0.5);
+      exact_section(scene_of(plane::BooleanOp::kDifference, {a, b}), 0.5);
   EXPECT_EQ(count_regions(region), (RegionCounts{2, 0}));
   EXPECT_EQ(exact_area(region), "12");
 }
 
 TEST(EvaluateProgram, DescendsNestedOperators) {
   // difference(intersection(0, 1), union(2, difference(3, 4)))
-  using csg::BooleanOp;
+  using plane::BooleanOp;
   WorldScene scene;
   scene.program = {{BooleanOp::kDifference, 0, false, 2},
                    {BooleanOp::kIntersection, 0, true, 2},
@@ -162,12 +162,12 @@ TEST(EvaluateProgram, DescendsNestedOperators) {
 
 TEST(EvaluateProgram, IsFalseForAnEmptyScene) {
   WorldScene scene;
-  scene.program = {{csg::BooleanOp::kUnion, 0, false, 0}};
+  scene.program = {{plane::BooleanOp::kUnion, 0, false, 0}};
   EXPECT_FALSE(evaluate_program(scene, {}));
 }
 
 TEST(GenericHeights, KeepAwayFromVertices) {
-  auto scene = scene_of(csg::BooleanOp::kUnion, {box({0, 0, 0}, {1, 1, 1})});
+  auto scene = scene_of(plane::BooleanOp::kUnion, {box({0, 0, 0}, {1, 1, 1})});
   for (int i = 1; i < 50; ++i) {
     scene.meshes.push_back(box({0, 0, 0}, {1, 1, i / 50.0}));
   }
@@ -239,7 +239,7 @@ TEST(Compare, FindsLoopsThatOverlapOrRunTheWrongWay) {
 TEST(Compare, AgreesWithARoundedTurnedSection) {
   csg::Mesh mesh = box({0, 0, 0}, {3, 2, 1});
   turn(mesh, 0.7);
-  const auto scene = scene_of(csg::BooleanOp::kUnion, {mesh});
+  const auto scene = scene_of(plane::BooleanOp::kUnion, {mesh});
   Contours contours;
   const auto& v = mesh.vertices;
   support::add_loop(contours, {v[0], v[1], v[3], v[2]});
@@ -257,7 +257,7 @@ TEST(Settle, ClosesSlitsOfRounding) {
   turn(b, 0.7);
   for (Vec3& vertex : b.vertices) vertex.x += 1e-15;
   const auto region =
-      exact_section(scene_of(csg::BooleanOp::kUnion, {a, b}), 0.5);
+      exact_section(scene_of(plane::BooleanOp::kUnion, {a, b}), 0.5);
   EXPECT_EQ(count_regions(settle(region, 2e-8)), (RegionCounts{1, 0}));
 }
 

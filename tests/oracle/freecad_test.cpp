@@ -30,8 +30,8 @@ using nlohmann::json;
 
 constexpr double kChordalError = 0.01;  // mm
 
-ldni::Contours contours_of(const json& loops) {
-  ldni::Contours contours;
+plane::Contours contours_of(const json& loops) {
+  plane::Contours contours;
   for (const json& loop : loops) {
     std::vector<Vec2> points;
     for (const json& point : loop) {

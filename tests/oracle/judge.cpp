@@ -51,7 +51,7 @@ Verdict decide(const Comparison& comparison, const ExactRegion& expected,
 
 }  // namespace
 
-Verdict judge(const ExactRegion& expected, const ldni::Contours& actual,
+Verdict judge(const ExactRegion& expected, const plane::Contours& actual,
               const Allowance& allowance) {
   return decide(compare(expected, actual), expected, region_of_loops(actual),
                 allowance);

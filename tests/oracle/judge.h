@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "tests/oracle/exact_region.h"
 
 namespace lamina::oracle {
@@ -30,7 +30,7 @@ struct Verdict {
   std::string complaint;     // empty: passed
 };
 
-Verdict judge(const ExactRegion& expected, const ldni::Contours& actual,
+Verdict judge(const ExactRegion& expected, const plane::Contours& actual,
               const Allowance& allowance);
 Verdict judge(const ExactRegion& expected, const ExactRegion& actual,
               const Allowance& allowance);

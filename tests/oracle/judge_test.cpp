@@ -9,8 +9,8 @@ namespace {
 
 using Loop = std::vector<Vec2>;
 
-ldni::Contours contours_of(const std::vector<Loop>& loops) {
-  ldni::Contours contours;
+plane::Contours contours_of(const std::vector<Loop>& loops) {
+  plane::Contours contours;
   for (const Loop& loop : loops) support::add_loop(contours, loop);
   return contours;
 }

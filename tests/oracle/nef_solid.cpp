@@ -38,10 +38,10 @@ Nef nef_of(const csg::Mesh& mesh) {
 }
 
 // The open set of no points would leave boundaries behind: regularise.
-Nef evaluate(csg::BooleanOp op, const std::optional<Nef>& minuend,
+Nef evaluate(plane::BooleanOp op, const std::optional<Nef>& minuend,
              const std::vector<Nef>& others) {
   Nef result(Nef::EMPTY);
-  if (op == csg::BooleanOp::kDifference) {
+  if (op == plane::BooleanOp::kDifference) {
     if (minuend) result = *minuend;
     for (const Nef& other : others) result -= other;
   } else {
@@ -49,7 +49,7 @@ Nef evaluate(csg::BooleanOp op, const std::optional<Nef>& minuend,
     if (minuend) all.push_back(*minuend);
     if (!all.empty()) result = all.front();
     for (const Nef& each : all) {
-      if (op == csg::BooleanOp::kUnion) {
+      if (op == plane::BooleanOp::kUnion) {
         result += each;
       } else {
         result *= each;
@@ -76,7 +76,7 @@ Nef nef_of(const WorldScene& scene) {
   }
   // Children stand behind their parents.
   for (std::size_t n = scene.program.size(); n-- > 1;) {
-    const csg::BooleanNode& node = scene.program[n];
+    const plane::BooleanNode& node = scene.program[n];
     hand(node.parent, node.is_minuend,
          evaluate(node.op, minuends[n], others[n]));
   }

@@ -31,7 +31,7 @@ TEST(NefBoundary, HasTheExactSections) {
 
 TEST(NefBoundary, OfNothingIsNothing) {
   const auto scene =
-      scene_of(csg::BooleanOp::kIntersection,
+      scene_of(plane::BooleanOp::kIntersection,
                {box({0, 0, 0}, {1, 1, 1}), box({2, 0, 0}, {3, 1, 1})});
   EXPECT_TRUE(nef_boundary(scene).triangles.empty());
 }
@@ -39,7 +39,7 @@ TEST(NefBoundary, OfNothingIsNothing) {
 TEST(NefBoundary, RefusesALeafThatIsNotClosed) {
   csg::Mesh open = box({0, 0, 0}, {1, 1, 1});
   open.triangles.pop_back();
-  EXPECT_THROW(nef_boundary(scene_of(csg::BooleanOp::kUnion, {open})),
+  EXPECT_THROW(nef_boundary(scene_of(plane::BooleanOp::kUnion, {open})),
                std::runtime_error);
 }
 

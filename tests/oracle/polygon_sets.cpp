@@ -86,13 +86,13 @@ class Evaluation {
       leaf.meshes = {scene.meshes[i]};
       leaf.parent = {0};
       leaf.is_minuend = {false};
-      leaf.program = {{csg::BooleanOp::kUnion, 0, false, 1}};
+      leaf.program = {{plane::BooleanOp::kUnion, 0, false, 1}};
       hand(scene.parent[i], scene.is_minuend[i],
            set_of(exact_section(leaf, z)));
     }
     // Children stand behind their parents.
     for (std::size_t n = scene.program.size(); n-- > 1;) {
-      const csg::BooleanNode& node = scene.program[n];
+      const plane::BooleanNode& node = scene.program[n];
       hand(node.parent, node.is_minuend, evaluate(n, node.op));
     }
     result_ = evaluate(0, scene.program[0].op);
@@ -109,15 +109,15 @@ class Evaluation {
     }
   }
 
-  PolygonSet evaluate(std::size_t n, csg::BooleanOp op) {
+  PolygonSet evaluate(std::size_t n, plane::BooleanOp op) {
     std::vector<PolygonSet> others = std::move(others_[n]);
-    if (op == csg::BooleanOp::kDifference) {
+    if (op == plane::BooleanOp::kDifference) {
       PolygonSet set = minuends_[n].value_or(PolygonSet());
       set.difference(unite(std::move(others)));
       return set;
     }
     if (minuends_[n].has_value()) others.push_back(*minuends_[n]);
-    if (op == csg::BooleanOp::kUnion) return unite(std::move(others));
+    if (op == plane::BooleanOp::kUnion) return unite(std::move(others));
     PolygonSet set = others.empty() ? PolygonSet() : others.front();
     for (const PolygonSet& other : others) set.intersection(other);
     return set;

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "csg/tie_distance.h"
+#include "plane/tie_distance.h"
 #include "slicer/contour/layer.h"
-#include "tests/ldni/sweep/section_reference.h"
 #include "tests/oracle/exact_region.h"
 #include "tests/oracle/judge.h"
 #include "tests/oracle/world_scene.h"
+#include "tests/plane/cascade/section_reference.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
 
@@ -43,7 +43,7 @@ Rules rules_of(RandomKind kind) {
 
 // Loops as the kind asks: nothing open, nothing crossing. Where faces may be
 // 1e-9 mm apart, so may edges of one loop.
-std::string complaint_about(const ldni::Contours& contours, RandomKind kind,
+std::string complaint_about(const plane::Contours& contours, RandomKind kind,
                             const Rules& rules) {
   using Kind = support::ContourDefect::Kind;
   for (const auto& defect : support::find_defects(contours, rules.contour)) {
@@ -114,7 +114,7 @@ class Prober {
   const Rules rules_;
   testing::SectionReference reference_;
   std::mt19937 random_;
-  const ldni::Contours* contours_ = nullptr;
+  const plane::Contours* contours_ = nullptr;
   std::string complaint_;
 };
 
@@ -136,7 +136,7 @@ std::vector<double> heights_of(RandomKind kind, std::uint32_t seed,
   return heights;
 }
 
-bool are_same(const ldni::Contours& a, const ldni::Contours& b) {
+bool are_same(const plane::Contours& a, const plane::Contours& b) {
   return a.points == b.points && a.ends == b.ends;
 }
 
@@ -148,7 +148,7 @@ std::string try_section(const ExactRegion& section,
   ++tally.sections;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     ++tally.layers;
-    const ldni::Contours& contours = layers[i]->contours;
+    const plane::Contours& contours = layers[i]->contours;
     if (i > 0 && are_same(contours, layers[i - 1]->contours)) continue;
     std::string complaint = complaint_about(contours, kind, rules);
     if (complaint.empty()) {

@@ -31,20 +31,20 @@ inline void turn(csg::Mesh& mesh, double angle) {
 }
 
 // One operator over meshes; the first is the minuend.
-inline WorldScene scene_of(csg::BooleanOp op, std::vector<csg::Mesh> meshes) {
+inline WorldScene scene_of(plane::BooleanOp op, std::vector<csg::Mesh> meshes) {
   WorldScene scene;
   const auto count = static_cast<std::uint32_t>(meshes.size());
   scene.program = {{op, 0, false, count}};
   scene.parent.assign(count, 0);
   scene.is_minuend.assign(count, false);
-  if (op == csg::BooleanOp::kDifference) scene.is_minuend[0] = true;
+  if (op == plane::BooleanOp::kDifference) scene.is_minuend[0] = true;
   scene.meshes = std::move(meshes);
   return scene;
 }
 
 // (block - bar) + (bar ∩ post), all turned.
 inline WorldScene nested_scene(double angle) {
-  using csg::BooleanOp;
+  using plane::BooleanOp;
   WorldScene scene;
   scene.program = {{BooleanOp::kUnion, 0, false, 2},
                    {BooleanOp::kDifference, 0, false, 2},

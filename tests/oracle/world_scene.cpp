@@ -60,16 +60,16 @@ bool evaluate_program(const WorldScene& scene, std::span<const int> winding) {
   // Children stand behind their parents.
   bool value = false;
   for (std::size_t n = scene.program.size(); n-- > 0;) {
-    const csg::BooleanNode& node = scene.program[n];
+    const plane::BooleanNode& node = scene.program[n];
     switch (node.op) {
-      case csg::BooleanOp::kUnion:
+      case plane::BooleanOp::kUnion:
         value = heard[n].true_children > 0;
         break;
-      case csg::BooleanOp::kIntersection:
+      case plane::BooleanOp::kIntersection:
         value =
             node.child_count > 0 && heard[n].true_children == node.child_count;
         break;
-      case csg::BooleanOp::kDifference:
+      case plane::BooleanOp::kDifference:
         value = heard[n].is_minuend_true && heard[n].true_children == 1;
         break;
     }

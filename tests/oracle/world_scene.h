@@ -18,7 +18,7 @@ struct WorldScene {
   std::vector<csg::Mesh> meshes;      // one per instance, in the world
   std::vector<std::uint32_t> parent;  // of each instance, into `program`
   std::vector<bool> is_minuend;       // of each instance
-  std::vector<csg::BooleanNode> program;
+  std::vector<plane::BooleanNode> program;
 };
 
 WorldScene world_scene(const csg::Scene& scene);

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "base/loop_area.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
+#include "plane/loop_area.h"
 #include "tests/support/design.h"
 
 namespace lamina {

@@ -174,7 +174,7 @@ double measure(const Solid& solid, double chordal_error) {
   const auto layers = support::slice_heights(design.scene(), heights);
   double greatest = 0;
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    const ldni::Contours& contours = layers[k].contours;
+    const plane::Contours& contours = layers[k].contours;
     EXPECT_GT(contours.loop_count(), 0U) << "z = " << heights[k];
     for (std::size_t l = 0; l < contours.loop_count(); ++l) {
       const auto loop = contours.loop(l);

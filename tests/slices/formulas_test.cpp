@@ -14,7 +14,7 @@
 namespace lamina {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using std::numbers::pi;
 using support::Design;
 using support::LoopCounts;

@@ -11,10 +11,10 @@
 namespace lamina {
 namespace {
 
-std::vector<ldni::Contours> sections(const std::string& text,
-                                     const std::vector<double>& heights) {
+std::vector<plane::Contours> sections(const std::string& text,
+                                      const std::vector<double>& heights) {
   const auto design = support::Design::from_text(text);
-  std::vector<ldni::Contours> all;
+  std::vector<plane::Contours> all;
   for (auto& layer : support::slice_heights(design.scene(), heights)) {
     EXPECT_TRUE(support::are_sound(layer.contours));
     all.push_back(std::move(layer.contours));

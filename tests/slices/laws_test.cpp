@@ -15,7 +15,7 @@
 namespace lamina {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using support::Design;
 
 // Coordinates are computed in another order: some roundings apart.

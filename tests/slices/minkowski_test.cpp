@@ -18,7 +18,7 @@
 namespace lamina {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using std::numbers::pi;
 using support::Design;
 

@@ -35,7 +35,7 @@ std::size_t PixelGraph::pixel_at(std::size_t layer, Vec2 place) const {
                static_cast<std::size_t>(at.x));
 }
 
-void PixelGraph::draw(std::size_t layer, const ldni::Contours& contours) {
+void PixelGraph::draw(std::size_t layer, const plane::Contours& contours) {
   // Middles: crossings of each row's line, in order.
   std::vector<std::vector<double>> crossings(rows_);
   slicer::visit_edges(contours, [&](Vec2 from, Vec2 to) {
@@ -175,13 +175,12 @@ void PixelGraph::judge_islands(const std::vector<Finding>& findings,
     if (is_there[part] == 0 || is_wide_held[part] != 0) continue;
     ++sure_islands_;
     if (found.contains(part)) continue;
-    const auto at = static_cast<std::size_t>(
-        std::ranges::find(wide, part) - wide.begin());
-    words.push_back(
-        fmt::format("layer {}, {} {}: an island was missed",
-                    at / layer_size + 1,
-                    low_.x + pitch_ * static_cast<double>(at % columns_),
-                    low_.y + pitch_ * static_cast<double>(at / columns_ % rows_)));
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(wide, part) - wide.begin());
+    words.push_back(fmt::format(
+        "layer {}, {} {}: an island was missed", at / layer_size + 1,
+        low_.x + pitch_ * static_cast<double>(at % columns_),
+        low_.y + pitch_ * static_cast<double>(at / columns_ % rows_)));
   }
 }
 

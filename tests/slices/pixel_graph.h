@@ -42,7 +42,7 @@ class PixelGraph {
     return (layer * rows_ + row) * columns_ + column;
   }
   std::size_t pixel_at(std::size_t layer, Vec2 place) const;
-  void draw(std::size_t layer, const ldni::Contours& contours);
+  void draw(std::size_t layer, const plane::Contours& contours);
   // Numbers pixels with that bit, and without `not_bit`, by what hangs together
   // in a layer, or in all of them; 0 has none.
   template <bool kInSpace, bool kWithCorners>

@@ -12,16 +12,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "csg/plane/offset.h"
-#include "csg/plane/region.h"
+#include "plane/region/offset.h"
+#include "plane/region/region.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
 
 namespace lamina {
 namespace {
 
-using ldni::Contours;
-using planar::Region;
+using plane::Contours;
+using plane::Region;
 using support::Design;
 
 constexpr auto kAngle = "polygon([[0,0],[9,0],[9,3],[4,3],[4,8],[0,8]]);";
@@ -73,11 +73,11 @@ double volume(const std::string& text, double top) {
 // The outline after moving inwards by z, in small steps with sharp joins.
 double stepped_area(const std::string& text, double z) {
   constexpr int kSteps = 400;
-  Region region = planar::to_region(drawing(text));
+  Region region = plane::to_region(drawing(text));
   for (int i = 0; i < kSteps; ++i) {
-    region = planar::offset(region, -z / kSteps, planar::Join::kMiter, 1);
+    region = plane::offset(region, -z / kSteps, plane::Join::kMiter, 1);
   }
-  return planar::area(region);
+  return plane::area(region);
 }
 
 TEST(Roof, OfAConvexDrawingIsAHippedRoof) {
@@ -201,8 +201,8 @@ TEST(Roof, VoronoiIsWhereTheOutlineIsFartherThanTheHeight) {
     const Contours outline = drawing(text);
     for (const double z : {0.2, 0.8, 1.3, 1.8}) {
       const Contours roof = section("roof($fn = 720) { " + text + " }", z);
-      const double left = planar::area(planar::offset(
-          planar::to_region(outline), -z, planar::Join::kRound, 1e-5));
+      const double left = plane::area(plane::offset(
+          plane::to_region(outline), -z, plane::Join::kRound, 1e-5));
       EXPECT_NEAR(support::total_area(roof), left, 1e-3) << text;
       for (std::size_t l = 0; l < roof.loop_count(); ++l) {
         for (const Vec2 p : roof.loop(l)) {

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "base/loop_area.h"
-#include "base/plane.h"
+#include "plane/loop_area.h"
+#include "plane/predicates.h"
 #include "tests/support/edge_grid.h"
 
 namespace lamina::support {
@@ -102,7 +102,7 @@ Vec2 meeting_place(const Edge& a, const Edge& b) {
 // Collects defects of one layer.
 class Inspection {
  public:
-  Inspection(const ldni::Contours& contours, const ContourRules& rules)
+  Inspection(const plane::Contours& contours, const ContourRules& rules)
       : contours_(contours), rules_(rules) {}
 
   std::vector<ContourDefect> run() {
@@ -240,7 +240,7 @@ class Inspection {
     }
   }
 
-  const ldni::Contours& contours_;
+  const plane::Contours& contours_;
   const ContourRules& rules_;
   std::vector<Edge> edges_;
   std::unordered_set<std::uint64_t> reported_;
@@ -249,12 +249,12 @@ class Inspection {
 
 }  // namespace
 
-std::vector<ContourDefect> find_defects(const ldni::Contours& contours,
+std::vector<ContourDefect> find_defects(const plane::Contours& contours,
                                         const ContourRules& rules) {
   return Inspection(contours, rules).run();
 }
 
-::testing::AssertionResult are_sound(const ldni::Contours& contours,
+::testing::AssertionResult are_sound(const plane::Contours& contours,
                                      const ContourRules& rules) {
   const auto defects = find_defects(contours, rules);
   if (defects.empty()) return ::testing::AssertionSuccess();
@@ -268,7 +268,7 @@ std::vector<ContourDefect> find_defects(const ldni::Contours& contours,
   return failure;
 }
 
-LoopCounts count_loops(const ldni::Contours& contours) {
+LoopCounts count_loops(const plane::Contours& contours) {
   LoopCounts counts;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
     ++(signed_area(contours.loop(l)) > 0 ? counts.outer : counts.holes);
@@ -280,7 +280,7 @@ std::ostream& operator<<(std::ostream& out, const LoopCounts& counts) {
   return out << counts.outer << " outer, " << counts.holes << " holes";
 }
 
-int winding_number(const ldni::Contours& contours, Vec2 point) {
+int winding_number(const plane::Contours& contours, Vec2 point) {
   int winding = 0;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
     const Loop loop = contours.loop(l);
@@ -298,11 +298,11 @@ int winding_number(const ldni::Contours& contours, Vec2 point) {
   return winding;
 }
 
-bool contains(const ldni::Contours& contours, Vec2 point) {
+bool contains(const plane::Contours& contours, Vec2 point) {
   return winding_number(contours, point) != 0;
 }
 
-double total_area(const ldni::Contours& contours) {
+double total_area(const plane::Contours& contours) {
   double area = 0;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
     area += signed_area(contours.loop(l));
@@ -310,7 +310,7 @@ double total_area(const ldni::Contours& contours) {
   return area;
 }
 
-double total_perimeter(const ldni::Contours& contours) {
+double total_perimeter(const plane::Contours& contours) {
   double sum = 0;
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {
     sum += perimeter(contours.loop(l));
@@ -330,11 +330,11 @@ double distance_to(std::span<const Edge> edges, Vec2 point) {
 
 }  // namespace
 
-double distance_to_edges(const ldni::Contours& contours, Vec2 point) {
+double distance_to_edges(const plane::Contours& contours, Vec2 point) {
   return distance_to(edges_of(contours), point);
 }
 
-double greatest_distance(const ldni::Contours& a, const ldni::Contours& b) {
+double greatest_distance(const plane::Contours& a, const plane::Contours& b) {
   const auto edges_a = edges_of(a);
   const auto edges_b = edges_of(b);
   double greatest = 0;
@@ -349,7 +349,7 @@ double greatest_distance(const ldni::Contours& a, const ldni::Contours& b) {
   return greatest;
 }
 
-void add_loop(ldni::Contours& contours, const std::vector<Vec2>& points) {
+void add_loop(plane::Contours& contours, const std::vector<Vec2>& points) {
   contours.points.insert(contours.points.end(), points.begin(), points.end());
   contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));
 }

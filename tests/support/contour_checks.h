@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::support {
 
@@ -54,12 +54,12 @@ struct ContourDefect {
 
 // All defects, but no more than a few hundred; empty for sound contours.
 // Orientation is only judged where nothing crosses.
-std::vector<ContourDefect> find_defects(const ldni::Contours& contours,
+std::vector<ContourDefect> find_defects(const plane::Contours& contours,
                                         const ContourRules& rules = {});
 
 // The same as a GoogleTest assertion:
 //   EXPECT_TRUE(are_sound(layer.contours)) << "at z = " << layer.section_z;
-::testing::AssertionResult are_sound(const ldni::Contours& contours,
+::testing::AssertionResult are_sound(const plane::Contours& contours,
                                      const ContourRules& rules = {});
 
 // Loops by the sign of their area. For sound contours these are the regions
@@ -71,26 +71,26 @@ struct LoopCounts {
 
   bool operator==(const LoopCounts&) const = default;
 };
-LoopCounts count_loops(const ldni::Contours& contours);
+LoopCounts count_loops(const plane::Contours& contours);
 std::ostream& operator<<(std::ostream& out, const LoopCounts& counts);
 
 // Sum of winding numbers of all loops around `point`: 1 inside the solid, 0
 // outside, for sound contours. Exactly on an edge: either. O(points).
-int winding_number(const ldni::Contours& contours, Vec2 point);
-bool contains(const ldni::Contours& contours, Vec2 point);
+int winding_number(const plane::Contours& contours, Vec2 point);
+bool contains(const plane::Contours& contours, Vec2 point);
 
 // Sums over all loops; holes count negative in the area.
-double total_area(const ldni::Contours& contours);
-double total_perimeter(const ldni::Contours& contours);
+double total_area(const plane::Contours& contours);
+double total_perimeter(const plane::Contours& contours);
 
 // Distance [mm] from a point to the nearest edge; infinite without any.
-double distance_to_edges(const ldni::Contours& contours, Vec2 point);
+double distance_to_edges(const plane::Contours& contours, Vec2 point);
 
 // Greatest distance [mm] from the vertices and edge middles of either to the
 // edges of the other; infinite where only one is empty. O(points²).
-double greatest_distance(const ldni::Contours& a, const ldni::Contours& b);
+double greatest_distance(const plane::Contours& a, const plane::Contours& b);
 
 // Appends one loop.
-void add_loop(ldni::Contours& contours, const std::vector<Vec2>& points);
+void add_loop(plane::Contours& contours, const std::vector<Vec2>& points);
 
 }  // namespace lamina::support

@@ -9,7 +9,7 @@ namespace lamina::support {
 namespace {
 
 using Kind = ContourDefect::Kind;
-using ldni::Contours;
+using plane::Contours;
 
 std::vector<Vec2> square(double x, double y, double side) {
   return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};

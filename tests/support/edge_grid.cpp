@@ -17,7 +17,7 @@ std::size_t clamp_index(double value, std::size_t count) {
 
 }  // namespace
 
-std::vector<Edge> edges_of(const ldni::Contours& contours) {
+std::vector<Edge> edges_of(const plane::Contours& contours) {
   std::vector<Edge> edges;
   edges.reserve(contours.points.size());
   for (std::size_t l = 0; l < contours.loop_count(); ++l) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::support {
 
@@ -20,7 +20,7 @@ struct Edge {
 };
 
 // All edges of all loops, loop by loop.
-std::vector<Edge> edges_of(const ldni::Contours& contours);
+std::vector<Edge> edges_of(const plane::Contours& contours);
 
 class EdgeGrid {
  public:

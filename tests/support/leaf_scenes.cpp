@@ -9,7 +9,7 @@
 namespace lamina::support {
 namespace {
 
-using csg::BooleanOp;
+using plane::BooleanOp;
 
 // Triangles of a polygon given by consecutive vertex indices, as a fan.
 void add_fan(csg::Mesh& mesh, const std::vector<std::uint32_t>& polygon) {
@@ -159,7 +159,7 @@ std::uint32_t place_leaf(csg::Scene& scene, std::uint32_t leaf,
 
 std::uint32_t add_operator(csg::Scene& scene, BooleanOp op,
                            std::uint32_t parent) {
-  csg::BooleanNode node;
+  plane::BooleanNode node;
   node.op = op;
   node.parent = parent;
   node.is_minuend = scene.program[parent].op == BooleanOp::kDifference &&
@@ -205,7 +205,7 @@ bool evaluate_program(const csg::Scene& scene,
   // Parents stand before their children, so backwards every operator is
   // complete when it is reached.
   for (std::size_t i = scene.program.size();;) {
-    const csg::BooleanNode& node = scene.program[--i];
+    const plane::BooleanNode& node = scene.program[--i];
     const Operands& of = operands[i];
     bool value = of.holding > 0;
     if (node.op == BooleanOp::kIntersection) {

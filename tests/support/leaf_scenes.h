@@ -38,10 +38,10 @@ std::uint32_t place_leaf(csg::Scene& scene, std::uint32_t leaf,
                          const Affine& world_from_leaf,
                          std::uint32_t parent = 0);
 // Adds an operator under `parent` and returns its index.
-std::uint32_t add_operator(csg::Scene& scene, csg::BooleanOp op,
+std::uint32_t add_operator(csg::Scene& scene, plane::BooleanOp op,
                            std::uint32_t parent);
 // A scene whose root is `op`, with no leaves yet.
-csg::Scene scene_of(csg::BooleanOp op);
+csg::Scene scene_of(plane::BooleanOp op);
 // Sets the scene's box to that of all instances.
 void cover_instances(csg::Scene& scene);
 

@@ -58,11 +58,11 @@ class SceneMaker {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   // Unions twice as often: random intersections are mostly empty.
-  csg::BooleanOp any_operator() {
+  plane::BooleanOp any_operator() {
     const std::size_t choice = below(5);
-    if (choice < 3) return csg::BooleanOp::kUnion;
-    return choice == 3 ? csg::BooleanOp::kDifference
-                       : csg::BooleanOp::kIntersection;
+    if (choice < 3) return plane::BooleanOp::kUnion;
+    return choice == 3 ? plane::BooleanOp::kDifference
+                       : plane::BooleanOp::kIntersection;
   }
 
   static Outline circle(int sides) {

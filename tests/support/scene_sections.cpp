@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "csg/boundary/leaf_mesh.h"
-#include "csg/tie_distance.h"
+#include "plane/tie_distance.h"
 #include "slicer/slice/slice.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
@@ -17,7 +17,7 @@
 namespace lamina::support {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 
 // Loops may touch themselves where rounding has faces a little apart, by less
 // than a tie; nothing crosses in any case.

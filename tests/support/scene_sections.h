@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "csg/tie_distance.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
+#include "plane/tie_distance.h"
 #include "slicer/slice/settings.h"
 
 namespace lamina::support {
@@ -28,7 +28,7 @@ struct Refused {
 };
 
 // One set of loops for each height.
-using Sections = std::vector<ldni::Contours>;
+using Sections = std::vector<plane::Contours>;
 
 // Where every edge of a loop must be: at most this far from where exact
 // arithmetic has it, times the few faces that may tie in a row. Points nearer

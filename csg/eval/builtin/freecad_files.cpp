@@ -21,7 +21,7 @@ FreecadModel read_file(std::string_view bytes, const FreecadOptions& options,
     return read_freecad(bytes, options, call.in.node_arena());
   } catch (const FormatError& error) {
     fault = error.what();
-  } catch (const LimitExceeded& error) {
+  } catch (const plane::LimitExceeded& error) {
     fault = error.diagnostic().message;
   }
   call.in.fail(call.code.range,

@@ -34,7 +34,8 @@ double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
 }
 
 Vec2 require_near(Vec2 point) {
-  if (is_too_far(point.x) || is_too_far(point.y)) fail_too_far();
+  if (plane::is_too_far(point.x) || plane::is_too_far(point.y))
+    plane::fail_too_far();
   return point;
 }
 
@@ -60,7 +61,7 @@ void append_chords(const Curve& curve, CurvePoint a, CurvePoint b, double error,
   };
   if (depth == kDeepest ||
       (is_near(middle) && is_near(at(0.25)) && is_near(at(0.75)))) {
-    require_corners(chords.size());
+    plane::require_corners(chords.size());
     chords.push_back(b.point);
     return;
   }
@@ -177,7 +178,7 @@ Polyline read_hyperbola(const pugi::xml_node& conic, double error) {
   constexpr double kGreatestArgument = 20;
   if (std::max(std::abs(breaks.front()), std::abs(breaks.back())) >
       kGreatestArgument) {
-    fail_too_far();
+    plane::fail_too_far();
   }
   return placed(conic, chords_of(curve, breaks, error));
 }

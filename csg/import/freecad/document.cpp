@@ -25,7 +25,7 @@ ZipArchive open_archive(std::string_view bytes) {
       std::min(kMostUnpackedBytes,
                kSlack + kMostSwelling * static_cast<double>(bytes.size()));
   if (archive.unpacked_bytes() > most) {
-    throw LimitExceeded(fmt::format(
+    throw plane::LimitExceeded(fmt::format(
         "FCStd of {} bytes unpacks to {:.7g}, at most {:.7g} can be",
         bytes.size(), archive.unpacked_bytes(), most));
   }
@@ -37,7 +37,7 @@ void require_few_parts(std::string_view bytes, std::string_view entry) {
   const auto count = static_cast<std::size_t>(std::count_if(
       bytes.begin(), bytes.end(), [](char c) { return c == '<' || c == '='; }));
   if (count <= kMostXmlParts) return;
-  throw LimitExceeded(
+  throw plane::LimitExceeded(
       fmt::format("FCStd {} has {} elements and attributes, at most {} can be",
                   entry, count, kMostXmlParts));
 }
@@ -98,7 +98,7 @@ double read_number(const pugi::xml_node& element, const char* attribute) {
         fmt::format("FCStd, expected a number in {} of a {}, not '{}'",
                     attribute, element.name(), text));
   }
-  if (is_too_far(*number)) {
+  if (plane::is_too_far(*number)) {
     throw FormatError(fmt::format("FCStd, {} of a {} is {:g}, beyond 1e9",
                                   attribute, element.name(), *number));
   }

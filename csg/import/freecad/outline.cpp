@@ -158,7 +158,7 @@ std::optional<std::vector<Polyline>> read_curves(const Object& sketch,
       why = fmt::format("{} in '{}' is not known", type, sketch.label());
       return std::nullopt;
     }
-    require_corners(corners += curve->size() - 1);
+    plane::require_corners(corners += curve->size() - 1);
     curves.push_back(std::move(*curve));
   }
   return curves;
@@ -179,7 +179,7 @@ std::optional<Outline> read_sketch(const Object& sketch, double error,
 // The corners of a closed polyline.
 std::vector<Polyline> one_contour(Polyline chords, std::size_t& corners) {
   chords.pop_back();
-  require_corners(corners += chords.size());
+  plane::require_corners(corners += chords.size());
   return {std::move(chords)};
 }
 
@@ -209,7 +209,7 @@ std::optional<Outline> read_regular_polygon(const Object& object,
     return std::nullopt;
   }
   require_fragments(sides);
-  require_corners(corners += static_cast<std::size_t>(sides));
+  plane::require_corners(corners += static_cast<std::size_t>(sides));
   const double radius = object.number("Circumradius");
   Polyline contour;
   for (int i = 0; i < sides; ++i) {

@@ -285,7 +285,7 @@ std::optional<Polyline> hole_profile(const Object& hole, std::string& why) {
   }
   for (std::size_t i = 1; i < profile.size(); ++i) {
     const bool goes_down = profile[i].y >= profile[i - 1].y;  // no NaN does
-    if (!(profile[i].x >= 0) || !goes_down || is_too_far(profile[i].y)) {
+    if (!(profile[i].x >= 0) || !goes_down || plane::is_too_far(profile[i].y)) {
       why = "its measures make no hole";
       return std::nullopt;
     }

@@ -66,13 +66,13 @@ int Reader::read_occurrences(const Object& object) {
 
 void Reader::count_places(double count) {
   if (count > kMostOccurrences) {
-    throw LimitExceeded(
+    throw plane::LimitExceeded(
         fmt::format("Too many occurrences: {:.7g}, at most {:.7g} can be",
                     count, kMostOccurrences));
   }
   places_ += static_cast<std::size_t>(std::max(count, 1.0));
   if (places_ <= kMostPlaces) return;
-  throw LimitExceeded(fmt::format(
+  throw plane::LimitExceeded(fmt::format(
       "Too many places in all patterns: more than {}", kMostPlaces));
 }
 

@@ -85,10 +85,10 @@ FreecadModel Reader::read() {
       model_.nodes.push_back(solid.node);
       model_.leaves += solid.leaves;
     }
-  } catch (const LimitExceeded& fault) {
+  } catch (const plane::LimitExceeded& fault) {
     if (open_.empty()) throw;
-    throw LimitExceeded(fmt::format("{}, in {}", fault.diagnostic().message,
-                                    shown(*open_.back())));
+    throw plane::LimitExceeded(fmt::format(
+        "{}, in {}", fault.diagnostic().message, shown(*open_.back())));
   }
   return std::move(model_);
 }
@@ -195,8 +195,9 @@ void Reader::find_operands() {
       if (!groups.empty() && groups.back() == &object) continue;
       groups.push_back(&object);
       if (groups.size() > kMostGroups) {
-        throw LimitExceeded(fmt::format("Too many groups: more than {} hold {}",
-                                        kMostGroups, shown(*member)));
+        throw plane::LimitExceeded(
+            fmt::format("Too many groups: more than {} hold {}", kMostGroups,
+                        shown(*member)));
       }
     }
   }
@@ -308,7 +309,7 @@ Reader::Made Reader::make(const Object& object) {
   if (is_new) {
     constexpr std::size_t kDeepest = 1000;
     if (open_.size() == kDeepest) {
-      throw LimitExceeded(fmt::format(
+      throw plane::LimitExceeded(fmt::format(
           "Too deep: {} objects are made of one another, at most {} can be",
           open_.size(), kDeepest));
     }

@@ -42,7 +42,7 @@ Solid SolidMaker::make(decltype(Node::op) op, std::span<const Solid> children) {
     nodes.push_back(child.node);
     leaves += child.leaves;
     if (leaves > most_leaves_) {
-      throw LimitExceeded(fmt::format(
+      throw plane::LimitExceeded(fmt::format(
           "Too many leaves: more than the {} that --max-leaves allows",
           most_leaves_));
     }
@@ -75,7 +75,7 @@ Solid SolidMaker::place(const Mat4& world_from_solid, const Solid& solid) {
       inner != nullptr ? world_from_solid * *inner->matrix : world_from_solid;
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
-      if (is_too_far(matrix[column][row])) fail_too_far();
+      if (plane::is_too_far(matrix[column][row])) plane::fail_too_far();
     }
   }
   const Solid child = inner != nullptr
@@ -94,10 +94,11 @@ Solid SolidMaker::polygon(const std::vector<Polyline>& contours) {
     std::vector<std::uint32_t> path;
     for (const Vec2 corner : contour) {
       path.push_back(static_cast<std::uint32_t>(points.size()));
-      if (is_too_far(corner.x) || is_too_far(corner.y)) fail_too_far();
+      if (plane::is_too_far(corner.x) || plane::is_too_far(corner.y))
+        plane::fail_too_far();
       points.push_back(corner);
     }
-    require_corners(corners_ += contour.size());
+    plane::require_corners(corners_ += contour.size());
     paths.push_back(arena_.copy(std::span<const std::uint32_t>(path)));
   }
   PolygonParams params;
@@ -127,7 +128,7 @@ Solid SolidMaker::extrude(const Outline& outline, Vec3 way, double from,
   matrix[3] += Vec4(low * step, 0);
   LinearExtrudeParams params;
   params.height = (high - low) * rise;
-  if (is_too_far(params.height)) fail_too_far();
+  if (plane::is_too_far(params.height)) plane::fail_too_far();
   const Solid base = polygon(outline.contours);
   return place(matrix, make(LinearExtrude{keep(params)}, {&base, 1}));
 }

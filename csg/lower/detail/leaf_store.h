@@ -13,8 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "csg/plane/region.h"
 #include "csg/scene.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 

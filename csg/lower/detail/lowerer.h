@@ -25,9 +25,9 @@
 #include "csg/lower/detail/leaf_store.h"
 #include "csg/lower/detail/program_builder.h"
 #include "csg/lower/lower.h"
-#include "csg/plane/region.h"
 #include "csg/scene.h"
 #include "csg/tree.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 
@@ -36,14 +36,14 @@ namespace lamina::csg {
 enum class Dimension { kNone, kFlat, kSolid };
 struct Shape {
   Dimension dimension = Dimension::kNone;
-  planar::Region region = {};
+  plane::Region region = {};
   // Of a solid: whether OpenSCAD would have evaluated a Boolean for it, where
   // else it holds one list of faces. Scaled by 0, the result of a Boolean is
   // removed, and a list of faces becomes flat.
   bool is_boolean = false;
   // The operands that follow `region`, where the operator above takes them for
   // its own (Place::joins).
-  std::vector<planar::Region> more_regions = {};
+  std::vector<plane::Region> more_regions = {};
 };
 
 struct Operand;
@@ -54,7 +54,7 @@ struct Place {
   const Affine& world;
   // Of an operand: the operator that takes the operands of the node for its
   // own, where the node is such an operator, too.
-  std::optional<BooleanOp> joins = std::nullopt;
+  std::optional<plane::BooleanOp> joins = std::nullopt;
 };
 
 // What only unites its children.
@@ -96,13 +96,13 @@ class Lowerer {
   // --- lower_operators.cpp --------------------------------------------------
   template <Grouping Op>
   Shape lower_op(const Op&, const Place& at) {
-    return lower_children(at, BooleanOp::kUnion);
+    return lower_children(at, plane::BooleanOp::kUnion);
   }
   Shape lower_op(const Difference&, const Place& at) {
-    return lower_children(at, BooleanOp::kDifference);
+    return lower_children(at, plane::BooleanOp::kDifference);
   }
   Shape lower_op(const Intersection&, const Place& at) {
-    return lower_children(at, BooleanOp::kIntersection);
+    return lower_children(at, plane::BooleanOp::kIntersection);
   }
   Shape lower_op(const Transform& op, const Place& at);
 
@@ -115,7 +115,7 @@ class Lowerer {
     Dimension dimension = Dimension::kNone;
     std::size_t count = 0;
     std::vector<std::size_t> begins;  // on the stack; not kept for a union
-    std::vector<planar::Region> regions;
+    std::vector<plane::Region> regions;
     std::vector<const Node*> strays;  // of the other dimension
     const Node* first_mixed = nullptr;
     std::size_t solid_count = 0;  // of those that are not empty
@@ -125,15 +125,15 @@ class Lowerer {
   };
   // All children; `dimension` decides unless it is kNone. Without an operator
   // each is kept, and has one region at most.
-  Operands lower_operands(const Place& at, std::optional<BooleanOp> op,
+  Operands lower_operands(const Place& at, std::optional<plane::BooleanOp> op,
                           Dimension dimension);
   void add_operand(const Place& child, bool is_union, Operands& operands);
-  static bool is_boolean(BooleanOp op, const Operands& operands);
+  static bool is_boolean(plane::BooleanOp op, const Operands& operands);
   // Whether OpenSCAD makes nothing of solids, be it empty, rather than an empty
   // solid: then what stands beside the operator may be flat.
-  static bool is_nothing(BooleanOp op, const Operands& operands);
+  static bool is_nothing(plane::BooleanOp op, const Operands& operands);
   void report_strays(const Operands& operands);
-  Shape lower_children(const Place& at, BooleanOp op);
+  Shape lower_children(const Place& at, plane::BooleanOp op);
 
   // Leaves a scene that was lowered apart on top of the stack, as the parts of
   // its program.
@@ -179,7 +179,7 @@ class Lowerer {
   // What a file holds. It is read once, however often the design names it.
   struct FileShape {
     Dimension dimension = Dimension::kNone;
-    planar::Region region = {};
+    plane::Region region = {};
     std::optional<std::uint32_t> leaf = std::nullopt;
   };
   // The tolerance of --decimate in a node's own coordinates; 0: none.
@@ -202,10 +202,10 @@ class Lowerer {
   // A node's children lowered by themselves, in the node's coordinates.
   struct Apart {
     Dimension dimension = Dimension::kNone;
-    std::vector<planar::Region> regions;  // of their union
-    Scene scene;                          // their union
-    bool is_boolean = false;              // as Shape's
-    std::size_t count = 0;                // of the children
+    std::vector<plane::Region> regions;  // of their union
+    Scene scene;                         // their union
+    bool is_boolean = false;             // as Shape's
+    std::size_t count = 0;               // of the children
   };
   Apart lower_apart(const Place& at, bool takes_corners = false);
   // A lowerer for those children; nothing lowered yet.
@@ -249,8 +249,8 @@ class Lowerer {
 
 // Applies the part of the matrix that acts in the plane. Outer contours stay
 // counter-clockwise.
-planar::Region transform_region(planar::Region region, const Mat4& matrix,
-                                SourceRange range, Diagnostics& diagnostics);
+plane::Region transform_region(plane::Region region, const Mat4& matrix,
+                               SourceRange range, Diagnostics& diagnostics);
 
 // Reports the first malformed point; returns whether there is none.
 //

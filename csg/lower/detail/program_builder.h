@@ -35,7 +35,7 @@ class ProgramBuilder {
   // Replaces the operands by the result of the operator. They are the parts
   // from each begin up to the next one, the last operand's up to the top; an
   // operand may be empty. What is flat counts as empty.
-  void apply(BooleanOp op, std::span<const std::size_t> begins);
+  void apply(plane::BooleanOp op, std::span<const std::size_t> begins);
 
   // Copies the parts from begin up to end into the scene, box included, as
   // finish() would.
@@ -54,7 +54,7 @@ class ProgramBuilder {
     bool is_operator = false;
   };
   struct Operator {
-    BooleanOp op = BooleanOp::kUnion;
+    plane::BooleanOp op = plane::BooleanOp::kUnion;
     std::uint32_t first_child = 0;  // into children_
     std::uint32_t child_count = 0;
     Box3 box;
@@ -66,7 +66,8 @@ class ProgramBuilder {
   const Box3& box_of(Part part) const;
   Box3 box_of(std::span<const Part> parts) const;
   std::span<const Part> parts_above(std::size_t mark) const;
-  Part make_operator(BooleanOp op, std::span<const Part> parts, Box3 box);
+  Part make_operator(plane::BooleanOp op, std::span<const Part> parts,
+                     Box3 box);
   Part unite(std::span<const Part> parts, const Box3& box);
   void emit(Part part, std::uint32_t parent, bool is_minuend, Scene& scene);
   void emit_operands(Part part, std::uint32_t self, Scene& scene);

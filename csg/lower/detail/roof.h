@@ -28,26 +28,26 @@
 #include <vector>
 
 #include "csg/lower/detail/fineness.h"
-#include "csg/plane/region.h"
 #include "csg/scene.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 
 // The prism over `region` from `bottom` to `top`, less the cutters. The roof is
 // the union of all stages.
 struct RoofStage {
-  planar::Region region;
+  plane::Region region;
   double bottom = 0;  // [mm]
   double top = 0;     // [mm]; the roof's own, or a share of 2e-5 more
   Mesh cutters;       // they overlap each other, and reach beyond the prism
 };
 
 // "voronoi"; `corners` says how fine its rounded corners are.
-std::vector<RoofStage> round_roof(const planar::Region& region,
+std::vector<RoofStage> round_roof(const plane::Region& region,
                                   const Fineness& corners);
 
 // "straight". Throws LimitExceeded where the region has more than kMostTracks
 // reflex corners.
-std::vector<RoofStage> sharp_roof(const planar::Region& region);
+std::vector<RoofStage> sharp_roof(const plane::Region& region);
 
 }  // namespace lamina::csg

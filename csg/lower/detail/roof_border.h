@@ -6,7 +6,7 @@
 
 #include "base/vec.h"
 #include "csg/boundary/box_tree.h"
-#include "csg/plane/region.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 
@@ -28,7 +28,7 @@ struct Part {
 
 class RoofBorder {
  public:
-  explicit RoofBorder(const planar::Region& region);
+  explicit RoofBorder(const plane::Region& region);
 
   // Of the front, at least what is within `reach` [mm] of the border.
   Part near_part(const Front& front, double reach) const;

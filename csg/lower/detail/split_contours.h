@@ -4,8 +4,8 @@
 // Each edge sweeps a side that no plane holds. OpenSCAD 2021.01 leaves edges as
 // they are; 2026 divides them, by `segments` or as $fn, $fa and $fs ask.
 
-#include "csg/plane/region.h"
 #include "csg/tree.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 
@@ -13,8 +13,8 @@ namespace lamina::csg {
 //         an edge in any of them counts
 //
 // Throws LimitExceeded. Time: n log n in the points that come out.
-planar::Region split_contours(const planar::Region& region,
-                              const LinearExtrudeParams& params, int slices,
-                              Language language);
+plane::Region split_contours(const plane::Region& region,
+                             const LinearExtrudeParams& params, int slices,
+                             Language language);
 
 }  // namespace lamina::csg

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "csg/plane/region.h"
+#include "plane/region/region.h"
 
 namespace lamina::csg {
 
@@ -41,13 +41,13 @@ struct Track {
   Vec2 at(double time) const { return start + velocity * (time - start_time); }
 };
 
-std::vector<Edge> edges_of(const planar::Contour& contour);
+std::vector<Edge> edges_of(const plane::Contour& contour);
 
 // Corners as good as straight among them.
-std::vector<ReflexCorner> reflex_corners(const planar::Contour& contour);
+std::vector<ReflexCorner> reflex_corners(const plane::Contour& contour);
 
 // Throws LimitExceeded where there are more than kMostTracks.
-std::vector<Track> trace_corners(const planar::Region& region);
+std::vector<Track> trace_corners(const plane::Region& region);
 
 inline constexpr std::size_t kMostTracks = 10000;
 

@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 
 namespace lamina::ldni::detail {
 namespace {
@@ -106,7 +106,7 @@ struct CsgPruning::Body {
 };
 
 CsgPruning::CsgPruning(const csg::Scene& scene)
-    : scene_(scene), program_(scene, csg::Ternary::kUnknown) {
+    : scene_(scene), program_(csg::program_of(scene), plane::Ternary::kUnknown) {
   list_children();
 }
 
@@ -141,7 +141,7 @@ bool CsgPruning::matters(std::uint32_t instance) {
   last_question_ = questions_ + kMostQuestions;
   const bool matters = !is_decided_above(instance, box);
   for (const std::uint32_t other : known_) {
-    program_.set(other, csg::Ternary::kUnknown);
+    program_.set(other, plane::Ternary::kUnknown);
   }
   known_.clear();
   return matters;
@@ -171,8 +171,8 @@ void CsgPruning::ask(std::uint32_t node, const Child& but, const Box3& box) {
     if (questions_ == last_question_) return;
     ++questions_;
     if (child.is_instance) {
-      const csg::Ternary value = value_of(child.number, box);
-      if (value == csg::Ternary::kUnknown) continue;
+      const plane::Ternary value = value_of(child.number, box);
+      if (value == plane::Ternary::kUnknown) continue;
       program_.set(child.number, value);
       known_.push_back(child.number);
     } else {
@@ -181,17 +181,17 @@ void CsgPruning::ask(std::uint32_t node, const Child& but, const Box3& box) {
   }
 }
 
-csg::Ternary CsgPruning::value_of(std::uint32_t number, const Box3& box) {
+plane::Ternary CsgPruning::value_of(std::uint32_t number, const Box3& box) {
   const csg::Instance& instance = scene_.instances[number];
   for (int axis = 0; axis < 3; ++axis) {
     if (box.low[axis] > instance.box.high[axis] ||
         box.high[axis] < instance.box.low[axis]) {
-      return csg::Ternary::kFalse;
+      return plane::Ternary::kFalse;
     }
   }
   const csg::Leaf& leaf = scene_.leaves[instance.leaf];
   const Body& body = bodies_.try_emplace(number, instance, leaf).first->second;
-  if (body.loft == nullptr) return csg::Ternary::kUnknown;
+  if (body.loft == nullptr) return plane::Ternary::kUnknown;
 
   // The box around the box, in coordinates of the leaf.
   const Vec3 middle =
@@ -205,13 +205,13 @@ csg::Ternary CsgPruning::value_of(std::uint32_t number, const Box3& box) {
   const double high = middle.z + half.z;
   const auto [least, greatest] = body.scales_between(low, high);
   if (greatest < least || nearest > body.outer * greatest)
-    return csg::Ternary::kFalse;
+    return plane::Ternary::kFalse;
   const std::vector<Vec2>& profile = body.loft->profile;
   if (farthest < body.inner * least && low > profile.front().y &&
       high < profile.back().y) {
-    return csg::Ternary::kTrue;
+    return plane::Ternary::kTrue;
   }
-  return csg::Ternary::kUnknown;
+  return plane::Ternary::kUnknown;
 }
 
 }  // namespace lamina::ldni::detail

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "csg/scene.h"
-#include "csg/ternary_program.h"
+#include "plane/program/ternary_program.h"
 
 namespace lamina::ldni::detail {
 
@@ -53,11 +53,11 @@ class CsgPruning {
   void list_children();
   bool is_decided_above(std::uint32_t instance, const Box3& box);
   void ask(std::uint32_t node, const Child& but, const Box3& box);
-  csg::Ternary value_of(std::uint32_t instance, const Box3& box);
+  plane::Ternary value_of(std::uint32_t instance, const Box3& box);
 
   const csg::Scene& scene_;
   // All is unknown but what is asked for the instance in hand.
-  csg::TernaryProgram program_;
+  plane::TernaryProgram program_;
   std::vector<std::uint32_t> known_;  // instances whose value is not unknown
   // Of the operators with few children; operator i: [ends[i-1], ends[i]).
   std::vector<Child> children_;

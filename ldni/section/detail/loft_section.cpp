@@ -26,7 +26,8 @@ std::uint32_t BlockLayers::layers_below(double z) const {
 
 void LoftSectioner::cut(const csg::Loft& loft, const Affine& world_from_leaf,
                         std::uint32_t instance, std::int32_t orientation,
-                        const BlockLayers& layers, ChainBuilder& builder) {
+                        const BlockLayers& layers,
+                        plane::ChainBuilder& builder) {
   outline_size_ = static_cast<std::uint32_t>(loft.outline->size());
   ring_count_ = static_cast<std::uint32_t>(loft.profile.size());
   if (outline_size_ < 3 || ring_count_ < 2) return;

@@ -36,7 +36,7 @@
 
 #include "base/lanes.h"
 #include "csg/scene.h"
-#include "ldni/section/chain_builder.h"
+#include "plane/chain_builder.h"
 
 namespace lamina::ldni::detail {
 
@@ -59,7 +59,7 @@ class LoftSectioner {
   //              counter-clockwise from outside the leaf in the world
   void cut(const csg::Loft& loft, const Affine& world_from_leaf,
            std::uint32_t instance, std::int32_t orientation,
-           const BlockLayers& layers, ChainBuilder& builder);
+           const BlockLayers& layers, plane::ChainBuilder& builder);
 
  private:
   // Layers that cross a ring: [low, high); those from high on are above it.
@@ -208,7 +208,7 @@ class LoftSectioner {
   std::uint32_t instance_ = 0;
   std::int32_t orientation_ = 1;
   const BlockLayers* layers_ = nullptr;
-  ChainBuilder* builder_ = nullptr;
+  plane::ChainBuilder* builder_ = nullptr;
 };
 
 }  // namespace lamina::ldni::detail

@@ -10,7 +10,7 @@ namespace lamina::ldni::detail {
 void MeshSectioner::cut(const csg::Mesh& mesh, const MeshIndex& index,
                         const Affine& world_from_leaf, std::uint32_t instance,
                         std::int32_t orientation, const BlockLayers& layers,
-                        ChainBuilder& builder) {
+                        plane::ChainBuilder& builder) {
   mesh_ = &mesh;
   world_from_leaf_ = world_from_leaf;
   layers_ = &layers;

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "csg/scene.h"
-#include "ldni/section/chain_builder.h"
 #include "ldni/section/detail/loft_section.h"
 #include "ldni/section/detail/mesh_index.h"
+#include "plane/chain_builder.h"
 
 namespace lamina::ldni::detail {
 
@@ -26,7 +26,7 @@ class MeshSectioner {
   void cut(const csg::Mesh& mesh, const MeshIndex& index,
            const Affine& world_from_leaf, std::uint32_t instance,
            std::int32_t orientation, const BlockLayers& layers,
-           ChainBuilder& builder);
+           plane::ChainBuilder& builder);
 
   // Open paths closed since construction.
   std::uint64_t open_paths() const { return open_paths_; }
@@ -67,7 +67,7 @@ class MeshSectioner {
   const csg::Mesh* mesh_ = nullptr;
   Affine world_from_leaf_{1.0};
   const BlockLayers* layers_ = nullptr;
-  ChainBuilder* builder_ = nullptr;
+  plane::ChainBuilder* builder_ = nullptr;
   std::uint32_t instance_ = 0;
   std::int32_t orientation_ = 1;
   // Of the edge that a walk crossed last.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 namespace {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
-#include "base/loop_area.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
+#include "plane/loop_area.h"
 #include "slicer/contour/layer.h"
 #include "slicer/contour/round_loops.h"
 #include "slicer/formats/detail/writers.h"
@@ -65,7 +65,7 @@ class FloatContours {
   void extend();
 
   LoopRounder rounder_;
-  ldni::Contours rounded_;
+  plane::Contours rounded_;
   std::vector<FloatPoint> points_;
   std::vector<std::size_t> ends_;
   bool has_loops_ = false;  // so far

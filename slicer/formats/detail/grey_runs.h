@@ -7,7 +7,7 @@
 
 #include <glm/common.hpp>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "slicer/formats/coverage.h"
 
 namespace lamina::slicer {
@@ -20,7 +20,7 @@ struct PixelBox {
   unsigned end_row;
 };
 
-inline PixelBox box_of(const ldni::Contours& contours, unsigned width,
+inline PixelBox box_of(const plane::Contours& contours, unsigned width,
                        unsigned height, const PixelMap& map) {
   const Vec2 size(width, height);
   Vec2 low = size;
@@ -40,8 +40,9 @@ inline PixelBox box_of(const ldni::Contours& contours, unsigned width,
 //
 // lead  this many pixels of grey 0 come before each row
 template <typename Visit>
-void visit_runs(const ldni::Contours& contours, unsigned width, unsigned height,
-                const PixelMap& map, unsigned lead, const Visit& visit) {
+void visit_runs(const plane::Contours& contours, unsigned width,
+                unsigned height, const PixelMap& map, unsigned lead,
+                const Visit& visit) {
   // Rows are drawn in bands of about this many pixels, so that memory stays
   // small however large the panel.
   constexpr unsigned kBandPixels = 1 << 18;

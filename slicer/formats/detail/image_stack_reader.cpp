@@ -1,6 +1,6 @@
 // Reads layers back from images (docs/formats.md): folders, SL1 and NanoDLP
-// archives. A contour runs where the grey is half, so places are true to a tenth
-// of a pixel; the middle of the panel is at x = y = 0.
+// archives. A contour runs where the grey is half, so places are true to a
+// tenth of a pixel; the middle of the panel is at x = y = 0.
 
 #include <algorithm>
 #include <charconv>
@@ -86,11 +86,10 @@ class ImageStackReader {
       take(layer);
     }
     LayerFileFacts facts;
-    facts.format =
-        fmt::format("{}, {} images of {} x {} pixels of {:g} x {:g} mm",
-                    stack.format, stack.images.size(), stack.printer.width,
-                    stack.printer.height, stack.printer.pixel.x,
-                    stack.printer.pixel.y);
+    facts.format = fmt::format(
+        "{}, {} images of {} x {} pixels of {:g} x {:g} mm", stack.format,
+        stack.images.size(), stack.printer.width, stack.printer.height,
+        stack.printer.pixel.x, stack.printer.pixel.y);
     facts.writer = stack.writer;
     facts.is_float32 = false;
     return facts;
@@ -138,11 +137,10 @@ class ImageStackReader {
     const auto number = found == values.end() ? std::optional<double>()
                                               : parse_number(found->second);
     if (!number || !(*number > 0)) {
-      fail_to_read(path_, fmt::format("expected {} to be a positive number, "
-                                      "not '{}'",
-                                      name,
-                                      found == values.end() ? ""
-                                                            : found->second));
+      fail_to_read(
+          path_, fmt::format("expected {} to be a positive number, "
+                             "not '{}'",
+                             name, found == values.end() ? "" : found->second));
     }
     return *number;
   }
@@ -324,13 +322,14 @@ class ImageStackReader {
   }
 
   // In the design's directions [mm].
-  ldni::Contours contours_of(const std::string& name,
-                             const Printer& printer) const {
+  plane::Contours contours_of(const std::string& name,
+                              const Printer& printer) const {
     const std::string bytes = require_text(name);
     PngImage image;
     try {
       image = read_png_image(
-          bytes, PngChannels::kStored, [&](std::size_t columns, std::size_t rows) {
+          bytes, PngChannels::kStored,
+          [&](std::size_t columns, std::size_t rows) {
             if (columns > kMostPixels / std::max<std::size_t>(rows, 1)) {
               throw FormatError("PNG: too many pixels");
             }
@@ -341,11 +340,11 @@ class ImageStackReader {
     // Three grey pixels of a panel may be one of the image.
     const std::size_t columns = image.columns * image.channels;
     if (columns != printer.width || image.rows != printer.height) {
-      fail_to_read(path_, fmt::format("{} has {} x {} pixels, not {} x {}", name,
-                                      columns, image.rows, printer.width,
+      fail_to_read(path_, fmt::format("{} has {} x {} pixels, not {} x {}",
+                                      name, columns, image.rows, printer.width,
                                       printer.height));
     }
-    ldni::Contours contours = trace_pixels(image.pixels, columns, image.rows);
+    plane::Contours contours = trace_pixels(image.pixels, columns, image.rows);
     const Vec2 middle(printer.width / 2.0, printer.height / 2.0);
     for (Vec2& point : contours.points) {
       const Vec2 mm = (point - middle) * printer.pixel;
@@ -384,8 +383,7 @@ LayerFileFacts read_image_archive(const std::string& path,
   }
 }
 
-LayerFileFacts read_image_folder(const std::string& path,
-                                 const TakeLayer& take,
+LayerFileFacts read_image_folder(const std::string& path, const TakeLayer& take,
                                  const FileAccess& access) {
   return ImageStackReader(path, {{},
                                  [&](const std::string& name) {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {

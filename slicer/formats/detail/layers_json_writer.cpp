@@ -10,7 +10,7 @@
 #include <span>
 
 #include "base/file/text_output.h"
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 #include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {

@@ -26,7 +26,7 @@ class Tracer {
          std::size_t rows)
       : pixels_(pixels), columns_(columns), rows_(rows) {}
 
-  ldni::Contours trace() {
+  plane::Contours trace() {
     for (std::size_t row = 0; row <= rows_; ++row) {
       if (is_empty(row) && (row == 0 || is_empty(row - 1))) continue;
       for (std::size_t column = 0; column <= columns_; ++column) {
@@ -59,10 +59,9 @@ class Tracer {
     const double upper_right = grey(column + 1, row);
     const double lower_left = grey(column, row + 1);
     const double lower_right = grey(column + 1, row + 1);
-    const unsigned kind = (upper_left > kHalf ? 1U : 0U) |
-                          (upper_right > kHalf ? 2U : 0U) |
-                          (lower_right > kHalf ? 4U : 0U) |
-                          (lower_left > kHalf ? 8U : 0U);
+    const unsigned kind =
+        (upper_left > kHalf ? 1U : 0U) | (upper_right > kHalf ? 2U : 0U) |
+        (lower_right > kHalf ? 4U : 0U) | (lower_left > kHalf ? 8U : 0U);
     if (kind == 0 || kind == 15) return;
     const Vec2 middle(static_cast<double>(column) - 0.5,
                       static_cast<double>(row) - 0.5);
@@ -86,33 +85,69 @@ class Tracer {
     const auto add = [&](std::size_t to, std::size_t from) {
       steps_[sides[from]] = {sides[to], place(from)};
     };
-    const bool joins = upper_left + upper_right + lower_left + lower_right >
-                       4 * kHalf;
+    const bool joins =
+        upper_left + upper_right + lower_left + lower_right > 4 * kHalf;
     // White lies to the left as seen with y upwards.
     switch (kind) {
-      case 1: add(0, 3); break;
-      case 2: add(1, 0); break;
-      case 3: add(1, 3); break;
-      case 4: add(2, 1); break;
+      case 1:
+        add(0, 3);
+        break;
+      case 2:
+        add(1, 0);
+        break;
+      case 3:
+        add(1, 3);
+        break;
+      case 4:
+        add(2, 1);
+        break;
       case 5:
-        if (joins) { add(0, 1); add(2, 3); } else { add(0, 3); add(2, 1); }
+        if (joins) {
+          add(0, 1);
+          add(2, 3);
+        } else {
+          add(0, 3);
+          add(2, 1);
+        }
         break;
-      case 6: add(2, 0); break;
-      case 7: add(2, 3); break;
-      case 8: add(3, 2); break;
-      case 9: add(0, 2); break;
+      case 6:
+        add(2, 0);
+        break;
+      case 7:
+        add(2, 3);
+        break;
+      case 8:
+        add(3, 2);
+        break;
+      case 9:
+        add(0, 2);
+        break;
       case 10:
-        if (joins) { add(1, 2); add(3, 0); } else { add(1, 0); add(3, 2); }
+        if (joins) {
+          add(1, 2);
+          add(3, 0);
+        } else {
+          add(1, 0);
+          add(3, 2);
+        }
         break;
-      case 11: add(1, 2); break;
-      case 12: add(3, 1); break;
-      case 13: add(0, 1); break;
-      default: add(3, 0); break;
+      case 11:
+        add(1, 2);
+        break;
+      case 12:
+        add(3, 1);
+        break;
+      case 13:
+        add(0, 1);
+        break;
+      default:
+        add(3, 0);
+        break;
     }
   }
 
-  ldni::Contours link() {
-    ldni::Contours contours;
+  plane::Contours link() {
+    plane::Contours contours;
     std::vector<Side> begins;
     begins.reserve(steps_.size());
     for (const auto& [begin, step] : steps_) begins.push_back(begin);
@@ -139,8 +174,8 @@ class Tracer {
 
 }  // namespace
 
-ldni::Contours trace_pixels(std::span<const std::uint8_t> pixels,
-                            std::size_t columns, std::size_t rows) {
+plane::Contours trace_pixels(std::span<const std::uint8_t> pixels,
+                             std::size_t columns, std::size_t rows) {
   return Tracer(pixels, columns, rows).trace();
 }
 

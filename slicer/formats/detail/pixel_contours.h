@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -17,7 +17,7 @@ namespace lamina::slicer {
 // returns  loops in pixels, x to the right and y downwards, the middle of the
 //          first pixel at (0.5, 0.5); the white to the left as seen with y
 //          upwards
-ldni::Contours trace_pixels(std::span<const std::uint8_t> pixels,
-                            std::size_t columns, std::size_t rows);
+plane::Contours trace_pixels(std::span<const std::uint8_t> pixels,
+                             std::size_t columns, std::size_t rows);
 
 }  // namespace lamina::slicer

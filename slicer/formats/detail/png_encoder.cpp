@@ -14,7 +14,7 @@ namespace {
 
 // Packs the rows of the panel, each behind the 0 that says that it is not
 // filtered.
-std::string pack_rows(const ldni::Contours& contours, unsigned width,
+std::string pack_rows(const plane::Contours& contours, unsigned width,
                       unsigned height, const PixelMap& map) {
   RunDeflater packed;
   visit_runs(
@@ -59,7 +59,7 @@ std::string png_of(unsigned width, unsigned height, Channels channels,
 
 }  // namespace
 
-std::string draw_grey_png(const ldni::Contours& contours, unsigned width,
+std::string draw_grey_png(const plane::Contours& contours, unsigned width,
                           unsigned height, const PixelMap& map,
                           PixelLayout layout) {
   const bool is_grey = layout == PixelLayout::kGrey;

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "slicer/formats/coverage.h"
 #include "slicer/machine/printer.h"
 
@@ -17,7 +17,7 @@ namespace lamina::slicer {
 //
 // Cost: that of the box around the contours; the rest of the panel takes next
 // to no time (run_deflater.h).
-std::string draw_grey_png(const ldni::Contours& contours, unsigned width,
+std::string draw_grey_png(const plane::Contours& contours, unsigned width,
                           unsigned height, const PixelMap& map,
                           PixelLayout layout = PixelLayout::kGrey);
 

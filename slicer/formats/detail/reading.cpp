@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "base/diagnostic.h"
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 
 namespace lamina::slicer {
 
@@ -55,7 +55,7 @@ bool take_number(std::string_view& text, double& value) {
 }
 
 void add_loop(std::span<const Vec2> points, LoopKind kind, std::size_t layer,
-              ldni::Contours& contours, LayerFileFacts& facts) {
+              plane::Contours& contours, LayerFileFacts& facts) {
   if (points.size() > 1 && points.front() == points.back()) {
     points = points.first(points.size() - 1);
   }

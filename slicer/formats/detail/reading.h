@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 #include "slicer/formats/layer_reader.h"
 
 namespace lamina::slicer {
@@ -45,7 +45,7 @@ enum class LoopKind { kOuter, kHole };
 //
 // layer  its number, from 1
 void add_loop(std::span<const Vec2> points, LoopKind kind, std::size_t layer,
-              ldni::Contours& contours, LayerFileFacts& facts);
+              plane::Contours& contours, LayerFileFacts& facts);
 
 // The readers behind read_layers(): one for each format, in a source file of
 // its name. SLC has slc_reader.h.

@@ -13,8 +13,8 @@
 #include "base/file/format_error.h"
 #include "base/file/xml.h"
 #include "base/file/zip.h"
-#include "base/loop_area.h"
 #include "base/text.h"
+#include "plane/loop_area.h"
 #include "slicer/formats/detail/reading.h"
 
 namespace lamina::slicer {
@@ -153,7 +153,7 @@ class ThreemfReader {
     });
   }
 
-  void read_slice(const pugi::xml_node& slice, ldni::Contours& contours) {
+  void read_slice(const pugi::xml_node& slice, plane::Contours& contours) {
     vertices_.clear();
     visit_children(slice, "vertices", [&](const pugi::xml_node& vertices) {
       visit_children(vertices, "vertex", [&](const pugi::xml_node& vertex) {

@@ -208,7 +208,7 @@ double draw_scale(Image& image, Vec2 at, double longest, double pixels_per_mm,
   return to.x + 14 + text_width(words, size);
 }
 
-void draw_layer(Image& image, const ldni::Contours& contours,
+void draw_layer(Image& image, const plane::Contours& contours,
                 const Rectangle& area, const PixelMap& map,
                 double outline_width) {
   Coverage solid(area.width, area.height);

@@ -78,7 +78,7 @@ double draw_scale(Image& image, Vec2 at, double longest, double pixels_per_mm,
 //
 // map            from the area's corner
 // outline_width  [pixels]
-void draw_layer(Image& image, const ldni::Contours& contours,
+void draw_layer(Image& image, const plane::Contours& contours,
                 const Rectangle& area, const PixelMap& map,
                 double outline_width);
 

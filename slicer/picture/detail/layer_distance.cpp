@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 #include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
@@ -15,7 +15,7 @@ constexpr std::size_t kMostRows = 512;
 
 }  // namespace
 
-LayerDistance::LayerDistance(const ldni::Contours& contours, double reach)
+LayerDistance::LayerDistance(const plane::Contours& contours, double reach)
     : reach_(reach) {
   if (contours.is_empty()) return;
   const auto [lowest, highest] =

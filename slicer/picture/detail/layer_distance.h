@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <span>
 
-#include "base/cell_grid.h"
 #include "base/vec.h"
-#include "ldni/section/contours.h"
+#include "plane/cell_grid.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -24,7 +24,7 @@ class LayerDistance {
   };
 
   // reach  the greatest distance that is of interest [mm]
-  LayerDistance(const ldni::Contours& contours, double reach);
+  LayerDistance(const plane::Contours& contours, double reach);
 
   Depth at(Vec2 place) const;
 

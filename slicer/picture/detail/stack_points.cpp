@@ -53,7 +53,7 @@ class StackDrawer {
     if (corners_.size() >= kMostCorners) flush();
   }
 
-  void add_sides(const ldni::Contours& contours, const Plate& plate) {
+  void add_sides(const plane::Contours& contours, const Plate& plate) {
     visit_edges(contours, [&](Vec2 a, Vec2 b) {
       add_quad({Vec3(a, plate.bottom), Vec3(b, plate.bottom),
                 Vec3(b, plate.top), Vec3(a, plate.top)});
@@ -71,7 +71,7 @@ class StackDrawer {
     return std::nullopt;
   }
 
-  void add_cap(const ldni::Contours& contours, const Plate& plate) {
+  void add_cap(const plane::Contours& contours, const Plate& plate) {
     const std::optional<double> z = visible_side(plate);
     if (!z) return;
     if (cut_ == nullptr || !have_same_points(*cut_, contours)) {
@@ -86,8 +86,8 @@ class StackDrawer {
     }
   }
 
-  static bool have_same_points(const ldni::Contours& a,
-                               const ldni::Contours& b) {
+  static bool have_same_points(const plane::Contours& a,
+                               const plane::Contours& b) {
     return a.ends == b.ends && a.points == b.points;
   }
 
@@ -103,7 +103,7 @@ class StackDrawer {
   double to_viewer_z_ = 1;
   float tag_ = 0;
   std::vector<ldni::TaggedPoint> corners_;
-  const ldni::Contours* cut_ = nullptr;  // into these
+  const plane::Contours* cut_ = nullptr;  // into these
   std::vector<Trapezoid> trapezoids_;
 };
 

@@ -29,7 +29,7 @@ struct Strip {
 
 class TrapezoidSweep {
  public:
-  TrapezoidSweep(const ldni::Contours& contours,
+  TrapezoidSweep(const plane::Contours& contours,
                  std::vector<Trapezoid>& trapezoids)
       : trapezoids_(trapezoids) {
     visit_edges(contours, [&](Vec2 from, Vec2 to) { add_edge(from, to); });
@@ -128,7 +128,7 @@ class TrapezoidSweep {
 
 }  // namespace
 
-void cut_into_trapezoids(const ldni::Contours& contours,
+void cut_into_trapezoids(const plane::Contours& contours,
                          std::vector<Trapezoid>& trapezoids) {
   trapezoids.clear();
   TrapezoidSweep(contours, trapezoids).run();

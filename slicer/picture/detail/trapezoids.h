@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
@@ -22,7 +22,7 @@ struct Trapezoid {
 };
 
 // contours  simple and disjoint
-void cut_into_trapezoids(const ldni::Contours& contours,
+void cut_into_trapezoids(const plane::Contours& contours,
                          std::vector<Trapezoid>& trapezoids);
 
 }  // namespace lamina::slicer

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "base/plane.h"
-#include "base/point_grid.h"
 #include "base/vec.h"
-#include "csg/tie_distance.h"
 #include "ldni/image/paper_slicer.h"
 #include "ldni/section/leaf_section.h"
-#include "ldni/sweep/kinetic_ray.h"
+#include "plane/cascade/kinetic_ray.h"
+#include "plane/point_grid.h"
+#include "plane/predicates.h"
+#include "plane/tie_distance.h"
 #include "slicer/check/thin_finder.h"
 
 namespace lamina::slicer {
@@ -34,7 +34,7 @@ class LeafSearch {
  public:
   // Sets the instances of stretches of layer `layer` of the block. Of leaves
   // whose surfaces coincide it takes the first.
-  void find(const ldni::ChainBlock& block, std::uint32_t layer,
+  void find(const plane::ChainBlock& block, std::uint32_t layer,
             std::span<ThinStretch> stretches) {
     if (stretches.empty()) return;
     places_.clear();
@@ -49,9 +49,9 @@ class LeafSearch {
 
     // Chains come instance by instance, the first one first.
     std::uint32_t instance = kNoInstance;
-    for (const ldni::Chain& chain : block.layer(layer)) {
-      if (chain.instance != instance) look_between_endpoints(instance);
-      instance = chain.instance;
+    for (const plane::Chain& chain : block.layer(layer)) {
+      if (chain.operand != instance) look_between_endpoints(instance);
+      instance = chain.operand;
       const std::span<const Vec2> points = chain.points_in(block.points);
       for (std::size_t i = 1; i < points.size(); ++i) {
         look_along(points[i - 1], points[i], instance);
@@ -104,9 +104,9 @@ constexpr BlockSizes kDrawnBlocks = {64, 256, 4};  // each draws leaves anew
 // Cuts leaves into chains and sweeps them with the kinetic ray.
 class FaithfulSlicer : public BlockSlicer {
  public:
-  FaithfulSlicer(const csg::Scene& scene, const ldni::LeafSectioner& sectioner,
-                 double pitch)
-      : sectioner_(sectioner), ray_(scene, {.pitch = pitch}) {}
+  FaithfulSlicer(const plane::BooleanProgram& program,
+                 const ldni::LeafSectioner& sectioner, double pitch)
+      : sectioner_(sectioner), ray_(program, {.pitch = pitch}) {}
 
   void section(std::uint32_t first_layer, std::uint32_t layer_count) override {
     sectioner_.cut(first_layer, layer_count, chains_);
@@ -115,7 +115,7 @@ class FaithfulSlicer : public BlockSlicer {
   bool repeats(std::uint32_t index) const override {
     return chains_.repeats(index);
   }
-  void make_contours(std::uint32_t index, ldni::Contours& contours) override {
+  void make_contours(std::uint32_t index, plane::Contours& contours) override {
     ray_.sweep(chains_, index, contours);
   }
   void find_leaves(std::uint32_t index,
@@ -129,8 +129,8 @@ class FaithfulSlicer : public BlockSlicer {
 
  private:
   const ldni::LeafSectioner& sectioner_;
-  ldni::KineticRay ray_;
-  ldni::ChainBlock chains_;
+  plane::KineticRay ray_;
+  ldni::SectionBlock chains_;
   LeafSearch leaf_search_;
   std::uint64_t open_paths_ = 0;
 };
@@ -144,7 +144,7 @@ class PaperBlockSlicer : public BlockSlicer {
     first_layer_ = first_layer;
     slicer_.sample_block(first_layer, layer_count);
   }
-  void make_contours(std::uint32_t index, ldni::Contours& contours) override {
+  void make_contours(std::uint32_t index, plane::Contours& contours) override {
     slicer_.build_layer(first_layer_ + index, contours);
   }
   void report_to(SliceReport& report) const override {
@@ -159,9 +159,12 @@ class PaperBlockSlicer : public BlockSlicer {
 Plan plan_faithful(const csg::Scene& scene, const Settings& settings,
                    const ldni::LayerGrid& grid) {
   auto sectioner = std::make_shared<ldni::LeafSectioner>(scene, grid);
+  auto program =
+      std::make_shared<const plane::BooleanProgram>(csg::program_of(scene));
   return {kFaithfulBlocks,
-          [&scene, sectioner, pitch = settings.ray_pitch] {
-            return std::make_unique<FaithfulSlicer>(scene, *sectioner, pitch);
+          [program, sectioner, pitch = settings.ray_pitch] {
+            return std::make_unique<FaithfulSlicer>(*program, *sectioner,
+                                                    pitch);
           },
           {}};
 }

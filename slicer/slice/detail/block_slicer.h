@@ -8,8 +8,8 @@
 #include <string>
 
 #include "csg/scene.h"
-#include "ldni/section/contours.h"
 #include "ldni/section/grid.h"
+#include "plane/contours.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/slice/settings.h"
 #include "slicer/slice/slice.h"
@@ -27,7 +27,8 @@ class BlockSlicer {
   // Whether layer `index` of the block has the loops of the one before it.
   virtual bool repeats(std::uint32_t /*index*/) const { return false; }
   // Replaces `contours` by the loops of layer `index` of the block.
-  virtual void make_contours(std::uint32_t index, ldni::Contours& contours) = 0;
+  virtual void make_contours(std::uint32_t index,
+                             plane::Contours& contours) = 0;
   // Finds the leaves beside the layer's thin places, if the mode knows them.
   virtual void find_leaves(std::uint32_t /*index*/,
                            std::span<ThinStretch> /*stretches*/) {}

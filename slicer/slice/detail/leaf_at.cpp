@@ -23,9 +23,9 @@ struct Winding {
 };
 
 double y_at(std::span<const Vec2> points, double x) {
-  const auto right = std::partition_point(
-      points.begin() + 1, points.end() - 1,
-      [x](const Vec2& point) { return point.x <= x; });
+  const auto right =
+      std::partition_point(points.begin() + 1, points.end() - 1,
+                           [x](const Vec2& point) { return point.x <= x; });
   const Vec2& b = *right;
   const Vec2& a = *(right - 1);
   return a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x);
@@ -42,12 +42,12 @@ class LeafFinder {
     layer_ = layer;
     // The chains of an instance follow each other.
     std::vector<Winding> windings;
-    for (const ldni::Chain& chain : block_.layer(0)) {
+    for (const plane::Chain& chain : block_.layer(0)) {
       const auto points = chain.points_in(block_.points);
       if (place.x < points.front().x || place.x >= points.back().x) continue;
       if (y_at(points, place.x) > place.y) continue;
-      if (windings.empty() || windings.back().instance != chain.instance) {
-        windings.push_back({chain.instance});
+      if (windings.empty() || windings.back().instance != chain.operand) {
+        windings.push_back({chain.operand});
       }
       windings.back().number += chain.winding;
     }
@@ -61,7 +61,7 @@ class LeafFinder {
 
  private:
   const ldni::LeafSectioner sectioner_;
-  ldni::ChainBlock block_;
+  ldni::SectionBlock block_;
   std::uint32_t layer_ = 0xffffffff;
 };
 

@@ -325,12 +325,12 @@ TEST_F(Hulls, TakeThePointsOfAPolyhedron) {
 }
 
 TEST_F(Hulls, InThePlaneTakeAllOutlines) {
-  const planar::Region region = run_flat(
+  const plane::Region region = run_flat(
       {b.node(Hull{}, {b.node(Square{{1, 1}}),
                        b.translate({3, 3, 0}, {b.node(Square{{1, 1}})})})});
   ASSERT_EQ(region.contours.size(), 1u);
   EXPECT_EQ(region.contours[0].size(), 6u);
-  EXPECT_DOUBLE_EQ(planar::area(region), 7);
+  EXPECT_DOUBLE_EQ(plane::area(region), 7);
 }
 
 TEST_F(Hulls, LeaveOutChildrenOfTheOtherDimension) {

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "csg/boundary/leaf_mesh.h"
-#include "csg/plane/region.h"
-#include "csg/plane/triangulate.h"
+#include "plane/region/region.h"
+#include "plane/region/triangulate.h"
 #include "tests/csg/lower/mesh_checks.h"
 
 namespace lamina::csg {
@@ -78,10 +78,10 @@ TEST(NearHull, IsNoneOfWhatHasNoVolume) {
 constexpr double kThickness = 0.1;
 
 // A plate over the region whose walls lean inwards by so much.
-Mesh sheet(const planar::Region& region, double bevel) {
+Mesh sheet(const plane::Region& region, double bevel) {
   Mesh mesh;
   std::vector<Vec3> high;
-  for (const planar::Contour& contour : region.contours) {
+  for (const plane::Contour& contour : region.contours) {
     const auto size = contour.size();
     for (std::size_t i = 0; i < size; ++i) {
       const Vec2 a =
@@ -94,12 +94,12 @@ Mesh sheet(const planar::Region& region, double bevel) {
   }
   const auto count = static_cast<std::uint32_t>(high.size());
   mesh.vertices.insert(mesh.vertices.end(), high.begin(), high.end());
-  for (const auto& [a, b, c] : planar::triangulate(region)) {
+  for (const auto& [a, b, c] : plane::triangulate(region)) {
     mesh.triangles.push_back({a, c, b});
     mesh.triangles.push_back({a + count, b + count, c + count});
   }
   std::uint32_t first = 0;
-  for (const planar::Contour& contour : region.contours) {
+  for (const plane::Contour& contour : region.contours) {
     const auto size = static_cast<std::uint32_t>(contour.size());
     for (std::uint32_t i = 0; i < size; ++i) {
       const std::uint32_t a = first + i;
@@ -112,8 +112,8 @@ Mesh sheet(const planar::Region& region, double bevel) {
   return mesh;
 }
 
-planar::Region star(int points, double inner, double outer) {
-  planar::Contour contour;
+plane::Region star(int points, double inner, double outer) {
+  plane::Contour contour;
   for (int i = 0; i < 2 * points; ++i) {
     const double angle = i * std::numbers::pi / points;
     contour.push_back((i % 2 == 0 ? outer : inner) *
@@ -122,13 +122,11 @@ planar::Region star(int points, double inner, double outer) {
   return {{contour}};
 }
 
-planar::Region polygon(planar::Contour contour) {
-  return {{std::move(contour)}};
-}
+plane::Region polygon(plane::Contour contour) { return {{std::move(contour)}}; }
 
 // All of a sheet lies near the planes of its hull's facets.
 TEST(NearHull, IsNoneOfSheetsWithNotchesOrHoles) {
-  const std::pair<const char*, planar::Region> kSheets[] = {
+  const std::pair<const char*, plane::Region> kSheets[] = {
       {"ell",
        polygon({{0, 0}, {50, 0}, {50, 10}, {10, 10}, {10, 50}, {0, 50}})},
       {"plus", polygon({{20, 0},
@@ -178,7 +176,7 @@ TEST(NearHull, IsNoneOfSheetsWithNotchesOrHoles) {
 TEST(NearHull, IsOneOfAConvexSheet) {
   for (const double bevel : {0.0, 0.9}) {
     for (const double depth : {0.0, 2 * kThickness}) {
-      const Mesh mesh = sheet(planar::circle(20, 90), bevel);
+      const Mesh mesh = sheet(plane::circle(20, 90), bevel);
       const auto hull = near_hull(mesh, depth);
       ASSERT_TRUE(hull);
       EXPECT_NEAR(signed_volume(*hull), signed_volume(mesh), 1e-9);

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/plane/boolean.h"
+#include "plane/region/boolean.h"
 #include "tests/csg/lower/lower_fixture.h"
 
 namespace lamina::csg {
@@ -19,25 +19,24 @@ constexpr double kRounding = 1e-5;
 
 class Projections : public LowerFixture {
  protected:
-  planar::Region project(const TreeBuilder::Children& children, bool cut) {
+  plane::Region project(const TreeBuilder::Children& children, bool cut) {
     const Lowered lowered = run({b.node(Projection{cut}, children)});
     EXPECT_EQ(lowered.scene(), nullptr);
-    return lowered.outline() ? *lowered.outline() : planar::Region{};
+    return lowered.outline() ? *lowered.outline() : plane::Region{};
   }
-  planar::Region shadow(const TreeBuilder::Children& children) {
+  plane::Region shadow(const TreeBuilder::Children& children) {
     return project(children, false);
   }
-  planar::Region cut(const TreeBuilder::Children& children) {
+  plane::Region cut(const TreeBuilder::Children& children) {
     return project(children, true);
   }
 };
 
 // Area of what only one of them has.
-double difference(const planar::Region& a, const planar::Region& b) {
-  const std::vector<planar::Region> ab{a, b};
-  const std::vector<planar::Region> ba{b, a};
-  return planar::area(planar::subtract(ab)) +
-         planar::area(planar::subtract(ba));
+double difference(const plane::Region& a, const plane::Region& b) {
+  const std::vector<plane::Region> ab{a, b};
+  const std::vector<plane::Region> ba{b, a};
+  return plane::area(plane::subtract(ab)) + plane::area(plane::subtract(ba));
 }
 
 double polygon_area(int n) {
@@ -45,35 +44,35 @@ double polygon_area(int n) {
 }
 
 TEST_F(Projections, CutALeafWhereItCrossesThePlane) {
-  const planar::Region region =
+  const plane::Region region =
       cut({b.translate({0, 0, -1}, {b.cylinder(2, 3, 1, 40)})});
   EXPECT_EQ(region.contours.size(), 1u);
-  EXPECT_NEAR(planar::area(region), 4 * polygon_area(40), kRounding);
+  EXPECT_NEAR(plane::area(region), 4 * polygon_area(40), kRounding);
 }
 
 TEST_F(Projections, CutABoolean) {
   const Node* pipe = b.node(
       Difference{}, {b.cylinder(9, 3, 3, 40),
                      b.translate({0, 0, -1}, {b.cylinder(11, 2, 2, 40)})});
-  const planar::Region region = cut({b.translate({0, 0, -4}, {pipe})});
+  const plane::Region region = cut({b.translate({0, 0, -4}, {pipe})});
   EXPECT_EQ(region.contours.size(), 2u);
-  EXPECT_NEAR(planar::area(region), 5 * polygon_area(40), kRounding);
+  EXPECT_NEAR(plane::area(region), 5 * polygon_area(40), kRounding);
 }
 
 // As in OpenSCAD, which cuts the solid with its surface.
 TEST_F(Projections, CutWhatOnlyTouchesThePlane) {
-  EXPECT_NEAR(planar::area(cut({b.cube({2, 3, 4})})), 6, kRounding);
-  EXPECT_NEAR(planar::area(cut({b.translate({0, 0, -4}, {b.cube({2, 3, 4})})})),
+  EXPECT_NEAR(plane::area(cut({b.cube({2, 3, 4})})), 6, kRounding);
+  EXPECT_NEAR(plane::area(cut({b.translate({0, 0, -4}, {b.cube({2, 3, 4})})})),
               6, kRounding);
   // One stands on the plane, one hangs below it.
-  EXPECT_NEAR(planar::area(cut({b.cube({1, 1, 1}),
-                                b.translate({1, 0, -2}, {b.cube({3, 1, 2})})})),
+  EXPECT_NEAR(plane::area(cut({b.cube({1, 1, 1}),
+                               b.translate({1, 0, -2}, {b.cube({3, 1, 2})})})),
               4, kRounding);
   // A cavity that ends in the plane does not show.
   const Node* dented = b.node(
       Difference{},
       {b.cube({4, 4, 4}, true), b.translate({-1, -1, 0}, {b.cube({2, 2, 5})})});
-  EXPECT_NEAR(planar::area(cut({dented})), 16, kRounding);
+  EXPECT_NEAR(plane::area(cut({dented})), 16, kRounding);
 }
 
 // Whether a vertex this near lies on the plane may be decided either way, but
@@ -83,7 +82,7 @@ TEST_F(Projections, CutALeafWithVerticesAtTheVeryLimit) {
       Difference{}, {b.sphere(5, 32), b.scale({1, 1, 2}, {b.sphere(2, 32)})});
   const double ring = 5 * std::cos(std::numbers::pi * 7.5 / 16);
   for (const double nudge : {1e-6, -1e-6, 1e-6 + 1e-15, 1e-6 - 1e-15}) {
-    const planar::Region region =
+    const plane::Region region =
         cut({b.translate({0, 0, nudge - ring}, {pipe})});
     EXPECT_EQ(region.contours.size(), 2u);
   }
@@ -124,10 +123,10 @@ TEST_F(Projections, OfNothingAreNothing) {
 }
 
 TEST_F(Projections, LeaveOutWhatIsFlat) {
-  EXPECT_NEAR(planar::area(shadow({b.node(Square{{5, 5}}), b.cube({1, 1, 1})})),
+  EXPECT_NEAR(plane::area(shadow({b.node(Square{{5, 5}}), b.cube({1, 1, 1})})),
               1, kRounding);
   EXPECT_TRUE(messages().empty());
-  EXPECT_NEAR(planar::area(cut({b.node(Square{{5, 5}}), b.cube({1, 1, 1})})), 1,
+  EXPECT_NEAR(plane::area(cut({b.node(Square{{5, 5}}), b.cube({1, 1, 1})})), 1,
               kRounding);
   EXPECT_EQ(
       messages(),
@@ -135,11 +134,11 @@ TEST_F(Projections, LeaveOutWhatIsFlat) {
 }
 
 TEST_F(Projections, OfASphereIsItsWidestRing) {
-  const planar::Region region = shadow({b.sphere(5, 60)});
+  const plane::Region region = shadow({b.sphere(5, 60)});
   EXPECT_EQ(region.contours.size(), 1u);
   EXPECT_EQ(region.contours[0].size(), 60u);
   const double r = 5 * std::sin(std::numbers::pi * 14.5 / 30);
-  EXPECT_NEAR(planar::area(region), r * r * polygon_area(60), kRounding);
+  EXPECT_NEAR(plane::area(region), r * r * polygon_area(60), kRounding);
 }
 
 // A torus that stands upright hides its own hole, one that lies shows it.
@@ -147,24 +146,24 @@ TEST_F(Projections, OfATorusHaveItsHole) {
   const Node* torus =
       b.node(RotateExtrude{360, 2, {40}},
              {b.translate({3, 0, 0}, {b.node(Square{{1, 1}})})});
-  const planar::Region lying = shadow({torus});
+  const plane::Region lying = shadow({torus});
   EXPECT_EQ(lying.contours.size(), 2u);
-  EXPECT_NEAR(planar::area(lying), 7 * polygon_area(40), kRounding);
+  EXPECT_NEAR(plane::area(lying), 7 * polygon_area(40), kRounding);
 }
 
 TEST_F(Projections, OfADifferenceShowWhatIsLeft) {
   const Node* pierced = b.node(
       Difference{}, {b.cube({6, 6, 6}, true),
                      b.translate({0, 0, -9}, {b.cylinder(18, 2, 2, 30)})});
-  const planar::Region region = shadow({pierced});
+  const plane::Region region = shadow({pierced});
   EXPECT_EQ(region.contours.size(), 2u);
-  EXPECT_NEAR(planar::area(region), 36 - 4 * polygon_area(30), kRounding);
+  EXPECT_NEAR(plane::area(region), 36 - 4 * polygon_area(30), kRounding);
   // Half of a sphere, cut off upright.
   const Node* half = b.node(
       Intersection{},
       {b.sphere(5, 40), b.translate({0, -9, -9}, {b.cube({18, 18, 18})})});
-  EXPECT_NEAR(planar::area(shadow({half})),
-              planar::area(shadow({b.sphere(5, 40)})) / 2, kRounding);
+  EXPECT_NEAR(plane::area(shadow({half})),
+              plane::area(shadow({b.sphere(5, 40)})) / 2, kRounding);
 }
 
 TEST_F(Projections, ObeyTheLawsOfSets) {
@@ -182,20 +181,20 @@ TEST_F(Projections, ObeyTheLawsOfSets) {
     SCOPED_TRACE(round);
     const Node* a = solid();
     const Node* c = b.node(Difference{}, {solid(), solid()});
-    const std::vector<planar::Region> shadows{shadow({a}), shadow({c})};
-    EXPECT_NEAR(difference(shadow({a, c}), planar::unite(shadows)), 0,
+    const std::vector<plane::Region> shadows{shadow({a}), shadow({c})};
+    EXPECT_NEAR(difference(shadow({a, c}), plane::unite(shadows)), 0,
                 kRounding);
     // A cut goes through the Boolean, a shadow does not.
     const auto at = [&](const Node* node) {
       return cut({b.translate({0, 0, 0.01}, {node})});
     };
-    const std::vector<planar::Region> sections{at(a), at(c)};
+    const std::vector<plane::Region> sections{at(a), at(c)};
     EXPECT_NEAR(difference(at(b.node(Intersection{}, {a, c})),
-                           planar::intersect(sections)),
+                           plane::intersect(sections)),
                 0, kRounding);
-    EXPECT_NEAR(difference(at(b.node(Difference{}, {a, c})),
-                           planar::subtract(sections)),
-                0, kRounding);
+    EXPECT_NEAR(
+        difference(at(b.node(Difference{}, {a, c})), plane::subtract(sections)),
+        0, kRounding);
   }
 }
 

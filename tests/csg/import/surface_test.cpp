@@ -64,7 +64,7 @@ void expect_too_many(const std::function<void()>& parse,
   try {
     parse();
     FAIL() << "parsed";
-  } catch (const LimitExceeded& limit) {
+  } catch (const plane::LimitExceeded& limit) {
     EXPECT_EQ(limit.what(), "Too many heights: " + size +
                                 " of a surface, at most 8388608 can be");
   }

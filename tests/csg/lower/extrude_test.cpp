@@ -8,7 +8,7 @@
 namespace lamina::csg {
 namespace {
 
-using planar::area;
+using plane::area;
 
 class LinearExtrudeTest : public LowerFixture {
  protected:

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/plane/region.h"
+#include "plane/region/region.h"
 #include "tests/csg/lower/lower_fixture.h"
 
 namespace lamina::csg {
@@ -80,7 +80,7 @@ TEST_F(Flattened, HullsTakeTheirCorners) {
 TEST_F(Flattened, ShadowsShowThem) {
   const Node* flat = b.scale({1, 1, 0}, {b.cube({2, 3, 4})});
   for (const bool cut : {false, true}) {
-    EXPECT_NEAR(planar::area(run_flat({b.node(Projection{cut}, {flat})})), 6,
+    EXPECT_NEAR(plane::area(run_flat({b.node(Projection{cut}, {flat})})), 6,
                 kRounding);
     EXPECT_TRUE(run({b.node(Projection{cut}, {square()})}).is_empty());
   }
@@ -136,8 +136,8 @@ TEST_F(Flattened, KeepTheirFlatnessWhenResized) {
   const Node* flat = b.scale({1, 1, 0}, {b.cube({2, 3, 4})});
   const Node* resized =
       b.node(Resize{{4, 0, 5}, {false, false, false}}, {flat});
-  EXPECT_NEAR(planar::area(run_flat({b.node(Projection{false}, {resized})})),
-              12, kRounding);
+  EXPECT_NEAR(plane::area(run_flat({b.node(Projection{false}, {resized})})), 12,
+              kRounding);
 }
 
 }  // namespace

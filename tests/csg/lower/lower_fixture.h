@@ -31,10 +31,10 @@ class LowerFixture : public ::testing::Test {
     return scene;
   }
 
-  planar::Region run_flat(const TreeBuilder::Children& children) {
+  plane::Region run_flat(const TreeBuilder::Children& children) {
     const Lowered lowered = run(children);
     EXPECT_NE(lowered.outline(), nullptr);
-    return lowered.outline() ? *lowered.outline() : planar::Region{};
+    return lowered.outline() ? *lowered.outline() : plane::Region{};
   }
 
   // Of the only instance, in the world; its mesh is closed.

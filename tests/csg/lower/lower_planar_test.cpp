@@ -63,8 +63,7 @@ TEST_F(LowerPlanarTest, NestedOperatorsHoldTheCellsThatTheyDoOneByOne) {
   for (int trial = 0; trial < 500; ++trial) {
     const auto [node, cells] = grow(random, 5);
     const Lowered lowered = run({node});
-    const double area =
-        lowered.outline() ? planar::area(*lowered.outline()) : 0;
+    const double area = lowered.outline() ? plane::area(*lowered.outline()) : 0;
     EXPECT_NEAR(area, static_cast<double>(cells.count()), 1e-6);
     if (cells.any()) ++full;
   }
@@ -84,7 +83,7 @@ TEST_F(LowerPlanarTest, AUnionOfManyLevelsHoldsEachDisc) {
                             b.translate({kShift * i, 0, 0}, {disc()})});
   }
   const double height = 2 * kRadius * cos_deg(180.0 / kSides);
-  EXPECT_NEAR(planar::area(run_flat({node})),
+  EXPECT_NEAR(plane::area(run_flat({node})),
               kSides / 2.0 * kRadius * kRadius * sin_deg(360.0 / kSides) +
                   kShift * (kLevels - 1) * height,
               1e-5);
@@ -99,7 +98,7 @@ TEST_F(LowerPlanarTest, ADifferenceOfManyLevelsLosesEachBar) {
                                           {b.node(Square{{80, 1}, false})})});
   }
   const auto region = run_flat({node});
-  EXPECT_NEAR(planar::area(region), 100 * 300 - 100 * 80, 1e-6);
+  EXPECT_NEAR(plane::area(region), 100 * 300 - 100 * 80, 1e-6);
   EXPECT_EQ(region.contours.size(), 101u);
 }
 
@@ -112,7 +111,7 @@ TEST_F(LowerPlanarTest, TransformsBetweenOperatorsMoveAllOperands) {
               {b.scale({-2, 1, 1}, {b.translate({1, 0, 0}, {frame})}),
                b.translate({-4, 0, 0}, {b.node(Square{{2, 9}, false})})})});
   // The frame stands from -10 to -2; the hole from -8 to -4.
-  EXPECT_NEAR(planar::area(region), 2 * 12 - 2 * 4, 1e-6);
+  EXPECT_NEAR(plane::area(region), 2 * 12 - 2 * 4, 1e-6);
   EXPECT_TRUE(run({b.node(Union{}, {b.scale({0, 1, 1}, {b.node(Square{}),
                                                         b.node(Circle{})})})})
                   .is_empty());
@@ -178,7 +177,7 @@ TEST_F(LowerPlanarTest, EmptySolidsDecideTheDimension) {
                                 b.node(Difference{}, {none(), cube()}),
                                 b.node(Intersection{}, {cube(), empty()}),
                                 b.node(Intersection{}, {none(), cube()})}) {
-    EXPECT_EQ(planar::area(run_flat({nothing, b.node(Square{})})), 1);
+    EXPECT_EQ(plane::area(run_flat({nothing, b.node(Square{})})), 1);
   }
 }
 
@@ -188,11 +187,11 @@ TEST_F(LowerPlanarTest, WhatStandsBetweenOperatorsSeesTheResult) {
                   {b.node(Square{{4, 4}, true}), b.node(Square{{2, 2}, true})});
   };
   const Node* cut = b.node(Square{{1, 9}, true});
-  EXPECT_NEAR(planar::area(run_flat(
+  EXPECT_NEAR(plane::area(run_flat(
                   {b.node(Difference{}, {b.node(Fill{}, {frame()}), cut})})),
               12, 1e-6);
   EXPECT_NEAR(
-      planar::area(run_flat({b.node(
+      plane::area(run_flat({b.node(
           Difference{},
           {b.node(Offset{.amount = 0.5, .is_delta = true}, {frame()}), cut})})),
       25 - 1 - 4, 1e-6);
@@ -202,14 +201,14 @@ TEST_F(LowerPlanarTest, AFlatDesignGivesItsOutline) {
   const auto region =
       run_flat({b.node(Difference{}, {b.node(Square{{4, 4}, true}),
                                       b.node(Square{{2, 2}, true})})});
-  EXPECT_EQ(planar::area(region), 12);
+  EXPECT_EQ(plane::area(region), 12);
   EXPECT_EQ(region.contours.size(), 2u);
 }
 
 TEST_F(LowerPlanarTest, AMirrorKeepsOuterContoursCounterClockwise) {
   const auto region = run_flat({b.scale(
       {-2, 1, 1}, {b.translate({1, 0, 0}, {b.node(Square{{1, 1}, false})})})});
-  EXPECT_EQ(planar::area(region), 2);
+  EXPECT_EQ(plane::area(region), 2);
 }
 
 TEST_F(LowerPlanarTest, TheFirstChildDecidesTheDimension) {
@@ -250,14 +249,14 @@ TEST_F(LowerPlanarTest, PolygonsTakePathsWithHoles) {
                                  {1, 1}, {2, 1}, {2, 2}, {1, 2}};
   PolygonParams polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
   polygon.paths = b.copy_lists({{0, 1, 2, 3}, {4, 5, 6, 7, 9}});
-  EXPECT_EQ(planar::area(run_flat({b.polygon(polygon)})), 15);
+  EXPECT_EQ(plane::area(run_flat({b.polygon(polygon)})), 15);
   EXPECT_EQ(messages(),
             (std::vector<std::string>{
                 "Point index 9 is out of bounds (from paths[1][4])"}));
 }
 
 TEST_F(LowerPlanarTest, WithoutPathsAPolygonIsAllPoints) {
-  EXPECT_EQ(planar::area(run_flat({b.polygon({{0, 0}, {2, 0}, {0, 2}})})), 2);
+  EXPECT_EQ(plane::area(run_flat({b.polygon({{0, 0}, {2, 0}, {0, 2}})})), 2);
   EXPECT_TRUE(run({b.polygon({{0, 0}, {2, 0}})}).is_empty());
 }
 
@@ -278,7 +277,7 @@ TEST_F(LowerPlanarTest, ContoursWithoutNumbersAreLeftOut) {
                                  {9, 9}, {9, 8}, {8, 9}};
   PolygonParams polygon{b.copy(std::span<const Vec2>(points)), {}, 1};
   polygon.paths = b.copy_lists({{0, 1, 2}, {0, 1, 3}, {4, 5, 6}});
-  EXPECT_EQ(planar::area(run_flat({b.polygon(polygon)})), 2);
+  EXPECT_EQ(plane::area(run_flat({b.polygon(polygon)})), 2);
   EXPECT_EQ(messages(), std::vector<std::string>{
                             "Range check failed for polygon. skipping"});
 }
@@ -287,7 +286,7 @@ TEST_F(LowerPlanarTest, FillTakesHolesAway) {
   const auto region = run_flat(
       {b.node(Fill{}, {b.node(Difference{}, {b.node(Square{{4, 4}, true}),
                                              b.node(Square{{2, 2}, true})})})});
-  EXPECT_EQ(planar::area(region), 16);
+  EXPECT_EQ(plane::area(region), 16);
 }
 
 TEST_F(LowerPlanarTest, FillLeavesSolidsAndSaysSo) {
@@ -298,7 +297,7 @@ TEST_F(LowerPlanarTest, FillLeavesSolidsAndSaysSo) {
 }
 
 TEST_F(LowerPlanarTest, MinkowskiAddsFlatChildren) {
-  EXPECT_EQ(planar::area(run_flat(
+  EXPECT_EQ(plane::area(run_flat(
                 {b.node(Minkowski{}, {b.node(Square{{4, 4}, true}),
                                       b.node(Square{{1, 2}, true})})})),
             5 * 6);
@@ -309,12 +308,12 @@ TEST_F(LowerPlanarTest, MinkowskiPassesOverEmptyChildrenUnlessOneIsLeft) {
   const auto big = [&] { return b.node(Square{{4, 4}, true}); };
   const auto small = [&] { return b.node(Square{{1, 1}, true}); };
   const auto nothing = [&] { return b.node(Square{{0, 0}, true}); };
-  EXPECT_EQ(planar::area(
-                run_flat({b.node(Minkowski{}, {big(), nothing(), small()})})),
-            25);
-  EXPECT_EQ(planar::area(
-                run_flat({b.node(Minkowski{}, {big(), small(), nothing()})})),
-            25);
+  EXPECT_EQ(
+      plane::area(run_flat({b.node(Minkowski{}, {big(), nothing(), small()})})),
+      25);
+  EXPECT_EQ(
+      plane::area(run_flat({b.node(Minkowski{}, {big(), small(), nothing()})})),
+      25);
   EXPECT_TRUE(run({b.node(Minkowski{}, {big(), nothing()})}).is_empty());
   EXPECT_TRUE(run({b.node(Minkowski{}, {nothing(), big()})}).is_empty());
 }
@@ -330,8 +329,8 @@ TEST_F(LowerPlanarTest, MinkowskiDoesNotMixDimensions) {
 TEST_F(LowerPlanarTest, OffsetGrowsTheUnionOfItsChildren) {
   Offset offset{.amount = 1, .is_delta = true};
   EXPECT_NEAR(
-      planar::area(run_flat({b.node(offset, {b.node(Square{{2, 2}, true}),
-                                             b.node(Square{{4, 1}, true})})})),
+      plane::area(run_flat({b.node(offset, {b.node(Square{{2, 2}, true}),
+                                            b.node(Square{{4, 1}, true})})})),
       6 * 3 + 2 * 4 * 0.5, 1e-5);
 }
 

@@ -23,7 +23,7 @@ TEST_F(LowerTest, UnionsOfUnionsAreOneUnion) {
       {b.node(Union{}, {b.cube(Vec3(1)), b.node(Group{}, {b.sphere(1, 8)})}),
        b.node(Color{}, {b.cube(Vec3(2))})});
   ASSERT_EQ(scene.program.size(), 1u);
-  EXPECT_EQ(scene.program[0].op, BooleanOp::kUnion);
+  EXPECT_EQ(scene.program[0].op, plane::BooleanOp::kUnion);
   EXPECT_EQ(scene.program[0].child_count, 3u);
 }
 
@@ -38,7 +38,7 @@ TEST_F(LowerTest, DifferenceNamesItsMinuend) {
   const Scene scene = run_solid({b.node(
       Difference{}, {b.cube(Vec3(4)), b.cube(Vec3(1)), b.cube(Vec3(2))})});
   ASSERT_EQ(scene.program.size(), 1u);
-  EXPECT_EQ(scene.program[0].op, BooleanOp::kDifference);
+  EXPECT_EQ(scene.program[0].op, plane::BooleanOp::kDifference);
   EXPECT_TRUE(scene.instances[0].is_minuend);
   EXPECT_FALSE(scene.instances[1].is_minuend);
   EXPECT_EQ(scene.box.high, Vec3(4));
@@ -59,7 +59,7 @@ TEST_F(LowerTest, SubtrahendsOutOfReachAreDropped) {
       {b.node(Difference{},
               {b.cube(Vec3(1)), b.translate({1, 0, 0}, {b.cube(Vec3(1))})})});
   EXPECT_EQ(scene.instances.size(), 1u);
-  EXPECT_EQ(scene.program[0].op, BooleanOp::kUnion);
+  EXPECT_EQ(scene.program[0].op, plane::BooleanOp::kUnion);
 }
 
 TEST_F(LowerTest, IntersectionBoxIsTheOverlap) {

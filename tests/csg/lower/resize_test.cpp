@@ -95,7 +95,7 @@ TEST_F(Resizes, OfAUnionKeepItsParts) {
 
 TEST_F(Resizes, InThePlaneScaleTheOutline) {
   const auto size = [&](Vec3 new_size) {
-    const planar::Region region =
+    const plane::Region region =
         run_flat({b.node(Resize{new_size, kAll}, {b.node(Square{{1, 2}})})});
     return region.contours.at(0).at(2);
   };
@@ -160,7 +160,7 @@ TEST_F(Resizes, FindWhatCoarseFacetsHide) {
                    {node, b.translate({100, 0, 0}, {b.node(Square{{1, 1}})})});
       }
       const Lowered lowered = lower(b.tree({node}), options, diagnostics);
-      const planar::Region* region = lowered.outline();
+      const plane::Region* region = lowered.outline();
       ASSERT_NE(region, nullptr);
       ASSERT_EQ(region->contours.size(), is_within ? 2U : 1U);
       Box2 box;

@@ -13,9 +13,9 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
-#include "base/loop_area.h"
-#include "csg/plane/boolean.h"
-#include "csg/plane/region.h"
+#include "plane/loop_area.h"
+#include "plane/region/boolean.h"
+#include "plane/region/region.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -70,7 +70,7 @@ Vec2 shift_between(const Contours& from, const Contours& to) {
   return shift;
 }
 
-double perimeter(const planar::Region& region) {
+double perimeter(const plane::Region& region) {
   double sum = 0;
   for (const auto& contour : region.contours) {
     for (std::size_t i = 0; i < contour.size(); ++i) {
@@ -100,8 +100,7 @@ class TypesetterTest : public ::testing::Test {
 };
 
 TEST_F(TypesetterTest, AnOHasAHole) {
-  const auto region =
-      planar::from_contours(set("O"), planar::FillRule::kNonZero);
+  const auto region = plane::from_contours(set("O"), plane::FillRule::kNonZero);
   ASSERT_EQ(region.contours.size(), 2U);
   EXPECT_LT(signed_area(region.contours[0]) * signed_area(region.contours[1]),
             0);
@@ -143,8 +142,8 @@ TEST_F(TypesetterTest, EverySegmentOfACurveIsAVertex) {
 
 TEST_F(TypesetterTest, CurvesGrowTowardsTheirLimit) {
   const auto area = [&](int segments) {
-    return planar::area(planar::from_contours(set(params_of("o"), {segments}),
-                                              planar::FillRule::kNonZero));
+    return plane::area(plane::from_contours(set(params_of("o"), {segments}),
+                                            plane::FillRule::kNonZero));
   };
   // The error of a chord falls with the square of their number.
   const double error8 = area(64) - area(8);
@@ -154,18 +153,18 @@ TEST_F(TypesetterTest, CurvesGrowTowardsTheirLimit) {
 
 TEST_F(TypesetterTest, AChordalErrorIsKeptWithFewVertices) {
   const auto region = [&](const Chords& chords) {
-    return planar::from_contours(set(params_of("Ogs"), chords),
-                                 planar::FillRule::kNonZero);
+    return plane::from_contours(set(params_of("Ogs"), chords),
+                                plane::FillRule::kNonZero);
   };
-  const planar::Region exact = region({100});
+  const plane::Region exact = region({100});
   std::size_t fewer = 100000;
   for (const double error : {0.001, 0.01, 0.1}) {
-    const planar::Region rough = region({4, error});
-    const planar::Region both[] = {exact, rough};
-    const planar::Region all = planar::unite(both);
-    const planar::Region common = planar::intersect(both);
+    const plane::Region rough = region({4, error});
+    const plane::Region both[] = {exact, rough};
+    const plane::Region all = plane::unite(both);
+    const plane::Region common = plane::intersect(both);
     // Chords of height h leave segments of ⅔ of their length times h.
-    const double difference = planar::area(all) - planar::area(common);
+    const double difference = plane::area(all) - plane::area(common);
     EXPECT_LE(difference, 2.0 / 3 * error * perimeter(exact));
     EXPECT_GE(difference, 0.02 * error * perimeter(exact));
     std::size_t count = 0;
@@ -232,8 +231,8 @@ TEST_F(TypesetterTest, AColumnRunsDown) {
 
 TEST_F(TypesetterTest, CombiningMarksJoinTheirLetter) {
   const auto area = [&](std::string_view text) {
-    return planar::area(
-        planar::from_contours(set(text), planar::FillRule::kNonZero));
+    return plane::area(
+        plane::from_contours(set(text), plane::FillRule::kNonZero));
   };
   EXPECT_GT(area("A\u030a"), area("A"));
   EXPECT_NEAR(area("n\u00f1"), area("nn\u0303"), 0.5);

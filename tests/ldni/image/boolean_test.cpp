@@ -7,14 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "base/diagnostic.h"
-#include "csg/tie_distance.h"
+#include "plane/tie_distance.h"
 #include "tests/support/leaf_scenes.h"
 
 namespace lamina::ldni {
 namespace {
 
-using csg::BooleanOp;
 using csg::Scene;
+using plane::BooleanOp;
 
 struct Range {
   double enter;

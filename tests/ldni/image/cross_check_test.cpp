@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/tie_distance.h"
 #include "ldni/image/sample.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
-#include "ldni/sweep/kinetic_ray.h"
+#include "plane/cascade/kinetic_ray.h"
+#include "plane/tie_distance.h"
 #include "tests/ldni/image/ray_reference.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/environment.h"
@@ -67,7 +67,7 @@ RangesAt reference(const csg::Scene& scene, const LayerGrid& layers,
 csg::Scene only_instance(const csg::Scene& scene, std::uint32_t instance) {
   csg::Scene result;
   result.leaves = scene.leaves;
-  result.program.push_back({csg::BooleanOp::kUnion, 0, false, 1});
+  result.program.push_back({plane::BooleanOp::kUnion, 0, false, 1});
   result.instances.push_back(scene.instances[instance]);
   result.instances[0].parent = 0;
   result.box = result.instances[0].box;
@@ -76,7 +76,7 @@ csg::Scene only_instance(const csg::Scene& scene, std::uint32_t instance) {
 
 void check_leaf_sections(std::uint64_t seed, SceneStyle style) {
   Case at(seed, style);
-  ChainBlock block;
+  ldni::SectionBlock block;
   for (std::uint32_t i = 0; i < at.scene.instances.size(); ++i) {
     // Among others it might not be cut.
     const csg::Scene alone = only_instance(at.scene, i);
@@ -103,7 +103,7 @@ void check_leaf_sections(std::uint64_t seed, SceneStyle style) {
 // Sound, where walls coincide or are apart. Where they are nearer than a tie
 // without coinciding, the loops keep to that distance: then nothing crosses by
 // more.
-::testing::AssertionResult are_simple(const Contours& contours,
+::testing::AssertionResult are_simple(const plane::Contours& contours,
                                       SceneStyle style) {
   if (style <= SceneStyle::kNoisy) return support::are_sound(contours);
   support::ContourRules rules;
@@ -119,12 +119,13 @@ void check_leaf_sections(std::uint64_t seed, SceneStyle style) {
 void check_kinetic_ray(std::uint64_t seed, SceneStyle style) {
   Case at(seed, style);
   const LeafSectioner sectioner(at.scene, at.layers);
-  ChainBlock block;
+  ldni::SectionBlock block;
   sectioner.cut(0, at.layers.layer_count(), block);
   // Leaves keep to multiples of these pitches: rays run along walls.
   const double pitches[] = {0, 0.25, 0.02, 10};
-  KineticRay ray(at.scene, {.pitch = pitches[seed % 4]});
-  std::vector<Contours> contours(at.layers.layer_count());
+  const plane::BooleanProgram program = csg::program_of(at.scene);
+  plane::KineticRay ray(program, {.pitch = pitches[seed % 4]});
+  std::vector<plane::Contours> contours(at.layers.layer_count());
   for (std::uint32_t layer = 0; layer < contours.size(); ++layer) {
     ray.sweep(block, layer, contours[layer]);
     ASSERT_TRUE(are_simple(contours[layer], style))

@@ -211,7 +211,7 @@ TEST_P(GlSamplers, AgreeWithTheExactOneInDesigns) {
 
 // One leaf in a scene of its own size.
 Scene scene_of_mesh(csg::Mesh mesh, const Affine& placement) {
-  Scene scene = support::scene_of(csg::BooleanOp::kUnion);
+  Scene scene = support::scene_of(plane::BooleanOp::kUnion);
   scene.leaves.push_back(support::mesh_leaf(std::move(mesh), true));
   support::place_leaf(scene, 0, placement);
   support::cover_instances(scene);

@@ -7,15 +7,15 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/tie_distance.h"
 #include "ldni/image/boolean.h"
 #include "ldni/image/sample.h"
+#include "plane/tie_distance.h"
 #include "tests/support/leaf_scenes.h"
 
 namespace lamina::ldni {
 namespace {
 
-using csg::BooleanOp;
+using plane::BooleanOp;
 using Intervals = std::vector<Interval>;
 
 constexpr BooleanOp kUnion = BooleanOp::kUnion;

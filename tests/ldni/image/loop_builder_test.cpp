@@ -14,9 +14,9 @@
 namespace lamina::ldni {
 namespace {
 
-using ldni::Contours;
 using ldni::LayerIntervals;
 using ldni::RayGrid;
+using plane::Contours;
 
 // A depth image: for every ray its ends of intervals, ascending.
 using Image = std::vector<std::vector<double>>;
@@ -42,8 +42,8 @@ RayGrid unit_rays(std::size_t count) {
   return {-first, static_cast<double>(count) - 0.5, 1};
 }
 
-Contours build(const Image& image) {
-  Contours contours;
+plane::Contours build(const Image& image) {
+  plane::Contours contours;
   LoopBuilder().build(unit_rays(image.size()), intervals_of(image), contours);
   return contours;
 }
@@ -69,21 +69,22 @@ TEST(LoopBuilder, MakesNothingOfAnEmptyImage) {
 }
 
 TEST(LoopBuilder, LinksTheRaysOfARectangle) {
-  const Contours contours = build({{}, {1, 4}, {1, 4}, {1, 4}, {}});
+  const plane::Contours contours = build({{}, {1, 4}, {1, 4}, {1, 4}, {}});
   ASSERT_EQ(contours.loop_count(), 1U);
   EXPECT_EQ(canonical(contours.loop(0)),
             (Points{{1, 1}, {3, 1}, {3, 4}, {1, 4}}));
 }
 
 TEST(LoopBuilder, CutsTheCornersOfADiamondAtItsFirstAndLastRay) {
-  const Contours contours = build({{3, 5}, {2, 6}, {1, 7}, {2, 6}, {3, 5}});
+  const plane::Contours contours =
+      build({{3, 5}, {2, 6}, {1, 7}, {2, 6}, {3, 5}});
   ASSERT_EQ(contours.loop_count(), 1U);
   EXPECT_EQ(canonical(contours.loop(0)),
             (Points{{0, 3}, {2, 1}, {4, 3}, {4, 5}, {2, 7}, {0, 5}}));
 }
 
 TEST(LoopBuilder, RunsHolesClockwise) {
-  const Contours contours =
+  const plane::Contours contours =
       build({{0, 9}, {0, 3, 6, 9}, {0, 2, 7, 9}, {0, 3, 6, 9}, {0, 9}});
   ASSERT_EQ(contours.loop_count(), 2U);
   EXPECT_EQ(canonical(contours.loop(0)),
@@ -94,7 +95,7 @@ TEST(LoopBuilder, RunsHolesClockwise) {
 
 TEST(LoopBuilder, JoinsTheTwoArmsOfAFork) {
   // The arms begin on ray 1, where the samples 4 and 5 turn.
-  const Contours contours = build({{0, 9}, {1, 4, 5, 8}, {1, 3, 6, 8}});
+  const plane::Contours contours = build({{0, 9}, {1, 4, 5, 8}, {1, 3, 6, 8}});
   ASSERT_EQ(contours.loop_count(), 1U);
   EXPECT_EQ(canonical(contours.loop(0)), (Points{{0, 0},
                                                  {1, 1},
@@ -109,7 +110,7 @@ TEST(LoopBuilder, JoinsTheTwoArmsOfAFork) {
 }
 
 TEST(LoopBuilder, KeepsSolidsApartWhoseIntervalsOnlyTouch) {
-  const Contours contours = build({{0, 5}, {0, 5}, {5, 9}, {5, 9}});
+  const plane::Contours contours = build({{0, 5}, {0, 5}, {5, 9}, {5, 9}});
   ASSERT_EQ(contours.loop_count(), 2U);
   EXPECT_EQ(canonical(contours.loop(0)),
             (Points{{0, 0}, {1, 0}, {1, 5}, {0, 5}}));
@@ -119,7 +120,7 @@ TEST(LoopBuilder, KeepsSolidsApartWhoseIntervalsOnlyTouch) {
 
 TEST(LoopBuilder, LosesWhatOneRayAloneHasSeen) {
   EXPECT_TRUE(build({{}, {2, 7}, {}}).is_empty());
-  const Contours contours = build({{0, 1}, {0, 1, 3, 4}, {0, 1}});
+  const plane::Contours contours = build({{0, 1}, {0, 1, 3, 4}, {0, 1}});
   ASSERT_EQ(contours.loop_count(), 1U);
   EXPECT_EQ(contours.loop(0).size(), 4U);
 }
@@ -129,7 +130,7 @@ TEST(LoopBuilder, ObliqueWallsFallApartWhereNeighbouringRaysDoNotOverlap) {
 }
 
 TEST(LoopBuilder, DropsThePointsOfAStraightWall) {
-  const Contours contours =
+  const plane::Contours contours =
       build({{0, 1}, {0.1, 1.3}, {0.2, 1.6}, {0.3, 1.9}, {0.4, 2.2}});
   ASSERT_EQ(contours.loop_count(), 1U);
   EXPECT_EQ(contours.loop(0).size(), 4U);
@@ -137,7 +138,7 @@ TEST(LoopBuilder, DropsThePointsOfAStraightWall) {
 
 TEST(LoopBuilder, MakesOneWallOfTurnsOnBothSidesOfARay) {
   // Ray 1 bears two teeth of no width on the flank of the solid.
-  const Contours contours = build({{0, 9}, {0, 2, 5, 9}, {}});
+  const plane::Contours contours = build({{0, 9}, {0, 2, 5, 9}, {}});
   ASSERT_EQ(contours.loop_count(), 1U);
   EXPECT_EQ(canonical(contours.loop(0)),
             (Points{{0, 0}, {1, 0}, {1, 9}, {0, 9}}));
@@ -249,7 +250,7 @@ TEST(LoopBuilder, FollowsTheThreeRulesOfThePaperInRandomImages) {
   std::mt19937 random(1);
   for (int round = 0; round < 3000; ++round) {
     const Image image = random_image(random);
-    const Contours contours = build(image);
+    const plane::Contours contours = build(image);
     std::vector<Points> loops;
     for (std::size_t i = 0; i < contours.loop_count(); ++i) {
       loops.push_back(canonical(contours.loop(i)));

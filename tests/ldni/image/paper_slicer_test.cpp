@@ -16,8 +16,8 @@
 namespace lamina::ldni {
 namespace {
 
-using csg::BooleanOp;
 using csg::Scene;
+using plane::BooleanOp;
 
 // What the tests choose; the pitch is of the rays [mm].
 struct Settings {
@@ -30,12 +30,13 @@ PaperPlan plan_of(const Scene& scene, const LayerGrid& layers,
   return make_paper_plan(scene, layers, settings.ray_pitch, settings.paper);
 }
 
-std::vector<Contours> slice_all(const Scene& scene, const LayerGrid& layers,
-                                const Settings& settings,
-                                std::uint32_t layers_per_block) {
+std::vector<plane::Contours> slice_all(const Scene& scene,
+                                       const LayerGrid& layers,
+                                       const Settings& settings,
+                                       std::uint32_t layers_per_block) {
   const PaperPlan plan = plan_of(scene, layers, settings);
   PaperSlicer slicer(plan);
-  std::vector<Contours> result(layers.layer_count());
+  std::vector<plane::Contours> result(layers.layer_count());
   for (std::uint32_t first = 0; first < result.size();
        first += layers_per_block) {
     const auto count = std::min(
@@ -48,7 +49,7 @@ std::vector<Contours> slice_all(const Scene& scene, const LayerGrid& layers,
   return result;
 }
 
-Contours slice_at(const Scene& scene, double z, double pitch) {
+plane::Contours slice_at(const Scene& scene, double z, double pitch) {
   Settings settings;
   settings.ray_pitch = pitch;
   return slice_all(scene, LayerGrid::at_heights({z}), settings, 1)[0];
@@ -95,7 +96,8 @@ TEST(PaperSlicer, AreaOfARingConvergesWithThePitch) {
   const double inner = 3;
   const double exact = std::numbers::pi * (outer * outer - inner * inner);
   for (const double pitch : {0.4, 0.2, 0.1, 0.05, 0.025}) {
-    const Contours contours = slice_at(ring_scene(outer, inner), 0, pitch);
+    const plane::Contours contours =
+        slice_at(ring_scene(outer, inner), 0, pitch);
     ASSERT_TRUE(support::are_sound(contours));
     EXPECT_EQ(support::count_loops(contours), (support::LoopCounts{1, 1}));
     // The caps: segments of height below the pitch p, hence of area below
@@ -115,7 +117,7 @@ TEST(PaperSlicer, LosesNeverMoreThanAPitchOfABoxInX) {
   support::place_leaf(scene, 0, Affine(1.0));
   support::cover_instances(scene);
   for (const double pitch : {1.0, 0.3, 0.05}) {
-    const Contours contours = slice_at(scene, 0.5, pitch);
+    const plane::Contours contours = slice_at(scene, 0.5, pitch);
     ASSERT_EQ(contours.loop_count(), 1U);
     EXPECT_EQ(contours.loop(0).size(), 4U);
     EXPECT_LE(support::total_area(contours), 25);
@@ -150,7 +152,7 @@ TEST(PaperSlicer, TouchingAndCoplanarSolidsLeaveNoInnerWallAndNoSkin) {
   // Cuts the upper right quarter away, flush with three of its walls.
   support::place_leaf(scene, 0, support::shift_by({1, 1, 0}));
   scene.box = {Vec3(0), Vec3(2, 2, 1)};
-  const Contours contours = slice_at(scene, 0.5, 0.1);
+  const plane::Contours contours = slice_at(scene, 0.5, 0.1);
   ASSERT_TRUE(support::are_sound(contours));
   EXPECT_EQ(contours.loop_count(), 1U);
   EXPECT_NEAR(support::total_area(contours), 3, 0.5);
@@ -165,7 +167,8 @@ TEST(PaperSlicer, ContoursOfHardScenesAreSimpleDisjointAndOriented) {
           LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.5);
       Settings settings;
       settings.ray_pitch = 0.07;
-      for (const Contours& contours : slice_all(scene, layers, settings, 64)) {
+      for (const plane::Contours& contours :
+           slice_all(scene, layers, settings, 64)) {
         ASSERT_TRUE(support::are_sound(contours))
             << "style " << style << " seed " << seed;
       }
@@ -260,8 +263,8 @@ TEST(PaperSlicer, AnEmptySceneHasEmptyLayers) {
 }
 
 // All layers, for a choice of sampler and boxes.
-std::vector<Contours> slice_by(SamplerKind sampler, BoxMode boxes,
-                               const Scene& scene, PaperCounts& counts) {
+std::vector<plane::Contours> slice_by(SamplerKind sampler, BoxMode boxes,
+                                      const Scene& scene, PaperCounts& counts) {
   const LayerGrid layers =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.05);
   Settings settings;
@@ -270,7 +273,7 @@ std::vector<Contours> slice_by(SamplerKind sampler, BoxMode boxes,
   const PaperPlan plan = plan_of(scene, layers, settings);
   EXPECT_EQ(plan.renderer.empty(), sampler == SamplerKind::kScanline);
   PaperSlicer slicer(plan);
-  std::vector<Contours> result(layers.layer_count());
+  std::vector<plane::Contours> result(layers.layer_count());
   for (std::uint32_t first = 0; first < result.size(); first += 16) {
     const auto count =
         std::min(16U, static_cast<std::uint32_t>(result.size()) - first);
@@ -291,7 +294,7 @@ TEST(PaperSlicer, LayersDrawnByOpenGlAreThoseOfTheExactSampler) {
     const auto expected = slice_by(SamplerKind::kScanline, BoxMode::kLocal,
                                    design.scene(), counts);
     EXPECT_EQ(counts.repaired_pixels, 0U);
-    std::vector<std::vector<Contours>> drawn;
+    std::vector<std::vector<plane::Contours>> drawn;
     for (const SamplerKind kind : {SamplerKind::kGl, SamplerKind::kGlPeeling}) {
       for (const BoxMode boxes : {BoxMode::kLocal, BoxMode::kGlobal}) {
         drawn.push_back(slice_by(kind, boxes, design.scene(), counts));
@@ -357,7 +360,8 @@ TEST(PaperSlicer, CoplanarFacesLeaveNoWallAndNoSkinWhenDrawn) {
     Settings settings;
     settings.ray_pitch = 0.3;
     settings.paper.sampler = SamplerKind::kGl;
-    for (const Contours& contours : slice_all(scene, layers, settings, 4)) {
+    for (const plane::Contours& contours :
+         slice_all(scene, layers, settings, 4)) {
       ASSERT_EQ(contours.loop_count(), 1U);
       EXPECT_EQ(contours.loop(0).size(), 4U);
       EXPECT_NEAR(support::total_area(contours), 20 * y2, 0.6 * y2);

@@ -75,7 +75,7 @@ std::vector<Ranges> evaluate_layers(const csg::Scene& scene,
   return result;
 }
 
-Ranges cut_contours(const Contours& contours, double x) {
+Ranges cut_contours(const plane::Contours& contours, double x) {
   Crossings crossings;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
@@ -92,11 +92,11 @@ Ranges cut_contours(const Contours& contours, double x) {
   return inside_of(std::move(crossings));
 }
 
-Ranges cut_chains(const ChainBlock& block, std::uint32_t layer,
+Ranges cut_chains(const plane::ChainBlock& block, std::uint32_t layer,
                   std::uint32_t instance, double x) {
   Crossings crossings;
-  for (const Chain& chain : block.layer(layer)) {
-    if (chain.instance != instance) continue;
+  for (const plane::Chain& chain : block.layer(layer)) {
+    if (chain.operand != instance) continue;
     const Vec2* const points = block.points.data() + chain.first_point;
     for (std::uint32_t i = 1; i < chain.point_count; ++i) {
       if (points[i - 1].x <= x && x < points[i].x) {

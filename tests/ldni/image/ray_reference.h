@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "csg/scene.h"
-#include "ldni/section/contours.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
+#include "plane/contours.h"
 
 namespace lamina::ldni {
 
@@ -28,8 +28,8 @@ std::vector<Ranges> evaluate_layers(const csg::Scene& scene,
 
 // Ranges between the loops, and between the chains of one instance (where
 // their winding number is not 0).
-Ranges cut_contours(const Contours& contours, double x);
-Ranges cut_chains(const ChainBlock& block, std::uint32_t layer,
+Ranges cut_contours(const plane::Contours& contours, double x);
+Ranges cut_chains(const plane::ChainBlock& block, std::uint32_t layer,
                   std::uint32_t instance, double x);
 
 // Greatest distance [mm] by which results may differ: ties in y, ties in x

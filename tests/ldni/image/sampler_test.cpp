@@ -23,7 +23,7 @@ using csg::Scene;
 
 // One leaf, placed once or more.
 Scene scene_with(csg::Mesh mesh, const std::vector<Affine>& placements) {
-  Scene scene = support::scene_of(csg::BooleanOp::kUnion);
+  Scene scene = support::scene_of(plane::BooleanOp::kUnion);
   scene.leaves.push_back(support::mesh_leaf(std::move(mesh)));
   for (const Affine& placement : placements) {
     support::place_leaf(scene, 0, placement);
@@ -420,7 +420,7 @@ std::vector<csg::Leaf> loft_leaves() {
 
 // `leaf` as it is and as its explicit mesh, in the same place.
 Scene scene_with_both(csg::Leaf leaf, const Affine& placement) {
-  Scene scene = support::scene_of(csg::BooleanOp::kUnion);
+  Scene scene = support::scene_of(plane::BooleanOp::kUnion);
   scene.leaves.push_back(support::mesh_leaf(csg::explicit_mesh(leaf)));
   scene.leaves.push_back(std::move(leaf));
   support::place_leaf(scene, 0, placement);

@@ -13,7 +13,7 @@
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
-#include "ldni/sweep/kinetic_ray.h"
+#include "plane/cascade/kinetic_ray.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/leaf_scenes.h"
 
@@ -84,8 +84,9 @@ TEST(BrokenMeshes, GiveSoundLoopsAndAreCounted) {
   std::uint64_t loops = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     MeshBreaker breaker(seed);
-    csg::Scene scene = support::scene_of(
-        seed % 3 == 0 ? csg::BooleanOp::kDifference : csg::BooleanOp::kUnion);
+    csg::Scene scene =
+        support::scene_of(seed % 3 == 0 ? plane::BooleanOp::kDifference
+                                        : plane::BooleanOp::kUnion);
     for (std::uint32_t leaf = 0; leaf < 1 + seed % 4; ++leaf) {
       scene.leaves.push_back(
           support::mesh_leaf(breaker.broken_mesh(), breaker.below(2) == 0));
@@ -95,11 +96,12 @@ TEST(BrokenMeshes, GiveSoundLoopsAndAreCounted) {
     const LayerGrid grid =
         LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.17);
     const LeafSectioner sectioner(scene, grid);
-    ChainBlock block;
+    ldni::SectionBlock block;
     sectioner.cut(0, grid.layer_count(), block);
     open_paths += block.open_paths;
-    KineticRay ray(scene);
-    Contours contours;
+    const plane::BooleanProgram program = csg::program_of(scene);
+    plane::KineticRay ray(program);
+    plane::Contours contours;
     for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
       ray.sweep(block, l, contours);
       loops += contours.loop_count();

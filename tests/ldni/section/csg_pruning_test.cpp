@@ -11,7 +11,7 @@ namespace lamina::ldni::detail {
 namespace {
 
 using namespace lamina::testing;
-using csg::BooleanOp;
+using plane::BooleanOp;
 
 constexpr std::uint64_t kMostQuestions = 64;
 

@@ -21,9 +21,9 @@ using namespace lamina::testing;
 constexpr double kPi = std::numbers::pi;
 
 // Area that the chains of a layer enclose, counted by winding.
-double winding_area(const ChainBlock& block, std::uint32_t layer) {
+double winding_area(const plane::ChainBlock& block, std::uint32_t layer) {
   double area = 0;
-  for (const Chain& chain : block.layer(layer)) {
+  for (const plane::Chain& chain : block.layer(layer)) {
     for (std::uint32_t i = 1; i < chain.point_count; ++i) {
       const Vec2& a = block.points[chain.first_point + i - 1];
       const Vec2& b = block.points[chain.first_point + i];
@@ -43,7 +43,7 @@ double area_at(const csg::Leaf& leaf, const Affine& placement, double height) {
   const csg::Scene scene = scene_of(leaf, placement);
   const LayerGrid grid = LayerGrid::at_heights({height});
   const LeafSectioner sectioner(scene, grid);
-  ChainBlock block;
+  ldni::SectionBlock block;
   sectioner.cut(0, 1, block);
   EXPECT_EQ(block.open_paths, 0U);
   return winding_area(block, 0);
@@ -196,7 +196,7 @@ TEST(LeafSection, TheSumOfTheLayersIsTheVolume) {
   const LayerGrid grid =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, thickness);
   const LeafSectioner sectioner(scene, grid);
-  ChainBlock block;
+  ldni::SectionBlock block;
   double sum = 0;
   for (std::uint32_t first = 0; first < grid.layer_count(); first += 64) {
     const std::uint32_t count = std::min(64U, grid.layer_count() - first);
@@ -212,11 +212,11 @@ TEST(LeafSection, EveryChainRunsToTheRightAndItsEndsMeetOthers) {
     const LayerGrid grid =
         LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.05);
     const LeafSectioner sectioner(scene, grid);
-    ChainBlock block;
+    ldni::SectionBlock block;
     sectioner.cut(0, grid.layer_count(), block);
     for (std::uint32_t l = 0; l < block.layer_count; ++l) {
       std::vector<double> ends;
-      for (const Chain& chain : block.layer(l)) {
+      for (const plane::Chain& chain : block.layer(l)) {
         ASSERT_GE(chain.point_count, 2U);
         ASSERT_EQ(std::abs(chain.winding), 1);
         const Vec2* points = &block.points[chain.first_point];
@@ -239,16 +239,16 @@ void expect_the_same_in_every_block(const csg::Scene& scene) {
   const LayerGrid grid =
       LayerGrid::uniform(scene.box.low.z, scene.box.high.z, 0.1);
   const LeafSectioner sectioner(scene, grid);
-  ChainBlock whole;
+  ldni::SectionBlock whole;
   sectioner.cut(0, grid.layer_count(), whole);
-  ChainBlock single;
+  ldni::SectionBlock single;
   for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
     sectioner.cut(l, 1, single);
     const auto expected = whole.layer(l);
     const auto actual = single.layer(0);
     ASSERT_EQ(actual.size(), expected.size());
     for (std::size_t i = 0; i < actual.size(); ++i) {
-      ASSERT_EQ(actual[i].instance, expected[i].instance);
+      ASSERT_EQ(actual[i].operand, expected[i].operand);
       ASSERT_EQ(actual[i].winding, expected[i].winding);
       ASSERT_EQ(actual[i].point_count, expected[i].point_count);
       for (std::uint32_t k = 0; k < actual[i].point_count; ++k) {
@@ -291,7 +291,7 @@ TEST(LeafSection, AnOpenMeshIsClosedAndCounted) {
   const csg::Scene scene = scene_of(leaf, kIdentity);
   const LayerGrid grid = LayerGrid::at_heights({0.25, 0.75});
   const LeafSectioner sectioner(scene, grid);
-  ChainBlock block;
+  ldni::SectionBlock block;
   sectioner.cut(0, 2, block);
   EXPECT_EQ(block.open_paths, 2U);
   EXPECT_GT(winding_area(block, 0), 0.5);

@@ -9,7 +9,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 
 namespace lamina::testing {
 namespace {
@@ -209,12 +209,12 @@ Affine scaled(const Vec3& by) {
   return Affine(glm::scale(glm::dmat4(1.0), by));
 }
 
-SceneBuilder::SceneBuilder(csg::BooleanOp root) {
+SceneBuilder::SceneBuilder(plane::BooleanOp root) {
   scene_.program.push_back({root, 0, false, 0});
   open_.push_back(0);
 }
 
-void SceneBuilder::begin(csg::BooleanOp op) {
+void SceneBuilder::begin(plane::BooleanOp op) {
   const std::uint32_t parent = open_.back();
   const bool is_first = scene_.program[parent].child_count++ == 0;
   open_.push_back(static_cast<std::uint32_t>(scene_.program.size()));
@@ -251,14 +251,14 @@ csg::Scene SceneBuilder::finish() {
                         const Box3& box) {
     Box3& whole = boxes[parent];
     switch (scene_.program[parent].op) {
-      case csg::BooleanOp::kUnion:
+      case plane::BooleanOp::kUnion:
         whole.low = glm::min(whole.low, box.low);
         whole.high = glm::max(whole.high, box.high);
         break;
-      case csg::BooleanOp::kDifference:
+      case plane::BooleanOp::kDifference:
         if (is_minuend) whole = box;
         break;
-      case csg::BooleanOp::kIntersection:
+      case plane::BooleanOp::kIntersection:
         if (!has_box[parent]) whole = box;
         whole.low = glm::max(whole.low, box.low);
         whole.high = glm::min(whole.high, box.high);

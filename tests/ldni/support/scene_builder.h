@@ -30,9 +30,9 @@ Affine operator*(const Affine& a, const Affine& b);  // b first
 //   SceneBuilder b(kDifference); b.add(cube); b.begin(kUnion); … b.end();
 class SceneBuilder {
  public:
-  explicit SceneBuilder(csg::BooleanOp root = csg::BooleanOp::kUnion);
+  explicit SceneBuilder(plane::BooleanOp root = plane::BooleanOp::kUnion);
 
-  void begin(csg::BooleanOp op);
+  void begin(plane::BooleanOp op);
   void end();
   void add(csg::Leaf leaf, const Affine& world_from_leaf = Affine(1.0));
   void add_instance(std::uint32_t leaf, const Affine& world_from_leaf);

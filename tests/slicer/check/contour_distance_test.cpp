@@ -17,7 +17,7 @@
 namespace lamina::slicer {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using support::add_loop;
 
 Contours loop(const std::vector<Vec2>& points) {

@@ -13,7 +13,7 @@ namespace {
 using Loops = std::vector<WrittenLoop>;
 
 Loops closed(const std::vector<std::vector<Vec2>>& loops) {
-  ldni::Contours contours;
+  plane::Contours contours;
   for (const auto& loop : loops) {
     contours.points.insert(contours.points.end(), loop.begin(), loop.end());
     contours.ends.push_back(static_cast<std::uint32_t>(contours.points.size()));

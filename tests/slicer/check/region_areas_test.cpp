@@ -12,14 +12,14 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/plane/boolean.h"
-#include "csg/plane/region.h"
+#include "plane/region/boolean.h"
+#include "plane/region/region.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::slicer {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using support::add_loop;
 
 Contours rectangle(Vec2 low, Vec2 high) {
@@ -109,8 +109,8 @@ Contours random_star(std::mt19937& random) {
   return contours;
 }
 
-planar::Region region_of(const Contours& contours) {
-  planar::Region region;
+plane::Region region_of(const Contours& contours) {
+  plane::Region region;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
     region.contours.emplace_back(loop.begin(), loop.end());
@@ -125,8 +125,8 @@ TEST(MeasureRegions, AgreesWithTheClipper) {
     const Contours b = random_star(random);
     const std::array regions = {region_of(a), region_of(b)};
     const RegionAreas areas = measure_regions(a, b);
-    EXPECT_NEAR(areas.both, planar::area(planar::intersect(regions)), 1e-5);
-    EXPECT_NEAR(areas.only_a, planar::area(planar::subtract(regions)), 1e-5);
+    EXPECT_NEAR(areas.both, plane::area(plane::intersect(regions)), 1e-5);
+    EXPECT_NEAR(areas.only_a, plane::area(plane::subtract(regions)), 1e-5);
     EXPECT_NEAR(areas.a(), support::total_area(a), 1e-12);
     EXPECT_NEAR(areas.b(), support::total_area(b), 1e-12);
   }

@@ -18,7 +18,7 @@
 namespace lamina::slicer {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using support::add_loop;
 
 constexpr double kPi = std::numbers::pi;

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 #include "tests/slicer/contour/simplify_laws.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/design.h"
@@ -23,7 +23,7 @@
 namespace lamina::slicer {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using support::add_loop;
 
 constexpr double kPi = std::numbers::pi;

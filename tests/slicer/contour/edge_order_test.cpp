@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/plane.h"
+#include "plane/predicates.h"
 
 namespace lamina::slicer {
 namespace {

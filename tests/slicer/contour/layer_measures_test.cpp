@@ -1,8 +1,9 @@
+#include "slicer/contour/layer_measures.h"
+
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "slicer/contour/layer_measures.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::slicer {
@@ -25,7 +26,7 @@ TEST(AreasOfRegions, NothingHasNone) {
 TEST(AreasOfRegions, HolesCountForTheRegionRightAroundThem) {
   // A frame, an island with a hole in its hole, and a square beside it; holes
   // come first.
-  ldni::Contours contours;
+  plane::Contours contours;
   support::add_loop(contours, square(0, 0, 1, true));
   support::add_loop(contours, square(0, 0, 4, true));
   support::add_loop(contours, square(0, 0, 5, false));
@@ -37,7 +38,7 @@ TEST(AreasOfRegions, HolesCountForTheRegionRightAroundThem) {
 
 // The box of the L holds the other square and its hole.
 TEST(AreasOfRegions, BoxesDoNotDecide) {
-  ldni::Contours contours;
+  plane::Contours contours;
   support::add_loop(contours,
                     {{0, 0}, {10, 0}, {10, 1}, {1, 1}, {1, 10}, {0, 10}});
   support::add_loop(contours, square(5, 5, 2, false));

@@ -14,7 +14,7 @@
 
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
-#include "ldni/sweep/kinetic_ray.h"
+#include "plane/cascade/kinetic_ray.h"
 #include "slicer/check/defects.h"
 #include "slicer/contour/layer_file.h"
 #include "tests/support/contour_checks.h"
@@ -31,7 +31,7 @@ bool is_float(double value) {
 
 // Every coordinate a float32; no repeat, crossing, overlap or wrong
 // orientation, by exact signs; no loop through a point twice.
-::testing::AssertionResult are_sound_floats(const ldni::Contours& contours) {
+::testing::AssertionResult are_sound_floats(const plane::Contours& contours) {
   for (const Vec2& point : contours.points) {
     if (!is_float(point.x) || !is_float(point.y)) {
       return ::testing::AssertionFailure() << "not a float32";
@@ -55,13 +55,13 @@ bool is_float(double value) {
   return ::testing::AssertionSuccess();
 }
 
-ldni::Contours rounded(ldni::Contours contours) {
+plane::Contours rounded(plane::Contours contours) {
   LoopRounder().round(contours);
   return contours;
 }
 
-ldni::Contours loops(const std::vector<std::vector<Vec2>>& points) {
-  ldni::Contours contours;
+plane::Contours loops(const std::vector<std::vector<Vec2>>& points) {
+  plane::Contours contours;
   for (const auto& loop : points) support::add_loop(contours, loop);
   return contours;
 }
@@ -71,9 +71,10 @@ std::vector<Vec2> rectangle(Vec2 low, Vec2 high) {
 }
 
 TEST(RoundLoops, PutsEachPointOnItsNearestFloatWhereNothingIsNear) {
-  const ldni::Contours exact = loops({{{0.1, 0.2}, {100.3, 1e-5}, {57.7, 80.1}},
-                                      {{-3.3, 0.7}, {-1.1, 0.9}, {-2.2, 2.9}}});
-  const ldni::Contours result = rounded(exact);
+  const plane::Contours exact =
+      loops({{{0.1, 0.2}, {100.3, 1e-5}, {57.7, 80.1}},
+             {{-3.3, 0.7}, {-1.1, 0.9}, {-2.2, 2.9}}});
+  const plane::Contours result = rounded(exact);
   ASSERT_EQ(result.ends, exact.ends);
   for (std::size_t i = 0; i < exact.points.size(); ++i) {
     EXPECT_EQ(result.points[i].x, static_cast<float>(exact.points[i].x));
@@ -83,10 +84,10 @@ TEST(RoundLoops, PutsEachPointOnItsNearestFloatWhereNothingIsNear) {
 
 // At 100 mm float32 steps by 7.6e-6 mm.
 TEST(RoundLoops, WallsAndGapsThinnerThanTheSpacingVanish) {
-  const ldni::Contours wall =
+  const plane::Contours wall =
       rounded(loops({rectangle({100, 0}, {110, 1e-7})}));
   EXPECT_TRUE(wall.is_empty());
-  const ldni::Contours two =
+  const plane::Contours two =
       rounded(loops({rectangle({100, 100}, {110, 110}),
                      rectangle({110 + 1e-7, 100}, {120, 110})}));
   EXPECT_TRUE(are_sound_floats(two));
@@ -99,7 +100,7 @@ TEST(RoundLoops, WallsAndGapsThinnerThanTheSpacingVanish) {
 TEST(RoundLoops, SlenderTipsStaySimple) {
   for (int i = 0; i < 200; ++i) {
     const double shift = 1e-7 * i;
-    const ldni::Contours result = rounded(
+    const plane::Contours result = rounded(
         loops({{{90, 90}, {120, 90 + shift}, {100, 90 + 2e-6 + shift / 3}},
                {{90, 91}, {110, 92}, {90, 95}}}));
     EXPECT_TRUE(are_sound_floats(result)) << i;
@@ -108,10 +109,10 @@ TEST(RoundLoops, SlenderTipsStaySimple) {
 }
 
 TEST(RoundLoops, LoopsThatTouchInAVertexStayAsTheyAre) {
-  const ldni::Contours exact = loops(
+  const plane::Contours exact = loops(
       {rectangle({0.1, 0.1}, {0.7, 0.7}), rectangle({0.7, 0.7}, {1.3, 1.3})});
   LoopRounder rounder;
-  ldni::Contours result = exact;
+  plane::Contours result = exact;
   rounder.round(result);
   EXPECT_EQ(result.ends, exact.ends);
   EXPECT_EQ(rounder.snapped_layers(), 0U);
@@ -130,14 +131,15 @@ TEST(RoundLoops, RandomScenesStaySimpleAndDisjoint) {
         scene.box.low.z, scene.box.high.z,
         std::max(scene.box.high.z - scene.box.low.z, 1e-3) / 7.3);
     const ldni::LeafSectioner sectioner(scene, grid);
-    ldni::ChainBlock block;
+    ldni::SectionBlock block;
     sectioner.cut(0, grid.layer_count(), block);
-    ldni::KineticRay ray(scene);
+    const plane::BooleanProgram program = csg::program_of(scene);
+    plane::KineticRay ray(program);
     for (std::uint32_t l = 0; l < grid.layer_count(); ++l) {
-      ldni::Contours exact;
+      plane::Contours exact;
       ray.sweep(block, l, exact);
       for (const double shift : {0.0, 1e2, 1e4, 1e6}) {
-        ldni::Contours result = exact;
+        plane::Contours result = exact;
         for (Vec2& point : result.points) {
           point += Vec2(shift, shift * 0.77);
         }
@@ -162,7 +164,7 @@ TEST(RoundLoops, RandomScenesStaySimpleAndDisjoint) {
 // More rings in rings than the tree of boxes can tell apart: the grid does.
 TEST(RoundLoops, HundredsOfRingsInRingsStayAsTheyAre) {
   for (const double gap : {0.05, 1e-6}) {
-    ldni::Contours contours;
+    plane::Contours contours;
     for (int ring = 1; ring <= 300; ++ring) {
       // The last one is as near to the one before as `gap`.
       const double radius = ring < 300 ? 0.05 * ring : 0.05 * 299 + gap;

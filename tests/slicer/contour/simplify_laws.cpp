@@ -17,7 +17,7 @@
 namespace lamina::slicer {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using support::are_sound;
 using support::count_loops;
 

@@ -3,17 +3,17 @@
 
 #include <string>
 
-#include "ldni/section/contours.h"
+#include "plane/contours.h"
 
 namespace lamina::slicer {
 
-ldni::Contours simplified(ldni::Contours contours, double tolerance);
+plane::Contours simplified(plane::Contours contours, double tolerance);
 
 // Simplifies sound contours and expects all laws to hold: either contour
 // within the tolerance of the other, loops as many, as simple and as disjoint,
 // turned and nested as before, on doubles and, exactly, on the 32-bit numbers
 // of a file.
-void expect_lawful(const ldni::Contours& before, double tolerance,
+void expect_lawful(const plane::Contours& before, double tolerance,
                    const std::string& what);
 
 }  // namespace lamina::slicer

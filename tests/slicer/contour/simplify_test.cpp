@@ -18,7 +18,7 @@
 namespace lamina::slicer {
 namespace {
 
-using ldni::Contours;
+using plane::Contours;
 using support::add_loop;
 using support::distance_to_edges;
 

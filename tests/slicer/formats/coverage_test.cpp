@@ -113,7 +113,7 @@ TEST(Coverage, StretchesTellTheSameAsPixels) {
 }
 
 TEST(Coverage, HolesAreLeftOut) {
-  ldni::Contours contours;
+  plane::Contours contours;
   support::add_loop(contours, {{0, 0}, {3, 0}, {3, 3}, {0, 3}});
   support::add_loop(contours, {{1, 1}, {1, 2}, {2, 2}, {2, 1}});
   Coverage coverage(30, 30);

@@ -72,7 +72,7 @@ bool is_sound(const Layer& layer) {
   const auto is_within_reach = [](double value) {
     return std::abs(value) <= 1e9;  // false for what is not a number
   };
-  const ldni::Contours& contours = layer.contours;
+  const plane::Contours& contours = layer.contours;
   return is_within_reach(layer.bottom) && is_within_reach(layer.top) &&
          is_within_reach(layer.section_z) &&
          std::ranges::all_of(contours.points,

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 #include "tests/support/contour_checks.h"
 
 namespace lamina::slicer {
@@ -47,7 +47,7 @@ double sum_of(const Picture& picture) {
 }
 
 // A ring of many corners around (x, y).
-ldni::Contours ring(Vec2 middle, double radius) {
+plane::Contours ring(Vec2 middle, double radius) {
   constexpr int kCorners = 720;
   std::vector<Vec2> outer;
   std::vector<Vec2> inner;
@@ -57,13 +57,13 @@ ldni::Contours ring(Vec2 middle, double radius) {
     outer.push_back(middle + radius * direction);
     inner.insert(inner.begin(), middle + radius / 2 * direction);
   }
-  ldni::Contours contours;
+  plane::Contours contours;
   support::add_loop(contours, outer);
   support::add_loop(contours, inner);
   return contours;
 }
 
-double area_of(const ldni::Contours& contours) {
+double area_of(const plane::Contours& contours) {
   return signed_area(contours.loop(0)) + signed_area(contours.loop(1));
 }
 
@@ -82,7 +82,7 @@ TEST(DrawGreyPng, CoversTheAreaOfTheContours) {
   PixelMap map;
   map.origin = {0, kHeight};
   for (const Vec2 middle : {Vec2(900, 600), Vec2(560.3, 640.9)}) {
-    const ldni::Contours contours = ring(middle, 555.5);
+    const plane::Contours contours = ring(middle, 555.5);
     const Picture picture =
         read_png(draw_grey_png(contours, kWidth, kHeight, map));
     // Half a grey for each pixel on the edge.
@@ -101,7 +101,7 @@ TEST(DrawGreyPng, CoversTheAreaOfTheContours) {
 }
 
 TEST(DrawGreyPng, ThreePixelsAreTheColoursOfOne) {
-  const ldni::Contours contours = ring({15, 10}, 9.7);
+  const plane::Contours contours = ring({15, 10}, 9.7);
   PixelMap map;
   map.origin = {0, 20};
   const Picture grey = read_png(draw_grey_png(contours, 30, 20, map));

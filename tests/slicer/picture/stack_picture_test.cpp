@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 #include "slicer/picture/camera.h"
 #include "slicer/picture/detail/layer_distance.h"
 #include "slicer/picture/detail/trapezoids.h"
@@ -19,9 +19,9 @@ namespace lamina::slicer {
 namespace {
 
 // Stars with round holes, side by side: every angle, no two loops that touch.
-ldni::Contours make_stars(std::mt19937& random) {
+plane::Contours make_stars(std::mt19937& random) {
   std::uniform_real_distribution<double> radius(3, 9);
-  ldni::Contours contours;
+  plane::Contours contours;
   for (int star = 0; star < 4; ++star) {
     const Vec2 center(20.0 * (star % 2), 20.0 * (star / 2));
     for (int i = 0; i < 40; ++i) {
@@ -40,7 +40,7 @@ ldni::Contours make_stars(std::mt19937& random) {
   return contours;
 }
 
-double area_of(const ldni::Contours& contours) {
+double area_of(const plane::Contours& contours) {
   double area = 0;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     area += signed_area(contours.loop(i));
@@ -49,7 +49,7 @@ double area_of(const ldni::Contours& contours) {
 }
 
 // Winding number by the edges above a place.
-bool is_inside(const ldni::Contours& contours, Vec2 place) {
+bool is_inside(const plane::Contours& contours, Vec2 place) {
   bool inside = false;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
@@ -64,7 +64,7 @@ bool is_inside(const ldni::Contours& contours, Vec2 place) {
   return inside;
 }
 
-double distance_to(const ldni::Contours& contours, Vec2 place) {
+double distance_to(const plane::Contours& contours, Vec2 place) {
   double nearest = 1e300;
   for (std::size_t i = 0; i < contours.loop_count(); ++i) {
     const auto loop = contours.loop(i);
@@ -85,7 +85,7 @@ double distance_to(const ldni::Contours& contours, Vec2 place) {
 TEST(Trapezoids, CoverALayerOnce) {
   std::mt19937 random(1);
   for (int round = 0; round < 20; ++round) {
-    const ldni::Contours contours = make_stars(random);
+    const plane::Contours contours = make_stars(random);
     std::vector<Trapezoid> cut;
     cut_into_trapezoids(contours, cut);
     double area = 0;
@@ -114,7 +114,7 @@ TEST(Trapezoids, ASquareIsOne) {
 TEST(Trapezoids, BarsThatBeginAndEndOneByOneAreOneEach) {
   // Minutes, if at each end all bars were looked for among all bars.
   constexpr int kBars = 10'000;
-  ldni::Contours contours;
+  plane::Contours contours;
   for (int i = 0; i < kBars; ++i) {
     const double x = 2.0 * i;
     const double y = 1e-3 * ((i * 7919) % kBars);
@@ -134,7 +134,7 @@ TEST(Trapezoids, BarsThatBeginAndEndOneByOneAreOneEach) {
 TEST(LayerDistance, IsThatOfAllEdgesTriedOneByOne) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> coordinate(-12, 32);
-  const ldni::Contours contours = make_stars(random);
+  const plane::Contours contours = make_stars(random);
   const double reach = 2.5;
   const LayerDistance layer(contours, reach);
   for (int i = 0; i < 20000; ++i) {

@@ -29,7 +29,7 @@ difference() {
   translate([1, 4, 2.5]) sphere(r = 0.5, $fn = 20);
 })";
 
-std::string text_of(const ldni::Contours& contours) {
+std::string text_of(const plane::Contours& contours) {
   std::string text;
   for (const Vec2& point : contours.points) {
     text += std::to_string(point.x) + ' ' + std::to_string(point.y) + '\n';

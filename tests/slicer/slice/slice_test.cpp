@@ -30,7 +30,7 @@ std::vector<Layer> slice_to_list(const csg::Scene& scene,
 }
 
 csg::Scene drilled_ball() {
-  csg::Scene scene = support::scene_of(csg::BooleanOp::kDifference);
+  csg::Scene scene = support::scene_of(plane::BooleanOp::kDifference);
   scene.leaves.push_back(support::mesh_leaf(support::sphere_mesh(60, 3)));
   scene.leaves.push_back(
       support::mesh_leaf(support::prism_mesh(40, 0.8, -5, 5)));
@@ -145,7 +145,7 @@ TEST(Slice, ThePapersPitchDefaultsToTheLayersThickness) {
 }
 
 TEST(SliceOutline, CountsTheHolesAndTheArea) {
-  planar::Region outline;
+  plane::Region outline;
   outline.contours = {{{0, 0}, {4, 0}, {4, 3}, {0, 3}},
                       {{1, 1}, {1, 2}, {2, 2}, {2, 1}},
                       {{3, 1}, {3, 2}, {3.5, 1}}};

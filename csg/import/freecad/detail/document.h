@@ -30,7 +30,7 @@ struct SubLink {
 
 // Views of the document's texts. The readers of properties give nothing where
 // the object lacks the property, and throw FormatError where its value is
-// malformed: no finite number, or one beyond csg::kGreatestCoordinate.
+// malformed: no finite number, or one beyond plane::kGreatestCoordinate.
 class Object {
  public:
   Object(pugi::xml_node data, std::string_view name, std::string_view type);

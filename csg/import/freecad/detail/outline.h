@@ -26,7 +26,7 @@ struct Outline {
 // polygon, a circle, an ellipse, a rectangle.
 //
 // corners  counts those that were cut for all outlines of a file, also for what
-//          turns out to be none; more than csg::kMostCorners throw
+//          turns out to be none; more than plane::kMostCorners throw
 // why      gets the reason where there is none
 // returns  nothing where the object is none of these, or not closed
 std::optional<Outline> read_outline(const Object& object, double error,

@@ -78,7 +78,7 @@ class SolidMaker {
 
  private:
   Solid make(decltype(Node::op) op, std::span<const Solid> children);
-  // All polygons together may have csg::kMostCorners corners.
+  // All polygons together may have plane::kMostCorners corners.
   Solid polygon(const std::vector<Polyline>& contours);
 
   Arena& arena_;

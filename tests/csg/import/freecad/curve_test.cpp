@@ -86,15 +86,15 @@ TEST(Curve, CurvesThatRunBeyondAllCoordinatesAreRejected) {
   EXPECT_THROW(read("ArcOfParabola",
                     "<ArcOfParabola CenterX=\"0\" CenterY=\"0\" "
                     "Focal=\"1e-300\" StartAngle=\"-1e9\" EndAngle=\"1e9\"/>"),
-               LimitExceeded);
+               plane::LimitExceeded);
   EXPECT_THROW(read("ArcOfHyperbola",
                     "<ArcOfHyperbola CenterX=\"0\" CenterY=\"0\" "
                     "MajorRadius=\"1e9\" MinorRadius=\"1e9\" "
                     "StartAngle=\"-20\" EndAngle=\"20\"/>"),
-               LimitExceeded);
+               plane::LimitExceeded);
   EXPECT_THROW(
       read("Circle", "<Circle CenterX=\"1e9\" CenterY=\"0\" Radius=\"1\"/>"),
-      LimitExceeded);
+      plane::LimitExceeded);
 }
 
 TEST(Curve, WeightsThatLeaveNoDigitsAreRejected) {

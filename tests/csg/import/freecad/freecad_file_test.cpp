@@ -50,7 +50,7 @@ Read read(const std::string& bytes, FreecadOptions options = {}) {
 std::string limit_of(const std::function<void()>& parse) {
   try {
     parse();
-  } catch (const LimitExceeded& fault) {
+  } catch (const plane::LimitExceeded& fault) {
     return fault.diagnostic().message;
   }
   return "";

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "base/loop_area.h"
+#include "plane/loop_area.h"
 #include "tests/csg/import/freecad/freecad_document.h"
 #include "tests/support/design.h"
 #include "tests/support/temporary_folder.h"
