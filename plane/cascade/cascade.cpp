@@ -39,13 +39,6 @@ constexpr double kMostWithin = 0.7;
 // cover, all leaves stay.
 constexpr double kMostUncovered = 0.8;
 
-// Operators in each other are a chain, to be parted in its middle, from so many
-// on.
-constexpr std::uint32_t kShortestChain = 8;
-
-// The margin [mm] around all of what a chain's second half can be.
-constexpr double kMargin = 1;
-
 // Whether half of the chains belong to one leaf, which cannot be parted.
 bool is_mostly_one_leaf(std::span<const Chain> chains) {
   std::size_t longest = 0;
@@ -58,25 +51,10 @@ bool is_mostly_one_leaf(std::span<const Chain> chains) {
   return 2 * longest >= chains.size();
 }
 
-// (without - tail) + (with * tail), each a region that does not overlap itself,
-// in the order in which they are written here.
-BooleanProgram program_of_chain() {
-  BooleanProgram program;
-  program.operands.resize(4);
-  program.nodes.push_back({BooleanOp::kUnion, 0, false, 2});
-  program.nodes.push_back({BooleanOp::kDifference, 0, false, 2});
-  program.nodes.push_back({BooleanOp::kIntersection, 0, false, 2});
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    program.operands[i].parent = 1 + i / 2;
-    program.operands[i].is_minuend = i == 0;
-  }
-  return program;
-}
-
 }  // namespace
 
-// A Boolean of the cascade: the whole program, some operands of one operator of
-// it, or half of a chain of operators.
+// A Boolean of the cascade: the whole program, or some operands of one operator
+// of it.
 class Cascade::Group {
  public:
   // The program must outlive the object.
@@ -88,14 +66,7 @@ class Cascade::Group {
 
   // Parts the group in two where it has two children, at the first call.
   bool part();
-  // Whether the halves are those of a chain. Then the second one is an operator
-  // far down, the tail, and the first one all the rest, with one more operand
-  // in the tail's place.
-  bool is_chain() const { return tail_ != 0; }
-  std::uint32_t place_of_tail() const {
-    return static_cast<std::uint32_t>(half_programs_[0].operands.size() - 1);
-  }
-  // Else the operator over the two halves.
+  // The operator over the two halves.
   BooleanOp op() const { return program_.nodes[0].op; }
   Group& half(std::size_t i) { return *halves_[i]; }
 
@@ -130,17 +101,11 @@ class Cascade::Group {
 
   std::vector<Child> children() const;
   void choose_halves(std::vector<Child>& children) const;
-  // Of each node, its half and its number there.
-  using Nodes = std::vector<std::pair<bool, std::uint32_t>>;
   void make_halves(const std::vector<Child>& children);
-  std::uint32_t find_tail() const;
-  void make_halves_of_chain();
-  void add_operands(const Nodes& nodes);
 
   const BooleanProgram& program_;
   ProgramStates states_;
   bool may_part_ = true;
-  std::uint32_t tail_ = 0;  // an operator, where it is a chain
   std::array<BooleanProgram, 2> half_programs_;
   std::array<std::unique_ptr<Group>, 2> halves_;
   // An operand: its half, and its number there.
@@ -162,16 +127,11 @@ std::uint64_t Cascade::Group::states_met() const {
 bool Cascade::Group::part() {
   if (halves_[0] != nullptr) return true;
   if (!may_part_) return false;
-  tail_ = find_tail();
-  if (is_chain()) {
-    make_halves_of_chain();
-  } else {
-    std::vector<Child> all = children();
-    may_part_ = all.size() > 1;
-    if (!may_part_) return false;
-    choose_halves(all);
-    make_halves(all);
-  }
+  std::vector<Child> all = children();
+  may_part_ = all.size() > 1;
+  if (!may_part_) return false;
+  choose_halves(all);
+  make_halves(all);
   for (std::size_t i = 0; i < 2; ++i) {
     halves_[i] = std::make_unique<Group>(half_programs_[i]);
   }
@@ -231,7 +191,8 @@ void Cascade::Group::choose_halves(std::vector<Child>& children) const {
 
 void Cascade::Group::make_halves(const std::vector<Child>& children) {
   constexpr std::uint32_t kRoot = 0;
-  Nodes nodes(program_.nodes.size());
+  // Of each node, its half and its number there.
+  std::vector<std::pair<bool, std::uint32_t>> nodes(program_.nodes.size());
   places_.resize(program_.operands.size());
   std::array<std::uint32_t, 2> counts{};
   for (const Child& child : children) {
@@ -260,11 +221,7 @@ void Cascade::Group::make_halves(const std::vector<Child>& children) {
     node.parent = is_child ? kRoot : nodes[node.parent].second;
     program.nodes.push_back(node);
   }
-  add_operands(nodes);
-}
-
-// Those at the root stand in `places_` already.
-void Cascade::Group::add_operands(const Nodes& nodes) {
+  // Those at the root have their places already.
   for (std::uint32_t i = 0; i < program_.operands.size(); ++i) {
     Operand operand = program_.operands[i];
     auto& [is_second, number] = places_[i];
@@ -274,52 +231,6 @@ void Cascade::Group::add_operands(const Nodes& nodes) {
     number = static_cast<std::uint32_t>(program.operands.size());
     program.operands.push_back(operand);
   }
-}
-
-// The operator that has half of the operands or more and no operator below
-// with as many; 0 where it is not far down.
-std::uint32_t Cascade::Group::find_tail() const {
-  const std::vector<BooleanNode>& program = program_.nodes;
-  std::vector<std::uint32_t> weights(program.size());
-  for (const Operand& operand : program_.operands) {
-    ++weights[operand.parent];
-  }
-  for (std::size_t i = program.size(); i-- > 1;) {
-    weights[program[i].parent] += weights[i];
-  }
-  // Parents stand before their children.
-  std::uint32_t tail = 0;
-  std::uint32_t depth = 0;
-  for (std::uint32_t i = 1; i < program.size(); ++i) {
-    if (program[i].parent != tail || 2 * weights[i] < weights[0]) continue;
-    tail = i;
-    ++depth;
-  }
-  const bool is_far_down =
-      depth >= kShortestChain && weights[0] - weights[tail] >= kShortestChain;
-  return is_far_down ? tail : 0;
-}
-
-void Cascade::Group::make_halves_of_chain() {
-  Nodes nodes(program_.nodes.size());
-  places_.resize(program_.operands.size());
-  for (std::uint32_t i = 0; i < program_.nodes.size(); ++i) {
-    BooleanNode node = program_.nodes[i];
-    auto& [is_second, number] = nodes[i];
-    is_second = i == tail_ || nodes[node.parent].first;
-    node.parent = i == tail_ ? 0 : nodes[node.parent].second;
-    BooleanProgram& program = half_programs_[is_second ? 1 : 0];
-    number = static_cast<std::uint32_t>(program.nodes.size());
-    program.nodes.push_back(node);
-  }
-  add_operands(nodes);
-  Operand place;
-  place.parent = nodes[program_.nodes[tail_].parent].second;
-  place.is_minuend = program_.nodes[tail_].is_minuend;
-  for (const Operand& operand : half_programs_[1].operands) {
-    place.box.add(operand.box);
-  }
-  half_programs_[0].operands.push_back(place);
 }
 
 std::array<Cascade::Group::Chains, 2> Cascade::Group::chains_of_halves(
@@ -458,7 +369,7 @@ void Cascade::sweep_halves(Group& group, const LayerChains& layer,
     sweep_at_once(group.states(), layer, contours, {});
     return;
   }
-  auto halves = group.chains_of_halves(layer);
+  const auto halves = group.chains_of_halves(layer);
   Contours second;
   for (std::size_t i = 0; i < 2; ++i) {
     const LayerChains half{layer.points, halves[i].chains, halves[i].loops};
@@ -467,35 +378,9 @@ void Cascade::sweep_halves(Group& group, const LayerChains& layer,
     sweep_half(group.half(i), half, share * expected_swaps,
                i == 0 ? contours : second);
   }
-  if (!group.is_chain()) {
-    auto& states = merges_[static_cast<std::size_t>(group.op())];
-    if (!states) states.emplace(program_of(group.op(), 2), FillRule::kNonZero);
-    merge(*states, {&contours, &second}, contours);
-    return;
-  }
-
-  // `contours` is what the chain comes to without its tail. Sweep what it comes
-  // to within it.
-  if (second.is_empty()) return;
-  Box2 box;
-  box.add(std::span<const Vec2>(second.points));
-  const Vec2 low = box.low - Vec2(kMargin);
-  const Vec2 high = box.high + Vec2(kMargin);
-  std::vector<Vec2> points(layer.points.begin(), layer.points.end());
-  for (const std::int32_t winding : {1, -1}) {
-    const double y = winding > 0 ? low.y : high.y;
-    halves[0].chains.push_back({static_cast<std::uint32_t>(points.size()), 2,
-                                group.place_of_tail(), winding});
-    points.push_back({low.x, y});
-    points.push_back({high.x, y});
-  }
-  halves[0].loops.push_back({2, 1});
-  Contours within;
-  const LayerChains half{points, halves[0].chains, halves[0].loops};
-  sweep(group.half(0), half, expected_swaps, within);
-  if (!chain_merge_)
-    chain_merge_.emplace(program_of_chain(), FillRule::kNonZero);
-  merge(*chain_merge_, {&contours, &second, &within, &second}, contours);
+  auto& states = merges_[static_cast<std::size_t>(group.op())];
+  if (!states) states.emplace(program_of(group.op(), 2), FillRule::kNonZero);
+  merge(*states, second, contours);
 }
 
 // A half often has the chains that it had in the layer before, as where only
@@ -532,19 +417,17 @@ bool Cascade::resume(Contours& contours, const Patience& patience) {
   return true;
 }
 
-// The children are numbered as they come.
-void Cascade::merge(ProgramStates& states,
-                    std::initializer_list<const Contours*> children,
+void Cascade::merge(ProgramStates& states, const Contours& second,
                     Contours& contours) {
   builder_.begin(block_);
-  std::uint32_t operand = 0;
-  for (const Contours* child : children) {
-    for (std::size_t i = 0; i < child->loop_count(); ++i) {
-      const auto loop = child->loop(i);
+  std::uint32_t number = 0;
+  for (const Contours* operand : {&std::as_const(contours), &second}) {
+    for (std::size_t i = 0; i < operand->loop_count(); ++i) {
+      const auto loop = operand->loop(i);
       builder_.loop().assign(loop.begin(), loop.end());
-      builder_.close_loop(0, operand, 1);
+      builder_.close_loop(0, number, 1);
     }
-    ++operand;
+    ++number;
   }
   builder_.finish(block_);
   sweep_at_once(states, block_.chains_of(0), contours, {});

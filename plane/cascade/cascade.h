@@ -8,15 +8,6 @@
 // operands of one more sweep. What is hidden within a group is gone before the
 // groups meet, and the cost falls from n·k towards n·log n.
 //
-// Operators in each other, as A - (B - (C - …)), would be parted leaf by leaf.
-// Such a chain is parted in its middle: the tail X, far down, and the rest, a
-// function f of X. By Shannon's expansion
-//
-//   f(X) = (f(nothing) - X) + (f(all) * X),
-//
-// where a rectangle around X is all that is needed of "all". So f is swept
-// twice, and n operators cost n^1.6 and not n².
-//
 // Where leaves reach far beyond the places where they can matter, they are
 // clipped first (chain_clipper.h): crossings there are hidden as well. Leaves
 // that lie within others are left out (covered_leaves.h). A layer that has few
@@ -31,7 +22,6 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -81,9 +71,8 @@ class Cascade {
   bool sweep_at_once(ProgramStates& states, const LayerChains& layer,
                      Contours& contours, const Patience& patience);
   bool resume(Contours& contours, const Patience& patience);
-  void merge(ProgramStates& states,
-             std::initializer_list<const Contours*> operands,
-             Contours& contours);
+  // Replaces `contours` by an operator over them and `second`.
+  void merge(ProgramStates& states, const Contours& second, Contours& contours);
 
   const SweepOptions options_;
   const double patience_;
@@ -93,9 +82,8 @@ class Cascade {
   const bool clips_;  // where a sweep is given up
   ChainClipper clipper_;
   CoveredLeaves covered_;
-  // Of two contours, an operator; made when they are needed.
+  // An operator over two contours each; made when they are needed.
   std::array<std::optional<ProgramStates>, 3> merges_;
-  std::optional<ProgramStates> chain_merge_;
   ChainBuilder builder_;
   ChainBlock block_;  // of two contours
   SweepCounts counts_;

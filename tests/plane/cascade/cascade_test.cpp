@@ -135,18 +135,6 @@ TEST(Cascade, DifferencesInEachOtherAreRings) {
   }
 }
 
-// Three halves of half the size: three times the work for twice the squares,
-// which was four times where they were parted one by one.
-TEST(Cascade, OperatorsInEachOtherCostLessThanTheirSquare) {
-  const auto events = [](int count) {
-    const csg::Scene scene =
-        nested_squares(count, 0.7, {BooleanOp::kDifference});
-    return static_cast<double>(sweep(scene, 0).counts.event_points);
-  };
-  const double growth = events(800) / events(200);
-  EXPECT_LT(growth, 3.2 * 3.2);
-}
-
 TEST(Cascade, ChangesNoRegion) {
   for (const csg::Scene& scene : {star(60), frames(60)}) {
     expect_no_change_by_cascading(scene);
