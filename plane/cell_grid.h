@@ -3,7 +3,7 @@
 // points and edges by place.
 //
 // The grid only counts: columns, rows, and the cells that a segment comes near
-// to. The lists stand one behind the other in one array, so that the cells of
+// to. The lists follow each other in one array, so that the cells of
 // a row that follow each other are one stretch of it.
 
 #include <algorithm>
@@ -106,7 +106,7 @@ bool CellGrid::visit_rows(Vec2 a, Vec2 b, Vec2 reach,
   return false;
 }
 
-// Items listed by cell; one may stand in several.
+// Lists items by cell; an item may be in several lists.
 template <typename Item>
 class CellLists {
  public:
@@ -131,7 +131,7 @@ class CellLists {
   std::span<const Item> operator[](std::size_t cell) const {
     return between(cell, cell);
   }
-  // Of the cells from `first` to `last`.
+  // The items of the cells from `first` to `last`.
   std::span<const Item> between(std::size_t first, std::size_t last) const {
     return {items_.data() + starts_[first], starts_[last + 1] - starts_[first]};
   }

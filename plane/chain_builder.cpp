@@ -11,7 +11,7 @@ namespace {
 // edges could all count as vertical.
 constexpr double kLeastWidth = 1e-8;
 
-// Which way an edge goes in x; 0 where it is no wider than that.
+// The direction of an edge in x; 0 where it is no wider than that.
 int direction_of(const Vec2& from, const Vec2& to, double vertical_width) {
   const double width = to.x - from.x;
   return (width > vertical_width) - (width < -vertical_width);
@@ -119,7 +119,7 @@ void ChainBuilder::close_loop(std::uint32_t layer, std::uint32_t operand,
   chain.operand = operand;
   const std::size_t chains_before = chains_.size();
   const std::size_t size = loop_.size();
-  // Vertical edges mostly stand alone.
+  // Most vertical edges have none beside them.
   if (size >= 3 && !cut(loop_, kClusterWidth, layer, chain, orientation)) {
     loop_.resize(size);
     if (is_wide()) {

@@ -12,7 +12,7 @@
 
 namespace lamina::plane {
 
-// Of a region of the plane, and of all outlines of a FreeCAD file together. A
+// Corners of a region of the plane, or of all outlines of a FreeCAD file. A
 // star of 3,001 points crosses itself 4.5 million times.
 constexpr double kMostCorners = 1 << 22;
 

@@ -3,7 +3,7 @@
 //
 // A loop is a closed polygon; whether its first point is repeated at its end
 // makes no difference. Those who need several of these in one pass past the
-// points add them up themselves; the functions do it for a loop at hand.
+// points add them up themselves; the functions do it for one loop.
 
 #include <algorithm>
 #include <span>
@@ -54,9 +54,9 @@ class Reach {
 // Positive where the loop runs counter-clockwise [mm²]; 0 of none.
 double signed_area(std::span<const Vec2> loop);
 
-// The same, added up by triangles from the first point. Those of a sliver are
-// small, and so is their rounding: for regions of the plane, where slivers come
-// from rounding and the sign of one decides.
+// As signed_area(), but added up by triangles from the first point. Those of a
+// sliver are small, and so is their rounding: for regions of the plane, where
+// slivers come from rounding and the sign of one decides.
 double sliver_area(std::span<const Vec2> loop);
 
 double perimeter(std::span<const Vec2> loop);

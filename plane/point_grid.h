@@ -32,8 +32,8 @@ class PointGrid {
   }
 
  private:
-  // One grid. What stands in a crowded cell stands in the cell's own level and
-  // not in the list of the cell.
+  // One grid. Points of a crowded cell are in the cell's own level and not in
+  // the list of the cell.
   struct Level {
     Box2 box;
     CellGrid grid;
@@ -41,7 +41,7 @@ class PointGrid {
     std::vector<std::size_t> crowded_cells;   // ascending
     std::vector<std::uint32_t> their_levels;  // in levels_
 
-    // Lists the members that do not stand in crowded cells.
+    // Lists the members that are not in crowded cells.
     void list_members(std::span<const Vec2> points,
                       std::span<const std::uint32_t> all);
   };

@@ -26,7 +26,7 @@ int orientation(Vec2 a, Vec2 b, Vec2 c) {
       kRelativeError * (std::abs(left) + std::abs(right))) {
     return sign(difference);
   }
-  // The same, without differences, which round: a×b + b×c + c×a.
+  // Without differences, which round: a×b + b×c + c×a.
   ExactSum<12> sum;
   for (const auto& [p, q] : {std::pair(a, b), {b, c}, {c, a}}) {
     sum.add_product(p.x, q.y);

@@ -51,8 +51,8 @@ inline int crossing(Vec2 from, Vec2 to, Vec2 point) {
 // point of the loop may be repeated at its end.
 int winding_number(std::span<const Vec2> loop, Vec2 point);
 
-// Which share of the way from `from` to `to` the nearest point of that segment
-// stands at, in [0, 1]; 0 where the ends coincide.
+// The share of the way from `from` to `to` at which that segment is nearest to
+// the point, in [0, 1]; 0 where the ends coincide.
 inline double nearest_share(Vec2 point, Vec2 from, Vec2 to) {
   const Vec2 along = to - from;
   const double squared_length = dot(along, along);

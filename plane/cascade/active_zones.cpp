@@ -6,7 +6,7 @@
 namespace lamina::plane {
 namespace {
 
-// Tells an operator of one of its operands.
+// Adds one of its operands to the box of an operator.
 void add_operand(BooleanOp op, bool is_minuend, const Box2& operand,
                  Box2& box) {
   if (op == BooleanOp::kIntersection) {
@@ -29,7 +29,7 @@ std::vector<Box2> active_zones(const BooleanProgram& program,
   std::vector<Box2> zones(program.nodes.size());
   for (std::uint32_t i = 0; i < zones.size(); ++i) {
     const BooleanNode& node = program.nodes[i];
-    // Of nothing at all an intersection is empty.
+    // An intersection of nothing is empty.
     if (node.op == BooleanOp::kIntersection && node.child_count > 0) {
       zones[i] = {Vec2(-1e300), Vec2(1e300)};
     }
@@ -42,7 +42,7 @@ std::vector<Box2> active_zones(const BooleanProgram& program,
     const Operand& operand = program.operands[i];
     add(operand.parent, operand.is_minuend, boxes[i]);
   }
-  // Parents stand before their children.
+  // Parents come before their children.
   for (std::size_t i = zones.size(); i-- > 1;) {
     const BooleanNode& node = program.nodes[i];
     add(node.parent, node.is_minuend, zones[i]);

@@ -139,7 +139,7 @@ bool Cascade::Group::part() {
 }
 
 std::vector<Cascade::Group::Child> Cascade::Group::children() const {
-  // Of each node below the root, the child that it belongs to.
+  // By node below the root, the child that it belongs to.
   std::vector<std::size_t> owners(program_.nodes.size());
   std::vector<Child> children;
   for (std::uint32_t i = 1; i < program_.nodes.size(); ++i) {
@@ -191,7 +191,7 @@ void Cascade::Group::choose_halves(std::vector<Child>& children) const {
 
 void Cascade::Group::make_halves(const std::vector<Child>& children) {
   constexpr std::uint32_t kRoot = 0;
-  // Of each node, its half and its number there.
+  // By node, its half and its number there.
   std::vector<std::pair<bool, std::uint32_t>> nodes(program_.nodes.size());
   places_.resize(program_.operands.size());
   std::array<std::uint32_t, 2> counts{};
@@ -200,7 +200,7 @@ void Cascade::Group::make_halves(const std::vector<Child>& children) {
     (child.is_operand ? places_ : nodes)[child.index].first = child.is_second;
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    // Of what is subtracted, and of a difference's first child.
+    // What is subtracted is united; a difference's first child is alone.
     const BooleanOp op =
         this->op() == BooleanOp::kIntersection ? this->op() : BooleanOp::kUnion;
     half_programs_[i].nodes.push_back({op, 0, false, counts[i]});
@@ -439,7 +439,7 @@ SweepCounts Cascade::counts() const {
   counts += swept;
   counts.states = root_->states_met();
   if (!resolver_) return counts;
-  // Of the second sweeps only what went wrong counts.
+  // Second sweeps count only what went wrong.
   const SweepCounts resolved = resolver_->counts();
   counts.unbalanced_clusters += resolved.unbalanced_clusters;
   counts.repaired_clusters += resolved.repaired_clusters;

@@ -14,7 +14,7 @@ constexpr double kMargin = 1.5e-5;
 // The zone's width and height are so many steps, or up to twice as many.
 constexpr double kSteps = 16;
 
-// Sides stand at whole steps and this part of one.
+// Sides lie at whole steps and this part of one.
 constexpr double kSkew = 0.3819660112501051;
 
 // What is nearer to the left or right side than this [mm] counts as beyond, so
@@ -55,7 +55,7 @@ double share_of(const Box2& box, const Box2& rectangle) {
   return share;
 }
 
-// Of an edge, at an x between its ends or next to one.
+// The point of an edge at an x between its ends or next to one.
 Vec2 point_at(double x, const Vec2& from, const Vec2& to) {
   const double t = std::clamp((x - from.x) / (to.x - from.x), 0.0, 1.0);
   return {x, from.y + t * (to.y - from.y)};

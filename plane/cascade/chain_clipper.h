@@ -23,7 +23,7 @@
 //
 // Sides bring no boundary, since the value of the program does not depend on
 // the leaf there. They keep a distance from the zone that ties do not bridge,
-// so chains tie there with what they tied with before; and they stand where no
+// so chains tie there with what they tied with before; and they lie where no
 // designer puts a face. Points of the result are those of chains as they were,
 // but for the rounding of an edge that was cut (2e-12 mm at 1e4 mm).
 //
@@ -86,16 +86,16 @@ class ChainClipper {
   std::vector<Section> sections_;
   double share_within_ = 1;
 
-  // The chain in hand, and work space for it.
+  // The present chain, and work space for it.
   std::vector<Vec2> run_;
   std::vector<Vec2> straightened_;
-  // Of the leaf in hand, and work space.
+  // The sides of the present leaf, and work space.
   std::vector<SideChain> lower_side_;
   std::vector<SideChain> upper_side_;
   std::vector<SideEnd> side_ends_;
   std::vector<SideChain> sum_;
 
-  // The layer in hand and what was made of it.
+  // The present layer and what was made of it.
   std::span<const Vec2> old_points_;
   std::vector<Vec2> points_;
   std::vector<Chain> chains_;

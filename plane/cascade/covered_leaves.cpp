@@ -99,7 +99,7 @@ void CoveredLeaves::make_grids(std::span<const LeafPart> parts) {
   grid_of_node_.assign(program.size(), kNone);
   parents_.assign(program.size(), kNone);
   for (std::uint32_t node = 0; node < program.size(); ++node) {
-    // Parents stand before their children.
+    // Parents come before their children.
     const std::uint32_t parent = program[node].parent;
     if (node > 0) {
       parents_[node] =

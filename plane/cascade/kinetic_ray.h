@@ -9,7 +9,7 @@
 // changes only at event points: where a chain begins or ends, where two chains
 // cross, and where they begin or cease to coincide. The 1D Boolean left and
 // right of an event point differ in intervals of y, and these are the boundary
-// that stands in the ray. All other boundary is parts of chains between two
+// that lies in the ray. All other boundary is parts of chains between two
 // event points. So topology and corners are exact, whatever the pitch: rays at
 // the pitch remain as the places up to which the ray looks ahead.
 //

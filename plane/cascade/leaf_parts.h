@@ -18,7 +18,7 @@ struct LeafPart {
   Box2 box;
 };
 
-// Of all leaves of the layer, which must outlive them.
+// The parts of all leaves of the layer, which must outlive them.
 std::vector<LeafPart> leaf_parts(const LayerChains& layer);
 
 Box2 box_of(std::span<const Chain> chains, std::span<const Vec2> points);

@@ -45,7 +45,7 @@ struct Band {
   // more than kBandRounding.
   static constexpr double kSteepest = 64;
 
-  // Of one segment.
+  // Follows one segment.
   void follow(double steepness, double right_y) {
     if (std::abs(steepness) <= kSteepest) {
       slope = steepness;

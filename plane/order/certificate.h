@@ -1,6 +1,6 @@
 #pragma once
 // Certificates of the ray's order (kinetic data structures, Basch, Guibas and
-// Hershberger 1997): how two neighbours stand to each other, and how long.
+// Hershberger 1997): how two neighbours lie to each other, and how long.
 //
 // Between successive vertices of either chain both are straight. On such a
 // part their relation is one of three, by their distances at its two ends:

@@ -9,7 +9,7 @@
 // above those of its children, and for each new node one or two rotations at
 // most keep it within 1.45 log2(n).
 //
-// Whoever has the tree knows each entry's neighbours, so it is told where an
+// Whoever has the tree knows each entry's neighbours, so it is given where an
 // entry belongs and compares nothing by itself. Nodes are not entries: two
 // entries change places by exchanging their nodes, and the tree keeps its
 // shape.

@@ -58,7 +58,7 @@ class RayOrder {
   Status& status() { return status_; }
   const Status& status() const { return status_; }
   const EventCluster& cluster() const { return cluster_; }
-  // Of the present cluster. Whoever reads them may use them up.
+  // Changes in the present cluster; their reader may use them up.
   OrderChanges& changes() { return changes_; }
 
   // x of the next event point: the next endpoint, or a failure before it.

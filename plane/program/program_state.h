@@ -44,7 +44,7 @@ class ProgramState {
   // Whether the program holds for the present set.
   bool value() const { return value(0); }
 
-  // The same for a subtree of the program.
+  // Whether a subtree of the program holds for it.
   bool value(std::uint32_t node) const {
     return nodes_[node].count >= nodes_[node].threshold;
   }

@@ -135,7 +135,7 @@ std::uint32_t ProgramStates::pair_up(Kind kind,
   return parts.front();
 }
 
-// Of an operator whose other children come to `sum`.
+// Returns what an operator is whose other children come to `sum`.
 ProgramStates::Function ProgramStates::function_of(const Part& part,
                                                    std::int32_t sum) {
   const bool without = sum >= part.threshold;
@@ -286,7 +286,7 @@ void ProgramStates::grow_crossings() {
 }
 
 void ProgramStates::keep_only(std::span<State* const> live) {
-  // A cell stands behind those that it names.
+  // A cell comes after those that it names.
   std::vector<Cell> old_cells = std::move(cells_);
   std::vector<std::uint32_t> kept(old_cells.size(), kNone);
   for (const State* state : live) kept[*state] = 0;

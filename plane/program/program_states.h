@@ -49,7 +49,7 @@ class ProgramStates {
  public:
   using State = std::uint32_t;
   using Crossing = std::uint32_t;
-  // Of what no leaf contains; never solid.
+  // The state of what no operand contains; never solid.
   static constexpr State kOutside = 0;
 
   // rule  which counts of a leaf that may overlap itself are inside it
@@ -115,8 +115,8 @@ class ProgramStates {
     std::uint32_t part = 0;
     std::int32_t first = 0;
     std::int32_t second = 0;
-    // Of a sum: the sum. Within a chain: the function. Else the weight where it
-    // holds, or 0.
+    // A sum's value is the sum, that of a part of a chain the function, any
+    // other's its weight where it holds, or 0.
     std::int32_t value = 0;
   };
   struct KnownCrossing {
@@ -151,8 +151,8 @@ class ProgramStates {
   const FillRule rule_;
   std::vector<Part> parts_;
   std::uint32_t root_ = 0;  // of them
-  // Of a chain of winding +1, an operand: the part whose first number it
-  // changes, twice, and 1 where that becomes less.
+  // By operand, what a chain of winding +1 changes: twice the part whose first
+  // number it changes, and 1 more where that becomes less.
   std::vector<Crossing> upward_crossings_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> index_;      // open hash of cells_

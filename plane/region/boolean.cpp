@@ -22,7 +22,7 @@ constexpr double kEdgeDistance = 3e-8;
 constexpr double kRoundingErrors = 16;  // of a crossing, in units of epsilon
 
 // Hardly a loop is too small: what one Boolean drops the next one misses, and a
-// needle that should have lost its tip is too long.
+// sliver that should have lost its tip is too long.
 SweepOptions options(double reach) {
   const double rounding =
       kRoundingErrors * reach * std::numeric_limits<double>::epsilon();

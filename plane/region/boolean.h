@@ -37,8 +37,8 @@ Region clip(std::span<const Contour> contours, const Region& window);
 Region from_contours(std::span<const Contour> contours,
                      FillRule rule = FillRule::kEvenOdd);
 
-// The same; nothing where they cross so often that it costs less to unite parts
-// of what they enclose.
+// As from_contours(); nothing where they cross so often that it costs less to
+// unite parts of what they enclose.
 std::optional<Region> from_few_crossings(std::span<const Contour> contours,
                                          FillRule rule);
 

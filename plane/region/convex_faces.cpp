@@ -45,8 +45,10 @@ class FaceMerger {
   std::vector<Face> merge() {
     is_gone_.assign(next_.size(), false);
     for (std::uint32_t h = 0; h < next_.size(); ++h) {
-      // cppcheck-suppress arrayIndexThenCheck ; 'h < twins_[h]' takes each once
-      if (twins_[h] != kNone && h < twins_[h] && !is_gone_[h]) try_to_join(h);
+      // cppcheck-suppress arrayIndexThenCheck ; 'h < opposites_[h]' takes each
+      // once
+      if (opposites_[h] != kNone && h < opposites_[h] && !is_gone_[h])
+        try_to_join(h);
     }
     std::vector<Face> faces;
     std::vector<bool> is_seen(next_.size(), false);
@@ -92,7 +94,7 @@ class FaceMerger {
                         std::max(origin(h), origin(next_[h])), h);
     }
     std::sort(keys.begin(), keys.end());
-    twins_.assign(next_.size(), kNone);
+    opposites_.assign(next_.size(), kNone);
     for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
       const auto is_same = [&](std::size_t i) {
         return std::get<0>(keys[i]) == std::get<0>(keys[begin]) &&
@@ -102,8 +104,8 @@ class FaceMerger {
       const std::uint32_t a = std::get<2>(keys[begin]);
       const std::uint32_t b = std::get<2>(keys[end - 1]);
       if (end - begin != 2 || origin(a) == origin(b)) continue;
-      twins_[a] = b;
-      twins_[b] = a;
+      opposites_[a] = b;
+      opposites_[b] = a;
     }
   }
 
@@ -119,22 +121,22 @@ class FaceMerger {
     return true;
   }
 
-  // Whether the faces at h and its twin lie in the plane of the larger one.
+  // Whether the faces at h and its opposite lie in the plane of the larger one.
   bool are_coplanar(std::uint32_t h) {
     const Vec3& a = areas_[face_of(h)];
-    const Vec3& b = areas_[face_of(twins_[h])];
+    const Vec3& b = areas_[face_of(opposites_[h])];
     const bool is_a_larger = glm::dot(a, a) >= glm::dot(b, b);
     const Vec3& larger = is_a_larger ? a : b;
     const Vec3& smaller = is_a_larger ? b : a;
     const double length = glm::length(larger);
     if (length == 0) return false;
     const Vec3 normal = larger / length;
-    // A needle's own direction is noise.
+    // A sliver's own direction is noise.
     const double side = glm::distance(point(h), point(next_[h]));
     const bool is_needle = glm::length(smaller) <= kFlatDistance * side;
     if (!is_needle && glm::dot(larger, smaller) < 0) return false;
     return lies_in_plane(h, point(h), normal) &&
-           lies_in_plane(twins_[h], point(h), normal);
+           lies_in_plane(opposites_[h], point(h), normal);
   }
 
   // Whether the way a → b → c does not turn right, seen against the normal,
@@ -149,20 +151,21 @@ class FaceMerger {
   }
 
   void try_to_join(std::uint32_t h) {
-    if (face_of(h) == face_of(twins_[h]) || !are_coplanar(h)) return;
+    if (face_of(h) == face_of(opposites_[h]) || !are_coplanar(h)) return;
     // The faces may share more than this edge: find the whole line.
     std::uint32_t first = h;
-    while (twins_[previous_[first]] == next_[twins_[first]]) {
+    while (opposites_[previous_[first]] == next_[opposites_[first]]) {
       first = previous_[first];
       if (first == h) return;  // a triangle and its reverse share all of it
     }
     std::uint32_t last = h;
-    while (twins_[next_[last]] == previous_[twins_[last]]) last = next_[last];
+    while (opposites_[next_[last]] == previous_[opposites_[last]])
+      last = next_[last];
     const std::uint32_t before = previous_[first];
     const std::uint32_t after = next_[last];
-    const std::uint32_t twin_before = previous_[twins_[last]];
-    const std::uint32_t twin_after = next_[twins_[first]];
-    const Vec3 sum = areas_[face_of(h)] + areas_[face_of(twins_[h])];
+    const std::uint32_t twin_before = previous_[opposites_[last]];
+    const std::uint32_t twin_after = next_[opposites_[first]];
+    const Vec3 sum = areas_[face_of(h)] + areas_[face_of(opposites_[h])];
     const Vec3 normal = sum / glm::length(sum);
     if (!is_convex(point(before), point(first), point(next_[twin_after]),
                    normal) ||
@@ -171,7 +174,7 @@ class FaceMerger {
       return;
     }
     for (std::uint32_t gone = first;; gone = next_[gone]) {
-      is_gone_[gone] = is_gone_[twins_[gone]] = true;
+      is_gone_[gone] = is_gone_[opposites_[gone]] = true;
       if (gone == last) break;
     }
     link(before, twin_after);
@@ -191,7 +194,7 @@ class FaceMerger {
   std::span<const Triangle> triangles_;
   std::vector<std::uint32_t> next_;
   std::vector<std::uint32_t> previous_;
-  std::vector<std::uint32_t> twins_;
+  std::vector<std::uint32_t> opposites_;
   std::vector<std::uint32_t> parent_;
   std::vector<Vec3> areas_;  // twice the area, along the normal
   std::vector<bool> is_gone_;

@@ -37,7 +37,7 @@ struct PairSums {
   std::span<const Contour> a;
   std::span<const Contour> b;
 
-  // Pairs are numbered piece of `a` by piece of `a`.
+  // Pairs are numbered part of `a` by part of `a`.
   Region unite(std::size_t begin, std::size_t end) const {
     std::vector<Region> parts;
     if (end - begin <= kMostAtOnce) {

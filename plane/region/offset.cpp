@@ -124,7 +124,7 @@ bool is_convex(const Contour& contour) {
 //
 // The sides cut it off one after the other. Where the ring begins and ends it
 // lies farthest beyond the next side: there the sides that have cut give way to
-// those that have yet to. Every new corner stands between two others, so that
+// those that have yet to. Every new corner lies between two others, so that
 // rounding moves none farther than it moves the sides, however thin the rest is
 // and however small the angles between them are.
 Contour eroded(const Contour& contour, double amount) {
@@ -161,7 +161,7 @@ Contour eroded(const Contour& contour, double amount) {
 // What lies between the strips of two edges, outside of the corner.
 enum class Bend { kRound, kMiter, kBevel, kNone };
 
-// Of each Join and each Cap.
+// The bend that each Join and each Cap asks for.
 constexpr std::array kBendsOfJoins = {Bend::kRound, Bend::kMiter, Bend::kBevel};
 constexpr std::array kBendsOfCaps = {Bend::kNone, Bend::kRound, Bend::kBevel};
 
@@ -225,11 +225,11 @@ class Mover {
   Contour around(Vec2 point) const {
     Contour curve;
     if (bend_ == Bend::kRound) {
-      add_spokes(point, {1, 0}, step_, std::floor(sides_), curve);
+      add_rays(point, {1, 0}, step_, std::floor(sides_), curve);
     } else {
-      for (const Vec2 spoke :
+      for (const Vec2 ray :
            {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
-        add(point + spoke * amount_, curve);
+        add(point + ray * amount_, curve);
       }
     }
     return curve;
@@ -246,8 +246,8 @@ class Mover {
     return from_contours(contours, FillRule::kNonZero);
   }
 
-  // Of a convex region that gets smaller what its moved edges enclose: all
-  // their strips would overlap.
+  // Returns what the moved edges of a convex region enclose that gets smaller:
+  // all their strips would overlap.
   std::optional<Contour> shrink(const Contour& contour) const {
     if (cap_) return {};
     if (amount_ < 0) {
@@ -356,19 +356,19 @@ class Mover {
     const double share = std::abs(angle) * steps_per_radian_;
     const double count =
         steps_ == ArcSteps::kUp ? std::ceil(share) : std::round(share);
-    add_spokes(corner.point, corner.before, std::copysign(step_, angle),
-               std::max(count, 1.0), curve);
+    add_rays(corner.point, corner.before, std::copysign(step_, angle),
+             std::max(count, 1.0), curve);
     add(corner.point + corner.after * amount_, curve);
   }
 
-  void add_spokes(Vec2 point, Vec2 spoke, double turn, double count,
-                  Contour& curve) const {
+  void add_rays(Vec2 point, Vec2 ray, double turn, double count,
+                Contour& curve) const {
     const double c = std::cos(turn);
     const double s = std::sin(turn);
-    add(point + spoke * amount_, curve);
+    add(point + ray * amount_, curve);
     for (double i = 1; i < count; ++i) {
-      spoke = spoke * c + left_of(spoke) * s;
-      add(point + spoke * amount_, curve);
+      ray = ray * c + left_of(ray) * s;
+      add(point + ray * amount_, curve);
     }
   }
 

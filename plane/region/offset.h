@@ -9,7 +9,7 @@
 //
 // Corners are rounded to a grid of 1e-8 mm, 1500 times finer than OpenSCAD's
 // 2^-16 mm. The grid is decimal, so that a coordinate such as 2.4 comes back as
-// the same double, and a face that stands at a layer's height in the design
+// the same double, and a face that lies at a layer's height in the design
 // still does.
 
 #include <span>

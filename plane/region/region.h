@@ -31,7 +31,7 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
-// Of all contours: holes count negative [mm²].
+// Adds up all contours; holes count negative [mm²].
 double area(const Region& region);
 
 std::size_t corner_count(const Region& region);
@@ -39,7 +39,7 @@ std::size_t corner_count(const Region& region);
 // Drops contours whose mean width is less than `width` [mm].
 void drop_hairlines(Region& region, double width);
 
-// The same loops in the type of layers.
+// Converts from and to the loops of layers.
 Region to_region(const Contours& contours);
 Contours to_contours(const Region& region);
 

@@ -2,7 +2,7 @@
 //
 // The contours become one ring by walking from every hole to a visible vertex
 // and back; then a walk around it cuts off convex corners without a vertex
-// inside. Corners that could stand inside are looked for by place. The walk
+// inside. Corners that could lie inside are looked for by place. The walk
 // leaves out a corner that it found no ear until a neighbour is cut, or the
 // vertex inside is no longer in the way: most corners are tested a few times,
 // however many walks it takes. Quadratic at worst; of a ring that crosses
@@ -30,7 +30,7 @@
 namespace lamina::plane {
 namespace {
 
-// A corner of the ring; a point that ends a bridge stands there twice.
+// A corner of the ring; a point that ends a bridge is there twice.
 struct Corner {
   Vec2 point;
   std::uint32_t vertex = 0;  // of the region
@@ -64,8 +64,8 @@ class EarClipper {
   // Joins the ring of a hole to the ring of `outer` by a bridge.
   void add_bridge(std::uint32_t outer, std::uint32_t hole) {
     const std::uint32_t from = rightmost(hole);
-    const std::uint32_t to =
-        choose_twin(outer, find_visible(outer, corners_[from].point), from);
+    const std::uint32_t to = choose_duplicate(
+        outer, find_visible(outer, corners_[from].point), from);
     const std::uint32_t from_twin = add_twin(from);
     const std::uint32_t to_twin = add_twin(to);
     // … to → from … (around the hole) … from_twin → to_twin …
@@ -184,10 +184,10 @@ class EarClipper {
     return best;
   }
 
-  // Of the corners at the same place the one whose angle holds the bridge: a
-  // place where contours touch, or an end of an earlier bridge.
-  std::uint32_t choose_twin(std::uint32_t outer, std::uint32_t best,
-                            std::uint32_t from) const {
+  // Chooses among the corners at one place, where contours touch or an earlier
+  // bridge ends, the one whose angle holds the bridge.
+  std::uint32_t choose_duplicate(std::uint32_t outer, std::uint32_t best,
+                                 std::uint32_t from) const {
     const Vec2 q = corners_[best].point;
     const Corner& tip = corners_[from];
     const bool is_touching = tip.point == q;
@@ -292,9 +292,9 @@ class EarClipper {
     return orientation(a, c.point, b) == 0 && dot(a - c.point, b - c.point) > 0;
   }
 
-  // Only reflex corners can stand inside another corner's triangle first; a
-  // corner that was convex stays so. One that is no ear is kept behind the
-  // corner that stands in its way.
+  // Only reflex corners can lie inside another corner's triangle first; a
+  // corner that was convex stays so. One that is not an ear is kept behind the
+  // corner that is in its way.
   bool is_ear(std::uint32_t corner) {
     const Corner& c = corners_[corner];
     const Vec2 a = corners_[c.previous].point;
@@ -325,7 +325,7 @@ class EarClipper {
                            is_in_the_way);
   }
 
-  // True where the outside at a reflex corner, which stands at the tip of the
+  // True where the outside at a reflex corner, which lies at the tip of the
   // angle a, tip, b, reaches into that angle.
   bool opens_within(std::uint32_t reflex, Vec2 a, Vec2 tip, Vec2 b) const {
     const Vec2 before = corners_[corners_[reflex].previous].point;
@@ -334,7 +334,7 @@ class EarClipper {
            is_in_angle((a + b) / 2.0, after, tip, before);
   }
 
-  // Of a convex corner a, tip, b.
+  // The corner a, tip, b is convex.
   static bool is_in_angle(Vec2 p, Vec2 a, Vec2 tip, Vec2 b) {
     return orientation(a, tip, p) > 0 && orientation(tip, b, p) > 0;
   }
@@ -384,7 +384,7 @@ class EarClipper {
   }
 
   // Lets those behind a corner of the grid be tested again where it may no
-  // longer stand in their way.
+  // longer be in their way.
   void note_change(std::uint32_t reflex) {
     plan_tests(behind_at_tip_[reflex]);
     if (!is_gone_[reflex] && is_reflex(reflex)) return;
@@ -419,7 +419,7 @@ class EarClipper {
   std::vector<std::uint32_t> reflex_;  // in the grid, some no longer reflex
   std::vector<bool> is_in_grid_;
   std::size_t reflex_count_ = 0;
-  // By such a corner: those in whose triangle it stood when they were tested,
+  // By such a corner: those in whose triangle it lay when they were tested,
   // within it or at its tip.
   std::vector<std::vector<std::uint32_t>> behind_;
   std::vector<std::vector<std::uint32_t>> behind_at_tip_;
@@ -480,7 +480,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(const Region& region) {
     const std::uint32_t ring =
         clipper.add_ring(region.contours[outer], first_vertex[outer]);
 
-    // Bridge the rightmost hole first: nothing stands between it and the ring.
+    // Bridge the rightmost hole first: nothing lies between it and the ring.
     std::vector<std::size_t> holes;
     for (std::size_t i = 0; i < owners.size(); ++i) {
       if (owners[i] == outer && i != outer) holes.push_back(i);

@@ -17,7 +17,7 @@ constexpr std::uint32_t kLeastCandidates = 4;
 constexpr std::uint32_t kMostPoints = 64;  // of a loop
 constexpr std::uint32_t kPointsPerCandidate = 48;
 
-// Loops that reach over more cells are no candidates.
+// Loops that reach over more cells are not candidates.
 constexpr std::int32_t kMostCells = 8;  // along an axis
 constexpr double kCellsPerCandidate = 64;
 
@@ -116,8 +116,8 @@ bool LoneLoops::is_alone(std::uint32_t candidate) const {
   return true;
 }
 
-// Of the first of the two chains; none where the loop is not convex or too thin
-// for its box.
+// Returns the side of the first of the two chains; none where the loop is not
+// convex or too thin for its box.
 LoneLoops::Side LoneLoops::side_of(const Candidate& candidate) const {
   const auto a = chains_[candidate.chain].points_in(points_);
   const auto b = chains_[candidate.chain + 1].points_in(points_);
@@ -169,8 +169,8 @@ void LoneLoops::claim_boxes() {
   }
 }
 
-// Of the loops that are no candidates: their chains, and what joins the end of
-// one to the begin of the next.
+// Blocks the cells that other loops pass: those of their chains, and of what
+// joins the end of one to the begin of the next.
 void LoneLoops::block_edges(std::span<const ChainLoop> loops) {
   auto next = candidates_.begin();
   std::uint32_t first = 0;

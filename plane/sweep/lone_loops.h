@@ -25,7 +25,7 @@ class LoneLoops {
   // Finds the lone loops of a layer and forgets those of the one before.
   void find(const LayerChains& layer, const ProgramStates& states);
 
-  // Of a chain of the layer, by its number there.
+  // Both take the number of a chain in the layer.
   bool is_lone(std::uint32_t chain) const { return sides_[chain] != kNoSide; }
   bool is_lower(std::uint32_t chain) const { return sides_[chain] == kLower; }
 
@@ -64,7 +64,7 @@ class LoneLoops {
 
   std::vector<std::uint8_t> sides_;  // of the layer's chains
 
-  // The layer in hand.
+  // The present layer.
   std::span<const Vec2> points_;
   std::span<const Chain> chains_;
   std::vector<Candidate> candidates_;

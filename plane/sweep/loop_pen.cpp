@@ -46,7 +46,7 @@ Vec2* LoopPen::add(Vec2* end, const Vec2& point) {
   return end;
 }
 
-// Of a loop that has begun.
+// Adds points to a loop that has begun.
 Vec2* LoopPen::add_run(Vec2* end, const Vec2* from, std::ptrdiff_t count,
                        std::ptrdiff_t stride) {
   Vec2 in = last_step_;

@@ -20,12 +20,12 @@ class LoopResolver {
   // counter-clockwise, holes clockwise.
   void resolve(Contours& contours);
 
-  // The same. Where they cross so often that parts of the solid had better be
-  // swept by themselves (detail/cascade.h) it gives up: false, and `contours`
-  // is as before.
+  // As resolve(), but gives up where loops cross so often that parts of the
+  // solid had better be swept by themselves (plane/cascade/cascade.h): then it
+  // returns false and leaves `contours` as they were.
   bool resolve_few_crossings(Contours& contours);
 
-  // Of all sweeps since construction.
+  // Counts all sweeps since construction.
   SweepCounts counts() const;
 
  private:

@@ -132,7 +132,7 @@ void RayBoundary::update_group(std::uint32_t member) {
     return;
   }
 
-  // The member that stood for it before goes on.
+  // The member that represented it before goes on.
   std::uint32_t chosen = first;
   if (side != 0) {
     for (std::uint32_t e = first;; e = status[e].above) {

@@ -88,18 +88,18 @@ class RaySweep {
   // As of RayBoundary, for the last layer.
   bool has_jumps() const { return boundary_.has_jumps(); }
 
-  // Of all sweeps since construction: slabs, event points, and what must not
-  // happen.
+  // Counts slabs, event points, and what must not happen, over all sweeps since
+  // construction.
   SweepCounts counts() const;
 
-  // Of the layer, as far as it was swept.
+  // Counts the layer as far as it was swept.
   double swaps_per_chain() const { return swaps() / chains_met(); }
 
  private:
   std::uint32_t slab_count(double width, std::size_t point_count) const;
   void begin_cluster(double x);
   void finish_cluster();
-  // Of the layer, and what walks cost.
+  // Counts the swaps of the layer, and what its walks cost.
   double swaps() const {
     return static_cast<double>(order_.swaps()) +
            static_cast<double>(order_.status().long_walks()) / kStepsPerSwap;

@@ -194,7 +194,7 @@ void Stitcher::list_visits() {
   added_points_.clear();
 }
 
-// Of two links, each of an arc and the next one.
+// Exchanges the ends of two links, each from an arc to the next one.
 void Stitcher::exchange_partners(std::uint32_t a, std::uint32_t b) {
   std::swap(arcs_[a].next, arcs_[b].next);
   arcs_[arcs_[a].next].previous = a;
@@ -220,7 +220,7 @@ void Stitcher::write_loops(Contours& contours) {
 // Walks the loops that touch others or themselves. Where the way comes to a
 // place again, what lies between becomes a loop of its own.
 void Stitcher::split_loops() {
-  // Of each arc the places of tail and head.
+  // The places of each arc's tail and head.
   std::vector<std::array<std::uint32_t, 2>> places(arcs_.size(),
                                                    {kNoPlace, kNoPlace});
   for (const Visit& visit : visits_) {

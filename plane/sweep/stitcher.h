@@ -7,7 +7,7 @@
 // the solid on the left: to the right where the solid is above, to the left
 // where it is below. At an event point arcs end and begin. Their ends, sorted
 // by y and joined two by two, are the symmetric difference of the solid
-// intervals left and right of the event point, hence the boundary that stands
+// intervals left and right of the event point, hence the boundary that lies
 // in the ray. Each pair joins the head of an arc to the tail of another one
 // (I4), so links close to loops whatever the rounding did; rounding can only
 // move a point.
@@ -122,9 +122,9 @@ class Stitcher {
   std::vector<BoundaryArc> arcs_;
   std::vector<ArcEnd> ends_;
   std::vector<ArcEnd> waiting_;  // without partner, the lowest first
-  // Of the event point: whether two pairs met in a point, whether a pair was
-  // linked, the upper end of the last one, and the lower end of the link that
-  // the upper end is in.
+  // At the present event point: whether two pairs met in a point, whether a
+  // pair was linked, the upper end of the last one, and the lower end of the
+  // link that the upper end is in.
   bool has_pinches_ = false;
   bool has_linked_ = false;
   ArcEnd linked_lower_;
