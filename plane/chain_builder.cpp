@@ -17,7 +17,7 @@ int direction_of(const Vec2& from, const Vec2& to, double vertical_width) {
   return (width > vertical_width) - (width < -vertical_width);
 }
 
-// The end of the run of edges that go right or left, from `point` on.
+// Returns the end of the run of edges that go right or left, from `point` on.
 Vec2* end_of_run(Vec2* point, const Vec2* last, int direction,
                  double vertical_width) {
   ++point;
@@ -150,13 +150,13 @@ void ChainBuilder::repeat_loop(std::uint32_t layer) {
 
 // Makes a chain of every maximal run of one direction; extends the loop. Edges
 // no wider than `vertical_width` belong to no chain. Where that is not 0 they
-// are snapped; one that does not stand alone, or a loop that may be too narrow,
+// are snapped; one with a vertical neighbour, or a loop that may be too narrow,
 // ends the work with nothing done: false.
 bool ChainBuilder::cut(std::vector<Vec2>& loop, double vertical_width,
                        std::uint32_t layer, Chain chain,
                        std::int32_t orientation) {
   // Find a vertex where the direction changes, begin there, and repeat what
-  // stands before it at the end.
+  // is before it at the end.
   loop.push_back(loop.front());
   const Vec2* first = loop.data();
   const Vec2* last = &loop.back();

@@ -28,8 +28,8 @@ using plane::Region;
 using Side = WindowSection::Side;
 
 Box3 expand(const Box3& box) {
-  // By more than the box of a window is, so that a leaf that misses this box
-  // has no face in the window.
+  // A window's box grows by less, so that a leaf that misses this box has no
+  // face in the window.
   constexpr double kMargin = 4 * kTieDistance;
   return {box.low - kMargin, box.high + kMargin};
 }
@@ -37,7 +37,8 @@ Box3 expand(const Box3& box) {
 using IsWanted = std::function<bool(const Box3&)>;
 using Take = std::function<void(BoundaryFace)>;
 
-// By the distance of the middles of their boxes from the scene's.
+// Returns the instances, those first whose boxes' middles are farthest from the
+// scene's.
 std::vector<std::uint32_t> outermost_first(const Scene& scene) {
   const auto twice_middle = [](const Box3& box) { return box.low + box.high; };
   const Vec3 middle = twice_middle(scene.box);
@@ -186,7 +187,7 @@ class Finder {
     take_(std::move(result));
   }
 
-  // One face, with the instances near it that its parent in the tree left.
+  // Judges one face by the instances near it that its parent in the tree left.
   void judge(std::uint32_t face, std::span<const std::uint32_t> unknown) {
     const Vec3 normal = leaf().faces.normal_of(face);
     const Box3 box = leaf().faces.box_of(face);
@@ -202,7 +203,7 @@ class Finder {
     forget(settled);
   }
 
-  // The plane problem.
+  // Solves the plane problem of one face.
   void cut(std::uint32_t face, Vec3 normal,
            std::span<const std::uint32_t> others) {
     const auto corners = leaf().faces.contours_of(face);
@@ -322,7 +323,8 @@ class Finder {
     return value;
   }
 
-  // Of faces that lie in one plane the first one gives what they share.
+  // Adds the earlier faces in the plane of this one: the first of several gives
+  // what they share.
   void add_earlier(std::uint32_t other, std::span<const std::uint32_t> faces,
                    std::uint32_t face, const Plane& plane,
                    std::vector<Region>& earlier) const {
@@ -350,7 +352,7 @@ class Finder {
     }
   }
 
-  // What is solid on one side of the plane and not on the other.
+  // Takes what is solid on one side of the plane and not on the other.
   void emit(const Plane& plane, Vec3 normal, const Region& outline,
             const std::optional<Region>& solid,
             const std::optional<Region>& empty, bool is_reversed) {

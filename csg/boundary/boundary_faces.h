@@ -27,7 +27,7 @@ struct BoundaryFace {
 
 Box3 box_of(const BoundaryFace& face);
 
-// The faces together cover the boundary once, up to kTieDistance; they
+// Returns faces that together cover the boundary once, up to kTieDistance; they
 // are not joined: neighbours may have vertices on each other's edges, and an
 // edge's two sides may differ by what regions take for one edge (3e-8 mm). A
 // face that the Boolean does not touch keeps the leaf's vertices, bit by bit.
@@ -35,8 +35,8 @@ Box3 box_of(const BoundaryFace& face);
 // the plane problems.
 std::vector<BoundaryFace> boundary_faces(const Scene& scene);
 
-// The same one by one, where not all of them are needed. Leaves come from the
-// outermost to the innermost.
+// Visits the faces one by one, where not all of them are needed. Leaves come
+// from the outermost to the innermost.
 //
 // is_wanted  false where no face within the box is; asked often, and may change
 //            its mind from true to false as faces are taken

@@ -17,8 +17,8 @@ inline bool do_meet(const Box3& a, const Box3& b) {
 
 class BoxTree {
  public:
-  // Depth first: the left child stands next to its parent, the right one after
-  // the left one's subtree.
+  // Nodes come depth first: the left child next to its parent, the right one
+  // after the left one's subtree.
   struct Node {
     Box3 box;
     std::uint32_t first = 0;  // its items: items()[first, first + count)
@@ -29,9 +29,9 @@ class BoxTree {
   // O(n log n); any number of boxes.
   explicit BoxTree(std::span<const Box3> boxes);
 
-  // The root is 0; no nodes where there are no boxes.
+  // The root is 0; without boxes there are no nodes.
   const std::vector<Node>& nodes() const { return nodes_; }
-  // Indices of boxes, those of a node together.
+  // Returns indices of boxes, those of a node together.
   std::span<const std::uint32_t> items(const Node& node) const {
     return std::span(items_).subspan(node.first, node.count);
   }

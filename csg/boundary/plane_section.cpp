@@ -47,8 +47,8 @@ class Cutter {
 
   void cut(const CutTriangle& triangle, std::vector<Segment>& segments) const {
     const auto& [t, heights] = triangle;
-    // Counter-clockwise from outside, the edge that goes down stands where the
-    // segment begins.
+    // Counter-clockwise from outside, the segment begins on the edge that goes
+    // down.
     Segment segment{};
     bool is_cut = false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -223,7 +223,8 @@ std::vector<Box3> boxes_of_triangles(const LeafFaces& faces, std::size_t face) {
   return boxes;
 }
 
-// Winding number of the section at a point of the plane, along the ray +u.
+// Returns the winding number of the section at a point of the plane, along the
+// ray +u.
 int section_winding(const PlacedLeaf& leaf, const Plane& plane, Side side,
                     Vec2 c) {
   const Cutter cutter(leaf.faces, plane, side);

@@ -32,7 +32,7 @@ class Plane {
   Vec3 normal() const { return normal_; }
   double height(Vec3 p) const;
   Vec2 flatten(Vec3 p) const { return {p[u_], p[v_]}; }
-  // The point of the plane with these coordinates.
+  // Returns the point of the plane with these coordinates.
   Vec3 lift(Vec2 p) const;
   // Whether the box reaches the plane, or comes near: a vertex that counts as
   // on the plane is in no box that does not.
@@ -55,7 +55,7 @@ struct PlacedLeaf {
   template <typename Test, typename Visit>
   void visit_triangles(std::uint32_t face, const Test& test,
                        const Visit& visit) const;
-  // Of all faces.
+  // Does the same for all faces.
   template <typename Test, typename Visit>
   void visit_triangles(const Test& test, const Visit& visit) const {
     tree.visit(test,
@@ -84,14 +84,14 @@ void PlacedLeaf::visit_triangles(std::uint32_t face, const Test& test,
 // Whether the point is inside. It must not lie in the box of any face.
 bool contains(const PlacedLeaf& leaf, Vec3 point);
 
-// The box around the part of the plane that the window shows, and
+// Returns the box around the part of the plane that the window shows, and
 // kTieDistance more.
 Box3 box_of(const Plane& plane, const Box2& window);
 
 // A triangle that the plane may cut.
 struct CutTriangle {
   LeafFaces::Triangle corners;
-  // Of the corners above the plane; 0 where one lies on it.
+  // Heights of the corners above the plane; 0 where one lies on it.
   std::array<double, 3> heights;
 };
 
@@ -126,7 +126,7 @@ class WindowSection {
   bool is_touched_ = false;
 };
 
-// The leaf's whole section.
+// Returns the leaf's whole section.
 plane::Region whole_section(const PlacedLeaf& leaf, const Plane& plane,
                             WindowSection::Side side);
 

@@ -17,10 +17,10 @@ struct LiveInstance {
   plane::Region section;  // in the window
 };
 
-// Where in the window the program holds, given the sections of the leaves that
-// divide it; `state` has those of the others that contain all of it, and none
-// of the live ones. No value: everywhere. Only operators above live instances
-// are looked at.
+// Returns where in the window the program holds, given the sections of the
+// leaves that divide it; `state` has those of the others that contain all of
+// it, and none of the live ones. No value: everywhere. Only operators above
+// live instances are looked at.
 //
 // throws  LimitExceeded for coordinates beyond kGreatestCoordinate
 std::optional<plane::Region> evaluate_in_window(

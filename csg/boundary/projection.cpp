@@ -34,7 +34,7 @@ class PolygonSum {
     }
   }
 
-  // The edges that are left, joined to contours in some way.
+  // Returns the edges that are left, joined to contours in some order.
   std::vector<Contour> take() {
     std::vector<Contour> contours;
     while (!ends_.empty()) {
@@ -69,7 +69,7 @@ class PolygonSum {
     ends_[from].push_back(to);
   }
 
-  // Of edges, by their begins.
+  // Ends of edges, by their begins.
   std::map<Vec2, std::vector<Vec2>,
            decltype([](Vec2 a, Vec2 b) { return precedes(a, b); })>
       ends_;
@@ -97,7 +97,7 @@ void add_shadow(const Leaf& leaf, const Affine& world_from_leaf,
   }
 }
 
-// Where the program holds just above or just below the plane.
+// Returns where the program holds just above or just below the plane.
 Region evaluate_at(const Scene& scene, const Plane& plane,
                    const std::vector<std::uint32_t>& near,
                    const std::vector<PlacedLeaf>& leaves, Side side) {
@@ -110,12 +110,12 @@ Region evaluate_at(const Scene& scene, const Plane& plane,
         {near[i],
          plane::clip(whole_section(leaves[i], plane, side).contours, window)});
   }
-  const auto value =
-      evaluate_in_window(scene, plane::ProgramState(program_of(scene)), live, window);
+  const auto value = evaluate_in_window(
+      scene, plane::ProgramState(program_of(scene)), live, window);
   return value.value_or(window);
 }
 
-// The flat instances that lie in the plane.
+// Returns the flat instances that lie in the plane.
 Region flat_at_zero(const Scene& scene) {
   std::vector<Contour> shadows;
   for (const Instance& instance : scene.instances) {

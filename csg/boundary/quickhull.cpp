@@ -19,7 +19,7 @@ struct Facet {
   // Across the edge from each corner to the next one.
   std::array<std::uint32_t, 3> neighbours{};
   OrientedPlane plane;
-  // The outside set is a list; the farthest point stands first.
+  // The outside set is a list, the farthest point first.
   std::uint32_t outside = kNone;
   double height = 0;  // of the first
   bool is_gone = false;
@@ -30,7 +30,7 @@ struct Facet {
   }
 };
 
-// Of a facet.
+// An edge of a facet.
 struct Edge {
   std::uint32_t facet = 0;
   std::size_t index = 0;
@@ -296,7 +296,7 @@ class Quickhull {
   std::vector<std::uint32_t> next_;     // of each point, on its list
   std::vector<std::uint32_t> face_of_;  // of each facet
 
-  // Of the last corner.
+  // What the last corner sees, and what takes its place.
   std::vector<std::uint32_t> visible_;
   std::vector<Edge> horizon_;
   std::vector<std::uint32_t> cone_;

@@ -8,8 +8,8 @@
 
 namespace lamina::csg {
 
-// Takes the instances that stand directly below a root that is a union out of
-// the scene; what is left needs a Boolean.
+// Takes the instances directly below a root that is a union out of the scene;
+// what is left needs a Boolean.
 inline std::vector<Instance> take_united(Scene& scene) {
   std::vector<Instance> united;
   if (scene.program[0].op != plane::BooleanOp::kUnion) return united;

@@ -17,14 +17,13 @@ cad::Format cad_format(ImportFormat format) {
                                          : cad::Format::kBrep;
 }
 
-// With the entry of an archive as if that were a folder.
+// Returns the name with the entry of an archive as if that were a folder.
 std::string shown_name(const ImportParams& params) {
   return params.entry.empty()
              ? std::string(params.path)
              : fmt::format("{}/{}", params.path, on_one_line(params.entry));
 }
 
-// Of a file that is to be opened.
 std::string read_bytes(const ImportParams& params, const FileAccess& access,
                        SourceRange range) {
   auto bytes = access.read_regular(std::string(params.path));

@@ -34,7 +34,7 @@ struct LowerOptions {
   // Greatest distance in the world of facets from the round surface that they
   // stand for, where $fn is 0 [mm]; 0: $fa and $fs decide instead.
   double chordal_error = 0;
-  // The same for files of CAD programs, which have no $fn, where that is 0;
+  // That distance for files of CAD programs, which have no $fn, where it is 0;
   // lower() sets it to 0 where the tree names none.
   double chordal_error_of_parts = kChordalErrorOfParts;
   // The share of that error which a part's mesh may lie below its hull, which

@@ -30,8 +30,8 @@ bool is_shift(const Affine& m) {
 // Other sizes than these make OpenSCAD's primitives empty.
 bool is_size(double x) { return x > 0 && std::isfinite(x); }
 
-// The face's vertices counter-clockwise, without those that do not exist and
-// without repeats.
+// Returns the face's vertices counter-clockwise, without those that do not
+// exist and without repeats.
 std::vector<std::uint32_t> read_face(const PolyhedronParams& polyhedron,
                                      std::size_t face, SourceRange range,
                                      Diagnostics& diagnostics) {
@@ -53,13 +53,13 @@ std::vector<std::uint32_t> read_face(const PolyhedronParams& polyhedron,
   return loop;
 }
 
-// The faces as a closed mesh. They are clockwise from outside, as OpenSCAD has
-// them; the mesh is counter-clockwise.
+// Returns the faces as a closed mesh. They are clockwise from outside, as
+// OpenSCAD has them; the mesh is counter-clockwise.
 Mesh make_polyhedron(const PolyhedronParams& polyhedron, SourceRange range,
                      Diagnostics& diagnostics) {
   Mesh mesh;
   for (const Vec3& point : polyhedron.points) {
-    // What is not finite stands in no face. 0 · x is NaN there.
+    // What is not finite is in no face. 0 · x is NaN there.
     const bool is_finite = glm::dot(point, Vec3(0)) == 0;
     mesh.vertices.push_back(is_finite ? point : Vec3(0));
   }

@@ -23,9 +23,8 @@ bool is_flat(const Operand& term) {
                      [](const Convex& part) { return part.is_flat; });
 }
 
-// Whether OpenSCAD, which adds one term after another, loses the sum on the
-// way: a sum without volume is empty to it, and so is all that is added to
-// that.
+// Whether OpenSCAD, which adds one term after another, loses the sum: a sum
+// without volume is empty to it, and so is all that is added to that.
 bool is_lost(const std::vector<Operand>& terms) {
   if (terms.size() < 3 || !is_flat(terms[0]) || !is_flat(terms[1])) {
     return false;
@@ -41,8 +40,8 @@ bool is_lost(const std::vector<Operand>& terms) {
 // the other half: so what is convex always passes for that.
 constexpr double kHullShare = 0.5;
 
-// The sum of all regions that are not empty; empty where the first one is, or
-// all others are.
+// Returns the sum of all regions that are not empty; empty where the first one
+// is, or all others are.
 plane::Region add_regions(std::span<const plane::Region> regions) {
   plane::Region sum = regions[0];
   bool has_sum = regions.size() == 1;

@@ -34,7 +34,7 @@ Affine compose(const Affine& outer, const Mat4& inner) {
 }
 
 // Whether it makes all that is solid flat. The columns are scaled by powers of
-// two first, which rounds nothing: a matrix of small numbers is no zero.
+// two first, which rounds nothing: a matrix of small numbers is not 0.
 bool is_singular(Affine m) {
   for (int column = 0; column < 3; ++column) {
     Vec3& v = m[column];
@@ -86,12 +86,12 @@ void combine_small_ones(plane::BooleanOp op,
   regions.erase(small + 1, regions.end());
 }
 
-// An operator's result; its operands where an operator above joins them. It
-// stays out of line, as frames of operators stand in each other.
+// Returns an operator's result, or its operands where an operator above joins
+// them. It stays out of line, as operators nest and each frame counts.
 //
 // count  of the operands, of which a union leaves out the empty ones; around
-//        one empty outline OpenSCAD makes none: what stands beside the operator
-//        may be solid
+//        one empty outline OpenSCAD makes none: the operator's siblings may be
+//        solid
 [[gnu::noinline]] Shape combine(plane::BooleanOp op,
                                 std::vector<plane::Region> regions,
                                 std::size_t count, bool is_joined) {
@@ -124,8 +124,7 @@ bool is_empty_region(std::optional<plane::BooleanOp> joins,
 // each operator would sweep again what those below it leave.
 std::optional<plane::BooleanOp> joint_of(std::optional<plane::BooleanOp> op,
                                          std::size_t i) {
-  const bool is_subtrahend =
-      op == plane::BooleanOp::kDifference && i > 0;
+  const bool is_subtrahend = op == plane::BooleanOp::kDifference && i > 0;
   return is_subtrahend ? plane::BooleanOp::kUnion : op;
 }
 
@@ -170,7 +169,7 @@ Shape Lowerer::lower_op(const Transform& op, const Place& at) {
                                 diagnostics_);
     };
     transform(shape.region);
-    // Of nothing, or without a first operand, nothing is left.
+    // Without a first operand nothing is left.
     if (shape.region.is_empty()) shape.more_regions.clear();
     std::for_each(shape.more_regions.begin(), shape.more_regions.end(),
                   transform);

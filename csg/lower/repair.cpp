@@ -215,7 +215,7 @@ std::vector<std::uint32_t> take_loop(OpenEdges& open, std::uint32_t start) {
       path.push_back(next);
       continue;
     }
-    // Give the way to the loop back.
+    // Give back the edges that led to the loop.
     for (auto v = path.begin(); v != seen; ++v) open[*v].push_back(*(v + 1));
     return {seen, path.end()};
   }

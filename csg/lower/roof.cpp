@@ -43,9 +43,9 @@ constexpr double kOverlap = 0.98;
 constexpr double kGrowth = 1.5;
 
 // How far back over both strips the part between them reaches, so that no two
-// faces only touch.
+// faces only touch; and, as a share of the way there, where it begins behind
+// the front.
 constexpr double kReach = 120 * kRadians;
-// The same where it begins behind the front, as a share of the way there.
 constexpr double kRearReach = 0.1;
 
 Vec2 turned(Vec2 v, double angle) {
@@ -131,7 +131,7 @@ void add_strips(Cutters& cutters, const Region& region,
   }
 }
 
-// The polygon that stands for the arc around a reflex corner.
+// The polygon of the arc around a reflex corner.
 struct Fan {
   Fan(const ReflexCorner& around, double step_deg) : corner(around) {
     const Vec2 first = corner.before.normal();
@@ -144,7 +144,7 @@ struct Fan {
     directions.push_back(corner.after.normal());
   }
 
-  // A side moves slower than the corners: by this share of their way more.
+  // A side moves slower than the corners, by this share of what they move.
   double lag() const {
     return 1 / glm::length((directions[0] + directions[1]) / 2.0) - 1;
   }

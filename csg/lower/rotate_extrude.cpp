@@ -174,7 +174,7 @@ Region put_on_axis(Region region) {
 }
 
 bool ProfileRange::crosses_axis() const {
-  // As OpenSCAD: what is lost when the other side is added does not count.
+  // What is lost when the other side is added does not count, as in OpenSCAD.
   return high - low > high && high - low > std::abs(low);
 }
 

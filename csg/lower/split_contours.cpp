@@ -85,7 +85,7 @@ class ContourSplitter {
   }
 
  private:
-  // Of the edge behind a point.
+  // Returns the greatest length of the edge behind a point.
   double greatest_length(const Contour& contour, std::size_t i) const {
     const Vec2 edge = contour[(i + 1) % contour.size()] - contour[i];
     if (params_.scale.x == params_.scale.y) {

@@ -210,7 +210,7 @@ class Tracer {
         const Edge after = here.after;
         double between = angle_of(next) - angle_of(here);
         if (i + 1 == n) between += 2 * std::numbers::pi;
-        // Of the region there; below 0 where nothing is left between them.
+        // The region's angle there; below 0 where nothing is left between.
         const double interior = between - std::numbers::pi -
                                 (turn_at(here.before, here.after) +
                                  turn_at(next.before, next.after)) /

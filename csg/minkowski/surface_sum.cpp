@@ -115,7 +115,7 @@ class Summits {
     return {arc.begin + kHalfTurn, arc.size};
   }
 
-  // Where angle_g may be for s = 1: half a turn for each face.
+  // Returns where angle_g may be for s = 1: half a turn for each face.
   Arc arc_of(std::span<const JoinedFaces::EdgeFace> faces) const {
     const auto half_turn = [&](const JoinedFaces::EdgeFace& f) {
       return angles_[f.face] + (f.is_forward ? kHalfTurn : 0);
@@ -207,7 +207,7 @@ class Counts {
   std::vector<std::uint32_t> met_;
 };
 
-// Of p − b, which is b turned over: there, low is high.
+// Returns the angles of p − b, which is b turned over: there, low is high.
 std::vector<Angle> negated(std::vector<Angle> angles) {
   for (Angle& angle : angles) angle = -angle;
   return angles;

@@ -7,7 +7,7 @@
 namespace lamina::ldni {
 namespace {
 
-// The share of a pitch at which rays stand: the fraction of the golden ratio,
+// The share of a pitch at which rays lie: the fraction of the golden ratio,
 // no multiple of which is near a round number.
 constexpr double kRayShare = 0.61803398874989484820;
 

@@ -45,9 +45,9 @@ bool boxes_meet(const csg::Instance& instance, const Box3& box) {
   return true;
 }
 
-// Layers that each instance may reach. Outside the scene's box the result is
-// empty whatever the leaves are there, so what lies wholly outside is left out,
-// as is what others decide.
+// Returns the layers that each instance may reach. Outside the scene's box the
+// result is empty whatever the leaves are there, so what lies wholly outside is
+// left out, as is what others decide.
 std::vector<LayerSpan> layer_spans(const csg::Scene& scene,
                                    const LayerGrid& grid) {
   std::vector<LayerSpan> spans;
@@ -93,7 +93,7 @@ struct LeafSectioner::State {
   const csg::Scene& scene;
   const LayerGrid& grid;
   detail::LayerIndex index;
-  // Of the instances that have meshes.
+  // The indices of instances that have meshes.
   mutable std::unordered_map<std::uint32_t, IndexedMeshes> meshes;
 };
 

@@ -20,19 +20,19 @@ struct Fineness {
   bool is_by_error() const { return chordal_error > 0 && !(facets.fn > 0); }
 };
 
-// Sides of a circle's polygon.
+// Returns the number of sides of a circle's polygon.
 int circle_fragments(double r, const Fineness& fineness);
 
-// Sides of a sphere's rings; rings are half as many, rounded up, the first one
-// half a step from the pole.
+// Returns the number of sides of a sphere's rings; rings are half as many,
+// rounded up, the first one half a step from the pole.
 int sphere_fragments(double r, const Fineness& fineness);
 
-// Facets of a rotate_extrude over its whole angle.
+// Returns the number of facets of a rotate_extrude over its whole angle.
 int turn_fragments(const ProfileRange& range, double angle_deg,
                    const Fineness& fineness);
 
-// Greatest angle of a side of an arc of radius r that a roof draws: unlike in
-// circles, both $fa and $fs bound it [degrees].
+// Returns the greatest angle of a side of an arc of radius r that a roof draws:
+// unlike in circles, both $fa and $fs bound it [degrees].
 double arc_step_deg(double r, const Fineness& fineness);
 
 // Steps of an extrusion whose sides are not planar.
@@ -47,9 +47,9 @@ ExtrusionSteps extrusion_steps(const LinearExtrudeParams& params,
                                double max_radius, double max_shift,
                                const Fineness& fineness);
 
-// The greatest factor by which the map lengthens a vector, or a little more
-// where its columns are not perpendicular, up to 1e-12 of itself. Maps that
-// differ by rounding have the same.
+// Returns the greatest factor by which the map lengthens a vector, or a little
+// more where its columns are not perpendicular, up to 1e-12 of itself. Maps
+// that differ by rounding have the same.
 double greatest_stretch(const Affine& map);
 
 }  // namespace lamina::csg

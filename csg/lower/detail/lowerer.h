@@ -31,14 +31,14 @@
 
 namespace lamina::csg {
 
-// What a subtree is. A solid's parts stand on the program builder's stack.
+// What a subtree is. A solid's parts lie on the program builder's stack.
 // There may be none: an empty solid is three-dimensional all the same.
 enum class Dimension { kNone, kFlat, kSolid };
 struct Shape {
   Dimension dimension = Dimension::kNone;
   plane::Region region = {};
-  // Of a solid: whether OpenSCAD would have evaluated a Boolean for it, where
-  // else it holds one list of faces. Scaled by 0, the result of a Boolean is
+  // Whether OpenSCAD would have evaluated a Boolean for a solid, where else it
+  // holds one list of faces. Scaled by 0, the result of a Boolean is
   // removed, and a list of faces becomes flat.
   bool is_boolean = false;
   // The operands that follow `region`, where the operator above takes them for
@@ -52,8 +52,8 @@ struct Operand;
 struct Place {
   const Node& node;
   const Affine& world;
-  // Of an operand: the operator that takes the operands of the node for its
-  // own, where the node is such an operator, too.
+  // The operator above that takes the operands of the node for its own, where
+  // the node is such an operator, too.
   std::optional<plane::BooleanOp> joins = std::nullopt;
 };
 
@@ -89,7 +89,7 @@ class Lowerer {
   Shape lower(const Place& at);
 
   Scene take_scene();
-  // The same without flat parts.
+  // Returns the scene without flat parts.
   Scene take_solids();
 
  private:
@@ -130,7 +130,7 @@ class Lowerer {
   void add_operand(const Place& child, bool is_union, Operands& operands);
   static bool is_boolean(plane::BooleanOp op, const Operands& operands);
   // Whether OpenSCAD makes nothing of solids, be it empty, rather than an empty
-  // solid: then what stands beside the operator may be flat.
+  // solid: then the operator's siblings may be flat.
   static bool is_nothing(plane::BooleanOp op, const Operands& operands);
   void report_strays(const Operands& operands);
   Shape lower_children(const Place& at, plane::BooleanOp op);
@@ -184,7 +184,7 @@ class Lowerer {
   };
   // The tolerance of --decimate in a node's own coordinates; 0: none.
   double decimation_at(const Affine& world) const;
-  // Of files of CAD programs where none is asked for.
+  // The chordal error of files of CAD programs where none is asked for.
   double chordal_error_of_parts_at(const Affine& world) const;
   // In the file's lengths; 0: none.
   double decimation_of(const ImportParams& params, const Affine& world) const;
@@ -238,7 +238,7 @@ class Lowerer {
   LowerOptions options_;
   SharedTables& shared_;
   Diagnostics& diagnostics_;
-  // Of the next leaf only the corners count: it stands below a hull, without
+  // Only the corners of the next leaf count: it is below a hull, without
   // siblings all the way. So its faces need not be closed.
   bool takes_corners_ = false;
   LeafStore leaves_;

@@ -1,7 +1,7 @@
 #pragma once
 // The Boolean program, built while the tree is walked.
 //
-// Parts (instances and operators) stand on a stack; "the parts above a mark"
+// Parts (instances and operators) lie on a stack; "the parts above a mark"
 // always means their union, so unions need no work at all and nested ones are
 // flat from the start. Difference and intersection pop their operands and push
 // at most one part. Boxes decide what is empty, conservatively: a part is left

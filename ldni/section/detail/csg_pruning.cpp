@@ -25,8 +25,8 @@ constexpr std::uint64_t kMostQuestions = 64;
 
 constexpr std::uint32_t kNoInstance = 0xffffffff;
 
-// Radius of the circle about the origin within the outline, where that sees
-// all of it, else 0; and of the one around it.
+// Returns the radius of the circle about the origin within the outline, where
+// that sees all of it, else 0; and that of the circle around it.
 std::pair<double, double> radii_of(const std::vector<Vec2>& outline) {
   double inner = 1e300;
   double outer = 0;
@@ -106,7 +106,8 @@ struct CsgPruning::Body {
 };
 
 CsgPruning::CsgPruning(const csg::Scene& scene)
-    : scene_(scene), program_(csg::program_of(scene), plane::Ternary::kUnknown) {
+    : scene_(scene),
+      program_(csg::program_of(scene), plane::Ternary::kUnknown) {
   list_children();
 }
 
@@ -147,7 +148,7 @@ bool CsgPruning::matters(std::uint32_t instance) {
   return matters;
 }
 
-// Goes from the instance to the root and asks what stands beside its branch,
+// Goes from the instance to the root and asks the siblings of its branch,
 // until an operator is decided.
 bool CsgPruning::is_decided_above(std::uint32_t instance, const Box3& box) {
   Child branch{instance, true};

@@ -36,7 +36,7 @@ class CsgPruning {
   // that it costs little however many there are.
   bool matters(std::uint32_t instance);
 
-  // To leaves and operators, for all instances so far.
+  // Counts the questions to leaves and operators, for all instances so far.
   std::uint64_t questions() const { return questions_; }
 
  private:
@@ -56,15 +56,15 @@ class CsgPruning {
   plane::Ternary value_of(std::uint32_t instance, const Box3& box);
 
   const csg::Scene& scene_;
-  // All is unknown but what is asked for the instance in hand.
+  // All is unknown but what is asked for this instance.
   plane::TernaryProgram program_;
   std::vector<std::uint32_t> known_;  // instances whose value is not unknown
-  // Of the operators with few children; operator i: [ends[i-1], ends[i]).
+  // Children of the operators that have few; operator i: [ends[i-1], ends[i]).
   std::vector<Child> children_;
   std::vector<std::uint32_t> ends_;
   std::unordered_map<std::uint32_t, Body> bodies_;
   std::uint64_t questions_ = 0;
-  std::uint64_t last_question_ = 0;  // for the instance in hand
+  std::uint64_t last_question_ = 0;  // for this instance
 };
 
 }  // namespace lamina::ldni::detail

@@ -2,10 +2,10 @@
 // Sections of a parametric loft, without its vertices or facets.
 //
 // vertex(i, j) = scale_i · outline_j + centre_i, where the outline and the
-// centres, the profile's heights, stand under the instance's matrix. So a ring
-// of vertices reaches from the outline's lowest to its highest corner, and a
-// layer either misses the ring or crosses it. That gives a seed for every loop
-// without looking at the vertices:
+// centres, the profile's heights, are placed by the instance's matrix. So a
+// ring of vertices reaches from the outline's lowest to its highest corner, and
+// a layer either misses the ring or crosses it. That gives a seed for every
+// loop without looking at the vertices:
 //
 // - Where a layer passes between two neighbouring rings, one wholly below and
 //   the other wholly above, the loop runs round the strip between them and
@@ -160,8 +160,8 @@ class LoftSectioner {
   bool has_next(std::uint32_t ring) const {
     return ring + 1 < ring_count_ || is_closed_;
   }
-  // Where the section crosses the line between two vertices. A vertex within
-  // kOnPlaneDistance of the section is on it: clamp.
+  // Returns where the section crosses the line between two vertices. A vertex
+  // within kOnPlaneDistance of the section is on it: clamp.
   static Vec2 crossing(const Vertex& from, const Vertex& to, double height) {
     const double t =
         std::min(1.0, std::max(0.0, (height - from.z) / (to.z - from.z)));
@@ -180,7 +180,7 @@ class LoftSectioner {
                                         height_));
   }
 
-  // The loft in hand, placed in the world.
+  // The loft, placed in the world.
   std::vector<Vertex> outline_;  // round twice, the lowest first
   std::vector<Ring> rings_;
   std::uint32_t outline_size_ = 0;
@@ -189,7 +189,7 @@ class LoftSectioner {
   std::uint32_t highest_ = 0;  // corner
   std::vector<RingRange> ranges_;
 
-  // The loop in hand.
+  // The layer of the loop.
   double height_ = 0;
   double threshold_ = 0;
 

@@ -2,7 +2,7 @@
 // Which parts of a mesh a block of layers meets.
 //
 // A mesh has a million triangles and a block of layers crosses few of them. So
-// the index groups triangles, and vertices likewise, into runs that stand
+// the index groups triangles, and vertices likewise, into runs that are
 // together in the mesh, and knows for each run the layers between its lowest
 // and its highest vertex. Meshes from files come in some order along the
 // surface, so a run is a small patch of it; where they do not, every run is
@@ -34,7 +34,7 @@ struct HeightRange {
   double high = 0;
 };
 
-// Runs of as many things as stand in the mesh together, the last one shorter.
+// Runs of so many things that are together in the mesh, the last one shorter.
 class LayerRuns {
  public:
   // Groups `count` things; thing i has the heights heights_of(i).
@@ -75,7 +75,7 @@ class LayerRuns {
   std::vector<LayerSpan> spans_;
 };
 
-// Of one mesh of one instance.
+// The runs of one mesh of one instance.
 struct MeshIndex {
   LayerRuns vertices;
   LayerRuns triangles;

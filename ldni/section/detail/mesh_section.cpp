@@ -77,8 +77,8 @@ void MeshSectioner::find_crossed(const MeshIndex& index) {
 // Whether every half-edge found its partner.
 bool MeshSectioner::pair_edges() {
   const csg::Mesh& mesh = *mesh_;
-  // Of a triangle that one layer crosses two edges are crossed, each of them
-  // shared; of any triangle three at most. So a quarter of the slots is free.
+  // A triangle that one layer crosses has two crossed edges, each of them
+  // shared; no triangle has more than three. So a quarter of the slots is free.
   slots_.assign(std::bit_ceil(2 * crossed_.size()), {});
   twins_.assign(3 * crossed_.size(), kNone);
   waiting_count_ = 0;

@@ -70,7 +70,7 @@ class MeshSectioner {
   plane::ChainBuilder* builder_ = nullptr;
   std::uint32_t instance_ = 0;
   std::int32_t orientation_ = 1;
-  // Of the edge that a walk crossed last.
+  // An end of the edge that a walk crossed last.
   struct End {
     std::uint32_t vertex = kNone;
     Vec3 place{0};  // in the world
