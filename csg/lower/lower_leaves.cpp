@@ -16,7 +16,7 @@
 #include "csg/lower/detail/face.h"
 #include "csg/lower/detail/lowerer.h"
 #include "csg/lower/detail/repair.h"
-#include "csg/lower/detail/roof.h"
+#include "csg/roof/roof.h"
 
 namespace lamina::csg {
 namespace {
@@ -250,7 +250,9 @@ Shape Lowerer::lower_op(const Roof& op, const Place& at) {
   corners.chordal_error *= 1 - kShare;
   std::vector<RoofStage> stages = op.is_straight
                                       ? sharp_roof(shape.region)
-                                      : round_roof(shape.region, corners);
+                                      : round_roof(shape.region, [&](double r) {
+                                          return arc_step_deg(r, corners);
+                                        });
   for (RoofStage& stage : stages) {
     const std::size_t mark = builder_.mark();
     LinearExtrudeParams prism;

@@ -1,4 +1,4 @@
-#include "csg/lower/detail/roof.h"
+#include "csg/roof/roof.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 
 #include "csg/boundary/convex_hull.h"
 #include "csg/degrees.h"
-#include "csg/lower/detail/roof_border.h"
-#include "csg/lower/detail/tracks.h"
+#include "csg/roof/detail/roof_border.h"
+#include "csg/roof/detail/tracks.h"
 #include "plane/loop_area.h"
 #include "plane/predicates.h"
 #include "plane/region/boolean.h"
@@ -52,6 +52,13 @@ Vec2 turned(Vec2 v, double angle) {
   return std::cos(angle) * v + std::sin(angle) * left_of(v);
 }
 
+// Appends a point at two heights.
+void add_upright(std::vector<Vec3>& points, Vec2 point, double low,
+                 double high) {
+  points.emplace_back(point, low);
+  points.emplace_back(point, high);
+}
+
 // Convex solids, each the hull of its points, that go up to one height: what
 // the outline sweeps while it moves on from one time, the bottom, to another
 // one, the top. At each height z between them they cover what is left at the
@@ -68,10 +75,11 @@ class Cutters {
 
   void add(std::vector<Vec3> points) { solids_.push_back(std::move(points)); }
 
-  // What moves on from a part of an edge that moves along its normal. From the
+  // Adds what moves on from a part of an edge along its normal. From the
   // outline it goes to both sides.
-  void add_strip(const Front& edge, Vec2 normal, Part part) {
+  void add_strip(const Edge& edge, Part part) {
     if (part.is_empty()) return;
+    const Vec2 normal = edge.normal();
     std::vector<Vec3> points;
     for (const Vec2 end : {edge.at(part.from), edge.at(part.to)}) {
       points.emplace_back(end + rear_ * normal, rear_);
@@ -97,7 +105,7 @@ class Cutters {
     return mesh;
   }
 
-  // What they leave of the region at their top.
+  // Returns what they leave of the region at their top.
   Region rest(const Region& region) const {
     std::vector<Region> regions = {region};
     for (const std::vector<Vec3>& points : solids_) {
@@ -117,17 +125,13 @@ class Cutters {
   std::vector<std::vector<Vec3>> solids_;
 };
 
-// The strips of those edges that still bound what is left.
+// Adds the strips of those edges that still bound what is left.
 void add_strips(Cutters& cutters, const Region& region,
                 const RoofBorder& border, double reach) {
-  for (const Contour& contour : region.contours) {
-    for (const Edge& edge : edges_of(contour)) {
-      const Vec2 normal = edge.normal();
-      const Vec2 way = normal * cutters.bottom();
-      const Part part =
-          border.near_part({edge.begin + way, edge.end + way}, reach);
-      cutters.add_strip({edge.begin, edge.end}, normal, part);
-    }
+  for (const Edge& edge : edges_of(region)) {
+    const Vec2 way = edge.normal() * cutters.bottom();
+    cutters.add_strip(
+        edge, border.near_part({edge.begin + way, edge.end + way}, reach));
   }
 }
 
@@ -153,7 +157,7 @@ struct Fan {
   std::vector<Vec2> directions;  // of its corners
 };
 
-// The whole fan, from the reflex corner on.
+// Adds the whole fan, from the reflex corner on.
 void add_fan(Cutters& cutters, const Fan& fan) {
   const Vec2 corner = fan.corner.point;
   std::vector<Vec3> points = {Vec3(corner, 0)};
@@ -166,16 +170,16 @@ void add_fan(Cutters& cutters, const Fan& fan) {
   cutters.add(std::move(points));
 }
 
-// From a point beside the end of an edge's strip, a little back over the strip:
-// the edge before a corner or the one after it.
+// Returns the way from a point beside the end of an edge's strip a little back
+// over the strip: of the edge before a corner or of the one after it.
 Vec2 back_over(const Edge& edge, bool is_before, double rear) {
   const double length = glm::distance(edge.begin, edge.end);
   const double way = std::min(length, kRearReach * rear);
   return edge.direction() * (is_before ? -way : way);
 }
 
-// What the sides of a fan's polygon that are near the border sweep, from the
-// rear on. Each reaches a little over what is beside it.
+// Adds what the sides of a fan's polygon that are near the border sweep, from
+// the rear on. Each reaches a little over what is beside it.
 void add_blades(Cutters& cutters, const Fan& fan, const RoofBorder& border,
                 double reach) {
   const double rear = cutters.rear();
@@ -186,7 +190,7 @@ void add_blades(Cutters& cutters, const Fan& fan, const RoofBorder& border,
     return corner.point + direction * time;
   };
   for (std::size_t i = 0; i + 1 < directions.size(); ++i) {
-    const Front side = {directions[i], directions[i + 1]};
+    const Edge side = {directions[i], directions[i + 1]};
     const Part part = border.near_part(
         {at(side.begin, cutters.bottom()), at(side.end, cutters.bottom())},
         reach);
@@ -194,22 +198,22 @@ void add_blades(Cutters& cutters, const Fan& fan, const RoofBorder& border,
     const Vec2 first = side.at(part.from);
     const Vec2 last = side.at(part.to);
     std::vector<Vec3> points;
-    const auto add = [&](Vec2 point) {
-      points.emplace_back(point, rear);
-      points.emplace_back(point, top);
-    };
     for (const Vec2 direction : {first, last}) {
-      add(at(direction, rear));
+      add_upright(points, at(direction, rear), rear, top);
       points.emplace_back(at(direction, top), top);
     }
     if (part.from == 0) {
-      add(i > 0 ? at(glm::mix(first, directions[i - 1], kRearReach), rear)
-                : at(first, rear) + back_over(corner.before, true, rear));
+      const Vec2 beside =
+          i > 0 ? at(glm::mix(first, directions[i - 1], kRearReach), rear)
+                : at(first, rear) + back_over(corner.before, true, rear);
+      add_upright(points, beside, rear, top);
     }
     if (part.to == 1) {
-      add(i + 2 < directions.size()
+      const Vec2 beside =
+          i + 2 < directions.size()
               ? at(glm::mix(last, directions[i + 2], kRearReach), rear)
-              : at(last, rear) + back_over(corner.after, false, rear));
+              : at(last, rear) + back_over(corner.after, false, rear);
+      add_upright(points, beside, rear, top);
     }
     cutters.add(std::move(points));
   }
@@ -230,10 +234,10 @@ struct Flank {
     const double on_track = std::min(time, track.end_time);
     return track.at(on_track) + (time - on_track) * normal();
   }
-  Front front(double time) const { return {inner(time), outer(time)}; }
+  Edge front(double time) const { return {inner(time), outer(time)}; }
 };
 
-// What it sweeps after the track has ended.
+// Adds what it sweeps after the track has ended.
 void add_flank(Cutters& cutters, const Flank& flank) {
   const double top = cutters.top();
   const Track& track = flank.track;
@@ -243,33 +247,33 @@ void add_flank(Cutters& cutters, const Flank& flank) {
                Vec3(flank.inner(top), top), Vec3(flank.outer(top), top)});
 }
 
-// What it sweeps from the rear on.
+// Adds what it sweeps from the rear on.
 void add_late_flank(Cutters& cutters, const Flank& flank) {
   const double rear = cutters.rear();
   const double top = cutters.top();
   const Track& track = flank.track;
   std::vector<Vec3> points;
-  const auto add = [&](Vec2 point, double time) {
-    points.emplace_back(point, time);
-    points.emplace_back(point, top);
-  };
-  add(flank.inner(rear), rear);
-  add(flank.outer(rear), rear);
-  add(flank.inner(rear) + back_over(flank.edge(), flank.is_before, rear), rear);
+  const Vec2 inner = flank.inner(rear);
+  const Vec2 outer = flank.outer(rear);
+  add_upright(points, inner, rear, top);
+  add_upright(points, outer, rear, top);
+  add_upright(points, inner + back_over(flank.edge(), flank.is_before, rear),
+              rear, top);
   if (track.end_time > cutters.bottom()) {
     // A little over the track.
     const Vec2 beyond = Flank{track, !flank.is_before}.inner(rear);
-    add(glm::mix(flank.outer(rear), beyond, kRearReach / 2), rear);
+    add_upright(points, glm::mix(outer, beyond, kRearReach / 2), rear, top);
   }
   if (track.end_time > rear && track.end_time < top) {
-    add(flank.outer(track.end_time), track.end_time);
+    add_upright(points, flank.outer(track.end_time), track.end_time, top);
   }
   points.emplace_back(flank.inner(top), top);
   points.emplace_back(flank.outer(top), top);
   cutters.add(std::move(points));
 }
 
-// The sharp join along a track, from its start on, and what it leaves behind.
+// Adds the sharp join along a track, from its start on, and what it leaves
+// behind.
 void add_track(Cutters& cutters, const Track& track) {
   const double top = cutters.top();
   const double end_time = std::min(track.end_time, top);
@@ -280,8 +284,7 @@ void add_track(Cutters& cutters, const Track& track) {
   std::vector<Vec3> points = {Vec3(track.start, track.start_time)};
   for (const Vec2 direction : {turned(before, kReach), before, track.velocity,
                                after, turned(after, -kReach)}) {
-    points.emplace_back(track.start + direction * length, end_time);
-    points.emplace_back(track.start + direction * length, top);
+    add_upright(points, track.start + direction * length, end_time, top);
   }
   cutters.add(std::move(points));
   if (track.end_time < top) {
@@ -350,8 +353,9 @@ std::vector<RoofStage> raise(const Region& region, Cut cut) {
 
 }  // namespace
 
-std::vector<RoofStage> round_roof(const Region& region,
-                                  const Fineness& corners) {
+std::vector<RoofStage> round_roof(
+    const Region& region,
+    const std::function<double(double radius)>& arc_step_deg) {
   constexpr double kTolerance = 1e-5;  // of an arc [depths]
   const auto is_beyond = [&](double amount) {
     return plane::offset(region, -amount, plane::Join::kRound,
@@ -363,16 +367,13 @@ std::vector<RoofStage> round_roof(const Region& region,
   double low = 0;
   double high = plane::area(region) / border_of(region);
   for (; !is_beyond(high); high *= 1.5) low = high;
-  const double step_deg =
-      arc_step_deg(find_depth(low, high, is_beyond), corners);
+  const double step_deg = arc_step_deg(find_depth(low, high, is_beyond));
 
   std::vector<Fan> fans;
   double lag = 0;
-  for (const Contour& contour : region.contours) {
-    for (const ReflexCorner& corner : reflex_corners(contour)) {
-      fans.emplace_back(corner, step_deg);
-      lag = std::max(lag, fans.back().lag());
-    }
+  for (const ReflexCorner& corner : reflex_corners(region)) {
+    fans.emplace_back(corner, step_deg);
+    lag = std::max(lag, fans.back().lag());
   }
   return raise(region,
                [&](const RoofBorder& border, double bottom, double top) {

@@ -1,4 +1,4 @@
-#include "csg/lower/detail/tracks.h"
+#include "csg/roof/detail/tracks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,27 +31,24 @@ constexpr double kStraight = 1e-9;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// From one edge to the next, at a reflex corner, in (-π, 0].
+// Returns the angle from one edge to the next, at a reflex corner, in (-π, 0].
 double turn_at(const Edge& before, const Edge& after) {
   const Vec2 from = before.direction();
   const Vec2 to = after.direction();
   return std::min(std::atan2(cross(from, to), glm::dot(from, to)), 0.0);
 }
 
-// Of the way that it goes, in (-π, π].
+// Returns the angle of its direction, in (-π, π].
 double angle_of(const Track& track) {
   return std::atan2(track.velocity.y, track.velocity.x);
 }
 
-class Tracer {
+// Runs the events of all tracks in the order of time.
+class MotorcycleGraph {
  public:
-  explicit Tracer(const Region& region) {
+  explicit MotorcycleGraph(const Region& region) : edges_(edges_of(region)) {
     Box2 box;
-    for (const Contour& contour : region.contours) {
-      const std::vector<Edge> edges = edges_of(contour);
-      edges_.insert(edges_.end(), edges.begin(), edges.end());
-      box.add(contour);
-    }
+    for (const Contour& contour : region.contours) box.add(contour);
     const Vec2 size = box.size();
     same_ = std::max(kSame, kSameShare * std::max(size.x, size.y));
   }
@@ -239,34 +236,36 @@ Vec2 Edge::normal() const { return left_of(direction()); }
 
 double ReflexCorner::turn() const { return turn_at(before, after); }
 
-std::vector<Edge> edges_of(const Contour& contour) {
+std::vector<Edge> edges_of(const Region& region) {
   std::vector<Edge> edges;
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    edges.push_back({contour[i], contour[(i + 1) % contour.size()]});
+  for (const Contour& contour : region.contours) {
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      edges.push_back({contour[i], contour[(i + 1) % contour.size()]});
+    }
   }
   return edges;
 }
 
-std::vector<ReflexCorner> reflex_corners(const Contour& contour) {
+std::vector<ReflexCorner> reflex_corners(const Region& region) {
   std::vector<ReflexCorner> corners;
-  const std::vector<Edge> edges = edges_of(contour);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Edge& after = edges[(i + 1) % edges.size()];
-    if (cross(edges[i].direction(), after.direction()) < kStraight) {
-      corners.push_back({after.begin, edges[i], after});
+  for (const Contour& contour : region.contours) {
+    const std::vector<Edge> edges = edges_of(Region{{contour}});
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Edge& after = edges[(i + 1) % edges.size()];
+      if (cross(edges[i].direction(), after.direction()) < kStraight) {
+        corners.push_back({after.begin, edges[i], after});
+      }
     }
   }
   return corners;
 }
 
 std::vector<Track> trace_corners(const Region& region) {
-  Tracer tracer(region);
-  for (const Contour& contour : region.contours) {
-    for (const ReflexCorner& corner : reflex_corners(contour)) {
-      tracer.start(corner.point, 0, corner.before, corner.after);
-    }
+  MotorcycleGraph graph(region);
+  for (const ReflexCorner& corner : reflex_corners(region)) {
+    graph.start(corner.point, 0, corner.before, corner.after);
   }
-  return tracer.run();
+  return graph.run();
 }
 
 }  // namespace lamina::csg

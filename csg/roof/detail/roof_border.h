@@ -4,21 +4,13 @@
 
 #include <vector>
 
-#include "base/vec.h"
 #include "csg/boundary/box_tree.h"
+#include "csg/roof/detail/tracks.h"
 #include "plane/region/region.h"
 
 namespace lamina::csg {
 
-// A straight part of an outline that moves, at one time.
-struct Front {
-  Vec2 begin{0};
-  Vec2 end{0};
-
-  Vec2 at(double share) const { return begin + share * (end - begin); }
-};
-
-// From one share of a front to another one.
+// A part of an edge, from one share of it to another one.
 struct Part {
   double from = 1;
   double to = 0;
@@ -30,11 +22,12 @@ class RoofBorder {
  public:
   explicit RoofBorder(const plane::Region& region);
 
-  // Of the front, at least what is within `reach` [mm] of the border.
-  Part near_part(const Front& front, double reach) const;
+  // Returns the part of the front, an edge that has moved, that is within
+  // `reach` [mm] of the border, or a little more.
+  Part near_part(const Edge& front, double reach) const;
 
  private:
-  std::vector<Front> edges_;
+  std::vector<Edge> edges_;
   BoxTree tree_;
 };
 

@@ -13,11 +13,12 @@
 
 namespace lamina::csg {
 
-// An edge of an outline. The inside is on its left.
+// A straight part of an outline. The inside is on its left.
 struct Edge {
   Vec2 begin{0};
   Vec2 end{0};
 
+  Vec2 at(double share) const { return begin + share * (end - begin); }
   Vec2 direction() const;  // of unit length, as all here
   Vec2 normal() const;     // inwards
 };
@@ -41,10 +42,10 @@ struct Track {
   Vec2 at(double time) const { return start + velocity * (time - start_time); }
 };
 
-std::vector<Edge> edges_of(const plane::Contour& contour);
+std::vector<Edge> edges_of(const plane::Region& region);
 
-// Corners as good as straight among them.
-std::vector<ReflexCorner> reflex_corners(const plane::Contour& contour);
+// Returns the reflex corners of all contours, and those as good as straight.
+std::vector<ReflexCorner> reflex_corners(const plane::Region& region);
 
 // Throws LimitExceeded where there are more than kMostTracks.
 std::vector<Track> trace_corners(const plane::Region& region);

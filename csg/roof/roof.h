@@ -25,9 +25,9 @@
 //   skeleton: these are the lower envelope of the planes of the edges, each
 //   bounded by such tracks (Cheng, Vigneron 2007; Huber, Held 2012).
 
+#include <functional>
 #include <vector>
 
-#include "csg/lower/detail/fineness.h"
 #include "csg/scene.h"
 #include "plane/region/region.h"
 
@@ -42,9 +42,10 @@ struct RoofStage {
   Mesh cutters;       // they overlap each other, and reach beyond the prism
 };
 
-// "voronoi"; `corners` says how fine its rounded corners are.
-std::vector<RoofStage> round_roof(const plane::Region& region,
-                                  const Fineness& corners);
+// "voronoi". `arc_step_deg` says how far a side of an arc of a radius turns.
+std::vector<RoofStage> round_roof(
+    const plane::Region& region,
+    const std::function<double(double radius)>& arc_step_deg);
 
 // "straight". Throws LimitExceeded where the region has more than kMostTracks
 // reflex corners.

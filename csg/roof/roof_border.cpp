@@ -1,4 +1,4 @@
-#include "csg/lower/detail/roof_border.h"
+#include "csg/roof/detail/roof_border.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,13 +8,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "csg/lower/detail/tracks.h"
 #include "plane/predicates.h"
 
 namespace lamina::csg {
 namespace {
 
-Box3 box_of(const Front& front, double margin) {
+Box3 box_of(const Edge& front, double margin) {
   Box3 box;
   for (const Vec2 point : {front.begin, front.end}) {
     box.add(Vec3(point - Vec2(margin), 0));
@@ -23,25 +22,15 @@ Box3 box_of(const Front& front, double margin) {
   return box;
 }
 
-std::vector<Front> edges_in(const plane::Region& region) {
-  std::vector<Front> edges;
-  for (const plane::Contour& contour : region.contours) {
-    for (const Edge& edge : edges_of(contour)) {
-      edges.push_back({edge.begin, edge.end});
-    }
-  }
-  return edges;
-}
-
-std::vector<Box3> boxes_of(const std::vector<Front>& edges) {
+std::vector<Box3> boxes_of(const std::vector<Edge>& edges) {
   std::vector<Box3> boxes;
   boxes.reserve(edges.size());
-  for (const Front& edge : edges) boxes.push_back(box_of(edge, 0));
+  for (const Edge& edge : edges) boxes.push_back(box_of(edge, 0));
   return boxes;
 }
 
-// All of a front without length.
-Part part_near_edge(const Front& front, const Front& edge, double reach) {
+// Returns all of a front without length.
+Part part_near_edge(const Edge& front, const Edge& edge, double reach) {
   const double length = std::max(glm::distance(front.begin, front.end),
                                  std::numeric_limits<double>::min());
   const Vec2 along = (front.end - front.begin) / length;
@@ -63,9 +52,9 @@ Part part_near_edge(const Front& front, const Front& edge, double reach) {
 }  // namespace
 
 RoofBorder::RoofBorder(const plane::Region& region)
-    : edges_(edges_in(region)), tree_(boxes_of(edges_)) {}
+    : edges_(edges_of(region)), tree_(boxes_of(edges_)) {}
 
-Part RoofBorder::near_part(const Front& front, double reach) const {
+Part RoofBorder::near_part(const Edge& front, double reach) const {
   Part part;
   const Box3 box = box_of(front, reach);
   tree_.visit([&](const Box3& other) { return do_meet(box, other); },
