@@ -242,7 +242,8 @@ std::string summary_line(const compiler::Compilation& compilation,
   return fmt::format(
       "{}: {}, {}, {}, {}{}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
-      "sections {:.3f}, sweep {:.3f}, output {:.3f}), {} of memory, {:.3f} s "
+      "sections {:.3f}, sweep {:.3f}, graph {:.3f}, output {:.3f}), {} of "
+      "memory, {:.3f} s "
       "by the clock",
       output == "-" ? "standard output" : on_one_line(told_path(output)),
       counted(slice.layers, "layer"), counted(slice.loops, "loop"),
@@ -253,7 +254,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       machine_line(report), print_line(compilation),
       process_seconds() - earlier_seconds, report.load_seconds,
       report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
-      slice.sweep_seconds, slice.output_seconds,
+      slice.sweep_seconds, slice.graph_seconds, slice.output_seconds,
       memory_text(peak_memory_bytes()), report.wall_seconds);
 }
 
