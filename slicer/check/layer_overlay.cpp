@@ -213,7 +213,7 @@ class OverhangSearch {
       : tree_(below),
         reach_(reach),
         box_(box_of(above)),
-        pitch_(std::max({reach, kPitch, least_pitch(ledges)})),
+        pitch_(std::max(kPitch, least_pitch(ledges))),
         found_(found) {}
 
   void search(const Ledge& ledge) {
@@ -441,8 +441,7 @@ class OverhangSearch {
     return distance;
   }
 
-  // Places are so far apart [mm], where the reach is not more and a layer needs
-  // no more than so many.
+  // Places are so far apart [mm], where a layer needs no more than so many.
   static constexpr double kPitch = 0.1;
   static constexpr double kMostPlaces = 512 * 512;
   // In a column the next place follows after this share of the distance that

@@ -196,6 +196,20 @@ TEST(PrintCheck, CountsTheTeethOfAComb) {
   EXPECT_EQ(print.count(FindingKind::kLoosePart), 0U);
 }
 
+// A board on a post: all but what is within reach of the post hangs over.
+TEST(PrintCheck, MeasuresAnOverhangWhateverTheReach) {
+  const std::string board =
+      "cube([4, 5, 5]); translate([0, 0, 5]) cube([12, 5, 1]);";
+  for (const double reach : {0.15, 0.5, 2.0, 3.0}) {
+    const Finding overhang =
+        only(check(board, 0.1, reach), FindingKind::kOverhang);
+    EXPECT_NEAR(overhang.area, (8 - reach) * 5, 0.05 * (8 - reach) * 5);
+    EXPECT_NEAR(overhang.distance, 8, 1e-9);
+    EXPECT_EQ(overhang.first_layer, 51U);
+    EXPECT_EQ(overhang.last_layer, 51U);
+  }
+}
+
 // Stairs: each layer stands out by tan(angle) of its height.
 std::string stairs(double angle_deg, double thickness) {
   const double step = thickness * std::tan(angle_deg * kPi / 180);
