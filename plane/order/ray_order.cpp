@@ -11,7 +11,19 @@ namespace {
 // endless: rounding could make the pairwise order of entries a circle.
 constexpr std::uint64_t kMostSwapsPerEntry = 64;
 
+// A slab for so many points, within limits. From 48 to 512 points make no more
+// than 10 %.
+constexpr double kPointsPerSlab = 128;
+constexpr double kLeastSlabs = 4;
+constexpr double kMostSlabs = 4096;
+
 }  // namespace
+
+std::uint32_t slab_count_of(std::size_t point_count) {
+  return static_cast<std::uint32_t>(
+      std::ceil(std::clamp(static_cast<double>(point_count) / kPointsPerSlab,
+                           kLeastSlabs, kMostSlabs)));
+}
 
 void RayOrder::begin_layer(std::size_t chain_count, double low, double high,
                            std::uint32_t slab_count) {

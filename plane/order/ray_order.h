@@ -47,6 +47,9 @@ struct OrderChanges {
   std::vector<std::uint32_t> touches;  // may touch the entry above in a point
 };
 
+// How many slabs a layer with so many points on its chains had better have.
+std::uint32_t slab_count_of(std::size_t point_count);
+
 class RayOrder {
  public:
   explicit RayOrder(double tie_distance) : tie_distance_(tie_distance) {}

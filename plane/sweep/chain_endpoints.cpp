@@ -43,25 +43,28 @@ void EndpointSorter::sort_keys() {
   }
 }
 
-std::span<const ChainEndpoint> EndpointSorter::sort(
-    std::span<const Chain> chains, std::span<const Vec2> points,
-    const LoneLoops& lone_loops) {
+void EndpointSorter::list(std::span<const Chain> chains,
+                          std::span<const Vec2> points,
+                          const LoneLoops* lone_loops) {
   unsorted_.clear();
-  double low = 1e300;
-  double high = -1e300;
+  low_ = 1e300;
+  high_ = -1e300;
   for (std::uint32_t i = 0; i < chains.size(); ++i) {
     const std::span<const Vec2> chain = chains[i].points_in(points);
     const double start = chain.front().x;
     const double end = chain.back().x;
     unsorted_.push_back({start, 2 * i});
-    if (lone_loops.is_lone(i)) {
+    if (lone_loops != nullptr && lone_loops->is_lone(i)) {
       ++i;  // the loop's other chain
     } else {
       unsorted_.push_back({end, 2 * i + 1});
     }
-    low = std::min(low, start);
-    high = std::max(high, end);
+    low_ = std::min(low_, start);
+    high_ = std::max(high_, end);
   }
+}
+
+std::span<const ChainEndpoint> EndpointSorter::sort_listed() {
   if (unsorted_.size() <= kSmall) {
     std::sort(unsorted_.begin(), unsorted_.end(), precedes);
     return unsorted_;
@@ -69,10 +72,10 @@ std::span<const ChainEndpoint> EndpointSorter::sort(
 
   // Sort by x rounded to 32 bits, which keeps the order of equal keys.
   keys_.resize(unsorted_.size());
-  const double scale = high > low ? kLargestKey / (high - low) : 0;
+  const double scale = high_ > low_ ? kLargestKey / (high_ - low_) : 0;
   for (std::uint32_t i = 0; i < keys_.size(); ++i) {
     keys_[i].rounded =
-        static_cast<std::uint32_t>((unsorted_[i].x - low) * scale);
+        static_cast<std::uint32_t>((unsorted_[i].x - low_) * scale);
     keys_[i].endpoint = i;
   }
   if (keys_.size() <= kMedium) {

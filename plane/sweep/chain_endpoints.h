@@ -28,7 +28,16 @@ class EndpointSorter {
   // the few that rounding made equal.
   std::span<const ChainEndpoint> sort(std::span<const Chain> chains,
                                       std::span<const Vec2> points,
-                                      const LoneLoops& lone_loops);
+                                      const LoneLoops& lone_loops) {
+    list(chains, points, &lone_loops);
+    return sort_listed();
+  }
+  // Sorts both endpoints of each chain.
+  std::span<const ChainEndpoint> sort(std::span<const Chain> chains,
+                                      std::span<const Vec2> points) {
+    list(chains, points, nullptr);
+    return sort_listed();
+  }
 
  private:
   struct Key {
@@ -36,9 +45,14 @@ class EndpointSorter {
     std::uint32_t endpoint = 0;
   };
 
+  void list(std::span<const Chain> chains, std::span<const Vec2> points,
+            const LoneLoops* lone_loops);
+  std::span<const ChainEndpoint> sort_listed();
   template <int kDigitBits>
   void sort_keys();
 
+  double low_ = 0;  // of the listed endpoints
+  double high_ = 0;
   std::vector<ChainEndpoint> unsorted_;
   std::vector<ChainEndpoint> sorted_;
   std::vector<Key> keys_;

@@ -6,11 +6,6 @@
 namespace lamina::plane {
 namespace {
 
-// Slabs of a layer where the pitch is left to us: one for so many points of
-// its chains, within limits. From 48 to 512 points make no more than 10 %.
-constexpr double kPointsPerSlab = 128;
-constexpr double kLeastSlabs = 4;
-constexpr double kMostSlabs = 4096;
 constexpr double kMostSlabsOfPitch = 1 << 16;
 
 }  // namespace
@@ -65,10 +60,8 @@ void RaySweep::begin(const LayerChains& layer, ProgramStates& states) {
 
 std::uint32_t RaySweep::slab_count(double width,
                                    std::size_t point_count) const {
-  const double count =
-      pitch_ > 0 ? std::clamp(width / pitch_, 1.0, kMostSlabsOfPitch)
-                 : std::clamp(static_cast<double>(point_count) / kPointsPerSlab,
-                              kLeastSlabs, kMostSlabs);
+  if (pitch_ == 0) return slab_count_of(point_count);
+  const double count = std::clamp(width / pitch_, 1.0, kMostSlabsOfPitch);
   return static_cast<std::uint32_t>(std::ceil(count));
 }
 

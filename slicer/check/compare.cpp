@@ -128,7 +128,7 @@ void require_rising(const std::vector<Layer>& layers, const std::string& name) {
 LayerDifference compare_layers(const plane::Contours& a,
                                const plane::Contours& b) {
   LayerDifference difference;
-  difference.areas = measure_regions(a, b);
+  difference.areas = plane::measure_regions(a, b);
   difference.loops_a = count_loops(a);
   difference.loops_b = count_loops(b);
   difference.distance =

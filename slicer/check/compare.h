@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "slicer/check/contour_distance.h"
-#include "slicer/check/region_areas.h"
+#include "plane/sweep/region_areas.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
@@ -29,7 +29,7 @@ struct LayerDifference {
   std::size_t number = 0;  // from 1
   double z = 0;            // of the section in a, else in b [mm]
   double thickness = 0;    // 0: not known [mm]
-  RegionAreas areas;
+  plane::RegionAreas areas;
   LoopCount loops_a;
   LoopCount loops_b;
   // Infinite where only one of them has contours.

@@ -1,7 +1,7 @@
 // Areas of two regions: closed formulas, laws, and the clipper as a second
 // opinion.
 
-#include "slicer/check/region_areas.h"
+#include "plane/sweep/region_areas.h"
 
 #include <array>
 #include <cmath>
@@ -16,10 +16,9 @@
 #include "plane/region/region.h"
 #include "tests/support/contour_checks.h"
 
-namespace lamina::slicer {
+namespace lamina::plane {
 namespace {
 
-using plane::Contours;
 using support::add_loop;
 
 Contours rectangle(Vec2 low, Vec2 high) {
@@ -215,4 +214,4 @@ TEST(MeasureRegions, OfItselfIsNothingToTheLastDigit) {
 }
 
 }  // namespace
-}  // namespace lamina::slicer
+}  // namespace lamina::plane
