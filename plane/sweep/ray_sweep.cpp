@@ -31,6 +31,14 @@ bool RaySweep::resume(Contours& contours, const Patience& patience) {
   return true;
 }
 
+bool RaySweep::step() {
+  if (next_endpoint_ == endpoints_.size()) return false;
+  begin_cluster(order_.next_event_point(endpoints_[next_endpoint_].x));
+  for (const std::uint32_t chain : begun_) insert(chain);
+  finish_cluster();
+  return true;
+}
+
 SweepCounts RaySweep::counts() const {
   SweepCounts counts = counts_;
   counts.unbalanced_clusters = boundary_.unbalanced_clusters();

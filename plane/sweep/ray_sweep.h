@@ -85,6 +85,13 @@ class RaySweep {
   // before; the next call, with more patience, goes on from there.
   bool resume(Contours& contours, const Patience& patience);
 
+  // Handles the next event point of the layer; false where there is none. A
+  // look into a sweep takes it so, instead of resume() (sweep_trace.h).
+  bool step();
+  const Status& status() const { return order_.status(); }
+  // The event point handled last.
+  const EventCluster& cluster() const { return order_.cluster(); }
+
   // As of RayBoundary, for the last layer.
   bool has_jumps() const { return boundary_.has_jumps(); }
 
