@@ -22,13 +22,6 @@ constexpr double kMostTriangles = 1e8;
 // one long row of numbers makes all rows long; each makes four triangles.
 constexpr double kMostHeights = 1 << 23;
 
-// Of a feature in a pattern of a FreeCAD file, which says so with one number.
-constexpr double kMostOccurrences = 100'000;
-
-// Of all patterns of a FreeCAD file together, those on the way to others
-// included.
-constexpr std::size_t kMostPlaces = 1'000'000;
-
 // Of groups that hold one object of a FreeCAD file; FreeCAD allows two.
 constexpr std::size_t kMostGroups = 100;
 

@@ -143,12 +143,12 @@ def part_cylinder(m):
     return m.part("Cylinder", LEAN, Radius=4, Height=11)
 
 
-@model("Part::Cylinder, Angle")
+@model("Part::Cylinder, Angle", "boundary")
 def part_cylinder_sector(m):
     return m.part("Cylinder", TILT, Radius=5, Height=8, Angle=130)
 
 
-@model("Part::Cylinder, FirstAngle")
+@model("Part::Cylinder, FirstAngle", "boundary")
 def part_cylinder_leaning(m):
     return m.part("Cylinder", Radius=4, Height=9, FirstAngle=20, SecondAngle=-15)
 
@@ -158,7 +158,7 @@ def part_sphere(m):
     return m.part("Sphere", LEAN, Radius=6)
 
 
-@model("Part::Sphere, Angle1 to Angle3")
+@model("Part::Sphere, Angle1 to Angle3", "boundary")
 def part_sphere_part(m):
     return m.part("Sphere", TILT, Radius=6, Angle1=-30, Angle2=50, Angle3=200)
 
@@ -168,7 +168,7 @@ def part_cone(m):
     return m.part("Cone", LEAN, Radius1=6, Radius2=1.5, Height=9)
 
 
-@model("Part::Cone, Radius2 = 0, Angle")
+@model("Part::Cone, Radius2 = 0, Angle", "boundary")
 def part_cone_sector(m):
     return m.part("Cone", Radius1=5, Radius2=0, Height=8, Angle=250)
 
@@ -178,46 +178,46 @@ def part_torus(m):
     return m.part("Torus", LEAN, Radius1=8, Radius2=2.5)
 
 
-@model("Part::Torus, Angle3")
+@model("Part::Torus, Angle3", "boundary")
 def part_torus_sector(m):
     return m.part("Torus", TILT, Radius1=8, Radius2=2.5, Angle3=220)
 
 
-@model("Part::Torus, Angle1 to Angle3")
+@model("Part::Torus, Angle1 to Angle3", "boundary")
 def part_torus_part(m):
     return m.part("Torus", LEAN, Radius1=8, Radius2=2.5, Angle1=-40, Angle2=110,
                   Angle3=300)
 
 
-@model("Part::Prism")
+@model("Part::Prism", "boundary")
 def part_prism(m):
     return m.part("Prism", LEAN, Polygon=5, Circumradius=4, Height=9)
 
 
-@model("Part::Prism, FirstAngle")
+@model("Part::Prism, FirstAngle", "boundary")
 def part_prism_leaning(m):
     return m.part("Prism", Polygon=7, Circumradius=4, Height=9, FirstAngle=12,
                   SecondAngle=7)
 
 
-@model("Part::Wedge")
+@model("Part::Wedge", "boundary")
 def part_wedge(m):
     return m.part("Wedge", LEAN, Xmin=0, Ymin=0, Zmin=0, X2min=2, Z2min=1,
                   Xmax=10, Ymax=8, Zmax=9, X2max=7, Z2max=5)
 
 
-@model("Part::Wedge to an edge")
+@model("Part::Wedge to an edge", "boundary")
 def part_wedge_edge(m):
     return m.part("Wedge", TILT, Xmin=0, Ymin=0, Zmin=0, X2min=2, Z2min=4,
                   Xmax=10, Ymax=8, Zmax=9, X2max=7, Z2max=4)
 
 
-@model("Part::Ellipsoid")
+@model("Part::Ellipsoid", "boundary")
 def part_ellipsoid(m):
     return m.part("Ellipsoid", LEAN, Radius1=3, Radius2=7, Radius3=5)
 
 
-@model("Part::Ellipsoid, Angle1 to Angle3")
+@model("Part::Ellipsoid, Angle1 to Angle3", "boundary")
 def part_ellipsoid_part(m):
     return m.part("Ellipsoid", Radius1=6, Radius2=4, Angle1=-60, Angle2=40,
                   Angle3=190)
@@ -326,7 +326,7 @@ def part_extrusion_dir(m):
                   FaceMakerClass="Part::FaceMakerBullseye")
 
 
-@model("Part::Extrusion: ellipses, arcs of ellipses")
+@model("Part::Extrusion: ellipses, arcs of ellipses", "boundary")
 def part_extrusion_ellipse(m):
     half = Part.ArcOfEllipse(Part.Ellipse(Vector(0, 0, 0), 8, 5), 0, math.pi)
     sketch = m.sketch([half, line(-8, 0, 8, 0), ellipse(0, 2, 3, 1, 10)], LEAN)
@@ -334,7 +334,7 @@ def part_extrusion_ellipse(m):
                   FaceMakerClass="Part::FaceMakerBullseye")
 
 
-@model("Part::Extrusion: B-splines")
+@model("Part::Extrusion: B-splines", "boundary")
 def part_extrusion_spline(m):
     closed = Part.BSplineCurve()
     closed.interpolate([Vector(*p, 0) for p in
@@ -349,7 +349,7 @@ def part_extrusion_spline(m):
                   FaceMakerClass="Part::FaceMakerBullseye")
 
 
-@model("Part::Extrusion: periodic B-spline by poles")
+@model("Part::Extrusion: periodic B-spline by poles", "boundary")
 def part_extrusion_periodic(m):
     poles = [Vector(*p, 0) for p in ((8, 0), (5, 6), (-4, 7), (-8, 0), (-3, -5),
                                      (4, -7))]
@@ -360,7 +360,7 @@ def part_extrusion_periodic(m):
                   FaceMakerClass="Part::FaceMakerBullseye")
 
 
-@model("Part::Extrusion: parabola, hyperbola")
+@model("Part::Extrusion: parabola, hyperbola", "boundary")
 def part_extrusion_conics(m):
     parabola = Part.ArcOfParabola(
         Part.Parabola(Vector(1, 0, 0), Vector(0, 0, 0), Z), -5, 5)
@@ -374,7 +374,7 @@ def part_extrusion_conics(m):
                   Solid=True, FaceMakerClass="Part::FaceMakerBullseye")
 
 
-@model("Part::Extrusion of RegularPolygon, Plane, Circle, Ellipse")
+@model("Part::Extrusion of RegularPolygon, Plane, Circle, Ellipse", "boundary")
 def part_extrusion_plain(m):
     bases = [m.part("RegularPolygon", LEAN, Polygon=6, Circumradius=3),
              m.part("Plane", Placement(Vector(10, 0, 0), Rotation(X, 30)),
@@ -398,7 +398,7 @@ def part_revolution(m):
                   Base=Vector(0, 0, 0), Angle=360, Solid=True)
 
 
-@model("Part::Extrusion and Part::Revolution of a face, not Solid")
+@model("Part::Extrusion and Part::Revolution of a face, not Solid", "boundary")
 def part_extrusion_face(m):
     plane = m.part("Plane", LEAN, Length=5, Width=4)
     other = m.part("Plane", Length=5, Width=4)
@@ -553,29 +553,29 @@ def drilled(m, **properties):
     return body
 
 
-@model("PartDesign::Hole")
+@model("PartDesign::Hole", "boundary")
 def design_hole(m):
     return drilled(m, Diameter=3, Depth=6, DrillPoint="Flat")
 
 
-@model("PartDesign::Hole, ThroughAll")
+@model("PartDesign::Hole, ThroughAll", "boundary")
 def design_hole_through(m):
     return drilled(m, Diameter=3, DepthType="ThroughAll")
 
 
-@model("PartDesign::Hole, drill point")
+@model("PartDesign::Hole, drill point", "boundary")
 def design_hole_point(m):
     return drilled(m, Diameter=4, Depth=5, DrillPoint="Angled",
                    DrillPointAngle=118)
 
 
-@model("PartDesign::Hole, counterbore")
+@model("PartDesign::Hole, counterbore", "boundary")
 def design_hole_counterbore(m):
     return drilled(m, Diameter=3, Depth=7, DrillPoint="Flat",
                    HoleCutType="Counterbore", HoleCutDiameter=5, HoleCutDepth=2)
 
 
-@model("PartDesign::Hole, countersink")
+@model("PartDesign::Hole, countersink", "boundary")
 def design_hole_countersink(m):
     return drilled(m, Diameter=3, Depth=7, DrillPoint="Flat",
                    HoleCutType="Countersink", HoleCutDiameter=6,
@@ -592,10 +592,17 @@ def design_primitives(m):
               Placement=Placement(Vector(12, 10, 6), Rotation()))
     m.feature(body, "SubtractiveCone", Radius1=2, Radius2=0.5, Height=8,
               Placement=Placement(Vector(10, 2, -1), Rotation()))
-    m.feature(body, "AdditivePrism", Polygon=5, Circumradius=2, Height=4,
-              Placement=Placement(Vector(2, 8, 5), Rotation(Z, 12)))
     m.feature(body, "SubtractiveTorus", Radius1=6, Radius2=1,
               Placement=Placement(Vector(6, 5, 0), Rotation()))
+    return body
+
+
+@model("PartDesign primitives of other forms, and parts of bodies", "boundary")
+def design_primitives_rare(m):
+    body = m.body(LEAN)
+    m.feature(body, "AdditiveBox", Length=12, Width=10, Height=6)
+    m.feature(body, "AdditivePrism", Polygon=5, Circumradius=2, Height=4,
+              Placement=Placement(Vector(2, 8, 5), Rotation(Z, 12)))
     m.feature(body, "AdditiveEllipsoid", Radius1=2, Radius2=3, Radius3=1,
               Placement=Placement(Vector(0, 5, 3), Rotation(Z, 33)))
     m.feature(body, "SubtractiveWedge", Xmin=0, Ymin=0, Zmin=0, X2min=1, Z2min=1,
@@ -604,7 +611,7 @@ def design_primitives(m):
     return body
 
 
-@model("PartDesign::LinearPattern")
+@model("PartDesign::LinearPattern", "boundary")
 def design_linear_pattern(m):
     body = m.body(TILT)
     base = m.feature(body, "Pad", box(0, 0, 30, 10), Length=4)
@@ -629,7 +636,7 @@ def design_linear_pattern(m):
     return body
 
 
-@model("PartDesign::PolarPattern")
+@model("PartDesign::PolarPattern", "boundary")
 def design_polar_pattern(m):
     body = m.body(LEAN)
     m.feature(body, "Pad", [circle(0, 0, 10)], Length=4)
@@ -654,7 +661,7 @@ def design_polar_pattern(m):
     return body
 
 
-@model("PartDesign::Mirrored")
+@model("PartDesign::Mirrored", "boundary")
 def design_mirrored(m):
     body = m.body(TILT)
     m.feature(body, "Pad", box(-12, -8, 12, 8), Length=4)
@@ -674,7 +681,7 @@ def design_mirrored(m):
     return body
 
 
-@model("PartDesign::MultiTransform")
+@model("PartDesign::MultiTransform", "boundary")
 def design_multi_transform(m):
     body = m.body(LEAN)
     m.feature(body, "Pad", box(-15, -10, 15, 10), Length=3)
@@ -950,10 +957,11 @@ def part_offset(m):
 EXAMPLES = {
     "example_drilling": (
         "Path/PathTests/Drilling_1.FCStd", ["Pocket006"],
-        "FreeCAD's Drilling_1: 3 pads, 7 pockets, 2 patterns"),
+        "FreeCAD's Drilling_1: 3 pads, 7 pockets, 2 patterns", "boundary"),
     "example_contact": (
         "Fem/femtest/data/calculix/constraint_contact_solid_solid.FCStd",
-        ["AllGeomFusion"], "FreeCAD's constraint_contact_solid_solid"),
+        ["AllGeomFusion"], "FreeCAD's constraint_contact_solid_solid",
+        "parameter"),
 }
 
 
@@ -1013,19 +1021,16 @@ def write_sections(shapes, path, feature, by):
 
 
 def write_example(name, folder):
-    file, shown, feature = EXAMPLES[name]
+    file, shown, feature, by = EXAMPLES[name]
     path = os.path.join(folder, name)
     shutil.copy(os.path.join(MODULES, file), path + ".FCStd")
     document = FreeCAD.openDocument(path + ".FCStd")
     if name == "example_drilling":
-        # What it says is not what its shapes were made with: patterns of 3
-        # occurrences have shapes of 4 and 5, and a later sketch was moved.
-        document.LinearPattern.Occurrences = 4
-        document.PolarPattern.Occurrences = 5
+        # A later sketch was moved after its pocket had been cut.
         document.Body.Tip = document.Pocket006
     document.save()
     shapes = [document.getObject(o) for o in shown]
-    write_sections(shapes, path, feature, "parameter")
+    write_sections(shapes, path, feature, by)
     FreeCAD.closeDocument(document.Name)
 
 

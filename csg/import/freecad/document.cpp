@@ -149,11 +149,7 @@ double Object::number(std::string_view property) const {
 }
 
 int Object::choice(std::string_view property) const {
-  return value(property) ? count(property) : 0;
-}
-
-int Object::count(std::string_view property) const {
-  return static_cast<int>(number(property));
+  return static_cast<int>(number(property, 0));
 }
 
 bool Object::flag(std::string_view property) const {

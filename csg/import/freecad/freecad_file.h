@@ -3,12 +3,13 @@
 //
 // FreeCAD keeps both how a part is made and what came of it: features with
 // their parameters, and the boundary representation of each feature's result.
-// Here features become nodes of the CSG tree wherever these say the same:
-// primitives, prisms and bodies of revolution over sketches, Booleans,
-// patterns, placements. All else (fillets, lofts, imported shapes) is a node
-// that imports the feature's stored boundary, which lowering reads. A body that
-// ends with a fillet thus is one boundary, one with a pocket after it that
-// boundary less a prism.
+// Here features become nodes of the CSG tree where these say the same and most
+// parts have them: whole primitives, prisms and bodies of revolution over
+// sketches of lines and circles, Booleans, placements. All else (holes,
+// patterns, fillets, splines, imported shapes) is a node that imports the
+// feature's stored boundary, which lowering reads. A body that ends with a
+// fillet thus is one boundary, one with a pocket after it that boundary less a
+// prism. docs/decisions/0048 has what was measured.
 //
 // Positions are as FreeCAD computed and stored them: neither constraints nor
 // expressions are solved anew.

@@ -5,21 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "base/file/format_error.h"
 #include "csg/limits.h"
 
 namespace lamina::csg::freecad {
 namespace {
-
-using std::numbers::pi;
 
 // Solved constraints leave ends a little apart; FreeCAD itself joins ends
 // within 1e-7 mm. [mm]
@@ -155,68 +150,13 @@ std::optional<std::vector<Polyline>> read_curves(const Object& sketch,
     if (type == "Part::GeomPoint" || is_construction(geometry)) continue;
     auto curve = read_curve(geometry, error);
     if (!curve) {
-      why = fmt::format("{} in '{}' is not known", type, sketch.label());
+      why = fmt::format("'{}' has a {}", sketch.label(), type);
       return std::nullopt;
     }
     plane::require_corners(corners += curve->size() - 1);
     curves.push_back(std::move(*curve));
   }
   return curves;
-}
-
-std::optional<Outline> read_sketch(const Object& sketch, double error,
-                                   std::size_t& corners, std::string& why) {
-  auto curves = read_curves(sketch, error, corners, why);
-  if (!curves) return std::nullopt;
-  auto contours = join_curves(std::move(*curves));
-  if (!contours || contours->empty()) {
-    why = fmt::format("'{}' is not closed", sketch.label());
-    return std::nullopt;
-  }
-  return Outline{sketch.placement(), std::move(*contours)};
-}
-
-// The corners of a closed polyline.
-std::vector<Polyline> one_contour(Polyline chords, std::size_t& corners) {
-  chords.pop_back();
-  plane::require_corners(corners += chords.size());
-  return {std::move(chords)};
-}
-
-// Why there is no outline: one of these lengths is none.
-bool are_lengths(const Object& object,
-                 std::initializer_list<std::string_view> names,
-                 std::string& why) {
-  for (const std::string_view name : names) {
-    if (object.number(name) > 0) continue;
-    why = fmt::format("the {} of '{}' makes no outline", name, object.label());
-    return false;
-  }
-  return true;
-}
-
-bool is_full(const Object& object) {
-  return object.number("Angle1", 0) == 0 && object.number("Angle2", 360) == 360;
-}
-
-std::optional<Outline> read_regular_polygon(const Object& object,
-                                            std::size_t& corners,
-                                            std::string& why) {
-  if (!are_lengths(object, {"Circumradius"}, why)) return std::nullopt;
-  const int sides = object.count("Polygon");
-  if (sides < 3) {
-    why = fmt::format("'{}' has {} sides", object.label(), sides);
-    return std::nullopt;
-  }
-  require_fragments(sides);
-  plane::require_corners(corners += static_cast<std::size_t>(sides));
-  const double radius = object.number("Circumradius");
-  Polyline contour;
-  for (int i = 0; i < sides; ++i) {
-    const double angle = 2 * pi * i / sides;
-    contour.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
-  }
-  return Outline{object.placement(), {std::move(contour)}};
 }
 
 }  // namespace
@@ -249,52 +189,20 @@ std::optional<std::vector<Polyline>> join_curves(std::vector<Polyline> curves) {
   return contours;
 }
 
-std::optional<Outline> read_outline(const Object& object, double error,
+std::optional<Outline> read_outline(const Object& sketch, double error,
                                     std::size_t& corners, std::string& why) {
-  if (object.type().starts_with("Sketcher::SketchObject")) {
-    return read_sketch(object, error, corners, why);
+  if (!sketch.type().starts_with("Sketcher::SketchObject")) {
+    why = fmt::format("'{}' is a {}", sketch.label(), sketch.type());
+    return std::nullopt;
   }
-  if (object.is_a("Part::RegularPolygon")) {
-    return read_regular_polygon(object, corners, why);
+  auto curves = read_curves(sketch, error, corners, why);
+  if (!curves) return std::nullopt;
+  auto contours = join_curves(std::move(*curves));
+  if (!contours || contours->empty()) {
+    why = fmt::format("'{}' is not closed", sketch.label());
+    return std::nullopt;
   }
-  if (object.is_a("Part::Plane")) {
-    if (!are_lengths(object, {"Length", "Width"}, why)) return std::nullopt;
-    const Vec2 size(object.number("Length"), object.number("Width"));
-    return Outline{object.placement(),
-                   {{{0, 0}, {size.x, 0}, size, {0, size.y}}}};
-  }
-  if (object.is_a("Part::Circle") && is_full(object)) {
-    if (!are_lengths(object, {"Radius"}, why)) return std::nullopt;
-    return Outline{
-        object.placement(),
-        one_contour(arc(object.number("Radius"), 0, 2 * pi, error), corners)};
-  }
-  if (object.is_a("Part::Ellipse") && is_full(object)) {
-    if (!are_lengths(object, {"MajorRadius", "MinorRadius"}, why)) {
-      return std::nullopt;
-    }
-    const Vec2 radii(object.number("MajorRadius"),
-                     object.number("MinorRadius"));
-    return Outline{object.placement(),
-                   one_contour(elliptic_arc(radii, 0, 2 * pi, error), corners)};
-  }
-  why = fmt::format("'{}' is a {}", object.label(), object.type());
-  return std::nullopt;
-}
-
-std::vector<Vec2> circle_centers(const Object& sketch) {
-  std::vector<Vec2> centers;
-  for (const pugi::xml_node geometry :
-       sketch.value("Geometry").children("Geometry")) {
-    if (is_construction(geometry)) continue;
-    for (const char* const kind : {"Circle", "ArcOfCircle"}) {
-      const pugi::xml_node circle = geometry.child(kind);
-      if (!circle) continue;
-      centers.emplace_back(read_number(circle, "CenterX"),
-                           read_number(circle, "CenterY"));
-    }
-  }
-  return centers;
+  return Outline{sketch.placement(), std::move(*contours)};
 }
 
 }  // namespace lamina::csg::freecad

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -110,14 +109,6 @@ bool Reader::adds(const Object& object) {
 }
 
 Reader::Made Reader::make_tool(const Object& object, std::string& why) {
-  const auto [found, is_new] = tools_.try_emplace(&object);
-  Entry& entry = found->second;
-  if (is_new) entry.solid = make_tool_anew(object, entry.why);
-  why = entry.why;
-  return entry.solid;
-}
-
-Reader::Made Reader::make_tool_anew(const Object& object, std::string& why) {
   const std::string_view type = object.type();
   if (object.flag("Suppressed")) {
     why = "it is suppressed";
@@ -129,17 +120,12 @@ Reader::Made Reader::make_tool_anew(const Object& object, std::string& why) {
   if (type == "PartDesign::Revolution" || type == "PartDesign::Groove") {
     return make_revolution_tool(object, why);
   }
-  if (type == "PartDesign::Hole") return make_hole_tool(object, why);
-  for (const std::string_view prefix :
-       {"PartDesign::Additive", "PartDesign::Subtractive"}) {
-    if (!type.starts_with(prefix)) continue;
-    const Made solid =
-        make_primitive(type.substr(prefix.size()), object, maker_, why);
-    if (!solid) return std::nullopt;
-    return maker_.place(object.placement(), *solid);
-  }
-  why = fmt::format("'{}' is a {}", object.label(), type);
-  return std::nullopt;
+  const std::string_view prefix =
+      adds(object) ? "PartDesign::Additive" : "PartDesign::Subtractive";
+  const Made solid =
+      make_primitive(type.substr(prefix.size()), object, maker_, why);
+  if (!solid) return std::nullopt;
+  return maker_.place(object.placement(), *solid);
 }
 
 const Outline* Reader::profile_of(const Object& object, double error,
@@ -224,107 +210,6 @@ Reader::Made Reader::make_revolution_tool(const Object& object,
   spin.is_symmetric = object.flag("Midplane");
   spin.is_reversed = object.flag("Reversed") && !spin.is_symmetric;
   return revolve(*outline, spin, why);
-}
-
-// --- Hole -------------------------------------------------------------------
-
-namespace {
-
-enum HoleCut { kNoCut = 0, kCounterbore = 1, kCountersink = 2 };
-
-// The profile of a hole as (radius, depth below the sketch), from the axis
-// above to the axis below. Nothing where a part of it has no plain form.
-std::optional<Polyline> hole_profile(const Object& hole, std::string& why) {
-  using std::numbers::pi;
-  if (hole.flag("Tapered")) {
-    why = "it tapers";
-    return std::nullopt;
-  }
-  if (hole.flag("ModelThread") || hole.flag("ModelActualThread")) {
-    why = "it has a thread";
-    return std::nullopt;
-  }
-  const double radius = hole.number("Diameter") / 2;
-  const bool is_through = hole.choice("DepthType") == 1;
-  const double depth = is_through ? kThroughAll : hole.number("Depth");
-  Polyline profile = {{0, 0}};
-  const double cut_radius = hole.number("HoleCutDiameter", 0) / 2;
-  const double cut_depth = hole.number("HoleCutDepth", 0);
-  switch (hole.choice("HoleCutType")) {
-    case kNoCut:
-      profile.emplace_back(radius, 0);
-      break;
-    case kCounterbore:
-      profile.emplace_back(cut_radius, 0);
-      profile.emplace_back(cut_radius, cut_depth);
-      profile.emplace_back(radius, cut_depth);
-      break;
-    case kCountersink: {
-      const double half = hole.number("HoleCutCountersinkAngle") / 2;
-      profile.emplace_back(cut_radius, 0);
-      profile.emplace_back(radius,
-                           (cut_radius - radius) / std::tan(half * pi / 180));
-      break;
-    }
-    default:
-      why = "its cut has a form of a standard";
-      return std::nullopt;
-  }
-  profile.emplace_back(radius, depth);
-  if (hole.choice("DrillPoint") == 1 && !is_through) {
-    const double half = hole.number("DrillPointAngle") / 2;
-    const double tip = radius / std::tan(half * pi / 180);
-    if (hole.flag("DrillForDepth")) {
-      profile.back().y -= tip;
-      profile.emplace_back(0, depth);
-    } else {
-      profile.emplace_back(0, depth + tip);
-    }
-  } else {
-    profile.emplace_back(0, depth);
-  }
-  for (std::size_t i = 1; i < profile.size(); ++i) {
-    const bool goes_down = profile[i].y >= profile[i - 1].y;  // no NaN does
-    if (!(profile[i].x >= 0) || !goes_down || plane::is_too_far(profile[i].y)) {
-      why = "its measures make no hole";
-      return std::nullopt;
-    }
-  }
-  return profile;
-}
-
-}  // namespace
-
-Reader::Made Reader::make_hole_tool(const Object& object, std::string& why) {
-  const SubLink link = object.sub_link("Profile");
-  const Object* const sketch = document_.find(link.object);
-  if (sketch == nullptr || !sketch->type().starts_with("Sketcher::") ||
-      !link.subs.empty()) {
-    why = "its profile is no sketch";
-    return std::nullopt;
-  }
-  if (object.value("BaseProfileType")) {
-    why = "it chooses among circles, arcs and points, as newer FreeCAD does";
-    return std::nullopt;
-  }
-  auto profile = hole_profile(object, why);
-  if (!profile) return std::nullopt;
-  const std::vector<Vec2> centers = circle_centers(*sketch);
-  if (centers.empty()) {
-    why = "its sketch has no circle";
-    return std::nullopt;
-  }
-  if (!object.flag("Reversed")) {
-    for (Vec2& corner : *profile) corner.y = -corner.y;
-  }
-  const Solid hole = maker_.revolve({*profile}, 360);
-  std::vector<Solid> holes;
-  holes.reserve(centers.size());
-  for (const Vec2 center : centers) {
-    holes.push_back(
-        maker_.place(sketch->placement() * shift(Vec3(center, 0)), hole));
-  }
-  return maker_.unite(holes);
 }
 
 }  // namespace lamina::csg::freecad

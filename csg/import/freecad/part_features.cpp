@@ -15,7 +15,7 @@
 namespace lamina::csg::freecad {
 namespace {
 
-// Directions whose sine is below this are one [radians].
+// Directions that differ by a lesser sine are one.
 constexpr double kSameWay = 1e-9;
 
 constexpr double kNowhere = 1e-7;  // mm: FreeCAD's `Precision::Confusion`
@@ -52,7 +52,7 @@ std::optional<std::vector<Solid>> Reader::make_operands(
 
 namespace {
 
-// The operands of a Boolean of two, or of many.
+// A Boolean has two operands, or a list of them.
 std::vector<std::string_view> operand_names(const Object& object) {
   for (const char* const list : {"Shapes", "Links"}) {
     if (object.value(list)) return object.links(list);
@@ -62,22 +62,14 @@ std::vector<std::string_view> operand_names(const Object& object) {
 
 }  // namespace
 
-Reader::Made Reader::make_cut(const Object& object, std::string& why) {
+Reader::Made Reader::make_boolean(const Object& object, std::string& why) {
   const auto solids = make_operands(operand_names(object), why);
   if (!solids) return std::nullopt;
-  return maker_.place(object.placement(), maker_.subtract(*solids));
-}
-
-Reader::Made Reader::make_fuse(const Object& object, std::string& why) {
-  const auto solids = make_operands(operand_names(object), why);
-  if (!solids) return std::nullopt;
-  return maker_.place(object.placement(), maker_.unite(*solids));
-}
-
-Reader::Made Reader::make_common(const Object& object, std::string& why) {
-  const auto solids = make_operands(operand_names(object), why);
-  if (!solids) return std::nullopt;
-  return maker_.place(object.placement(), maker_.intersect(*solids));
+  const std::string_view type = object.type();
+  const Solid solid = type.ends_with("Cut")      ? maker_.subtract(*solids)
+                      : type.ends_with("Common") ? maker_.intersect(*solids)
+                                                 : maker_.unite(*solids);
+  return maker_.place(object.placement(), solid);
 }
 
 Reader::Made Reader::make_mirroring(const Object& object, std::string& why) {
@@ -209,7 +201,7 @@ Reader::Made Reader::revolve(const Outline& outline, const Turn& spin,
   frame[3] = Vec4(spin.base, 1);
   const double angle = std::min(spin.angle_deg, 360.0);
   if (spin.is_symmetric && angle < 360) {
-    frame = frame * turn(Vec3(0, 0, 1), -angle / 2);
+    frame = frame * turn_about_z(-angle / 2);
   }
   return maker_.place(frame, maker_.revolve(contours, angle));
 }

@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/file/format_error.h"
+#include "csg/import/freecad/detail/primitives.h"
 #include "csg/limits.h"
 
 namespace lamina::csg::freecad {
@@ -336,12 +337,12 @@ Reader::Make Reader::maker_of(const Object& object) {
       {"App::LinkGroup", &Reader::make_group},
       {"App::Link", &Reader::make_link},
       {"App::LinkElement", &Reader::make_link},
-      {"Part::Cut", &Reader::make_cut},
-      {"Part::Fuse", &Reader::make_fuse},
-      {"Part::Common", &Reader::make_common},
-      {"Part::MultiFuse", &Reader::make_fuse},
-      {"Part::MultiCommon", &Reader::make_common},
-      {"Part::Compound", &Reader::make_fuse},
+      {"Part::Cut", &Reader::make_boolean},
+      {"Part::Fuse", &Reader::make_boolean},
+      {"Part::Common", &Reader::make_boolean},
+      {"Part::MultiFuse", &Reader::make_boolean},
+      {"Part::MultiCommon", &Reader::make_boolean},
+      {"Part::Compound", &Reader::make_boolean},
       {"Part::Mirroring", &Reader::make_mirroring},
       {"Part::Extrusion", &Reader::make_extrusion},
       {"Part::Revolution", &Reader::make_part_revolution},
@@ -351,26 +352,17 @@ Reader::Make Reader::maker_of(const Object& object) {
       {"PartDesign::Pad", &Reader::make_feature},
       {"PartDesign::Pocket", &Reader::make_feature},
       {"PartDesign::Revolution", &Reader::make_feature},
-      {"PartDesign::Groove", &Reader::make_feature},
-      {"PartDesign::Hole", &Reader::make_feature},
-      {"PartDesign::LinearPattern", &Reader::make_pattern},
-      {"PartDesign::PolarPattern", &Reader::make_pattern},
-      {"PartDesign::Mirrored", &Reader::make_pattern},
-      {"PartDesign::MultiTransform", &Reader::make_pattern}};
+      {"PartDesign::Groove", &Reader::make_feature}};
   const std::string_view type = object.type();
   const auto found = kMakers.find(type);
   if (found != kMakers.end()) return found->second;
   if (type.starts_with("App::DocumentObjectGroup")) return &Reader::make_group;
-  static const std::set<std::string_view> kPrimitives = {
-      "Box",   "Cylinder", "Sphere", "Cone",
-      "Torus", "Prism",    "Wedge",  "Ellipsoid"};
-  const auto is_primitive = [&](std::string_view prefix) {
-    return type.starts_with(prefix) &&
-           kPrimitives.contains(type.substr(prefix.size()));
+  const auto is_primitive_behind = [&](std::string_view prefix) {
+    return type.starts_with(prefix) && is_primitive(type.substr(prefix.size()));
   };
-  if (is_primitive("Part::")) return &Reader::make_part_primitive;
-  if (is_primitive("PartDesign::Additive") ||
-      is_primitive("PartDesign::Subtractive")) {
+  if (is_primitive_behind("Part::")) return &Reader::make_part_primitive;
+  if (is_primitive_behind("PartDesign::Additive") ||
+      is_primitive_behind("PartDesign::Subtractive")) {
     return &Reader::make_feature;
   }
   // An assembly, say, or a storey, whose shape merely repeats its members'. A

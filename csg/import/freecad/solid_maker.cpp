@@ -159,40 +159,14 @@ Solid SolidMaker::sphere(double radius) {
   return leaf(Sphere{radius, facets_of(sphere_fragments(radius, error_))});
 }
 
-Solid SolidMaker::polyhedron(
-    std::span<const Vec3> points,
-    std::span<const std::vector<std::uint32_t>> faces) {
-  std::vector<std::span<const std::uint32_t>> kept;
-  for (const std::vector<std::uint32_t>& face : faces) {
-    kept.push_back(arena_.copy(std::span<const std::uint32_t>(face)));
-  }
-  PolyhedronParams params;
-  params.points = arena_.copy(points);
-  params.faces =
-      arena_.copy(std::span<const std::span<const std::uint32_t>>(kept));
-  return leaf(Polyhedron{keep(params)});
-}
-
 // --- Matrices ---------------------------------------------------------------
 
-Mat4 shift(Vec3 by) {
-  Mat4 matrix(1);
-  matrix[3] = Vec4(by, 1);
-  return matrix;
-}
-
-Mat4 turn(Vec3 axis, double angle_deg) {
-  // Rodrigues' formula.
-  const Vec3 a = glm::normalize(axis);
+Mat4 turn_about_z(double angle_deg) {
   const double c = cos_deg(angle_deg);
   const double s = sin_deg(angle_deg);
   Mat4 matrix(1);
-  for (int i = 0; i < 3; ++i) {
-    Vec3 unit(0);
-    unit[i] = 1;
-    const Vec3 turned = c * unit + s * glm::cross(a, unit) + (1 - c) * a[i] * a;
-    matrix[i] = Vec4(turned, 0);
-  }
+  matrix[0] = Vec4(c, s, 0, 0);
+  matrix[1] = Vec4(-s, c, 0, 0);
   return matrix;
 }
 

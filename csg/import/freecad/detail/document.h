@@ -54,10 +54,8 @@ class Object {
   }
   // Throws FormatError where there is none.
   double number(std::string_view property) const;
-  // Of an enumeration: which one, from 0.
+  // Which value of an enumeration, from 0.
   int choice(std::string_view property) const;
-  // A whole number within an int.
-  int count(std::string_view property) const;
   bool flag(std::string_view property) const;
   std::string_view text(std::string_view property) const;
   std::optional<Vec3> vector(std::string_view property) const;
@@ -86,7 +84,7 @@ class Document {
  public:
   // bytes  must stay as long as the document
   //
-  // throws  FormatError; LimitExceeded
+  // throws  FormatError; plane::LimitExceeded
   explicit Document(std::string_view bytes);
 
   // Of what stands in the file and is no object all the same.

@@ -22,21 +22,16 @@ struct Outline {
   std::vector<Polyline> contours;  // closed, the first corner not repeated
 };
 
-// The outline that an object has for others to extrude: a sketch, a regular
-// polygon, a circle, an ellipse, a rectangle.
+// The outline of a sketch of lines and arcs of circles.
 //
 // corners  counts those that were cut for all outlines of a file, also for what
 //          turns out to be none; more than plane::kMostCorners throw
 // why      gets the reason where there is none
-// returns  nothing where the object is none of these, or not closed
-std::optional<Outline> read_outline(const Object& object, double error,
+// returns  nothing where the object is not such a sketch, or not closed
+std::optional<Outline> read_outline(const Object& sketch, double error,
                                     std::size_t& corners, std::string& why);
 
 // Joins curves at their ends. Nothing where an end meets no other.
 std::optional<std::vector<Polyline>> join_curves(std::vector<Polyline> curves);
-
-// The centres of the circles and arcs of a sketch, in its plane: where holes
-// are drilled.
-std::vector<Vec2> circle_centers(const Object& sketch);
 
 }  // namespace lamina::csg::freecad

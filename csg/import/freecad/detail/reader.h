@@ -70,9 +70,8 @@ class Reader {
 
   // --- part_features.cpp ----------------------------------------------------
   Made make_part_primitive(const Object& object, std::string& why);
-  Made make_cut(const Object& object, std::string& why);
-  Made make_fuse(const Object& object, std::string& why);
-  Made make_common(const Object& object, std::string& why);
+  // A cut, a fusion, a common part or a compound.
+  Made make_boolean(const Object& object, std::string& why);
   Made make_mirroring(const Object& object, std::string& why);
   Made make_extrusion(const Object& object, std::string& why);
   Made make_part_revolution(const Object& object, std::string& why);
@@ -97,35 +96,13 @@ class Reader {
   Made make_body_boolean(const Object& object, std::string& why);
   // What stands before the feature, and what it adds or takes away.
   Made make_feature(const Object& object, std::string& why);
-  // Made once, however many patterns repeat it.
   Made make_tool(const Object& object, std::string& why);
-  Made make_tool_anew(const Object& object, std::string& why);
   // Whether the feature adds its tool; else it takes it away.
   static bool adds(const Object& object);
   Made make_prism_tool(const Object& object, std::string& why);
   Made make_revolution_tool(const Object& object, std::string& why);
-  Made make_hole_tool(const Object& object, std::string& why);
   const Outline* profile_of(const Object& object, double error,
                             std::string& why);
-
-  // --- patterns.cpp ---------------------------------------------------------
-  using Places = std::optional<std::vector<Mat4>>;
-  Made make_pattern(const Object& object, std::string& why);
-  // Where the originals are repeated, the first time where they stand.
-  Places places_of(const Object& object, std::string& why);
-  Places line_places(const Object& object, std::string& why);
-  Places circle_places(const Object& object, std::string& why);
-  Places mirror_places(const Object& object, std::string& why);
-  Places product_of_places(const Object& object, std::string& why);
-  // Both count the places that are to be made, before they are made.
-  int read_occurrences(const Object& object);
-  void count_places(double count);
-  struct Axis {
-    Vec3 base;
-    Vec3 way;
-  };
-  std::optional<Axis> axis_of(const SubLink& link, std::string& why);
-  std::optional<Axis> normal_of(const SubLink& link, std::string& why);
 
   struct Entry {
     bool is_done = false;
@@ -143,11 +120,9 @@ class Reader {
   SolidMaker maker_;
   FreecadModel model_;
   std::map<const Object*, Entry> entries_;
-  std::map<const Object*, Entry> tools_;
   // By the chordal error, too.
   std::map<std::pair<const Object*, double>, OutlineEntry> outlines_;
   std::size_t corners_ = 0;  // cut for outlines, also for none
-  std::size_t places_ = 0;   // of patterns
   std::map<std::string_view, Solid> boundaries_;  // by their entries
   std::vector<const Object*> hidden_;             // of those that were left out
   std::vector<const Object*> flat_;               // likewise

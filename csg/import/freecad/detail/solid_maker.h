@@ -31,7 +31,7 @@ struct NodeOrigin {
 class SolidMaker {
  public:
   // chordal_error  greatest distance of facets from the surface [mm]
-  // most_leaves    of a solid; more throw LimitExceeded
+  // most_leaves    of a solid; more throw plane::LimitExceeded
   SolidMaker(Arena& arena, NodeOrigin origin, double chordal_error,
              std::size_t most_leaves)
       : arena_(arena),
@@ -64,9 +64,6 @@ class SolidMaker {
 
   Solid cylinder(double height, double bottom_radius, double top_radius);
   Solid sphere(double radius);
-  // faces  lists of indices, clockwise from outside, as in OpenSCAD
-  Solid polyhedron(std::span<const Vec3> points,
-                   std::span<const std::vector<std::uint32_t>> faces);
 
   template <typename T>
   const T* keep(const T& value) {
@@ -90,10 +87,8 @@ class SolidMaker {
 
 // --- Matrices ---------------------------------------------------------------
 
-Mat4 shift(Vec3 by);
-// About an axis through the origin, which need not have length 1.
-Mat4 turn(Vec3 axis, double angle_deg);
-// At the plane through `base` with this normal.
+Mat4 turn_about_z(double angle_deg);
+// Mirrors at the plane through `base` with this normal.
 Mat4 mirror(Vec3 base, Vec3 normal);
 Vec3 apply_to_point(const Mat4& matrix, Vec3 point);
 Vec3 apply_to_way(const Mat4& matrix, Vec3 way);

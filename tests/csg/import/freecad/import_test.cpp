@@ -99,16 +99,16 @@ TEST(ImportOfFreecadFiles, DividesTheChordalErrorBetweenOutlineAndTurn) {
   const std::string turn = vector("Axis", "0", "1", "0") +
                            vector("Base", "0", "0", "0") +
                            number("Angle", "360");
+  const std::string circle = property(
+      "Geometry",
+      "<GeometryList><Geometry type=\"Part::GeomCircle\"><Circle "
+      "CenterX=\"20\" CenterY=\"0\" Radius=\"5\"/></Geometry></GeometryList>");
   FreecadDocument part;
-  part.add("Part::Circle", "C", number("Radius", "5") + placement_at_x("20"))
+  part.add("Sketcher::SketchObject", "S", circle)
       .add("Part::Revolution", "A",
-           link("Source", "C") + turn + flag("Solid", true));
+           link("Source", "S") + turn + flag("Solid", true));
   FreecadDocument body;
-  body.add("Sketcher::SketchObject", "S",
-           property("Geometry",
-                    "<GeometryList><Geometry type=\"Part::GeomCircle\"><Circle "
-                    "CenterX=\"20\" CenterY=\"0\" Radius=\"5\"/></Geometry>"
-                    "</GeometryList>"))
+  body.add("Sketcher::SketchObject", "S", circle)
       .add("PartDesign::Revolution", "A",
            property("Profile", "<LinkSub value=\"S\" count=\"0\"/>") +
                link("BaseFeature", "") + turn);
