@@ -11,8 +11,8 @@
 namespace lamina::compiler {
 
 bool is_imported(const std::string& path) {
-  constexpr std::array<std::string_view, 15> kExtensions = {
-      ".stl",   ".off",  ".obj", ".ply",  ".om",  ".amf",  ".3mf", ".dxf",
+  constexpr std::array<std::string_view, 14> kExtensions = {
+      ".stl",   ".off",  ".obj", ".ply",  ".amf", ".3mf",  ".dxf",
       ".fcstd", ".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
   return std::any_of(kExtensions.begin(), kExtensions.end(),
                      [&](std::string_view extension) {

@@ -186,7 +186,6 @@ enum class ImportFormat : std::uint8_t {
   kOff,
   kObj,
   kPly,
-  kOm,
   kAmf,
   k3mf,
   kDxf,

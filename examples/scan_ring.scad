@@ -17,7 +17,7 @@ ring_size = 56;
 size_system = "ISO"; // [ISO, EU, US, UK, CH, JP, mm]
 
 /* [Scan] */
-// a mesh: PLY, STL, OFF, OBJ, OM, AMF or 3MF
+// a mesh: PLY, STL, OFF, OBJ, AMF or 3MF
 scan = "bunny.ply";
 // height of the scan on the ring [mm]
 height = 9; // [4 : 0.5 : 20]

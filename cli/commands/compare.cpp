@@ -31,7 +31,7 @@ constexpr std::string_view kCompareHelp =
        lamina compare DESIGN --against openscad [OPTION]...
 
 Compares the layers of files (.slc .cli .svg .3mf .sl1 .zip .layers.json, a
-folder of images), designs (.scad .csg), meshes (.stl .off .obj .ply .om .amf
+folder of images), designs (.scad .csg), meshes (.stl .off .obj .ply .amf
 .3mf), drawings (.dxf) and CAD files (.step .stp .iges .igs .brep .brp .fcstd),
 in any pairing. All but files of layers are cut at the heights of the other one; two
 designs at those of the first. Shows for each layer the areas that only one of
@@ -110,7 +110,7 @@ class CompareCommand : public Command {
       refuse_if(
           !path.empty() && !can_compare(path),
           "'{}' is no file that compare reads (.slc .cli .svg "
-          ".sl1 .zip .layers.json .scad .csg .stl .off .obj .ply .om .amf .3mf "
+          ".sl1 .zip .layers.json .scad .csg .stl .off .obj .ply .amf .3mf "
           ".dxf .step .stp .iges .igs .brep .brp .fcstd)",
           path);
     }

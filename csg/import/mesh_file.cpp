@@ -29,9 +29,6 @@ std::vector<RawMesh> parse(std::string_view bytes, const ImportParams& params) {
     case ImportFormat::kPly:
       bodies.push_back(parse_ply(bytes));
       break;
-    case ImportFormat::kOm:
-      bodies.push_back(parse_om(bytes));
-      break;
     case ImportFormat::kAmf:
       return parse_amf(bytes, std::filesystem::path(params.path).filename());
     case ImportFormat::k3mf:
@@ -114,9 +111,9 @@ ImportFormat import_format_of(std::string_view extension) {
   static const std::map<std::string_view, ImportFormat> kFormats = {
       {"stl", ImportFormat::kStl},   {"off", ImportFormat::kOff},
       {"obj", ImportFormat::kObj},   {"ply", ImportFormat::kPly},
-      {"om", ImportFormat::kOm},     {"amf", ImportFormat::kAmf},
-      {"3mf", ImportFormat::k3mf},   {"dxf", ImportFormat::kDxf},
-      {"svg", ImportFormat::kSvg},   {"fcstd", ImportFormat::kFcstd},
+      {"amf", ImportFormat::kAmf},   {"3mf", ImportFormat::k3mf},
+      {"dxf", ImportFormat::kDxf},   {"svg", ImportFormat::kSvg},
+      {"fcstd", ImportFormat::kFcstd},
       {"step", ImportFormat::kStep}, {"stp", ImportFormat::kStep},
       {"iges", ImportFormat::kIges}, {"igs", ImportFormat::kIges},
       {"brep", ImportFormat::kBrep}, {"brp", ImportFormat::kBrep}};
@@ -130,7 +127,6 @@ bool is_mesh(ImportFormat format) {
     case ImportFormat::kOff:
     case ImportFormat::kObj:
     case ImportFormat::kPly:
-    case ImportFormat::kOm:
     case ImportFormat::kAmf:
     case ImportFormat::k3mf:
       return true;

@@ -1,5 +1,5 @@
 #pragma once
-// import() of meshes: STL, OFF, AMF, 3MF, OBJ, PLY, OM; and a reader for each
+// import() of meshes: STL, OFF, AMF, 3MF, OBJ, PLY; and a reader for each
 // format, which throws FormatError.
 
 #include <cstddef>
@@ -66,10 +66,6 @@ RawMesh parse_obj(std::string_view bytes);
 // "face", or of "tristrips", with vertex_indices (or vertex_index). All other
 // elements and properties are passed over. A file without faces is rejected.
 RawMesh parse_ply(std::string_view bytes);
-
-// OM, the binary format of OpenMesh, version 2: positions and faces; all other
-// properties are passed over.
-RawMesh parse_om(std::string_view bytes);
 
 // AMF, plain and zipped: one body for each object. As in OpenSCAD 2021.01,
 // every object counts where it lies; units, constellations, colours and curved

@@ -336,7 +336,6 @@ Lowerer::FileShape Lowerer::read_import(const ImportParams& params,
     case ImportFormat::kOff:
     case ImportFormat::kObj:
     case ImportFormat::kPly:
-    case ImportFormat::kOm:
     case ImportFormat::kAmf:
     case ImportFormat::k3mf:
     case ImportFormat::kStep:

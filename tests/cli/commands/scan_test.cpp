@@ -202,8 +202,8 @@ TEST(Scan, BrokenFilesEndWithAMessage) {
   const TemporaryFolder folder;
   const std::string whole = torus(20);
   folder.write("a.ply", whole.substr(0, whole.size() / 2));
-  folder.write("b.om", "OMT");
-  for (const std::string name : {"a.ply", "b.om"}) {
+  folder.write("b.off", "OFF");
+  for (const std::string name : {"a.ply", "b.off"}) {
     const auto result = run(folder, {name, "--decimate", "0.1"});
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.errors.find("importing file '"), std::string::npos)
