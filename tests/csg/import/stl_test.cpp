@@ -103,7 +103,6 @@ std::vector<std::vector<float>> sheet(int side) {
   return facets;
 }
 
-// As shuffled files are read in another order than the one they have.
 TEST(ParseStl, ReadsTheSameFacetsInWhateverOrder) {
   constexpr int kSide = 150;
   std::vector<std::vector<float>> facets = sheet(kSide);
@@ -113,20 +112,6 @@ TEST(ParseStl, ReadsTheSameFacetsInWhateverOrder) {
   EXPECT_EQ(ordered.vertices.size(), (kSide + 1) * (kSide + 1));
   EXPECT_EQ(shuffled.vertices.size(), ordered.vertices.size());
   EXPECT_EQ(sorted_corners(shuffled), sorted_corners(ordered));
-}
-
-// Neighbours stand together afterwards: layers meet few runs of facets.
-TEST(ParseStl, PutsFacetsOfNoOrderInOne) {
-  constexpr int kSide = 150;
-  std::vector<std::vector<float>> facets = sheet(kSide);
-  std::shuffle(facets.begin(), facets.end(), std::mt19937(1));
-  const Mesh mesh = parse_stl(binary("x", facets)).mesh;
-  double to_next = 0;
-  for (std::size_t i = 1; i < mesh.triangles.size(); ++i) {
-    to_next += glm::distance(mesh.vertices[mesh.triangles[i - 1][0]],
-                             mesh.vertices[mesh.triangles[i][0]]);
-  }
-  EXPECT_LT(to_next / static_cast<double>(mesh.triangles.size()), kSide / 30);
 }
 
 TEST(ParseStl, ReadsFacetsThatAreAllTheSame) {
