@@ -1,6 +1,7 @@
 #include "base/file/open_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 
 #include <unistd.h>
@@ -76,6 +77,37 @@ std::optional<std::string> OpenFile::read_at(std::uint64_t offset,
   }
   bytes.resize(done);
   return bytes;
+}
+
+int write_all(int file, std::string_view bytes, off_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        offset < 0 ? ::write(file, bytes.data(), bytes.size())
+                   : ::pwrite(file, bytes.data(), bytes.size(), offset);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    // A file that takes nothing and names no error never will take anything.
+    if (count == 0) return ENOSPC;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    if (offset >= 0) offset += count;
+  }
+  return 0;
+}
+
+int copy_bytes(int from, int to) {
+  std::array<char, 1 << 16> buffer;
+  for (off_t offset = 0;;) {
+    const ssize_t count = ::pread(from, buffer.data(), buffer.size(), offset);
+    if (count == 0) return 0;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    const int error =
+        write_all(to, {buffer.data(), static_cast<std::size_t>(count)});
+    if (error != 0) return error;
+    offset += count;
+  }
 }
 
 }  // namespace lamina

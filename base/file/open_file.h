@@ -1,10 +1,12 @@
 #pragma once
-// An open file that closes itself.
+// An open file that closes itself, and reading and writing whole files,
+// whatever it takes to get all bytes there.
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <sys/stat.h>
@@ -45,5 +47,13 @@ class OpenFile {
  private:
   int descriptor_ = -1;
 };
+
+// Writes all bytes at the file's position, or, with an offset ≥ 0, there.
+// Returns 0 or the error number.
+int write_all(int file, std::string_view bytes, off_t offset = -1);
+
+// Copies all bytes of a file, whose position stays, to the position of another.
+// Returns 0 or the error number.
+int copy_bytes(int from, int to);
 
 }  // namespace lamina

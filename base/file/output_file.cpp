@@ -12,7 +12,7 @@
 
 #include "base/diagnostic.h"
 #include "base/file/detail/planted_link.h"
-#include "base/file/write_all.h"
+#include "base/file/open_file.h"
 
 namespace lamina {
 namespace {

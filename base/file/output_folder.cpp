@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/diagnostic.h"
-#include "base/file/write_all.h"
+#include "base/file/open_file.h"
 
 namespace lamina {
 

@@ -19,8 +19,8 @@
 #include <unistd.h>
 
 #include "base/file/detail/planted_link.h"
+#include "base/file/open_file.h"
 #include "base/file/run_files.h"
-#include "base/file/write_all.h"
 
 namespace lamina {
 namespace {

@@ -17,9 +17,9 @@
 #include "base/text.h"
 #include "cli/options/output_pattern.h"
 #include "parser/cell.h"
+#include "parser/definitions.h"
 #include "parser/loader.h"
 #include "parser/parameter_set.h"
-#include "parser/variables.h"
 
 namespace lamina::cli {
 namespace {

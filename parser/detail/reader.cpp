@@ -12,7 +12,6 @@
 
 #include "base/text.h"
 #include "base/utf8.h"
-#include "parser/detail/syntax_hint.h"
 #include "parser/loader.h"
 
 namespace lamina::detail {

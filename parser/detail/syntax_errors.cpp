@@ -1,10 +1,115 @@
 #include "parser/detail/syntax_errors.h"
 
+#include <algorithm>
+#include <initializer_list>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace lamina::detail {
+
+// --- What to say
+// -------------------------------------------------------------- Bison knows
+// all tokens that could stand where the error is; after an operand these are
+// two dozen. A person needs few of them: operators go without saying, and all
+// that begins an expression is "an expression".
+
+namespace {
+
+using Symbols = std::vector<std::string_view>;
+
+bool contains(const Symbols& symbols, std::string_view symbol) {
+  return std::find(symbols.begin(), symbols.end(), symbol) != symbols.end();
+}
+
+void remove(Symbols& symbols,
+            std::initializer_list<std::string_view> unwanted) {
+  std::erase_if(symbols, [&](std::string_view symbol) {
+    return std::find(unwanted.begin(), unwanted.end(), symbol) !=
+           unwanted.end();
+  });
+}
+
+// Bison quotes characters, but neither keywords nor operators of two signs.
+std::string describe_symbol(std::string_view symbol) {
+  const bool is_plain = symbol.starts_with('\'') || symbol.starts_with("a ") ||
+                        symbol.starts_with("an ") || symbol == "number" ||
+                        symbol == "string";
+  if (symbol == "name") return "a name";
+  return is_plain ? std::string(symbol) : fmt::format("'{}'", symbol);
+}
+
+bool is_ascii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x80;
+  });
+}
+
+std::string explain_invalid(std::string_view text) {
+  if (text[0] == '.' || (text[0] >= '0' && text[0] <= '9')) {
+    return fmt::format("'{}', which is beyond the greatest number", text);
+  }
+  if (!is_ascii(text) && text.size() == 1) {
+    return fmt::format("byte 0x{:02X}, which is no UTF-8",
+                       static_cast<unsigned char>(text[0]));
+  }
+  if (!is_ascii(text)) {
+    return fmt::format("'{}': only strings and comments may hold it", text);
+  }
+  return fmt::format("byte 0x{:02X}", static_cast<unsigned char>(text[0]));
+}
+
+std::string describe_token(std::string_view symbol, std::string_view text) {
+  constexpr std::size_t kLongest = 40;  // bytes; longer tokens are not repeated
+  if (symbol.starts_with("end of")) return "end of the file";
+  if (text.size() > kLongest) return describe_symbol(symbol);
+  return fmt::format("'{}'", text);
+}
+
+std::string describe_expected(Symbols symbols) {
+  remove(symbols, {"use <file>", "end of file", "end of the file"});
+  if (contains(symbols, "||")) {
+    remove(symbols, {"||",  "&&",  "==",  "!=",  "<=",  ">=",  "<<",  ">>",
+                     "'<'", "'>'", "'|'", "'&'", "'+'", "'-'", "'*'", "'/'",
+                     "'%'", "'^'", "'('", "'['", "'.'", "'?'"});
+  }
+  if (contains(symbols, "number")) {
+    remove(symbols, {"number", "string", "name", "true", "false", "undef",
+                     "let", "assert", "echo", "function", "for", "if", "each",
+                     "'('", "'['", "'+'", "'-'", "'!'", "'~'"});
+    symbols.insert(symbols.begin(), "an expression");
+  }
+  if (contains(symbols, "'#'")) {
+    const bool is_statement = contains(symbols, "module");
+    remove(symbols, {"module", "function", "name", "let", "assert", "echo",
+                     "for", "if", "each", "'!'", "'#'", "'%'", "'*'"});
+    if (is_statement) remove(symbols, {"';'", "'{'"});
+    symbols.push_back(is_statement ? "a statement" : "a module");
+  }
+  std::string text;
+  for (std::size_t i = 0; i < symbols.size(); ++i) {
+    const bool is_last = i + 1 == symbols.size();
+    text += i == 0 ? ", expected " : is_last ? " or " : ", ";
+    text += describe_symbol(symbols[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string describe_syntax_error(std::string_view symbol,
+                                  std::string_view text, Symbols expected) {
+  // A character that no text may hold says enough by itself.
+  if (symbol == "invalid character") {
+    return "unexpected " + explain_invalid(text);
+  }
+  return "unexpected " + describe_token(symbol, text) +
+         describe_expected(std::move(expected));
+}
+
+// --- Errors
+// -------------------------------------------------------------------
 
 void SyntaxErrors::report(SourceRange range, std::string_view message,
                           std::vector<Note> hints) {

@@ -3,6 +3,7 @@
 // that only the terminal shows.
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,16 @@ namespace lamina::detail {
 // Greatest depth of a tree, and of Bison's stack. A pass that needs up to
 // 4 KiB a level fits in a stack of 1 GiB; OpenSCAD ends at 20000.
 constexpr std::uint32_t kDeepestTree = 250'000;
+
+// Returns what to say besides OpenSCAD's two words: "unexpected ';', expected
+// ']' or ','".
+//
+// symbol    what the grammar calls the token where the error is
+// text      the token
+// expected  the grammar's names of all tokens that could stand there
+std::string describe_syntax_error(std::string_view symbol,
+                                  std::string_view text,
+                                  std::vector<std::string_view> expected);
 
 class SyntaxErrors {
  public:

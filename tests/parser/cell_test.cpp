@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/diagnostic.h"
+#include "parser/definitions.h"
 #include "parser/loader.h"
-#include "parser/variables.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina {

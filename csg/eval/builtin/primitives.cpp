@@ -13,7 +13,6 @@
 
 #include "csg/eval/builtin/conversions.h"
 #include "csg/eval/builtin/modules.h"
-#include "csg/eval/builtin/point_lists.h"
 #include "csg/eval/value/text.h"
 
 namespace lamina::csg {
@@ -58,6 +57,87 @@ Ball ball(const ModuleCall& call, const Facets& facets) {
     }
   }
   return ball;
+}
+
+// --- Points, faces and paths -------------------------------------------------
+// As OpenSCAD 2026 reads them: what is wrong is warned of where the module is
+// called, and left out.
+
+// Returns the points of the call, a wrong one as the origin; nothing where
+// `points` is not a vector.
+//
+// convert  makes a point of a value, or none
+template <typename Point, typename Convert>
+std::optional<std::vector<Point>> read_points(const ModuleCall& call,
+                                              std::string_view type,
+                                              const Convert& convert) {
+  const Value& given = call["points"];
+  if (!given.is_vector()) {
+    call.warn("Unable to convert points = {} to a vector of coordinates",
+              to_echo(given));
+    return std::nullopt;
+  }
+  std::vector<Point> points;
+  for (const Value& value : given.as_vector()) {
+    std::optional<Point> point = convert(value);
+    // 0 · x is NaN where x is not finite.
+    if (!point || glm::dot(*point, Point(0)) != 0) {
+      call.warn("Unable to convert points[{}] = {} to a {} of numbers",
+                points.size(), to_echo(value), type);
+      point = Point(0);
+    }
+    points.push_back(*point);
+  }
+  return points;
+}
+
+using IndexLists = std::span<const std::span<const std::uint32_t>>;
+
+// Returns a parameter's lists of indices of points, kept by the interpreter;
+// nothing where it is not a vector.
+//
+// points  how many there are
+// least   lists of fewer indices are left out
+std::optional<IndexLists> read_index_lists(std::string_view parameter,
+                                           std::size_t points,
+                                           std::size_t least,
+                                           const ModuleCall& call) {
+  const Value& given = call[parameter];
+  if (!given.is_vector()) {
+    call.warn(
+        "Unable to convert {} = {} to a vector of vector of point indices",
+        parameter, to_echo(given));
+    return std::nullopt;
+  }
+  std::vector<std::span<const std::uint32_t>> lists;
+  const std::span<const Value> values = given.as_vector();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!values[i].is_vector()) {
+      call.warn("Unable to convert {}[{}] = {} to a vector of numbers",
+                parameter, i, to_echo(values[i]));
+      continue;
+    }
+    std::vector<std::uint32_t> indices;
+    const std::span<const Value> list = values[i].as_vector();
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (!list[k].is_number()) {
+        call.warn("Unable to convert {}[{}][{}] = {} to a number", parameter, i,
+                  k, to_echo(list[k]));
+        continue;
+      }
+      const double index = std::trunc(list[k].as_number());
+      if (index >= 0 && index < static_cast<double>(points)) {
+        indices.push_back(static_cast<std::uint32_t>(index));
+      } else {
+        call.warn("Point index {:.0f} is out of bounds (from {}[{}][{}])",
+                  index, parameter, i, k);
+      }
+    }
+    if (indices.size() >= least) {
+      lists.push_back(call.in.keep_all<std::uint32_t>(indices));
+    }
+  }
+  return call.in.keep_all<std::span<const std::uint32_t>>(lists);
 }
 
 // --- 3D ---------------------------------------------------------------------
@@ -133,8 +213,6 @@ bool is_plain_index(const Value& value) {
          !std::signbit(value.as_number());
 }
 
-using IndexLists = std::span<const std::span<const std::uint32_t>>;
-
 // Faces or paths. Sets `is_plain` to false where the indices alone do not show
 // what was written.
 IndexLists to_index_lists(const Value& value, Interpreter& in, bool& is_plain) {
@@ -171,7 +249,9 @@ std::string describe_point(const Value& points, std::size_t index) {
 
 Polyhedron polyhedron_2026(const ModuleCall& call) {
   PolyhedronParams polyhedron;
-  if (const auto points = read_points_3d(call)) {
+  const auto points = read_points<Vec3>(
+      call, "vec3", [](const Value& value) { return to_vec3(value, 0.0); });
+  if (points) {
     polyhedron.points = call.in.keep_all<Vec3>(*points);
     if (const auto faces = read_index_lists("faces", points->size(), 3, call)) {
       polyhedron.faces = *faces;
@@ -244,7 +324,8 @@ Square square(const ModuleCall& call, const Facets&) {
 
 Polygon polygon_2026(const ModuleCall& call) {
   PolygonParams polygon;
-  if (const auto points = read_points_2d(call)) {
+  const auto points = read_points<Vec2>(call, "vec2", to_vec2);
+  if (points) {
     polygon.points = call.in.keep_all<Vec2>(*points);
     if (!call["paths"].is_undef()) {
       const auto paths = read_index_lists("paths", points->size(), 0, call);
