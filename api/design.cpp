@@ -296,7 +296,8 @@ void Design::write(const std::string& path, const SliceOptions& options,
           fmt::format("'{}' asks for no format of layers", path));
   Messages messages(state_->show);
   messages.run([&](Diagnostics& diagnostics) {
-    state_->access.run_files()->require_unread(path, state_->access);
+    state_->access.run_files()->require_unread(
+        path, state_->access.look_at(path), state_->access);
     TemporaryFiles temporary_files(state_->access);
     compiler::LayerOutput output =
         compiler::LayerOutput::open(request, temporary_files, diagnostics);

@@ -246,11 +246,6 @@ std::vector<std::uint64_t> RunFiles::require_unread(
   return files;
 }
 
-void RunFiles::require_unread(const std::string& path,
-                              const FileAccess& access) {
-  require_unread(path, access.look_at(path), access);
-}
-
 void RunFiles::check_unread(const std::string& path,
                             const std::vector<std::uint64_t>& files) const {
   for (const std::uint64_t file : files) {

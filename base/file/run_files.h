@@ -59,7 +59,6 @@ class RunFiles {
   std::vector<std::uint64_t> require_unread(
       const std::string& path, const std::optional<struct stat>& there,
       const FileAccess& access);
-  void require_unread(const std::string& path, const FileAccess& access);
 
   // Says that the run has opened `path` for reading. Throws FileError where
   // that is one of its outputs. That output is not written any more, but where
