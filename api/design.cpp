@@ -11,7 +11,7 @@
 
 #include "compiler/compile.h"
 #include "compiler/passes.h"
-#include "parser/customizer.h"
+#include "parser/customizer/customizer.h"
 #include "plane/loop_area.h"
 #include "slicer/check/thin_finder.h"
 #include "slicer/plan/orientation.h"

@@ -13,7 +13,7 @@
 
 #include "csg/import/decimate.h"
 #include "csg/import/mesh_file.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 #include "tests/oracle/surface_distance.h"
 
 namespace {

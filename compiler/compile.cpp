@@ -14,8 +14,8 @@
 #include "base/thread_clock.h"
 #include "compiler/make_rule.h"
 #include "compiler/passes.h"
-#include "parser/ast_printer.h"
-#include "parser/customizer.h"
+#include "parser/customizer/customizer.h"
+#include "parser/customizer/program_printer.h"
 #include "slicer/machine/printer.h"
 
 namespace lamina::compiler {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/file/file_access.h"
-#include "csg/mesh_facts.h"
+#include "csg/mesh/mesh_facts.h"
 #include "slicer/check/inspect.h"
 
 namespace lamina::compiler {

@@ -11,8 +11,8 @@
 #include "base/thread_clock.h"
 #include "csg/boundary/move_scene.h"
 #include "csg/csg_printer.h"
-#include "parser/definitions.h"
-#include "parser/parameter_set.h"
+#include "parser/customizer/definitions.h"
+#include "parser/customizer/parameter_set.h"
 #include "slicer/plan/orientation.h"
 
 namespace lamina::compiler {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "csg/eval/evaluator.h"
-#include "parser/parameter_set.h"
+#include "parser/customizer/parameter_set.h"
 #include "slicer/formats/output_format.h"
 #include "slicer/slice/settings.h"
 
@@ -29,9 +29,9 @@ struct Request {
   std::string material;    // name or profile; empty: none
   bool mirrors_x = false;  // the image
   bool mirrors_y = false;
-  std::string definitions;        // of all -D, as text: "a=1;\nb=2;\n"
-  std::string parameter_file;     // -p; empty: none
-  std::string parameter_set;      // -P
+  std::string definitions;     // of all -D, as text: "a=1;\nb=2;\n"
+  std::string parameter_file;  // -p; empty: none
+  std::string parameter_set;   // -P
   // The set itself; no file is read for it then.
   std::optional<ParameterSet> parameters;
   std::string language = "auto";  // or "2021", "2026"; see load()

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "base/csv.h"
+#include "base/file/csv.h"
 #include "base/text.h"
 #include "cli/report/run_report.h"
 #include "slicer/check/finding_table.h"

@@ -12,14 +12,14 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "base/csv.h"
+#include "base/file/csv.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/options/output_pattern.h"
 #include "parser/cell.h"
-#include "parser/definitions.h"
+#include "parser/customizer/definitions.h"
+#include "parser/customizer/parameter_set.h"
 #include "parser/loader.h"
-#include "parser/parameter_set.h"
 
 namespace lamina::cli {
 namespace {

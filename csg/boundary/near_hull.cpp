@@ -13,7 +13,7 @@
 
 #include "csg/boundary/box_tree.h"
 #include "csg/boundary/convex_hull.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 #include "plane/region/convex_faces.h"
 
 namespace lamina::csg {

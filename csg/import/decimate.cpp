@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "csg/import/detail/decimation_module.h"
-#include "csg/manifold_cut.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/manifold_cut.h"
+#include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/file/format_error.h"
 #include "csg/import/detail/text_lines.h"
 #include "csg/import/mesh_file.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 namespace {

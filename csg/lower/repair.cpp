@@ -20,9 +20,9 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/leaf_mesh.h"
-#include "csg/edge_table.h"
 #include "csg/lower/detail/face.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/edge_table.h"
+#include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 namespace {

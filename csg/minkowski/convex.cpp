@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "csg/edge_table.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/edge_table.h"
+#include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 namespace {

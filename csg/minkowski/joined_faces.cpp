@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 
 #include "csg/boundary/box_tree.h"
-#include "csg/edge_table.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/edge_table.h"
+#include "csg/mesh/vertex_table.h"
 #include "plane/region/triangulate.h"
 
 namespace lamina::csg {

@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "csg/limits.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "csg/mesh_facts.h"
+#include "csg/mesh/mesh_facts.h"
 #include "slicer/check/layer_graph.h"
 #include "slicer/check/thin_features.h"
 #include "slicer/check/thin_finder.h"

@@ -14,7 +14,7 @@
 
 #include "base/diagnostic.h"
 #include "csg/boundary/boundary_faces.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 #include "plane/tie_distance.h"
 #include "slicer/plan/detail/stacking.h"
 #include "slicer/plan/orientation.h"

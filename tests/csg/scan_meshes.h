@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 
 #include "base/vec.h"
+#include "csg/mesh/vertex_table.h"
 #include "csg/scene.h"
-#include "csg/vertex_table.h"
 
 namespace lamina::csg::test {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/diagnostic.h"
+#include "base/file/csv.h"
 #include "base/source.h"
 #include "parser/cell.h"
 #include "parser/tree_facts.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "csg/import/decimate.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;

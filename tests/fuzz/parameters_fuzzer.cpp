@@ -6,9 +6,9 @@
 
 #include "base/diagnostic.h"
 #include "base/source.h"
-#include "parser/ast_printer.h"
+#include "parser/customizer/parameter_set.h"
+#include "parser/customizer/program_printer.h"
 #include "parser/loader.h"
-#include "parser/parameter_set.h"
 #include "tests/fuzz/input.h"
 
 using namespace lamina;

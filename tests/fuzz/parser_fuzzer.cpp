@@ -12,7 +12,7 @@
 
 #include "base/diagnostic.h"
 #include "base/source.h"
-#include "parser/ast_printer.h"
+#include "parser/customizer/program_printer.h"
 #include "parser/loader.h"
 #include "tests/fuzz/input.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "csg/mesh_facts.h"
+#include "csg/mesh/mesh_facts.h"
 #include "tests/csg/scan_meshes.h"
 #include "tests/oracle/surface_distance.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/diagnostic.h"
-#include "parser/definitions.h"
+#include "parser/customizer/definitions.h"
 #include "parser/loader.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parser/ast_printer.h"
+#include "parser/customizer/program_printer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lamina {

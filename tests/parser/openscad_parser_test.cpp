@@ -17,7 +17,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "parser/ast_printer.h"
+#include "parser/customizer/program_printer.h"
 #include "parser/loader.h"
 #include "random_programs.h"
 #include "tests/parser/parsed.h"

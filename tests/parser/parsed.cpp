@@ -5,7 +5,7 @@
 
 #include <pthread.h>
 
-#include "parser/ast_printer.h"
+#include "parser/customizer/program_printer.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 
 #include "base/vec.h"
 #include "csg/import/dxf.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 

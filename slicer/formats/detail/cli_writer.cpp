@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
-#include "base/file/text_output.h"
 #include "slicer/formats/detail/float_writer.h"
+#include "slicer/formats/detail/text_output.h"
 
 namespace lamina::slicer {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <span>
 
-#include "base/file/text_output.h"
 #include "plane/loop_area.h"
+#include "slicer/formats/detail/text_output.h"
 #include "slicer/formats/detail/writers.h"
 
 namespace lamina::slicer {

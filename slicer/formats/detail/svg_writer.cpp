@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "base/file/text_output.h"
 #include "base/version.h"
 #include "slicer/formats/detail/float_writer.h"
+#include "slicer/formats/detail/text_output.h"
 
 namespace lamina::slicer {
 namespace {

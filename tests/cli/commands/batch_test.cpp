@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <signal.h>
 
-#include "base/csv.h"
+#include "base/file/csv.h"
 #include "tests/cli/lamina.h"
 
 namespace lamina::cli {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "base/diagnostic.h"
-#include "csg/mesh_facts.h"
+#include "csg/mesh/mesh_facts.h"
 #include "tests/csg/scan_meshes.h"
 
 namespace lamina::csg {

@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "csg/boundary/leaf_mesh.h"
-#include "csg/edge_table.h"
+#include "csg/mesh/edge_table.h"
 
 namespace lamina::csg {
 namespace {

@@ -1,10 +1,10 @@
-#include "csg/manifold_cut.h"
+#include "csg/mesh/manifold_cut.h"
 
 #include <utility>
 
 #include <gtest/gtest.h>
 
-#include "csg/mesh_facts.h"
+#include "csg/mesh/mesh_facts.h"
 #include "tests/csg/scan_meshes.h"
 
 namespace lamina::csg {

@@ -1,11 +1,11 @@
-#include "parser/parameter_set.h"
+#include "parser/customizer/parameter_set.h"
 
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "parser/ast_printer.h"
+#include "parser/customizer/program_printer.h"
 #include "tests/parser/parsed.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,11 +1,11 @@
-#include "parser/customizer.h"
+#include "parser/customizer/customizer.h"
 
 #include <algorithm>
 #include <string_view>
 #include <variant>
 
 #include "parser/ast_printer.h"
-#include "parser/detail/customizer_value.h"
+#include "parser/customizer/detail/customizer_value.h"
 #include "parser/tree_facts.h"
 
 namespace lamina {

@@ -2,9 +2,10 @@
 // Names for points: equal points get one name.
 //
 // A triangle soup of a million triangles has each point six times. One flat
-// table with open addresses finds them about six times as fast as a tree. Nearly
-// all of its time is waiting for memory, at places that only the hash knows: so
-// where many points come at once, they are asked for before they are needed.
+// table with open addresses finds them about six times as fast as a tree.
+// Nearly all of its time is waiting for memory, at places that only the hash
+// knows: so where many points come at once, they are asked for before they are
+// needed.
 
 #include <cstddef>
 #include <cstdint>

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "parser/customizer.h"
+#include "parser/customizer/customizer.h"
 #include "parser/tree_facts.h"
 
 namespace lamina {

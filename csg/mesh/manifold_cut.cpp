@@ -1,11 +1,11 @@
-#include "csg/manifold_cut.h"
+#include "csg/mesh/manifold_cut.h"
 
 #include <algorithm>
 #include <numeric>
 #include <span>
 #include <utility>
 
-#include "csg/edge_table.h"
+#include "csg/mesh/edge_table.h"
 
 namespace lamina::csg {
 namespace {

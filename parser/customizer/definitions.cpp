@@ -1,4 +1,4 @@
-#include "parser/definitions.h"
+#include "parser/customizer/definitions.h"
 
 #include <algorithm>
 #include <cctype>
@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "base/similar.h"
-#include "parser/customizer.h"
+#include "parser/customizer/customizer.h"
 
 namespace lamina {
 namespace {

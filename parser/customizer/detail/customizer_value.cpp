@@ -1,4 +1,4 @@
-#include "parser/detail/customizer_value.h"
+#include "parser/customizer/detail/customizer_value.h"
 
 #include <algorithm>
 #include <charconv>

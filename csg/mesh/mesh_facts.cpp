@@ -1,11 +1,11 @@
-#include "csg/mesh_facts.h"
+#include "csg/mesh/mesh_facts.h"
 
 #include <vector>
 
 #include <glm/geometric.hpp>
 
-#include "csg/manifold_cut.h"
-#include "csg/vertex_table.h"
+#include "csg/mesh/manifold_cut.h"
+#include "csg/mesh/vertex_table.h"
 
 namespace lamina::csg {
 

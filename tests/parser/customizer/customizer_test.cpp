@@ -1,4 +1,4 @@
-#include "parser/customizer.h"
+#include "parser/customizer/customizer.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "parser/parameter_set.h"
+#include "parser/customizer/parameter_set.h"
 
 #include <algorithm>
 #include <map>
@@ -15,8 +15,8 @@
 #include "base/similar.h"
 #include "base/text.h"
 #include "parser/ast_printer.h"
-#include "parser/customizer.h"
-#include "parser/detail/customizer_value.h"
+#include "parser/customizer/customizer.h"
+#include "parser/customizer/detail/customizer_value.h"
 #include "parser/tree_facts.h"
 
 namespace lamina {

@@ -1,4 +1,4 @@
-#include "base/file/text_output.h"
+#include "slicer/formats/detail/text_output.h"
 
 namespace lamina {
 namespace {

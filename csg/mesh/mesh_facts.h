@@ -11,7 +11,7 @@ namespace lamina::csg {
 struct MeshFacts {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  std::size_t components = 0;      // over plain edges (csg/manifold_cut.h)
+  std::size_t components = 0;      // over plain edges (csg/mesh/manifold_cut.h)
   std::size_t genus = 0;           // handles of all components together
   std::size_t boundary_loops = 0;  // around holes
   std::size_t open_edges = 0;      // of one triangle

@@ -1,4 +1,4 @@
-#include "csg/vertex_table.h"
+#include "csg/mesh/vertex_table.h"
 
 #include <gtest/gtest.h>
 

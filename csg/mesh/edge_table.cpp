@@ -1,4 +1,4 @@
-#include "csg/edge_table.h"
+#include "csg/mesh/edge_table.h"
 
 #include <tuple>
 
