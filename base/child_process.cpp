@@ -49,18 +49,18 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-// Of the child: where it tells what it takes, and what it took at first.
-std::atomic<std::uint64_t>* told_bytes = nullptr;
+// The child writes here what it takes, and keeps what it took at first.
+std::atomic<std::uint64_t>* child_bytes = nullptr;
 std::uint64_t first_bytes = 0;
 
-// Tells it every 20 ms, as often as the parent looks. The kernel keeps the
+// Writes it every 20 ms, as often as the parent looks. The kernel keeps the
 // number, so this works where /proc may not be read.
-void tell_memory_now_and_then() {
+void write_memory_now_and_then() {
   constexpr suseconds_t kPause = 20000;
   first_bytes = peak_memory();
   struct sigaction action {};
   action.sa_flags = SA_RESTART;
-  action.sa_handler = [](int) { *told_bytes = peak_memory() - first_bytes; };
+  action.sa_handler = [](int) { *child_bytes = peak_memory() - first_bytes; };
   ::sigaction(SIGALRM, &action, nullptr);
   sigset_t alarm;
   ::sigemptyset(&alarm);
@@ -125,7 +125,7 @@ bool has_taken(const rusage& usage, unsigned seconds) {
   drop_streams();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, most_seconds);
-  tell_memory_now_and_then();
+  write_memory_now_and_then();
   work(ChildOutput(pipe));
   // Nothing of the parent's is to be cleaned up here.
   ::_exit(0);
@@ -187,7 +187,7 @@ ChildProcess::ChildProcess(const std::function<void(const ChildOutput&)>& work,
   if (::pipe2(ends, O_CLOEXEC) != 0) fail_without_process(errno);
   process_ = ::fork();
   if (process_ == 0) {
-    told_bytes = page_->bytes();
+    child_bytes = page_->bytes();
     run_child(parent, ends[1], most_seconds_, work);
   }
   const int error = errno;

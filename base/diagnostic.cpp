@@ -92,11 +92,11 @@ std::string name_of_place(const Source& source) {
   return name.find(": ") == std::string::npos ? name : in_quotes(name);
 }
 
-// The message as it is told. What a design echoes is its own.
-std::string told_message(const Diagnostic& diagnostic) {
+// The message as it is shown. What a design echoes is its own.
+std::string shown_message(const Diagnostic& diagnostic) {
   return diagnostic.severity == Severity::kEcho
              ? diagnostic.message
-             : with_told_paths(diagnostic.message);
+             : with_display_paths(diagnostic.message);
 }
 
 void append_terminal_text(std::string& text, SourceRange range,
@@ -191,7 +191,7 @@ std::vector<std::string> openscad_lines(const Diagnostic& diagnostic,
   };
   std::vector<std::string> lines;
   std::string text(prefix_of(diagnostic.severity).openscad);
-  text += told_message(diagnostic);
+  text += shown_message(diagnostic);
   const SourceRange range = diagnostic.range;
   if (range.is_known()) {
     const bool is_from_parser = diagnostic.message.starts_with(kParserError);
@@ -203,7 +203,7 @@ std::vector<std::string> openscad_lines(const Diagnostic& diagnostic,
   }
   lines.push_back(std::move(text));
   for (const Note& note : diagnostic.notes) {
-    std::string line = "TRACE: " + with_told_paths(note.message);
+    std::string line = "TRACE: " + with_display_paths(note.message);
     if (note.range.is_known()) {
       const Source& source = *note.range.source;
       append_openscad_place(line, source,
@@ -255,11 +255,11 @@ std::string caret_text(const Diagnostic& diagnostic) {
   std::string text;
   append_terminal_text(text, diagnostic.range,
                        prefix_of(diagnostic.severity).terminal,
-                       told_message(diagnostic));
+                       shown_message(diagnostic));
   for (const auto* notes : {&diagnostic.notes, &diagnostic.hints}) {
     for (const Note& note : *notes) {
       append_terminal_text(text, note.range,
-                           "note: ", with_told_paths(note.message));
+                           "note: ", with_display_paths(note.message));
     }
   }
   return text;

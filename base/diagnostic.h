@@ -93,10 +93,10 @@ class Diagnostics {
   void echo(std::string text);
   void warning(SourceRange range, std::string message,
                std::vector<Note> notes = {});
-  // Of what OpenSCAD does not say: on the terminal only.
+  // Warns of what OpenSCAD does not say, on the terminal only.
   void own_warning(SourceRange range, std::string message,
                    std::vector<Note> hints = {});
-  // The same of what is no warning.
+  // Remarks on it without a warning.
   void own_remark(SourceRange range, std::string message);
   void error(SourceRange range, std::string message,
              std::vector<Note> notes = {});

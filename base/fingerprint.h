@@ -22,7 +22,7 @@ std::uint64_t fingerprint(std::string_view bytes);
 // 128 bits in 32 hexadecimal digits: for what is never compared in full.
 std::string digest(std::string_view bytes);
 
-// The same of bytes that come in blocks.
+// The digest of bytes that come in blocks.
 //
 // next  the next block, which is empty behind the last one
 std::string digest(const std::function<std::string_view()>& next);

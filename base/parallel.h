@@ -1,5 +1,5 @@
 #pragma once
-// Tasks of oneTBB, and what ThreadSanitizer must be told of them.
+// Tasks of oneTBB, and what ThreadSanitizer must know of them.
 //
 // Debian's library is not instrumented: the tool sees none of its locks, and
 // would take every object that one task hands to the next for a race. So the

@@ -119,9 +119,9 @@ void name_files_from(const std::string& folder, const std::string& canonical) {
     std::string absolute = without_end(path);
     const bool is_known = std::ranges::find(naming().absolute, absolute) !=
                           naming().absolute.end();
-    if (absolute.empty() || is_known) continue;  // "/" tells nothing
+    if (absolute.empty() || is_known) continue;  // "/" names nothing
     std::string relative = lexically_relative(absolute, "");
-    // Where the working folder lies in this one, nothing tells of it.
+    // Where the working folder lies in this one, no name begins with it.
     if (relative != "." && !relative.ends_with("..")) {
       naming().relative.push_back(relative + '/');
     }
@@ -129,7 +129,7 @@ void name_files_from(const std::string& folder, const std::string& canonical) {
   }
 }
 
-std::string told_path(const std::string& path) {
+std::string display_path(const std::string& path) {
   return path_in_folder(path).value_or(path);
 }
 
@@ -141,19 +141,19 @@ std::string relative_path(const std::string& path, const std::string& base) {
 }
 
 std::string shown_path(const std::string& given) {
-  std::string path = told_path(given);
+  std::string path = display_path(given);
   if (!fs::path(path).is_absolute()) return path;
   const std::string relative = lexically_relative(path, "");
   return relative.starts_with("..") ? path : relative;
 }
 
 std::string quoted_path(std::string_view path) {
-  return fmt::format("\"{}\"", fs::path(told_path(std::string(path)))
+  return fmt::format("\"{}\"", fs::path(display_path(std::string(path)))
                                    .lexically_proximate(fs::current_path())
                                    .generic_string());
 }
 
-std::string with_told_paths(std::string text) {
+std::string with_display_paths(std::string text) {
   for (const std::string& folder : naming().absolute) {
     text = without_folder(text, folder, may_begin_absolute);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Names of files as messages tell them.
+// Names of files as messages show them.
 //
 // OpenSCAD's messages name files from the working folder, or by whole paths.
 // Under --root messages may reach strangers, who need not know where the root
@@ -26,21 +26,21 @@ std::string relative_path(const std::string& path, const std::string& base);
 // canonical  its path without links
 void name_files_from(const std::string& folder, const std::string& canonical);
 
-// `path` as we tell it: from the folder of name_files_from() if it lies there,
-// else as it is. ("-" is a stream.)
-std::string told_path(const std::string& path);
+// `path` as messages show it: from the folder of name_files_from() if it lies
+// there, else as it is. ("-" is a stream.)
+std::string display_path(const std::string& path);
 
-// The same as a terminal shows it: relative if it lies below the current
+// display_path(), as a terminal shows it: relative if it lies below the current
 // folder.
 std::string shown_path(const std::string& path);
 
-// The same in quotes, as OpenSCAD shows it: from the current folder, with as
+// `path` in quotes, as OpenSCAD shows it: from the current folder, with as
 // many "../" as it takes.
 std::string quoted_path(std::string_view path);
 
-// A message, which may hold whole paths, with all of them as we tell them.
-// O(text).
-std::string with_told_paths(std::string text);
+// A message that may hold whole paths, with all of them as display_path() has
+// them. O(text).
+std::string with_display_paths(std::string text);
 
 // Whether the name is that of a font, in any letter case.
 bool is_font(std::string_view file);

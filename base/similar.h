@@ -18,7 +18,7 @@ std::string_view most_similar(std::string_view name,
 std::string did_you_mean(std::string_view name,
                          std::span<const std::string_view> candidates);
 
-// The same for any number of names, in bounded time: the names that come when
+// Guesses for any number of names, in bounded time: the names that come when
 // many letters have been compared get no guess. A usual design has 150 names of
 // 10 letters, so thousands of names get one.
 class Guesses {

@@ -28,11 +28,11 @@ std::string in_quotes(std::string_view content);
 bool is_control(std::uint32_t code_point);
 
 // A stranger's text as messages show it: controls stand as "\u001B", and bytes
-// that are no UTF-8 as U+FFFD. Tabs and newlines stay.
+// that are not UTF-8 as U+FFFD. Tabs and newlines stay.
 std::string without_controls(std::string_view text);
 
-// The same as words of a message: further lines begin with "| ", so that they
-// look like no messages of their own.
+// A stranger's text as words of a message: without controls, and further lines
+// begin with "| ", so that they do not look like messages of their own.
 std::string message_text(std::string_view message);
 
 // Without controls on one line: a newline stands as "\u000A", a tab as a blank.

@@ -26,7 +26,7 @@ double measure_seconds(const Work& work) {
   return thread_seconds() - begin;
 }
 
-// The same by the clock on the wall.
+// Runs `work` and returns the seconds that pass on the wall.
 template <typename Work>
 double measure_wall_seconds(const Work& work) {
   const auto begin = std::chrono::steady_clock::now();

@@ -31,8 +31,8 @@ namespace lamina::cli {
 namespace {
 
 int show_fault(std::string_view message, int status = kUsageFault) {
-  print_error(fmt::format("lamina: {}\n",
-                          message_text(with_told_paths(std::string(message)))));
+  print_error(fmt::format(
+      "lamina: {}\n", message_text(with_display_paths(std::string(message)))));
   if (status == kUsageFault) {
     print_error("Run 'lamina --help' for the options.\n");
   }

@@ -48,7 +48,7 @@ Language choose_language(Compilation& c) {
   c.diagnostics.own_remark(
       {},
       fmt::format("read as OpenSCAD 2026 ({}:{}: {})",
-                  told_path(range.source->path()),
+                  display_path(range.source->path()),
                   range.source->line_column(range.begin).line, newer->what));
   return Language::k2026;
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-// Beyond 2^52 turns a double no longer tells fractions of a turn apart.
+// Beyond 2^52 turns a double no longer distinguishes fractions of a turn.
 constexpr double kLargestAngle = 360.0 * 4503599627370496.0;
 
 // Both of angles in [0, 90].

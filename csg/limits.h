@@ -11,21 +11,21 @@
 
 namespace lamina::csg {
 
-// Of a circle. At a radius of 1 m chords of so many are 5e-9 mm off.
+// A circle may have so many. At a radius of 1 m their chords are 5e-9 mm off.
 constexpr double kMostFragments = 1e6;
 
-// Of a leaf, be it kept as triangles or by formula. As triangles, 100 million
-// of them take 2 GB and more.
+// A leaf may have so many, be it kept as triangles or by formula. As triangles
+// they take 2 GB and more.
 constexpr double kMostTriangles = 1e8;
 
-// Of a surface(). A few hundred bytes of PNG may unpack to gigabytes of them,
+// A surface() may have so many. A few hundred bytes of PNG may unpack to more,
 // one long row of numbers makes all rows long; each makes four triangles.
 constexpr double kMostHeights = 1 << 23;
 
-// Of groups that hold one object of a FreeCAD file; FreeCAD allows two.
+// So many groups may hold one object of a FreeCAD file; FreeCAD allows two.
 constexpr std::size_t kMostGroups = 100;
 
-// Of all entries of a FreeCAD file, unpacked: so many bytes, and no more for
+// All entries of a FreeCAD file may unpack to so many bytes, and no more for
 // each byte of the file. FreeCAD's own files swell to ten times their size.
 constexpr double kMostUnpackedBytes = 2147483648;
 constexpr double kMostSwelling = 50;

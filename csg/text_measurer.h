@@ -39,7 +39,7 @@ class TextMeasurer {
   virtual ~TextMeasurer() = default;
 
   // warnings  gets what is wrong with the parameters
-  // returns   no value where there is no font
+  // returns   no value where the font is missing
   // throws    GeometryError where the font libraries are missing
   virtual std::optional<TextMetrics> measure_text(
       const TextParams& params, std::vector<std::string>& warnings) = 0;

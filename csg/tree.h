@@ -82,7 +82,7 @@ struct LinearExtrudeParams {
   double twist_deg = 0;
   bool has_twist = false;
   int slices = 0;  // 0: not given; csg/facets.h has the rules
-  // Of each contour; 0: edges stay whole. Not given: the language decides.
+  // For each contour; 0: edges stay whole. Not given: the language decides.
   std::optional<int> segments = {};
   Vec2 scale = Vec2(1);
   Facets facets = {};
@@ -176,7 +176,7 @@ struct TextParams {
 struct Text {
   const TextParams* params;
 };
-// Of parts of CAD programs where no chordal error is asked for: that of a
+// Parts of CAD programs get it where no chordal error is asked for: that of a
 // circle of 20 mm with 100 sides [mm].
 inline constexpr double kChordalErrorOfParts = 0.01;
 

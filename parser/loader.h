@@ -49,8 +49,8 @@ class Loader {
   // reported then; the others are not).
   ast::Program load(const std::string& path);
 
-  // The same for a text at hand. `path` is what messages show and relative
-  // names are resolved against; no file needs to be there.
+  // Parses a text at hand, and the rest as load(). `path` is what messages show
+  // and relative names are resolved against; no file needs to be there.
   ast::Program load_text(const std::string& path, std::string text);
 
   // The program behind an entry of Program::uses; null where the file is

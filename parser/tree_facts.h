@@ -1,5 +1,5 @@
 #pragma once
-// What can be told of a syntax tree without evaluating it.
+// What a syntax tree shows without being evaluated.
 
 #include <cstddef>
 #include <cstdint>

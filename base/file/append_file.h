@@ -4,7 +4,7 @@
 // A line gets there by one call of write() on a descriptor that appends, so
 // lines of several writers do not mix. If the machine stops meanwhile, the last
 // line may be torn; the next one then begins on a line of its own, so that a
-// reader has to pass over one line that is no whole one.
+// reader has to pass over one line that is not whole.
 
 #include <string>
 #include <string_view>
@@ -25,7 +25,7 @@ class AppendFile {
   const OpenFile& file() const { return file_; }
 
   // line  without '\n'
-  // Throws FileError, as does sync(). What is torn then is no line.
+  // Throws FileError, as does sync(). What is torn then is not a line.
   void append(std::string_view line);
 
   // Returns when the machine may stop without losing lines.

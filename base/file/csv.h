@@ -7,8 +7,8 @@
 // Lines end with LF, CR or both; a byte order mark in front is passed over. The
 // most frequent of comma, semicolon and tab in the first line separates cells.
 // Departures from RFC 4180, for tables that are written by hand: blanks around
-// a cell belong to it only between quotes, and empty lines are no rows. No CSV
-// reader for C or C++ in Debian tells where a fault is.
+// a cell belong to it only between quotes, and empty lines are not rows. No CSV
+// reader for C or C++ in Debian says where a fault is.
 //
 // A table may have millions of rows. So it is read row by row, and no more than
 // a block of it is in memory.

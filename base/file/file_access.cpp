@@ -63,7 +63,7 @@ std::string path_in(const OpenFile& folder, const std::string& name) {
   return fmt::format("/proc/self/fd/{}/{}", folder.descriptor(), name);
 }
 
-// All bytes of a file that may have failed to open (errno tells why).
+// Reads all bytes of a file that may have failed to open (errno says why).
 std::optional<std::string> read_open(const OpenFile& file,
                                      const std::string& path) {
   auto bytes = file ? file.read_all() : std::nullopt;
@@ -71,8 +71,8 @@ std::optional<std::string> read_open(const OpenFile& file,
   return bytes;
 }
 
-// Files that the kernel makes up as it is asked: they tell of processes and of
-// the machine.
+// Files that the kernel makes up as it is asked: they show processes and the
+// machine.
 bool is_of_kernel(const OpenFile& file) {
   struct statfs system {};
   return ::fstatfs(file.descriptor(), &system) != 0 ||

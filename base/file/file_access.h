@@ -68,7 +68,7 @@ class FileAccess {
     std::vector<std::string> readable;  // with `root`: more, to read only
     bool refuses_data = false;          // FileUse::kData
   };
-  // Throws AccessError for what is no folder.
+  // Throws AccessError for what is not a folder.
   static FileAccess within(const Limits& limits);
 
   // Lets a run know of all files that are opened to be read.
@@ -90,13 +90,13 @@ class FileAccess {
   // calls `written`.
   void require(const std::string& path, std::string_view written,
                SourceRange range, FileUse use) const;
-  // The same for a file of the command line.
+  // Throws AccessError where a file of the command line may not be read.
   void require(const std::string& path) const;
 
   // --- Looking ---------------------------------------------------------------
 
   // What stands there, behind all links; nothing for what may not be read.
-  // Where the machine fails to tell, this and all that follow throw FileError.
+  // Where the machine fails, this and all that follow throw FileError.
   std::optional<struct stat> look_at(const std::string& path) const;
   bool is_there(const std::string& path) const;
   // Something other than a folder.
@@ -107,12 +107,12 @@ class FileAccess {
 
   // The path without links and dots; empty for what is not there.
   std::string canonical(const std::string& path) const;
-  // The same as far as it is there, and in words behind that. Links to what is
-  // not there are followed, too.
+  // The path without links and dots as far as it is there, and in words behind
+  // that. Links to what is not there are followed, too.
   std::string weakly_canonical(const std::string& path) const;
 
   // Names of what stands in a folder, in no order, without "." and ".."; no
-  // value where it cannot be read (errno tells why).
+  // value where it cannot be read (errno says why).
   std::optional<std::vector<std::string>> list(const std::string& folder) const;
 
   // Whether names that differ in the case of letters are one in that folder.
@@ -124,7 +124,7 @@ class FileAccess {
   // --- Opening ---------------------------------------------------------------
 
   // Opens a regular file to read it. Where that fails, no file is open and
-  // errno tells why; it is 0 for what is no regular file. Never waits.
+  // errno says why; it is 0 for what is not a regular file. Never waits.
   OpenFile open(const std::string& path) const;
 
   // All bytes of a file, or, where nothing is confined, of a stream such as a

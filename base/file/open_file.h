@@ -32,7 +32,7 @@ class OpenFile {
   // Whether size and time of the last change are what they were.
   bool is_unchanged_since(const struct stat& before) const;
 
-  // All bytes from here to the end; no value where reading fails (errno tells
+  // All bytes from here to the end; no value where reading fails (errno says
   // why; ESTALE: the file changed meanwhile). What is a stream, such as a pipe,
   // is read until it ends.
   //
@@ -40,7 +40,7 @@ class OpenFile {
   std::optional<std::string> read_all(std::size_t spare = 0) const;
 
   // At most `size` bytes from `offset` on, fewer at the end; no value where
-  // reading fails (errno tells why).
+  // reading fails (errno says why).
   std::optional<std::string> read_at(std::uint64_t offset,
                                      std::size_t size) const;
 

@@ -17,15 +17,15 @@ struct OutputDigest {
   std::string digest;  // of all bytes; of a folder, of its files by name
 };
 
-// Of a file, or of a folder of files. No value where there is none, where it
+// Digests a file, or a folder of files. No value where there is none, where it
 // cannot be read, or where it has more than `most_bytes`, of which nothing is
-// read. It counts as no input of the run.
+// read. It does not count as an input of the run.
 std::optional<OutputDigest> digest_of_output(
     const std::string& path, const FileAccess& access,
     std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 
-// Of all bytes of a file, block by block. No value where it cannot be read or
-// changes meanwhile.
+// Digests all bytes of a file, block by block. No value where it cannot be read
+// or changes meanwhile.
 std::optional<OutputDigest> digest_of_file(const OpenFile& file);
 
 }  // namespace lamina

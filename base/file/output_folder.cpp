@@ -23,7 +23,7 @@ namespace {
 using Words = std::unordered_set<std::string>;
 
 // What stands between quotes in a file of contents: the names of the files that
-// it tells of, and its own. None if lamina did not write it.
+// it lists, and its own. None if lamina did not write it.
 Words words_of(const fs::path& contents, FileAccess access) {
   access.report_to(nullptr);  // it is read to be replaced
   std::istringstream file(access.read(contents).value_or(""));

@@ -16,7 +16,7 @@ namespace lamina {
 
 class OutputFolder {
  public:
-  // contents  name of the file that tells what the folder holds: in quotes, the
+  // contents  name of the file that lists what the folder holds: in quotes, the
   //           names of its files and a word that begins with "lamina "
   //
   // Throws FileError if the folder cannot be made, or if what stands there may

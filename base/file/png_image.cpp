@@ -1,5 +1,5 @@
-// libpng reports faults by longjmp, so the function that calls it has nothing to
-// destroy.
+// libpng reports faults by longjmp, so the function that calls it has nothing
+// to destroy.
 #include "base/file/png_image.h"
 
 #include <csetjmp>
@@ -103,7 +103,7 @@ bool decode(png_structp png, png_infop info, Image& image) {
   image.channels = png_get_channels(png, info);
   const std::size_t stride = png_get_rowbytes(png, info);
   image.pixels.resize(stride * image.rows);
-  // Of an interlaced image every pass goes over all rows.
+  // In an interlaced image every pass goes over all rows.
   const int passes = png_get_interlace_type(png, info) == PNG_INTERLACE_NONE
                          ? 1
                          : PNG_INTERLACE_ADAM7_PASSES;

@@ -47,7 +47,7 @@ std::vector<std::uint64_t> files_at(const std::string& path,
   return files;
 }
 
-// The same of an output by its path, as it stands now.
+// Returns the files that an output at that path would replace now.
 std::vector<std::uint64_t> files_of(const std::string& path,
                                     const FileAccess& access) {
   if (path != kStandardOutput) {
@@ -65,10 +65,10 @@ bool have_one_in_common(const std::vector<std::uint64_t>& a,
   return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
 }
 
-// The same for paths that are one where letters have no case: small ones, and
-// no points at the end of a name, which FAT leaves out. (Letter by letter:
-// where a file system takes two spellings of a letter for one, or "ß" for "ss",
-// these stay different.)
+// Returns one spelling for paths that are equal where letters have no case:
+// small ones, without points at the end of a name, which FAT leaves out. (By
+// letter: where a file system takes two spellings of a letter for one, or "ß"
+// for "ss", these stay different.)
 std::string without_case(std::string_view path) {
   static const locale_t unicode =
       ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
@@ -269,7 +269,7 @@ void RunFiles::claim_place(const std::string& place, const std::string& path) {
   if (around_.contains(fingerprint(place))) {
     refuse(path, "another output of this run would lie inside of it");
   }
-  // What is around others is no output. (Of many outputs none lies in another:
+  // What is around others is not an output. (Many outputs never lie in others:
   // their names have no '/'.)
   std::vector<std::uint64_t> folders;
   for (std::size_t end = place.rfind('/'); end != std::string::npos && end > 0;

@@ -2,10 +2,10 @@
 // The files of a run, known by what they are and not by their names: so that no
 // output takes the place of an input or of another output.
 //
-// Outputs are told before the work begins. Inputs make themselves known as they
-// are opened (FileAccess), many of them while the design runs. Whichever comes
-// second is the error. What the run has read it does not write after that: the
-// outputs ask once more when they are written.
+// Outputs are announced before the work begins, inputs as they are opened
+// (FileAccess), many of them while the design runs. Whichever comes second is
+// the error. What the run has read it does not write after that: the outputs
+// ask once more when they are written.
 
 #include <cstdint>
 #include <mutex>
@@ -35,11 +35,11 @@ class RunFiles {
   // written.
   void expect_output(std::string path, const FileAccess& access);
 
-  // The same for one of so many outputs that only a fingerprint of each is
-  // kept. Returns false where another of them has the same one: it is the same
-  // file, or, once in many runs, it is not.
+  // Announces one of so many outputs that only a fingerprint of each is kept.
+  // Returns false where another of them has the same one: it is the same file,
+  // or, once in many runs, it is not.
   bool expect_one_of_many(const std::string& path, const FileAccess& access);
-  // The same for one that another run makes beside this one: only its name
+  // Announces one of many that another run makes beside this one: only its name
   // counts.
   bool expect_of_another_run(const std::string& path, const FileAccess& access);
 
@@ -49,7 +49,7 @@ class RunFiles {
                     const std::optional<struct stat>& there,
                     const FileAccess& access);
 
-  // Says that all of these have been told: their names are compared no more.
+  // Says that the many are complete: their names are compared no more.
   void end_of_many();
 
   // Throws FileError where the run has read what an output is about to replace.

@@ -101,7 +101,7 @@ void remove_folder(int& folder, const std::string& path) {
   close_quietly(folder);
 }
 
-// Whether the lock is ours now, or there are no locks here.
+// Whether the lock is ours now, or files cannot be locked here.
 bool lock(int file) {
   return ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
@@ -117,7 +117,7 @@ bool stands_at(const std::string& path, const struct stat& open) {
   return ::lstat(path.c_str(), &named) == 0 && is_same_file(open, named);
 }
 
-// Removes what an ended run left under this name; false if there is no such.
+// Removes what an ended run left under this name; false if it left nothing.
 bool remove_abandoned(const std::string& path, RunFiles* run) {
   int file =
       ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -225,7 +225,7 @@ void take_after(int file, const OutputPlace& target) {
   ::fchmod(file, mode);
 }
 
-// Network file systems tell at the end of the writing that there is no room.
+// Network file systems report at the end of the writing that the disk is full.
 // Returns 0 or the error number.
 int end_writing(int file) {
   const int copy = ::fcntl(file, F_DUPFD_CLOEXEC, 0);

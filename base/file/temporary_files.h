@@ -32,12 +32,12 @@ class TemporaryFiles {
 
   // A file on its way to a target.
   struct File {
-    int file = -1;     // for reading and writing; −1: none (errno tells why)
+    int file = -1;     // for reading and writing; −1: none (errno says why)
     std::string name;  // empty: it has none
   };
   // A folder on its way to a target.
   struct Folder {
-    std::string path;  // empty: none (errno tells why)
+    std::string path;  // empty: none (errno says why)
     int lock = -1;
     OutputPlace place;  // `path` is valid as long as this
   };

@@ -14,7 +14,7 @@ class ZipArchive {
  public:
   // bytes  must stay as long as the archive
   //
-  // throws  FormatError where they are no archive
+  // throws  FormatError where they are not an archive
   static ZipArchive open(std::string_view bytes);
 
   static bool is_zip(std::string_view bytes) {

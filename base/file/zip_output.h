@@ -24,8 +24,8 @@ class ZipOutput {
   // Adds an entry. Throws FileError.
   void add_text(const std::string& name, std::string_view bytes);
 
-  // The same in two steps, the first of which several threads may take at once:
-  // packs the bytes, and adds what it has made of them.
+  // Add an entry in two steps, the first of which several threads may take at
+  // once: it packs the bytes. The second adds what came of them.
   static std::string pack(std::string_view bytes);
   void add_packed(const std::string& name, std::string_view packed);
 

@@ -100,7 +100,7 @@ class InspectCommand : public Command {
   int inspect(compiler::Compilation& compilation) const {
     auto found = look(compilation);
     if (!found) return kFault;
-    found->name = told_path(found->name);
+    found->name = display_path(found->name);
     const std::string text =
         is_json_ ? inspection_json(*found)
                  : inspection_text(*found, lists_all_layers_

@@ -383,7 +383,7 @@ class PieceTable : public PieceSource {
  private:
   // "orders.csv:17: ring-17: "
   std::string prefix_of(const Row& row) const {
-    std::string prefix = short_name(told_path(options_.table));
+    std::string prefix = short_name(display_path(options_.table));
     if (row.line > 0) prefix += fmt::format(":{}", row.line);
     prefix += ": ";
     if (!row.name.empty()) prefix += short_name(row.name) + ": ";

@@ -160,7 +160,7 @@ class Workshop {
     if (status != kDone && outcome.error.empty()) {
       outcome.error = compilation.diagnostics.all().back().message;
     }
-    outcome.error = with_told_paths(std::move(outcome.error));
+    outcome.error = with_display_paths(std::move(outcome.error));
     if (options_.ledger != nullptr) {
       session.terminal.finish();
       options_.ledger->note(piece, outcome, inbox.text, compilation);

@@ -264,7 +264,7 @@ class SliceCommand : public Command {
       piece.request = request_;
       piece.request.design = design;
       piece.request.output = output_of(design);
-      piece.name = told_path(design);
+      piece.name = display_path(design);
       piece.prefix = fmt::format("{}: ", short_name(piece.name));
       piece.number = pieces.size();
     }

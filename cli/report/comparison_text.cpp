@@ -88,7 +88,7 @@ class Writer : slicer::PrintedText {
 
  private:
   void side(char letter, const SideText& side) {
-    print("{}         {} ({})\n", letter, told_path(side.name),
+    print("{}         {} ({})\n", letter, display_path(side.name),
           side.description);
   }
 
@@ -183,7 +183,7 @@ class Writer : slicer::PrintedText {
 };
 
 nlohmann::ordered_json side_json(const SideText& side) {
-  return {{"name", told_path(side.name)},
+  return {{"name", display_path(side.name)},
           {"description", side.description},
           {"precision", side.precision},
           {"is_precision_assumed", side.is_assumed}};

@@ -221,10 +221,10 @@ std::string print_line(const compiler::Compilation& compilation) {
   const bool is_any = std::ranges::any_of(
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
-  return is_any
-             ? fmt::format("\nprint: {}; 'lamina check {}' says where", counts,
-                           on_one_line(told_path(compilation.request.design)))
-             : fmt::format("\nprint: {}", counts);
+  return is_any ? fmt::format(
+                      "\nprint: {}; 'lamina check {}' says where", counts,
+                      on_one_line(display_path(compilation.request.design)))
+                : fmt::format("\nprint: {}", counts);
 }
 
 std::string machine_line(const compiler::Report& report) {
@@ -245,7 +245,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       "sections {:.3f}, sweep {:.3f}, graph {:.3f}, output {:.3f}), {} of "
       "memory, {:.3f} s "
       "by the clock",
-      output == "-" ? "standard output" : on_one_line(told_path(output)),
+      output == "-" ? "standard output" : on_one_line(display_path(output)),
       counted(slice.layers, "layer"), counted(slice.loops, "loop"),
       counted(slice.points, "vertex", "vertices"),
       memory_text(report.output_bytes),

@@ -51,13 +51,12 @@ struct Body {
 struct Part {
   std::vector<Body> bodies;  // in the order of the file
   std::vector<std::string> warnings;
-  std::vector<std::string> notes;  // what is left out, and is no solid's
+  std::vector<std::string> notes;  // what is left out and is not a solid's
 };
 
 class Engine;
 
-// Of processor time, for one file: OpenCASCADE may loop for ever on a broken
-// one.
+// Processor time for one file: OpenCASCADE may loop for ever on a broken one.
 constexpr unsigned kMostSeconds = 300;
 
 class Reader {

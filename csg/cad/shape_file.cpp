@@ -60,7 +60,7 @@ void for_each(const Interface_InterfaceModel& model, const Visit& visit) {
   }
 }
 
-// Of the product that a representation shows; empty if there is none.
+// The name of the product that a representation shows; empty if it has none.
 std::string product_name(const StepShape_ShapeDefinitionRepresentation& shown) {
   const auto property = shown.Definition().PropertyDefinition();
   if (property.IsNull()) return {};

@@ -22,7 +22,7 @@ inline constexpr Module kDecimationModule{
 struct Decimation {
   std::size_t triangles_before = 0;
   std::size_t triangles_after = 0;
-  // Where the mesh is no manifold, which keeps its vertices: edges of other
+  // Where the mesh is not manifold, which keeps its vertices: edges of other
   // than two triangles that run against each other, and vertices at which
   // several fans of triangles meet.
   std::size_t tangled_edges = 0;

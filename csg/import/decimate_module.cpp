@@ -100,7 +100,7 @@ class Ring {
     return greatest;
   }
 
-  // Of the triangle of v1 and the points i and i + 1, after collapse().
+  // How far the triangle of v1 and the points i and i + 1 moves in collapse().
   double new_move(std::size_t i) const { return new_moves_[i]; }
 
  private:
@@ -198,7 +198,7 @@ class Ring {
   std::vector<Vec3d> points_;  // from v0
   std::vector<Seen> seen_;
   std::vector<double> moves_;
-  // Of each new triangle: what this collapse adds, and the moves after it.
+  // For each new triangle: what this collapse adds, and the moves after it.
   std::vector<double> steps_;
   std::vector<double> new_moves_;
 };
@@ -282,7 +282,7 @@ class ModMovesT : public OpenMesh::Decimater::ModBaseT<Mesh> {
     return valence;
   }
 
-  // False where the triangles around v0 are no fan, or too many.
+  // False where the triangles around v0 are not a fan, or too many.
   bool take_ring(const Collapse& collapse) {
     Mesh& mesh = Base::mesh();
     ring_.clear();
@@ -302,7 +302,7 @@ class ModMovesT : public OpenMesh::Decimater::ModBaseT<Mesh> {
   OpenMesh::FPropHandleT<double> moves_;
 };
 
-// False where it is no manifold.
+// False where it is not a manifold.
 bool build(const Mesh& mesh, HalfEdges& half_edges) {
   const std::size_t faces = mesh.triangles.size();
   half_edges.reserve(mesh.vertices.size(), 3 * faces / 2 + 1, faces);

@@ -120,7 +120,7 @@ class Reader {
     const double moved =
         is_in_blocks_ ? number
                       : (number - options_.origin[axis]) * options_.scale;
-    // Of a dimension, groups 11, 12 and 16 are offsets: they do not move.
+    // Groups 11, 12 and 16 of a dimension are offsets: they do not move.
     const bool is_offset = which == 1 || which == 2 || which == 6;
     entity_.points[static_cast<std::size_t>(which)][axis] =
         is_offset && !is_in_blocks_ ? number * options_.scale : moved;

@@ -44,7 +44,7 @@ struct DxfDimension {
 struct DxfDrawing {
   std::vector<DxfPath> paths;  // open ones first
   std::vector<DxfDimension> dimensions;
-  // In OpenSCAD's words: of values that are no numbers, and the like.
+  // In OpenSCAD's words: of values that are not numbers, and the like.
   std::vector<std::string> warnings;
   // How many entities of each kind that OpenSCAD does not know are in the
   // layer, in the order of its hash table.

@@ -44,7 +44,7 @@ struct RawMesh {
 //
 // A file is binary where its size is the one that its number of facets asks
 // for, whatever it begins with: many programs begin binary files with "solid".
-// Of text, lines with "vertex" count and all else is passed over, as OpenSCAD
+// In text, lines with "vertex" count and all else is passed over, as OpenSCAD
 // 2021.01 does. Rejected are a vertex without three numbers, a fourth vertex in
 // a loop, and what is neither text nor as long as its facets need.
 RawMesh parse_stl(std::string_view bytes);

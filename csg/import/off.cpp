@@ -19,7 +19,7 @@ class Reader {
     const std::size_t vertices = read_count("number of vertices");
     const std::size_t faces = read_count("number of faces");
     RawMesh raw;
-    // What a file promises is no reason to reserve more than it can hold.
+    // Reserve no more than the file can hold, whatever it promises.
     raw.mesh.vertices.reserve(std::min(vertices, most_lines_));
     raw.mesh.triangles.reserve(std::min(faces, most_lines_));
     for (std::size_t i = 0; i < vertices; ++i) {

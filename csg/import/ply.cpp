@@ -4,7 +4,7 @@
 // order; the body has their values as text or as bytes of either order. So one
 // reader walks over the properties, and a source gives it one value after the
 // other. What is neither a vertex nor a face is walked over as well, since only
-// that tells where it ends.
+// that shows where it ends.
 
 #include <algorithm>
 #include <array>

@@ -24,7 +24,7 @@ struct HeightField {
 };
 
 // Reads numbers by rows; "#" begins a comment line. Short rows are filled up
-// with 0. A word that is no number ends the field, and in 2026 empties it.
+// with 0. A word that is not a number ends the field, and in 2026 empties it.
 //
 // throws  LimitExceeded, before short rows are filled up
 HeightField parse_dat(std::string_view bytes, Language rules = Language::k2021);

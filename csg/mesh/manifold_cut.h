@@ -1,5 +1,5 @@
 #pragma once
-// A mesh cut open wherever it is no manifold.
+// A mesh cut open wherever it is not manifold.
 //
 // Edges of four triangles and cones that meet in a point are nothing for a
 // half-edge structure, nor for Euler's formula. Both take a mesh whose
@@ -29,7 +29,7 @@ struct ManifoldCut {
   std::vector<bool> is_open;
   bool is_closed = true;       // of every edge as many sides rise as fall
   std::size_t open_edges = 0;  // of one triangle
-  // Of more than two, or of two that do not run against each other.
+  // Edges of more than two, or of two that do not run against each other.
   std::size_t tangled_edges = 0;
   std::size_t tangled_vertices = 0;  // of several fans, in the mesh as it was
 };

@@ -28,14 +28,14 @@ class VertexTable {
   // is added.
   std::uint32_t name(const Vec3& point);
 
-  // The same for one point after the other, about three times as fast.
+  // Names one point after the other, about three times as fast.
   //
   // names  as many as points
   void name(std::span<const Vec3> points, std::span<std::uint32_t> names);
 
   std::optional<std::uint32_t> find(const Vec3& point) const;
 
-  // Of different points.
+  // The number of different points.
   std::size_t size() const { return points_.size(); }
 
   // By name; the table is empty afterwards.

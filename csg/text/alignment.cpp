@@ -33,7 +33,7 @@ double choose(std::string_view word, std::initializer_list<Choice> choices,
 struct Extent {
   Box ink{Vec2(std::numeric_limits<double>::max()),
           Vec2(std::numeric_limits<double>::lowest())};
-  // Of the highest and the lowest glyph, each above its own origin.
+  // The highest and the lowest glyph, each above its own origin.
   double ascent = std::numeric_limits<double>::lowest();
   double descent = std::numeric_limits<double>::max();
   Vec2 advance = Vec2(0);

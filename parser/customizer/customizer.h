@@ -39,7 +39,7 @@ struct ParameterRule {
     std::string label;
   };
   std::vector<Choice> choices;  // none: all
-  // Of numbers, and of each in a vector.
+  // They bound a number, and each number in a vector.
   std::optional<double> least;
   std::optional<double> greatest;
   std::optional<double> step;
@@ -50,7 +50,7 @@ struct ParameterRule {
 };
 
 // Whether the customizer lets a parameter with this rule have the value. What
-// is no literal may be anything.
+// is not a literal may be anything.
 bool keeps_rule(const ast::Expr& value, const ParameterRule& rule);
 
 class Customizer {

@@ -263,7 +263,7 @@ class SetApplier {
         diagnostics_(diagnostics) {}
 
   // Sets values variable by variable, as OpenSCAD does: that decides which are
-  // set before one fails. False where a text is no value of a parameter that
+  // set before one fails. False where a text is not a value of a parameter that
   // wants true or false.
   bool apply() {
     std::vector<const ast::Statement*> statements(program_.statements.begin(),
@@ -291,7 +291,7 @@ class SetApplier {
   }
 
  private:
-  // Of one name in the order of the set.
+  // By name; those of one name in the order of the set.
   using Entries =
       std::map<std::string_view, std::vector<const ParameterValue*>>;
 
@@ -372,8 +372,8 @@ class SetApplier {
 
   void set(const ast::Statement*& statement, const ast::Expr& value) {
     const auto& assignment = std::get<ast::Assignment>(statement->node);
-    // A variable that was no parameter must not become one, so its value gets
-    // no place: comments describe values that have one.
+    // A variable that was not a parameter must not become one, so its value
+    // gets no place: comments describe values that have one.
     const bool was_literal = ast::is_literal(*assignment.value);
     const SourceRange range =
         was_literal ? assignment.value->range : SourceRange();

@@ -11,8 +11,8 @@
 //
 // So says OpenSCAD 2021.01. In language 2026 only what customizer.h's
 // ParameterRule describes can be set: numbers are moved into their range, texts
-// cut to their length, and what is no choice is left out. In both languages a
-// warning names each value that the design does not get as the set has it.
+// cut to their length, and what is not a choice is left out. In both languages
+// a warning names each value that the design does not get as the set has it.
 //
 // Departures from OpenSCAD 2021.01: a set that the file lacks is an error, not
 // the design's own values; and only variables whose value is a literal, or
@@ -56,8 +56,8 @@ class ParameterSets {
     return sets_[index].name;
   }
 
-  // Both throw FileError where what has the name is no set. Of several sets of
-  // one name, the name means the first.
+  // Both throw FileError where what has the name is not a set. Of several sets
+  // of one name, the name means the first.
   ParameterSet values_of(std::size_t index) const;
   ParameterSet values_of(std::string_view name) const;
 
@@ -66,7 +66,7 @@ class ParameterSets {
   struct Set {
     std::string name;
     std::size_t begin = 0;   // its first value; the next set's is the end
-    bool is_object = false;  // else it is no set
+    bool is_object = false;  // else it is not a set
   };
   struct Value {
     std::uint32_t name = 0;  // in names_

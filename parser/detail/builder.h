@@ -61,7 +61,7 @@ class Builder {
                                bool ast::Modifiers::*modifier);
 
   // OpenSCAD places a module and an `if` on the line of their closing
-  // parenthesis. The range of the whole head tells more, so it is cut down to
+  // parenthesis. The range of the whole head shows more, so it is cut down to
   // the parenthesis only where their lines differ.
   SourceRange place_head(SourceRange keyword, SourceRange close) const;
 
@@ -123,7 +123,7 @@ class Builder {
     return take_top(arguments_, arguments.begin);
   }
   ast::Statements close_scope(Scope scope);
-  // Fills numbers_ from elements_; false if one is no number literal.
+  // Fills numbers_ from elements_; false if one is not a number literal.
   bool collect_numbers(std::uint32_t begin);
   void warn_overwritten(std::string_view name, SourceRange before,
                         SourceRange now);

@@ -56,7 +56,7 @@ class Reader {
 
   Text plain_string(SourceRange range) const;
   void add_to_string(std::string_view part) { string_ += part; }
-  // Takes hexadecimal digits; what is no character becomes a blank.
+  // Takes hexadecimal digits; what is not a character becomes a blank.
   void add_code_point(const char* digits);
   // OpenSCAD places a string of several lines on its last one.
   void break_string(SourceRange range);
@@ -102,7 +102,7 @@ class Reader {
   Diagnostics& diagnostics_;
 
   std::vector<File> files_;  // the main text, then the includes being read
-  // Of a token of several parts: the first, and where it is taken to begin.
+  // Where a token of several parts opened, and where it is taken to begin.
   SourceRange opening_;
   SourceRange token_begin_;
   std::string file_name_;              // in `include <…>`, `use <…>`

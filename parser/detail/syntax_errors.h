@@ -40,7 +40,7 @@ class SyntaxErrors {
   void report_depth(SourceRange range);
 
   bool is_empty() const { return count_ == 0; }
-  // Whether a text has so many errors that reading on tells nothing new.
+  // Whether a text has so many errors that reading on shows nothing new.
   bool are_too_many() const;
   // Throws the first error; there must be one.
   [[noreturn]] void throw_first() const;

@@ -142,7 +142,7 @@ class Walker {
   }
 
   // A copy of the descriptor where a permitted folder keeps its own; none
-  // where that fails (errno tells why).
+  // where that fails (errno says why).
   OpenFile take_place() {
     if (files_.empty()) {
       return OpenFile(::fcntl(place(), F_DUPFD_CLOEXEC, 0));

@@ -32,7 +32,7 @@ struct PermittedFolder {
 struct Destination {
   enum class State { kOutside, kMissing, kThere };
   State state = State::kOutside;
-  int error = EACCES;       // why it is not there, or not to be told of (errno)
+  int error = EACCES;       // why it is not there, or is not shown (errno)
   bool has_folder = false;  // missing: what would hold it is there
   OpenFile folder;          // that holds it; none for a permitted folder
   std::string name;         // there; no link
@@ -46,7 +46,7 @@ std::vector<std::string> parts_of(const std::string& path);
 // "/" and the parts between slashes.
 std::string join_parts(std::span<const std::string> parts);
 
-// `path` as the kernel is told it. A name would end at its first NUL there and
+// `path` as the kernel gets it. A name would end at its first NUL there and
 // mean another file than all who judged it saw; so a path with a NUL is the
 // empty one, which leads nowhere.
 const char* kernel_path(const std::string& path);

@@ -21,9 +21,9 @@ constexpr int kMostLinks = 40;
 // Whether the rule forbids to follow a link in that folder.
 bool is_planted(const struct stat& link, const struct stat& folder);
 
-// The same of any file at `path`, as the kernel has it with
-// fs.protected_regular and fs.protected_fifos: nothing is added to it, and an
-// output in its place takes nothing of it.
+// Whether the kernel's rules fs.protected_regular and fs.protected_fifos forbid
+// to use the file at `path`: nothing is added to it, and an output in its place
+// takes nothing of it.
 bool is_planted_at(const std::string& path, const struct stat& file);
 
 // The first planted link on the way of a path, if there is one.

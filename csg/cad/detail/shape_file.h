@@ -12,7 +12,7 @@
 
 namespace lamina::cad {
 
-// Thrown for bytes that are no such file, or none that can be meshed.
+// Thrown for bytes that are not such a file, or cannot be meshed.
 struct Unreadable {
   std::string reason;
 };

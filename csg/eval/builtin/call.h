@@ -22,10 +22,10 @@ Value wrong_count(const CallCode& code, Frame& frame,
 // An argument is `found`, which has not the type that was expected.
 Value wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
                  Type expected, const Value& found);
-// The same where 2021.01 says nothing: then only 2026 warns.
+// Warns so in 2026 alone, where 2021.01 says nothing.
 Value newly_wrong_type(const CallCode& code, Frame& frame, std::size_t argument,
                        Type expected, const Value& found);
-// The same of functions that 2021.01 has not.
+// Warn so of functions that 2021.01 has not.
 Value wrong_count_of_new(const CallCode& code, Frame& frame,
                          std::string_view expected);
 Value wrong_type_of_new(const CallCode& code, Frame& frame,
@@ -60,7 +60,7 @@ Value warn(const CallCode& code, Frame& frame,
   frame.in.warn(code.range, fmt::format(words, std::forward<Parts>(parts)...));
   return Value();
 }
-// The same; the message names the file relative to the used file that calls.
+// Warns; the message names the file relative to the used file that calls.
 template <typename... Parts>
 Value warn_in_file(const CallCode& code, Frame& frame,
                    fmt::format_string<Parts...> words, Parts&&... parts) {

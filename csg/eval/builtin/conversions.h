@@ -18,7 +18,7 @@ std::optional<Vec3> to_vec3(const Value& value);
 // A vector of three numbers, or of two with `z` for the third.
 std::optional<Vec3> to_vec3(const Value& value, double z);
 // Reads a vector of two or three elements into `target`. False for anything
-// else; elements that come before one that is no number are written all the
+// else; elements that come before one that is not a number are written all the
 // same, as OpenSCAD does.
 bool read_vec3(const Value& value, double default_z, Vec3& target);
 

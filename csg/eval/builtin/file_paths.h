@@ -15,7 +15,7 @@ namespace lamina::csg {
 // empty name. The file need not exist; the design depends on it all the same.
 // Throws AccessError where it may not be read.
 std::string find_file(std::string_view name, const ModuleCall& call);
-// The same for a file that code of the folder `from` names at `place`.
+// Finds the file that code of the folder `from` names at `place`.
 std::string find_file(std::string_view name, const std::string& from,
                       SourceRange place, Interpreter& in);
 
@@ -31,7 +31,7 @@ Vec2 read_origin(const Value& origin, std::string_view shown_name,
 // "file = …, layer = …, origin = […], ".
 std::string drawing_text(const ImportParams& drawing, Frame& frame);
 
-// "timestamp = " and the seconds of the last change, 0 if there is no file.
+// "timestamp = " and the seconds of the last change, 0 if it is not there.
 std::string timestamp_text(const std::string& path, Frame& frame);
 
 }  // namespace lamina::csg

@@ -14,7 +14,7 @@ namespace {
 
 // --- About the program and its values ---------------------------------------
 
-// Of the OpenSCAD that the design is written for.
+// The version of the OpenSCAD that the design is written for.
 Value version_of(Language language) {
   constexpr double k2021[] = {2021, 1, 0};
   constexpr double k2026[] = {2026, 7, 20};

@@ -111,7 +111,7 @@ bool has_child(int n, SourceRange place, Frame& frame) {
 }
 
 // Calls `take` with each number in `which`, the argument of children(). False
-// where that is no argument for it, which is warned of.
+// where that is not an argument for it, which is warned of.
 template <typename Take>
 bool for_each_index(const Value& which, SourceRange place, Frame& frame,
                     const Take& take) {

@@ -62,7 +62,7 @@ void warn_of_children(const BuiltinModuleCode& code, Frame& frame);
 
 // `$fn $fa $fs $fe` within their limits; a change is warned of.
 Facets clamped_facets(const ModuleCall& call);
-// The same in 2026; 2021.01 clamps those of primitives only.
+// Clamped in 2026; 2021.01 clamps those of primitives only.
 Facets facets_of(const ModuleCall& call);
 
 // Run the block of a module, the first before the module looks at `$`

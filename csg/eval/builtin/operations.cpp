@@ -181,7 +181,7 @@ Vec3 read_extrusion_way(const ModuleCall& call) {
   return way * (number.value_or(kUsualHeight) / (length > 0 ? length : 1));
 }
 
-// A whole number, `least` or more; none where it is no number.
+// A whole number, `least` or more; none where it is not a number.
 std::optional<int> read_count(std::string_view name, int least,
                               const ModuleCall& call) {
   const Value& value = call[name];

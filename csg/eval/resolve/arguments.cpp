@@ -38,7 +38,7 @@ std::span<Parameter> Resolver::make_parameters(ast::Arguments written,
 
 namespace {
 
-// The names among the arguments that are no parameters.
+// The names among the arguments that are not parameters.
 std::vector<std::string_view> extra_names(
     std::span<const Parameter> parameters,
     std::span<const WrittenArgument> arguments) {

@@ -192,7 +192,7 @@ class Resolver : public LazyResolver {
     return {};
   }
   // A version of the callee with further parameters, for arguments whose names
-  // are no parameters: OpenSCAD warns of them, but the callee sees those
+  // are not parameters: OpenSCAD warns of them, but the callee sees those
   // variables.
   const Function& with_extras(const Function& function,
                               std::span<const WrittenArgument> arguments);

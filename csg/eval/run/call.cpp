@@ -94,7 +94,7 @@ namespace {
                                 : follow_links(frame, code.hops);
   pass_arguments(*code.plan, function.parameters, code.arguments, code.range,
                  frame, callee,
-                 code.is_self_call ? Repeats::kSilent : Repeats::kTold);
+                 code.is_self_call ? Repeats::kSilent : Repeats::kReported);
 }
 
 // Sets the parameter `this` of a method to its object, whatever was passed for
@@ -106,7 +106,7 @@ namespace {
   }
 }
 
-// The same for a function value.
+// Makes `callee` the frame of a function value.
 [[gnu::always_inline]] inline void enter_closure(const CallCode& code,
                                                  const LiteralCall& planned,
                                                  const Closure& closure,
@@ -118,7 +118,7 @@ namespace {
       code.kind == Expression::Kind::kTailCall && frame.closure == &closure;
   pass_arguments(planned.plan, planned.literal->parameters, code.arguments,
                  code.range, frame, callee,
-                 is_self_call ? Repeats::kSilent : Repeats::kTold);
+                 is_self_call ? Repeats::kSilent : Repeats::kReported);
   if (closure.method != nullptr) [[unlikely]]
     pass_this(closure, callee);
 }

@@ -130,7 +130,7 @@ Value run_member(const Expression& expression, Frame& frame) {
 }
 
 namespace {
-// Of numbers that the text gives: a range of other values may well be empty.
+// Only numbers in the text count: a range of other values may well be empty.
 void warn_of_direction(const RangeCode& code, std::string_view begin,
                        std::string_view step, Frame& frame) {
   if (!code.is_literal) return;

@@ -271,7 +271,7 @@ const Mat4* Interpreter::keep_matrix(const Mat4& matrix) {
   const std::size_t slot =
       (std::bit_cast<std::uint64_t>(mix) * 0x9e3779b97f4a7c15u) >> 58;
   const Mat4*& kept = recent_matrices_[slot];
-  // The same bits: -0 is not 0 in `.csg`.
+  // Bits must be equal: -0 is not 0 in `.csg`.
   // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): what is wanted
   if (kept == nullptr || std::memcmp(kept, &matrix, sizeof matrix) != 0) {
     kept = keep(matrix);

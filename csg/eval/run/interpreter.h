@@ -125,7 +125,7 @@ class Interpreter {
   // Gives a boxed variable a fresh box, so that closures made from now on do
   // not share it with those made before.
   Value make_box();
-  // The number of a well-known `$` variable: 0 for what is no number.
+  // The number of a well-known `$` variable: 0 for what is not a number.
   double dynamic_number(std::uint32_t index) {
     return dynamic(index).number_or_zero();
   }
@@ -413,14 +413,14 @@ inline void prepare(const Target& target, Frame& frame) {
 void run_bindings(Bindings bindings, Frame& frame);
 
 // Whether a call warns of its arguments each time or only the first time.
-enum class Repeats : std::uint8_t { kTold, kSilent };
+enum class Repeats : std::uint8_t { kReported, kSilent };
 
 // Stores arguments and defaults of a call into the callee's frame.
 void pass_arguments(const ArgumentPlan& plan,
                     std::span<const Parameter> parameters,
                     std::span<const WrittenArgument> arguments,
                     SourceRange range, Frame& caller, Frame& callee,
-                    Repeats repeats = Repeats::kTold);
+                    Repeats repeats = Repeats::kReported);
 
 // "a = 1, 2" as echo prints its arguments.
 std::string echo_text(std::span<const WrittenArgument> arguments, Frame& frame);

@@ -44,10 +44,11 @@ bool has_member(const Value& object, std::string_view key);
 // the object.
 Value find_member(const Value& object, std::string_view key);
 
-// The same members in the same order. Methods of two objects are never equal.
+// Whether both have the same members in the same order. Methods of two objects
+// are never equal.
 bool are_equal_objects(const Value& left, const Value& right);
 
-// The same function, bound to the same object if to any.
+// Whether both are one function, bound to one object if to any.
 bool are_equal_functions(const Value& left, const Value& right);
 
 }  // namespace lamina::csg

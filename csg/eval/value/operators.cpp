@@ -105,7 +105,7 @@ Value map_numbers(Value&& vector, const Of& of) {
   return map_numbers(std::move(vector), of, shared);
 }
 
-// The same of two vectors, number by number, as far as the shorter one goes.
+// `of` each pair of numbers of two vectors, as far as the shorter one goes.
 template <typename Of>
 Value zip_numbers(Value&& left, Value&& right, const Of& of,
                   SharedResults& shared) {

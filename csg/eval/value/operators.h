@@ -86,7 +86,7 @@ Value apply_unary(ast::UnaryOp op, Value value, Reason& reason);
 Value negate(Value value, Reason& reason);
 
 // object[index], or object["name"] of an object; undef without a word where
-// there is no such element.
+// it has no such element.
 Value index(const Value& object, const Value& index);
 
 // object.name: a member of an object; begin, step, end of a range; of a vector

@@ -46,9 +46,9 @@ struct FreecadOptions {
 struct FreecadModel {
   std::vector<const Node*> nodes;
   std::size_t leaves = 0;
-  // Of what is shown and left out all the same.
+  // On what is shown and left out all the same.
   std::vector<std::string> warnings;
-  // Of what is hidden, encloses nothing, or is taken by its boundary.
+  // On what is hidden, encloses nothing, or is taken by its boundary.
   std::vector<std::string> notes;
 };
 

@@ -126,7 +126,7 @@ void append_curve(const Polyline& curve, bool is_reversed, Polyline& contour) {
 
 // --- Outlines ---------------------------------------------------------------
 
-// Construction geometry helps to draw and is no part of the sketch.
+// Construction geometry helps to draw and is not part of the sketch.
 bool is_construction(const pugi::xml_node& geometry) {
   if (geometry.child("Construction").attribute("value").as_bool()) return true;
   for (const pugi::xml_node extension :

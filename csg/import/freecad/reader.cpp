@@ -225,7 +225,7 @@ void Reader::claim_operands(const Object& shown) {
 
 std::vector<const Object*> Reader::objects_of(const Object& group) {
   const std::vector<std::string_view> names = members_of(group);
-  // A group of links tells itself which of them it shows, the last one first.
+  // A group of links says itself which of them it shows, the last one first.
   const std::string_view shows = group.text("VisibilityList");
   std::vector<const Object*> objects;
   std::vector<std::string_view> missing;

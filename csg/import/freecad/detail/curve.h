@@ -1,9 +1,9 @@
 #pragma once
 // Curves of sketches, as chords.
 //
-// Of the curves of a sketch lines and arcs of circles are read: equal chords
-// of an arc follow from the error in closed form. A feature over any other
-// curve is taken by its boundary.
+// Lines and arcs of circles are read of a sketch: equal chords of an arc follow
+// from the error in closed form. A feature over any other curve is taken by its
+// boundary.
 
 #include <optional>
 #include <vector>

@@ -87,7 +87,7 @@ class Document {
   // throws  FormatError; plane::LimitExceeded
   explicit Document(std::string_view bytes);
 
-  // Of what stands in the file and is no object all the same.
+  // Warnings of what the file names and is not an object all the same.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   const std::vector<Object>& objects() const { return objects_; }
@@ -124,7 +124,7 @@ class Document {
   std::vector<Object> objects_;
   std::map<std::string_view, std::size_t> by_name_;
   std::vector<std::string> warnings_;
-  // Of the entries that were looked into: each is unpacked for it once.
+  // The entries that were looked into: each is unpacked for it once.
   mutable std::map<std::string_view, Boundary> boundaries_;
 };
 

@@ -40,7 +40,7 @@ class SolidMaker {
         most_leaves_(most_leaves) {}
 
   double chordal_error() const { return error_; }
-  // Of an outline that revolve() turns: the chords of the turn get the rest.
+  // For an outline that revolve() turns: the chords of the turn get the rest.
   double chordal_error_of_turned() const { return error_ / 2; }
 
   Solid leaf(decltype(Node::op) op);
