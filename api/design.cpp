@@ -13,7 +13,7 @@
 #include "compiler/passes.h"
 #include "parser/customizer/customizer.h"
 #include "plane/loop_area.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/plan/orientation.h"
 
 namespace lamina {

@@ -6,7 +6,7 @@
 
 #include "base/file/file_access.h"
 #include "csg/mesh/mesh_facts.h"
-#include "slicer/check/inspect.h"
+#include "slicer/check/defects/inspect.h"
 
 namespace lamina::compiler {
 

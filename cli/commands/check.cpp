@@ -15,12 +15,12 @@
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
+#include "cli/report/finding_table.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
 #include "compiler/inspect_file.h"
 #include "compiler/passes.h"
-#include "slicer/check/finding_table.h"
 #include "slicer/formats/layer_reader.h"
 
 namespace lamina::cli {

@@ -11,11 +11,11 @@
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
+#include "cli/report/inspection_text.h"
 #include "cli/report/session.h"
 #include "compiler/compile.h"
 #include "compiler/inspect_file.h"
 #include "compiler/passes.h"
-#include "slicer/check/inspection_text.h"
 #include "slicer/formats/layer_reader.h"
 
 namespace lamina::cli {
@@ -102,10 +102,10 @@ class InspectCommand : public Command {
     if (!found) return kFault;
     found->name = display_path(found->name);
     const std::string text =
-        is_json_ ? inspection_json(*found)
-                 : inspection_text(*found, lists_all_layers_
-                                               ? slicer::LayerList::kAll
-                                               : slicer::LayerList::kSummary);
+        is_json_
+            ? inspection_json(*found)
+            : inspection_text(*found, lists_all_layers_ ? LayerList::kAll
+                                                        : LayerList::kSummary);
     print_out(text);
     return found->defects == 0 ? kDone : kFault;
   }

@@ -6,8 +6,8 @@
 
 #include "base/file/csv.h"
 #include "base/text.h"
+#include "cli/report/finding_table.h"
 #include "cli/report/run_report.h"
-#include "slicer/check/finding_table.h"
 
 namespace lamina::cli {
 namespace {
@@ -20,8 +20,7 @@ std::string notes_of(const compiler::Report& report) {
   std::string text;
   if (report.warnings > 0) text = counted(report.warnings, "warning");
   if (report.slice.print && !report.slice.print->findings.empty()) {
-    text += (text.empty() ? "" : "; ") +
-            slicer::finding_counts(*report.slice.print);
+    text += (text.empty() ? "" : "; ") + finding_counts(*report.slice.print);
   }
   return text;
 }
@@ -59,9 +58,8 @@ std::string csv_of(const Piece& piece, const Outcome& outcome) {
         report.estimate.grams > 0 ? fmt::format("{}", report.estimate.grams)
                                   : "",
         report.wall_seconds, report.warnings,
-        csv_words(report.slice.print
-                      ? slicer::finding_counts(*report.slice.print)
-                      : ""));
+        csv_words(report.slice.print ? finding_counts(*report.slice.print)
+                                     : ""));
   } else {
     figures += csv_words(outcome.error);
   }

@@ -20,7 +20,7 @@
 #include "cli/report/session.h"
 #include "compiler/compile.h"
 #include "compiler/passes.h"
-#include "slicer/check/layer_graph.h"
+#include "slicer/check/print/layer_graph.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/formats/output_format.h"

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "base/text.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/thin/thin_finder.h"
 
 namespace lamina::cli {
 namespace {

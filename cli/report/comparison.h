@@ -12,7 +12,7 @@
 
 #include "cli/report/compared.h"
 #include "cli/report/comparison_text.h"
-#include "slicer/check/compare.h"
+#include "slicer/check/compare/compare.h"
 
 namespace lamina::cli {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/paths.h"
-#include "slicer/check/printed_text.h"
+#include "cli/report/printed_text.h"
 
 namespace lamina::cli {
 namespace {
@@ -69,7 +69,7 @@ std::string verdict(const ComparisonResult& result) {
   return words;
 }
 
-class Writer : slicer::PrintedText {
+class Writer : PrintedText {
  public:
   explicit Writer(const ComparisonResult& result) : result_(result) {}
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "slicer/check/compare.h"
+#include "slicer/check/compare/compare.h"
 
 namespace lamina::cli {
 

@@ -15,10 +15,10 @@
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/process/exit_status.h"
+#include "cli/report/feature_table.h"
+#include "cli/report/finding_table.h"
 #include "compiler/compile.h"
 #include "compiler/passes.h"
-#include "slicer/check/feature_table.h"
-#include "slicer/check/finding_table.h"
 
 namespace lamina::cli {
 namespace {
@@ -217,7 +217,7 @@ std::string report_text(const compiler::Compilation& compilation,
 std::string print_line(const compiler::Compilation& compilation) {
   const auto& print = compilation.report.slice.print;
   if (!print) return {};
-  const std::string counts = slicer::finding_counts(*print);
+  const std::string counts = finding_counts(*print);
   const bool is_any = std::ranges::any_of(
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
@@ -292,27 +292,25 @@ Json print_json(const compiler::Report& report) {
   const slicer::PrintCheck& print = *report.slice.print;
   Json findings = Json::array();
   for (std::size_t i = 0; i < print.findings.size(); ++i) {
-    Json& finding =
-        findings.emplace_back(slicer::finding_json(print.findings[i]));
+    Json& finding = findings.emplace_back(finding_json(print.findings[i]));
     if (i < report.finding_origins.size()) {
       finding["made_by"] = origins_json(report.finding_origins[i]);
     }
   }
-  return {{"peel", slicer::peel_json(print.peel)},
-          {"findings", std::move(findings)}};
+  return {{"peel", peel_json(print.peel)}, {"findings", std::move(findings)}};
 }
 
 std::string finding_lines(const compiler::Compilation& compilation) {
   const compiler::Report& report = compilation.report;
-  return slicer::finding_table(*report.slice.print,
-                               compiler::origin_texts(report.finding_origins));
+  return finding_table(*report.slice.print,
+                       compiler::origin_texts(report.finding_origins));
 }
 
 std::string feature_lines(const compiler::Compilation& compilation) {
   const compiler::Report& report = compilation.report;
-  std::string lines = slicer::feature_table(
-      report.slice.features, compilation.request.settings.min_feature,
-      compiler::origin_texts(report.origins));
+  std::string lines = feature_table(report.slice.features,
+                                    compilation.request.settings.min_feature,
+                                    compiler::origin_texts(report.origins));
   lines.pop_back();
   return lines;
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "plane/contours.h"
-#include "slicer/check/compare.h"
+#include "slicer/check/compare/compare.h"
 #include "slicer/picture/image.h"
 
 namespace lamina::slicer {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "slicer/check/thin_features.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/thin/thin_features.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/picture/detail/drawing.h"
 

@@ -13,9 +13,9 @@
 
 #include "base/check.h"
 #include "base/text.h"
-#include "slicer/check/feature_table.h"
-#include "slicer/check/finding_table.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/print/layer_graph.h"
+#include "slicer/check/thin/thin_features.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/layer_measures.h"
 #include "slicer/picture/detail/drawing.h"
 #include "slicer/picture/detail/viewer_template.h"
@@ -150,8 +150,8 @@ class PlaceList {
     }
   }
 
-  // Adds what feature_table() would list, in its order, the walls first; low
-  // ones are left out. Returns how many those are.
+  // Adds the features that people read about, the thinnest first, walls first;
+  // low ones are left out. Returns how many those are.
   std::size_t add(const std::vector<ThinFeature>& features, double width,
                   const std::vector<std::string>& origins) {
     std::vector<std::size_t> listed;

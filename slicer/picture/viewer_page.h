@@ -3,17 +3,17 @@
 // other file.
 //
 // The page is a template (slicer/picture/viewer) with two things put in: the
-// measures and findings that `lamina inspect` shows, as JSON, and the contours as a stream
-// of integers: steps from one corner to the next in units of 1e-4 mm, in zigzag
-// form and 7 bits a byte; deflated and in base64. That is some 3 bytes a
-// corner, and every browser since 2023 inflates it by itself.
+// measures and findings that `lamina inspect` shows, as JSON, and the contours
+// as a stream of integers: steps from one corner to the next in units of 1e-4
+// mm, in zigzag form and 7 bits a byte; deflated and in base64. That is some 3
+// bytes a corner, and every browser since 2023 inflates it by itself.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "slicer/check/layer_graph.h"
-#include "slicer/check/thin_features.h"
+#include "slicer/check/print/layer_graph.h"
+#include "slicer/check/thin/thin_features.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::slicer {

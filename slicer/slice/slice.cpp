@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/thread_clock.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/plan/adaptive.h"
 #include "slicer/slice/detail/block_slicer.h"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "cli/report/inspection_text.h"
 #include "compiler/inspect_file.h"
-#include "slicer/check/compare.h"
-#include "slicer/check/inspection_text.h"
+#include "slicer/check/compare/compare.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/picture/detail/trapezoids.h"
 #include "slicer/picture/layer_picture.h"
@@ -53,10 +53,10 @@ std::vector<slicer::Layer> read_layers(const std::string& path) {
     });
   });
   try_to([&] {
-    const slicer::Inspection found =
-        compiler::inspect_file(path, {.min_feature = kMinFeature}, FileAccess());
-    slicer::inspection_text(found, slicer::LayerList::kAll);
-    slicer::inspection_json(found);
+    const slicer::Inspection found = compiler::inspect_file(
+        path, {.min_feature = kMinFeature}, FileAccess());
+    cli::inspection_text(found, cli::LayerList::kAll);
+    cli::inspection_json(found);
   });
   return layers;
 }

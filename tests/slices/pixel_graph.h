@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "slicer/check/layer_graph.h"
+#include "slicer/check/print/layer_graph.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::support {

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "slicer/check/layer_graph.h"
+#include "slicer/check/print/layer_graph.h"
 #include "slicer/slice/slice.h"
 #include "tests/slices/pixel_graph.h"
 #include "tests/support/design.h"

@@ -13,7 +13,7 @@
 #include "plane/point_grid.h"
 #include "plane/predicates.h"
 #include "plane/tie_distance.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/thin/thin_finder.h"
 
 namespace lamina::slicer {
 namespace {

@@ -10,7 +10,7 @@
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
 #include "plane/contours.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/slice/settings.h"
 #include "slicer/slice/slice.h"
 

@@ -5,7 +5,7 @@
 
 #include "csg/scene.h"
 #include "ldni/section/grid.h"
-#include "slicer/check/layer_graph.h"
+#include "slicer/check/print/layer_graph.h"
 
 namespace lamina::slicer {
 

@@ -15,8 +15,8 @@
 
 #include "base/parallel.h"
 #include "base/thread_clock.h"
-#include "slicer/check/layer_overlay.h"
-#include "slicer/check/thin_finder.h"
+#include "slicer/check/print/layer_overlay.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/compensate.h"
 #include "slicer/contour/layer.h"
 #include "slicer/contour/layer_measures.h"

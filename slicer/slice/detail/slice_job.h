@@ -3,8 +3,8 @@
 // contours, which leave in order.
 
 #include "ldni/section/grid.h"
-#include "slicer/check/layer_graph.h"
-#include "slicer/check/thin_features.h"
+#include "slicer/check/print/layer_graph.h"
+#include "slicer/check/thin/thin_features.h"
 #include "slicer/slice/detail/block_slicer.h"
 #include "slicer/slice/settings.h"
 #include "slicer/slice/slice.h"

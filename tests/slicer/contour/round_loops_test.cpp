@@ -15,7 +15,7 @@
 #include "ldni/section/grid.h"
 #include "ldni/section/leaf_section.h"
 #include "plane/cascade/kinetic_ray.h"
-#include "slicer/check/defects.h"
+#include "slicer/check/defects/defects.h"
 #include "slicer/contour/layer_file.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/random_scenes.h"

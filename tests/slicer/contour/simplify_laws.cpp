@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slicer/check/defects.h"
+#include "slicer/check/defects/defects.h"
 #include "slicer/contour/simplify.h"
 #include "tests/support/contour_checks.h"
 #include "tests/support/edge_grid.h"

@@ -1,0 +1,27 @@
+#pragma once
+// What the layer graph found, for people and as JSON.
+
+#include <span>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "slicer/check/print/layer_graph.h"
+
+namespace lamina::cli {
+
+// "2 islands, 1 resin trap", "nothing found"; what is too small to matter is
+// counted apart.
+std::string finding_counts(const slicer::PrintCheck& print);
+
+// The counts, a line for each finding that matters, and the peel. Each line
+// ends with '\n'.
+//
+// origins  what made each finding, one text for each; empty if not known
+std::string finding_table(const slicer::PrintCheck& print,
+                          std::span<const std::string> origins);
+
+nlohmann::ordered_json finding_json(const slicer::Finding& finding);
+nlohmann::ordered_json peel_json(const slicer::Peel& peel);
+
+}  // namespace lamina::cli
