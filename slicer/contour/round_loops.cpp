@@ -72,13 +72,15 @@ bool LoopRounder::is_safe(const plane::Contours& contours) {
   // Both ends of a distance move, by half the spacing each way.
   const double reach = kTreeReach * spacing_;
   near_pairs_.clear();
-  const bool is_crowded = tree_.visit_near(
-      reach, [this](const LoopTree::Bundle& a, const LoopTree::Bundle& b) {
+  const bool is_crowded =
+      tree_.visit_near(reach, [this](const plane::EdgeTree::Bundle& a,
+                                     const plane::EdgeTree::Bundle& b) {
         near_pairs_.push_back({&a, &b});
         return false;
       });
   if (is_crowded) return is_safe_by_grid();
-  const auto meet = [&](const LoopTree::Bundle& a, const LoopTree::Bundle& b) {
+  const auto meet = [&](const plane::EdgeTree::Bundle& a,
+                        const plane::EdgeTree::Bundle& b) {
     return tree_.visit_meetings(
         a, b, reach, [&](std::uint32_t vertex, std::uint32_t edge) {
           return a.loop == b.loop || !touch(vertex, edge);
@@ -106,8 +108,8 @@ bool LoopRounder::is_safe_by_grid() {
       const auto meets = [&](std::uint32_t i) {
         if (i == edge || i == to) return false;
         const bool is_same_loop = i >= begin && i < end;
-        return meets_square(points_[edge], points_[edge + 1], points_[i],
-                            kTreeReach * spacing_) &&
+        return plane::meets_square(points_[edge], points_[edge + 1], points_[i],
+                                   kTreeReach * spacing_) &&
                (is_same_loop || !touch(i, edge));
       };
       if (grid_.has_near(points_[edge], points_[edge + 1],
@@ -194,9 +196,9 @@ bool LoopRounder::bends_edge(Vec2 from, Vec2 to) {
   const Vec2 along = to - from;
   grid_.has_near(from, to, kUnit, [&](std::uint32_t i) {
     const Vec2& middle = hot_pixels_[i];
-    const bool is_end = meets_square(from, from, middle, kUnit / 2) ||
-                        meets_square(to, to, middle, kUnit / 2);
-    if (!is_end && meets_square(from, to, middle, kUnit / 2)) {
+    const bool is_end = plane::meets_square(from, from, middle, kUnit / 2) ||
+                        plane::meets_square(to, to, middle, kUnit / 2);
+    if (!is_end && plane::meets_square(from, to, middle, kUnit / 2)) {
       passages_.push_back({dot(along, middle), middle});
     }
     return false;

@@ -6,7 +6,7 @@
 //
 // 1. Proof. A point moves by half that spacing, in x and in y. Loops that are
 //    apart can only meet if some vertex is nearer than two such moves to a
-//    foreign edge. A tree of boxes looks for one (loop_tree.h); hardly ever
+//    foreign edge. A tree of boxes looks for one (edge_tree.h); hardly ever
 //    there is one, and each point goes to its nearest float32.
 // 2. Else the layer is snap-rounded (Greene and Yao 1986; Guibas and Marimont
 //    1998; Hobby 1999) on a grid of the spacing at the largest coordinate: an
@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "plane/contours.h"
+#include "plane/edge_tree.h"
 #include "plane/point_grid.h"
 #include "plane/sweep/loop_resolver.h"
-#include "slicer/contour/loop_tree.h"
 
 namespace lamina::slicer {
 
@@ -58,8 +58,9 @@ class LoopRounder {
   std::vector<Vec2> points_;
   std::vector<std::uint32_t> vertices_;  // all of them
   std::vector<std::uint32_t> ends_;
-  LoopTree tree_;
-  std::vector<std::pair<const LoopTree::Bundle*, const LoopTree::Bundle*>>
+  plane::EdgeTree tree_;
+  std::vector<
+      std::pair<const plane::EdgeTree::Bundle*, const plane::EdgeTree::Bundle*>>
       near_pairs_;  // of the tree
   std::vector<std::uint32_t> members_;
   PointGrid grid_;

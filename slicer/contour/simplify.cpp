@@ -147,15 +147,15 @@ void Simplifier::list_kept() {
 void Simplifier::find_neighbours() {
   tree_.fill(points_, vertices_, ends_);
   near_pairs_.clear();
-  is_crowded_ = tree_.visit_near(
-      clearance_ + 2 * kEndMargin,
-      [this](const LoopTree::Bundle& a, const LoopTree::Bundle& b) {
-        const std::uint32_t i = tree_.index_of(a);
-        const std::uint32_t k = tree_.index_of(b);
-        near_pairs_.push_back({i, k});
-        if (i != k) near_pairs_.push_back({k, i});
-        return false;
-      });
+  is_crowded_ = tree_.visit_near(clearance_ + 2 * kEndMargin,
+                                 [this](const plane::EdgeTree::Bundle& a,
+                                        const plane::EdgeTree::Bundle& b) {
+                                   const std::uint32_t i = tree_.index_of(a);
+                                   const std::uint32_t k = tree_.index_of(b);
+                                   near_pairs_.push_back({i, k});
+                                   if (i != k) near_pairs_.push_back({k, i});
+                                   return false;
+                                 });
   if (is_crowded_) {
     grid_.fill(points_, vertices_);
     return;
@@ -324,7 +324,7 @@ bool Simplifier::is_clear(const Shortcut& shortcut, std::uint32_t k,
   }
   for (std::uint32_t i = near_begins_[bundle]; i < near_begins_[bundle + 1];
        ++i) {
-    const LoopTree::Bundle& near = tree_.bundle(near_bundles_[i]);
+    const plane::EdgeTree::Bundle& near = tree_.bundle(near_bundles_[i]);
     for (std::uint32_t n = near.begin; n < near.end; ++n) {
       if (is_hit(vertices_[n])) return false;
     }

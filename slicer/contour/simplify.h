@@ -15,7 +15,7 @@
 //    each of the two is within the tolerance of the other. Moving the run
 //    straight down to the shortcut sweeps the strip between them; no vertex
 //    that stays may lie in a strip. A tree of boxes separates nearly all strips
-//    at once (loop_tree.h); the others are looked at one by one.
+//    at once (edge_tree.h); the others are looked at one by one.
 // 3. Repair. A run that fails is split at its farthest vertex until none does;
 //    where that goes on for many rounds, all vertices stay for now.
 // 4. Thin out. A vertex is left out where the runs before and behind it pass
@@ -39,8 +39,8 @@
 #include <vector>
 
 #include "plane/contours.h"
+#include "plane/edge_tree.h"
 #include "plane/point_grid.h"
-#include "slicer/contour/loop_tree.h"
 
 namespace lamina::slicer {
 
@@ -98,7 +98,7 @@ class Simplifier {
   // The points that are kept, as the tree takes them.
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> ends_;
-  LoopTree tree_;
+  plane::EdgeTree tree_;
   bool is_crowded_ = false;  // too many for the tree: the grid serves instead
   PointGrid grid_;
   // Bundles near bundle i: near_bundles_ from near_begins_[i] to

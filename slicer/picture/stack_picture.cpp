@@ -41,7 +41,7 @@ class Normals {
     const double length = std::max(thickness, kSlopeLength * size);
     half_step_ = static_cast<int>(std::min(length / thickness / 2, 50.0));
     reach_ = kSlopeReach * length;
-    depths_.resize(layers.size(), LayerDistance({}, reach_));
+    depths_.resize(layers.size());
     for_each_index(layers.size(), [&](std::size_t i) {
       depths_[i] = LayerDistance(layers[i].contours, reach_);
     });

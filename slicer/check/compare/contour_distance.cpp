@@ -6,7 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "slicer/contour/edge_tree.h"
+#include "plane/edge_tree.h"
+#include "slicer/contour/layer_edges.h"
 
 namespace lamina::slicer {
 namespace {
@@ -16,22 +17,22 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Raises `greatest` to the greatest distance of points of `from` from `to`.
 class Search {
  public:
-  Search(const EdgeTree& to, ContourDistance& greatest)
+  Search(const plane::EdgeTree& to, ContourDistance& greatest)
       : to_(to), greatest_(greatest) {}
 
-  void run(const std::vector<EdgeTree::Edge>& from) {
-    for (const EdgeTree::Edge& edge : from) {
+  void run(const plane::Contours& contours) {
+    visit_edges(contours, [this](Vec2 from, Vec2 to) {
       // Edges follow each other, and so do the nearest ones.
       const End begin =
-          edge.from == last_.point ? last_ : end_at(edge.from, last_.nearest);
-      last_ = end_at(edge.to, begin.nearest);
+          from == last_.point ? last_ : end_at(from, last_.nearest);
+      last_ = end_at(to, begin.nearest);
       parts_.assign(1, {begin, last_});
       while (!parts_.empty()) {
         const Part part = parts_.back();
         parts_.pop_back();
         halve(part);
       }
-    }
+    });
   }
 
  private:
@@ -67,7 +68,7 @@ class Search {
     parts_.push_back({half, part.end});
   }
 
-  const EdgeTree& to_;
+  const plane::EdgeTree& to_;
   ContourDistance& greatest_;
   End last_;
   std::vector<Part> parts_;
@@ -82,10 +83,8 @@ ContourDistance greatest_distance(const plane::Contours& a,
   if (a.points.empty() || b.points.empty()) {
     return {kInfinity, a.points.empty() ? b.points[0] : a.points[0]};
   }
-  const EdgeTree tree_a(a);
-  const EdgeTree tree_b(b);
-  Search(tree_b, greatest).run(tree_a.edges());
-  Search(tree_a, greatest).run(tree_b.edges());
+  Search(plane::EdgeTree(b), greatest).run(a);
+  Search(plane::EdgeTree(a), greatest).run(b);
   return greatest;
 }
 

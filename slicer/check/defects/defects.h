@@ -2,12 +2,12 @@
 // Defects of a layer that the reader of its file could stumble over.
 //
 // Loops of a layer must be closed, simple, disjoint and turned by their
-// nesting: outer ones counter-clockwise, holes clockwise. Only edges of one
-// cell of a grid are compared, and what goes around a loop is known by the
-// order of all edges (slicer/contour/edge_order.h), so a layer costs little
-// more than in proportion to its edges. Coordinates are float32, which doubles
-// subtract exactly, and orientations are exact too: a defect is one of the
-// numbers in the file and not of this check.
+// nesting: outer ones counter-clockwise, holes clockwise. Only edges that
+// lie near each other are compared (plane/edge_tree.h), and what goes around a
+// loop is known by the order of all edges (slicer/contour/edge_order.h), so a
+// layer costs little more than in proportion to its edges. Coordinates are
+// float32, which doubles subtract exactly, and orientations are exact too: a
+// defect is one of the numbers in the file and not of this check.
 //
 // Loops may touch in a point (two squares corner to corner are two regions); to
 // pass through each other there is a crossing.

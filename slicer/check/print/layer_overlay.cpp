@@ -8,8 +8,8 @@
 #include <span>
 
 #include "base/diagnostic.h"
+#include "plane/edge_tree.h"
 #include "plane/loop_area.h"
-#include "slicer/contour/edge_tree.h"
 
 namespace lamina::slicer {
 namespace {
@@ -449,7 +449,7 @@ class OverhangSearch {
   // tenth at most.
   static constexpr double kStride = 0.2;
 
-  const EdgeTree tree_;
+  const plane::EdgeTree tree_;
   const double reach_;
   const Box2 box_;  // of the layer above
   const double pitch_;

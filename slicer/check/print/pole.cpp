@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <queue>
 
+#include "plane/edge_tree.h"
 #include "plane/predicates.h"
-#include "slicer/contour/edge_tree.h"
 
 namespace lamina::slicer {
 namespace {
@@ -28,16 +28,13 @@ struct Square {
 }  // namespace
 
 Vec2 pole_of(const plane::Contours& region) {
-  const EdgeTree tree(region);
+  const plane::EdgeTree tree(region);
   std::size_t guess = 0;
   const auto square_at = [&](Vec2 middle, double half) {
     guess = tree.nearest(middle, guess, 0);
-    int winding = 0;
-    for (std::size_t i = 0; i < region.loop_count(); ++i) {
-      winding += winding_number(region.loop(i), middle);
-    }
     const double distance = tree.distance(guess, middle);
-    return Square{middle, half, winding != 0 ? distance : -distance};
+    const bool is_inside = tree.winding_number(middle) != 0;
+    return Square{middle, half, is_inside ? distance : -distance};
   };
   Box2 box;
   box.add(std::span<const Vec2>(region.points));

@@ -1,30 +1,37 @@
 #pragma once
-// Loops of a layer as a tree of boxes, to find what lies near what.
+// The edges of closed loops by place: which lie near each other, near a point
+// or near a segment, and how often they wind around a point.
 //
 // A few successive edges make a bundle, two neighbours on a level the node
-// above them; loops near each other are neighbours too. So a box holds
-// successive edges, and two tests separate nearly all of a layer from the rest:
+// above them; loops near each other are neighbours too. So a node holds
+// successive edges, and its box says most of what a question needs:
 //
-// - the boxes of two nodes are apart, at any level;
-// - two nodes follow each other, or are one, and all their edges advance along
-//   an axis to the same side: then their vertices lie one behind the other.
-//
-// The caller gets what neither test separates, bundle by bundle. On sections of
-// rings this takes a third of the instructions of a grid of the vertices.
+// - What lies near what? Two nodes whose boxes are apart, at any level, are
+//   done; and so are two that follow each other, or are one, where all their
+//   edges advance along an axis to the same side: then their vertices lie one
+//   behind the other. The caller gets what neither test separates, bundle by
+//   bundle. On sections of rings this takes a third of the instructions of a
+//   grid of the vertices.
+// - Which edge is nearest? The nearer box is opened first, and none that is
+//   farther than the nearest edge so far.
+// - What winds around a point? Edges of one loop that follow each other beside
+//   the point count by the ends of their run alone.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "base/lanes.h"
 #include "base/vec.h"
+#include "plane/contours.h"
 #include "plane/predicates.h"
 
-namespace lamina::slicer {
+namespace lamina::plane {
 
 // Whether the segment meets the square around `middle`, its rim included.
 inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
@@ -43,8 +50,14 @@ inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
   return std::abs(cross(along, aside)) <= reach;
 }
 
-class LoopTree {
+class EdgeTree {
  public:
+  EdgeTree() = default;
+  // The points of `contours` must outlive the queries.
+  explicit EdgeTree(const Contours& contours);
+  EdgeTree(EdgeTree&&) = default;
+  EdgeTree& operator=(EdgeTree&&) = default;
+
   // Edges [begin, end): edge k runs from vertex k to vertex k + 1.
   struct Bundle {
     std::uint32_t begin = 0;
@@ -60,18 +73,21 @@ class LoopTree {
   //           to its second.
   // ends      loop l: vertices [ends[l-1], ends[l])
   //
-  // Points and vertices must outlive the queries.
+  // All three must outlive the queries.
   void fill(std::span<const Vec2> points,
             std::span<const std::uint32_t> vertices,
             std::span<const std::uint32_t> ends);
 
   // Calls take(bundle, bundle), a bundle with itself too, for all pairs that
-  // may hold an edge and a foreign vertex within `reach` [mm] in x and in y.
-  // Stops and returns true where take() does, and also where so many bundles
-  // run beside each other, hundreds of rings in rings, that a grid of the
-  // vertices is faster.
+  // may hold an edge and a foreign vertex within `reach` [mm] in x and in y, or
+  // edges that meet elsewhere than in a vertex of both. Stops and returns true
+  // where take() does, and as `crowd` asks for also where so many bundles run
+  // beside each other, hundreds of rings in rings, that a grid of the vertices
+  // is faster.
+  enum class Crowd { kStop, kVisit };
   template <typename Take>
-  bool visit_near(double reach, const Take& take) const;
+  bool visit_near(double reach, const Take& take,
+                  Crowd crowd = Crowd::kStop) const;
 
   std::size_t bundle_count() const { return bundles_.size(); }
   std::uint32_t index_of(const Bundle& bundle) const {
@@ -80,6 +96,33 @@ class LoopTree {
   const Bundle& bundle(std::uint32_t index) const { return bundles_[index]; }
   // The bundle of the edge that begins at vertex k, not a loop's last.
   std::uint32_t bundle_of(std::uint32_t k) const { return bundle_of_[k]; }
+  bool is_empty() const { return bundles_.empty(); }
+
+  // The ends of edge k, and the edge that follows it in its loop.
+  const Vec2& from(std::size_t k) const { return points_[vertices_[k]]; }
+  const Vec2& to(std::size_t k) const { return points_[vertices_[k + 1]]; }
+  std::uint32_t next_of(std::uint32_t k) const {
+    const std::uint32_t loop = bundles_[bundle_of_[k]].loop;
+    return k + 2 < ends_[loop] ? k + 1 : loop_begin(loop);
+  }
+  double distance(std::size_t k, Vec2 point) const {
+    return distance_to_segment(point, from(k), to(k));
+  }
+
+  // The nearest edge, or any that is no farther than `enough` [mm]. There must
+  // be one.
+  //
+  // guess  any edge; the search is the faster the nearer it is
+  std::size_t nearest(Vec2 point, std::size_t guess, double enough) const;
+
+  // Lowers `best` [mm], the distance of some edge or a limit, to that of the
+  // nearest edge, which becomes the guess; or to that of any that is no farther
+  // than `enough`.
+  void lower(Vec2 point, double enough, double& best, std::size_t& guess) const;
+
+  // How often the loops go around the point together, as winding_number() of
+  // each by itself.
+  int winding_number(Vec2 point) const;
 
   // Calls take(vertex, edge) for each vertex of `vertices`, but those that
   // close a loop, and each foreign edge of `edges` within `reach` [mm] of it in
@@ -97,8 +140,10 @@ class LoopTree {
  private:
   static constexpr std::uint32_t kEdgesPerBundle = 3;
   static constexpr std::uint32_t kNone = 0xffffffff;
-  // Pairs to look at for each bundle before visit_near() stops; 14 are usual.
-  static constexpr std::size_t kMostLooks = 32;
+  // Pairs of nodes to look at for each bundle in a crowd; 14 are usual.
+  static constexpr std::size_t kCrowdLooks = 32;
+  // Levels of as many bundles as 32 bits can count.
+  static constexpr std::size_t kMostLevels = 33;
 
   struct Node {
     Lanes low = both_lanes(1e300);
@@ -108,6 +153,11 @@ class LoopTree {
     std::uint32_t loop = kNone;  // kNone where it is of several
 
     void add(const Node& other);
+    double squared_distance(Lanes point) const {
+      const Lanes gap =
+          greatest(greatest(low - point, point - high), both_lanes(0));
+      return gap[0] * gap[0] + gap[1] * gap[1];
+    }
     bool is_near(Vec2 point, double reach) const {
       const Lanes at = lanes_of(point);
       const Lanes margin = both_lanes(reach);
@@ -142,6 +192,9 @@ class LoopTree {
     return holds_for_any((a.low > b.high + margin) | (b.low > a.high + margin));
   }
   bool follow_apart(const Node& a, const Node& b, double reach) const;
+  void follow(Vec2 point, double enough, std::size_t& edge,
+              double& its_distance) const;
+  int crossings_of(std::size_t level, std::uint32_t i, Vec2 point) const;
 
   // The state of a visit.
   template <typename Take>
@@ -171,6 +224,8 @@ class LoopTree {
   bool has_hit(std::size_t level, std::uint32_t i, const Strip& strip,
                const IsHit& is_hit) const;
 
+  std::vector<std::uint32_t> own_vertices_;  // of contours
+  std::vector<std::uint32_t> own_ends_;
   std::span<const Vec2> points_;
   std::span<const std::uint32_t> vertices_;
   std::span<const std::uint32_t> ends_;
@@ -182,14 +237,17 @@ class LoopTree {
 };
 
 template <typename Take>
-bool LoopTree::visit_near(double reach, const Take& take) const {
+bool EdgeTree::visit_near(double reach, const Take& take, Crowd crowd) const {
   if (bundles_.empty()) return false;
-  Visit<Take> visit{reach, take, kMostLooks * (bundles_.size() + kMostLooks)};
+  Visit<Take> visit{reach, take,
+                    crowd == Crowd::kVisit
+                        ? std::numeric_limits<std::size_t>::max()
+                        : kCrowdLooks * (bundles_.size() + kCrowdLooks)};
   return visit_within(top(), 0, visit);
 }
 
 template <typename Take>
-bool LoopTree::visit_within(std::size_t level, std::uint32_t i,
+bool EdgeTree::visit_within(std::size_t level, std::uint32_t i,
                             Visit<Take>& visit) const {
   if (node(level, i).advances(visit.reach)) return false;
   if (level == 0) return visit.take(bundles_[i], bundles_[i]);
@@ -201,7 +259,7 @@ bool LoopTree::visit_within(std::size_t level, std::uint32_t i,
 }
 
 template <typename Take>
-bool LoopTree::visit_between(std::size_t level, std::uint32_t i,
+bool EdgeTree::visit_between(std::size_t level, std::uint32_t i,
                              std::uint32_t j, Visit<Take>& visit) const {
   if (visit.looks_left-- == 0) return true;
   const Node& a = node(level, i);
@@ -219,20 +277,18 @@ bool LoopTree::visit_between(std::size_t level, std::uint32_t i,
 }
 
 template <typename Take>
-bool LoopTree::visit_meetings(const Bundle& vertices, const Bundle& edges,
+bool EdgeTree::visit_meetings(const Bundle& vertices, const Bundle& edges,
                               double reach, const Take& take) const {
   const Node& box = nodes_[index_of(edges)];
   const std::uint32_t last = ends_[edges.loop] - 1;
   for (std::uint32_t k = vertices.begin; k < vertices.end; ++k) {
-    const Vec2& point = points_[vertices_[k]];
+    const Vec2& point = from(k);
     if (!box.is_near(point, reach)) continue;
     for (std::uint32_t edge = edges.begin; edge < edges.end; ++edge) {
-      const std::uint32_t to =
+      const std::uint32_t next =
           edge + 1 == last ? loop_begin(edges.loop) : edge + 1;
-      if (k == edge || k == to) continue;
-      if (meets_square(points_[vertices_[edge]], points_[vertices_[edge + 1]],
-                       point, reach) &&
-          take(k, edge)) {
+      if (k == edge || k == next) continue;
+      if (meets_square(from(edge), to(edge), point, reach) && take(k, edge)) {
         return true;
       }
     }
@@ -241,7 +297,7 @@ bool LoopTree::visit_meetings(const Bundle& vertices, const Bundle& edges,
 }
 
 template <typename IsHit>
-bool LoopTree::has_near(Vec2 a, Vec2 b, double reach,
+bool EdgeTree::has_near(Vec2 a, Vec2 b, double reach,
                         const IsHit& is_hit) const {
   if (bundles_.empty()) return false;
   Strip strip;
@@ -254,7 +310,7 @@ bool LoopTree::has_near(Vec2 a, Vec2 b, double reach,
 }
 
 template <typename IsHit>
-bool LoopTree::has_hit(std::size_t level, std::uint32_t i, const Strip& strip,
+bool EdgeTree::has_hit(std::size_t level, std::uint32_t i, const Strip& strip,
                        const IsHit& is_hit) const {
   if (!strip.meets(node(level, i))) return false;
   if (level > 0) {
@@ -270,4 +326,4 @@ bool LoopTree::has_hit(std::size_t level, std::uint32_t i, const Strip& strip,
   return false;
 }
 
-}  // namespace lamina::slicer
+}  // namespace lamina::plane

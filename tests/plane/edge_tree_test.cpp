@@ -1,4 +1,4 @@
-#include "slicer/contour/loop_tree.h"
+#include "plane/edge_tree.h"
 
 #include <cstdint>
 #include <numeric>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lamina::slicer {
+namespace lamina::plane {
 namespace {
 
 using Meetings = std::set<std::pair<std::uint32_t, std::uint32_t>>;
@@ -72,11 +72,11 @@ Meetings all_meetings(const Loops& loops, double reach) {
 }
 
 Meetings meetings_of_tree(const Loops& loops, double reach) {
-  LoopTree tree;
+  EdgeTree tree;
   tree.fill(loops.points, loops.vertices, loops.ends);
   Meetings meetings;
   const auto take = [&](std::uint32_t vertex, std::uint32_t edge) {
-    EXPECT_TRUE(meetings.insert({vertex, edge}).second) << "told twice";
+    EXPECT_TRUE(meetings.insert({vertex, edge}).second) << "reported twice";
     return false;
   };
   tree.visit_near(reach * 1.001, [&](const auto& a, const auto& b) {
@@ -87,7 +87,7 @@ Meetings meetings_of_tree(const Loops& loops, double reach) {
   return meetings;
 }
 
-TEST(LoopTree, FindsEveryVertexNearAForeignEdgeOnce) {
+TEST(EdgeTree, FindsEveryVertexNearAForeignEdgeOnce) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const Loops loops = random_loops(seed);
     for (const double reach : {1e-6, 0.01, 0.3}) {
@@ -97,10 +97,10 @@ TEST(LoopTree, FindsEveryVertexNearAForeignEdgeOnce) {
   }
 }
 
-TEST(LoopTree, FindsEveryVertexNearASegment) {
+TEST(EdgeTree, FindsEveryVertexNearASegment) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const Loops loops = random_loops(seed);
-    LoopTree tree;
+    EdgeTree tree;
     tree.fill(loops.points, loops.vertices, loops.ends);
     const Vec2 a = loops.points[seed % loops.points.size()];
     const Vec2 b = loops.points[7 * seed % loops.points.size()];
@@ -122,7 +122,7 @@ TEST(LoopTree, FindsEveryVertexNearASegment) {
 
 // A circle is told apart from itself without a look at its edges, but for the
 // few stretches that turn back along both axes and the seam.
-TEST(LoopTree, HandsOnLittleOfASmoothLoop) {
+TEST(EdgeTree, HandsOnLittleOfASmoothLoop) {
   Loops loops;
   std::vector<Vec2> circle;
   for (int i = 0; i < 1000; ++i) {
@@ -130,7 +130,7 @@ TEST(LoopTree, HandsOnLittleOfASmoothLoop) {
     circle.push_back({std::cos(angle), std::sin(angle)});
   }
   loops.add(circle);
-  LoopTree tree;
+  EdgeTree tree;
   tree.fill(loops.points, loops.vertices, loops.ends);
   int visits = 0;
   tree.visit_near(1e-6, [&](const auto&, const auto&) {
@@ -140,7 +140,7 @@ TEST(LoopTree, HandsOnLittleOfASmoothLoop) {
   EXPECT_LE(visits, 5);
 }
 
-TEST(LoopTree, GivesUpOnHundredsOfRingsInRings) {
+TEST(EdgeTree, GivesUpOnHundredsOfRingsInRings) {
   Loops loops;
   for (int ring = 1; ring <= 300; ++ring) {
     std::vector<Vec2> circle;
@@ -150,11 +150,11 @@ TEST(LoopTree, GivesUpOnHundredsOfRingsInRings) {
     }
     loops.add(circle);
   }
-  LoopTree tree;
+  EdgeTree tree;
   tree.fill(loops.points, loops.vertices, loops.ends);
   EXPECT_TRUE(
       tree.visit_near(1e-6, [](const auto&, const auto&) { return false; }));
 }
 
 }  // namespace
-}  // namespace lamina::slicer
+}  // namespace lamina::plane
