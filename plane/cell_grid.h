@@ -7,6 +7,7 @@
 // a row that follow each other are one stretch of it.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,6 +28,12 @@ class CellGrid {
         cells_per_mm_(cells_per_mm),
         columns_(columns),
         rows_(rows) {}
+  // About `count` square cells over the box, none smaller than `least` [mm].
+  CellGrid(double count, const Box2& box, double least)
+      : CellGrid(box,
+                 1 / std::max({std::sqrt(box.size().x * box.size().y / count),
+                               std::max(box.size().x, box.size().y) / count,
+                               least})) {}
   // As many square cells as the box needs.
   CellGrid(const Box2& box, double cells_per_mm)
       : CellGrid(box.low, Vec2(cells_per_mm),

@@ -1,7 +1,6 @@
 #include "plane/point_grid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace lamina {
@@ -11,15 +10,8 @@ namespace {
 // has so many.
 constexpr std::size_t kCrowd = 32;
 
-// About two cells a point.
-CellGrid grid_of(const Box2& box, std::size_t points) {
-  const Vec2 size = box.size();
-  const double wanted = 2.0 * static_cast<double>(points);
-  // Points on a line, or in one place, have no area.
-  const double longest = std::max({size.x, size.y, 1e-9});
-  return {box, std::min(std::sqrt(wanted / std::max(size.x * size.y, 1e-300)),
-                        wanted / longest)};
-}
+constexpr double kCellsPerPoint = 2;
+constexpr double kLeastCell = 1e-12;  // where all points are one [mm]
 
 }  // namespace
 
@@ -46,7 +38,8 @@ std::uint32_t PointGrid::add_level(std::span<const Vec2> points,
   levels_.emplace_back();
   Level level;
   for (const std::uint32_t i : members) level.box.add(points[i]);
-  level.grid = grid_of(level.box, members.size());
+  level.grid = {kCellsPerPoint * static_cast<double>(members.size()), level.box,
+                kLeastCell};
   level.list_members(points, members);
   // Points that all fall in one cell are in one place, and no grid parts them.
   for (std::size_t cell = 0; cell < level.grid.size(); ++cell) {

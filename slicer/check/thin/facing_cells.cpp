@@ -72,18 +72,14 @@ void FacingCells::choose_cells() {
   for (const LayerEdge& edge : edges_) box.add(edge.from);
   // Where all edges are long they would stand in too many cells.
   constexpr double kMostCells = 64;
-  double way = 0;
+  double length = 0;
   for (const LayerEdge& edge : edges_) {
     const Vec2 along = glm::abs(edge.to() - edge.from);
-    way += along.x + along.y;
+    length += along.x + along.y;
   }
   const auto count = static_cast<double>(edges_.size());
-  const Vec2 size = box.size();
-  const double wanted = kCellsPerEdge * count;
-  const double cell =
-      std::max({2 * margin_, std::sqrt(size.x * size.y / wanted),
-                std::max(size.x, size.y) / wanted, way / (kMostCells * count)});
-  grid_ = {box, 1 / cell};
+  grid_ = {kCellsPerEdge * count, box,
+           std::max(2 * margin_, length / (kMostCells * count))};
 }
 
 template <typename Visit>

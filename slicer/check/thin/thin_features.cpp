@@ -1,7 +1,6 @@
 #include "slicer/check/thin/thin_features.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -28,12 +27,9 @@ constexpr double kSameWidth = 1e-7;
 // the largest disk visits some hundred at most.
 constexpr double kLeastCell = 0.125;
 
-// Lines reach over so many cells at most, on the average: in a file a line may
-// be of any length.
+// Cells for each line, at most, and cells that lines pass, on the average.
+constexpr double kCellsPerLine = 2;
 constexpr double kMostCellsPerLine = 64;
-
-// A look into a cell costs as much as one at so many stretches.
-constexpr double kCellCost = 8;
 
 // Disks that miss each other by less overlap: rounding may part them [mm].
 constexpr double kOverlapSlack = 1e-7;
@@ -110,53 +106,39 @@ std::string_view name_of(ThinKind kind) {
 }
 
 // --- Stretches by place ------------------------------------------------------
-// A line is listed in the cells of points on it, a cell apart at most.
 
-void FeatureCollector::StretchGrid::clear(double cell, std::size_t count,
-                                          double length) {
-  cell_ = cell;
-  greatest_reach_ = 0;
+void FeatureCollector::StretchGrid::clear(
+    std::span<const ThinStretch> stretches, double least) {
   members_.clear();
   items_.clear();
   last_visits_.clear();
   visit_ = 0;
-  const std::size_t listings =
-      2 * count + static_cast<std::size_t>(length / cell);
-  heads_.assign(std::bit_ceil(2 * listings + 1), kNone);
-}
-
-std::size_t FeatureCollector::StretchGrid::bucket_of(std::int64_t column,
-                                                     std::int64_t row) const {
-  const auto mixed = static_cast<std::uint64_t>(column) * 0x9e3779b97f4a7c15U ^
-                     static_cast<std::uint64_t>(row) * 0xc2b2ae3d27d4eb4fU;
-  return (mixed ^ mixed >> 29) & (heads_.size() - 1);
-}
-
-template <typename Visit>
-void FeatureCollector::StretchGrid::visit_samples(Vec2 from, Vec2 to,
-                                                  const Visit& visit) const {
-  const Vec2 along = to - from;
-  const int steps =
-      static_cast<int>(std::ceil(std::sqrt(dot(along, along)) / cell_));
-  for (int i = 0; i <= steps; ++i) {
-    const Vec2 at = from + (steps > 0 ? double(i) / steps : 0.0) * along;
-    visit(static_cast<std::int64_t>(std::floor(at.x / cell_)),
-          static_cast<std::int64_t>(std::floor(at.y / cell_)));
+  greatest_reach_ = 0;
+  Box2 box;
+  double length = 0;
+  for (const ThinStretch& stretch : stretches) {
+    greatest_reach_ = std::max(greatest_reach_, stretch.reach);
+    box.add(stretch.from);
+    box.add(stretch.to);
+    length += glm::distance(stretch.from, stretch.to);
   }
+  const auto count = static_cast<double>(stretches.size());
+  grid_ = stretches.empty()
+              ? CellGrid()
+              : CellGrid(kCellsPerLine * count, box,
+                         std::max({2 * greatest_reach_, least,
+                                   length / (kMostCellsPerLine * count)}));
+  heads_.assign(grid_.size(), kNone);
 }
 
 std::uint32_t FeatureCollector::StretchGrid::add(const Member& member) {
   const auto number = static_cast<std::uint32_t>(members_.size());
   members_.push_back(member);
-  greatest_reach_ = std::max(greatest_reach_, member.reach);
-  std::size_t last = heads_.size();
-  visit_samples(
-      member.from, member.to, [&](std::int64_t column, std::int64_t row) {
-        const std::size_t bucket = bucket_of(column, row);
-        if (bucket == last) return;
-        last = bucket;
-        items_.push_back({number, heads_[bucket]});
-        heads_[bucket] = static_cast<std::uint32_t>(items_.size()) - 1;
+  last_visits_.push_back(0);
+  grid_.visit_cells(
+      member.from, member.to, Vec2(kOverlapSlack), [&](std::size_t cell) {
+        items_.push_back({number, heads_[cell]});
+        heads_[cell] = static_cast<std::uint32_t>(items_.size()) - 1;
       });
   return number;
 }
@@ -166,30 +148,15 @@ void FeatureCollector::StretchGrid::visit_near(Vec2 from, Vec2 to,
                                                double distance,
                                                const Visit& visit) {
   if (members_.empty()) return;
-  // Listed points of lines within the distance are at most a cell farther
-  // apart.
-  const auto cells = 1 + static_cast<std::int64_t>(
-                             std::ceil((distance + greatest_reach_) / cell_));
-  const double samples = 1 + glm::distance(from, to) / cell_;
-  const auto side = static_cast<double>(2 * cells + 1);
-  if (kCellCost * samples * side * side >=
-      static_cast<double>(members_.size())) {
-    for (const Member& member : members_) visit(member);
-    return;
-  }
-  last_visits_.resize(members_.size(), 0);
   ++visit_;
-  visit_samples(from, to, [&](std::int64_t column, std::int64_t row) {
-    for (std::int64_t i = column - cells; i <= column + cells; ++i) {
-      for (std::int64_t k = row - cells; k <= row + cells; ++k) {
-        for (std::uint32_t item = heads_[bucket_of(i, k)]; item != kNone;
-             item = items_[item].next) {
-          const std::uint32_t member = items_[item].member;
-          if (last_visits_[member] == visit_) continue;
-          last_visits_[member] = visit_;
-          visit(members_[member]);
-        }
-      }
+  const Vec2 reach(distance + greatest_reach_);
+  grid_.visit_cells(from, to, reach, [&](std::size_t cell) {
+    for (std::uint32_t item = heads_[cell]; item != kNone;
+         item = items_[item].next) {
+      const std::uint32_t member = items_[item].member;
+      if (last_visits_[member] == visit_) continue;
+      last_visits_[member] = visit_;
+      visit(members_[member]);
     }
   });
 }
@@ -331,19 +298,6 @@ ThinFeature FeatureCollector::feature_of(const ThinStretch& stretch,
           0};
 }
 
-void FeatureCollector::clear_here(std::span<const ThinStretch> stretches) {
-  double reach = 0;
-  double length = 0;
-  for (const ThinStretch& stretch : stretches) {
-    reach = std::max(reach, stretch.reach);
-    length += glm::distance(stretch.from, stretch.to);
-  }
-  const double most_cells =
-      kMostCellsPerLine * static_cast<double>(stretches.size() + 1);
-  here_.clear(std::max({2 * reach, kLeastCell * width_, length / most_cells}),
-              stretches.size(), length);
-}
-
 void FeatureCollector::take(const Layer& layer,
                             std::span<const ThinStretch> stretches) {
   ++layers_;
@@ -358,7 +312,7 @@ void FeatureCollector::take(const Layer& layer,
   joined_gap_ = repeats ? gap : -1;
   last_stretches_.assign(stretches.begin(), stretches.end());
   std::swap(here_, below_);
-  clear_here(stretches);
+  here_.clear(stretches, kLeastCell * width_);
   numbers_.clear();
   for (const ThinStretch& stretch : stretches) {
     Member member = member_of(stretch);

@@ -21,6 +21,7 @@
 
 #include "base/vec.h"
 #include "csg/scene.h"
+#include "plane/cell_grid.h"
 #include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/layer.h"
 
@@ -108,13 +109,12 @@ class FeatureCollector {
     std::uint32_t feature;
     std::uint32_t thin_place;
   };
-  // The stretches of a layer by place.
+  // The stretches of a layer by place: each in the cells that its line passes.
   class StretchGrid {
    public:
-    // cell    size of the grid's cells: about the distance of the queries [mm]
-    // count   stretches to come
-    // length  of all of them [mm]
-    void clear(double cell, std::size_t count, double length);
+    // stretches  all that may be added; they make the cells
+    // least      side of a cell [mm]
+    void clear(std::span<const ThinStretch> stretches, double least);
     // Returns the member's number.
     std::uint32_t add(const Member& member);
     std::span<Member> members() { return members_; }
@@ -131,14 +131,11 @@ class FeatureCollector {
       std::uint32_t member;
       std::uint32_t next;
     };
-    template <typename Visit>
-    void visit_samples(Vec2 from, Vec2 to, const Visit& visit) const;
-    std::size_t bucket_of(std::int64_t column, std::int64_t row) const;
 
-    double cell_ = 1;
+    CellGrid grid_;
     double greatest_reach_ = 0;
     std::vector<Member> members_;
-    std::vector<std::uint32_t> heads_;
+    std::vector<std::uint32_t> heads_;  // of each cell, in items_
     std::vector<Item> items_;
     std::vector<std::uint32_t> last_visits_;  // that each member was in
     std::uint32_t visit_ = 0;
@@ -150,7 +147,6 @@ class FeatureCollector {
 
   ThinFeature feature_of(const ThinStretch& stretch, const Layer& layer) const;
   Member member_of(const ThinStretch& stretch) const;
-  void clear_here(std::span<const ThinStretch> stretches);
   void take_again(const Layer& layer);
   std::uint32_t join_neighbours(Member& member, double gap);
   std::uint32_t join_features(std::uint32_t a, std::uint32_t b);
