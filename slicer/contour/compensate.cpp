@@ -119,7 +119,7 @@ Losses find_losses(const Region& before, const Region& after, int sign) {
       }
       continue;
     }
-    // What lay in a component that vanished is no component any more.
+    // What lay in a component that vanished is not a component any more.
     const std::size_t home = nesting.parent(i);
     if (home == Nesting::kNone || is_left[home] != 0) ++parted;
   }

@@ -4,7 +4,7 @@
 // A beam or a resin's bleeding cures beyond the path by some distance r, so the
 // path is the contour of the points that are at least r inside the solid, which
 // plane::offset gives: sides move by r, corners of a hole turn round, corners
-// of the solid stay sharp. Moved outwards it is the other way round.
+// of the solid stay sharp. Moved outwards it is the reverse.
 //
 // Walls thinner than 2 r have no such path: they vanish and are counted.
 

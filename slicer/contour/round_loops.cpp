@@ -69,7 +69,7 @@ bool LoopRounder::is_safe(const plane::Contours& contours) {
     vertices_.push_back(static_cast<std::uint32_t>(i));
   }
   tree_.fill(points_, {vertices_.data(), points_.size()}, ends_);
-  // Both ends of a distance move, by half the spacing each way.
+  // Both ends of a distance move, by half the spacing in each direction.
   const double reach = kTreeReach * spacing_;
   near_pairs_.clear();
   const bool is_crowded =
@@ -92,7 +92,8 @@ bool LoopRounder::is_safe(const plane::Contours& contours) {
   });
 }
 
-// The same where too many loops run beside each other for the tree.
+// Returns what is_safe() does where too many loops run beside each other for
+// the tree.
 bool LoopRounder::is_safe_by_grid() {
   members_.clear();
   std::uint32_t begin = 0;

@@ -54,7 +54,7 @@ class LoopRounder {
   bool bends_edge(Vec2 from, Vec2 to);
 
   double spacing_ = 0;  // of float32 at the layer's largest coordinate [mm]
-  // Of the loops, each closed by a copy of its first point.
+  // The points of the loops, each closed by a copy of its first point.
   std::vector<Vec2> points_;
   std::vector<std::uint32_t> vertices_;  // all of them
   std::vector<std::uint32_t> ends_;

@@ -33,7 +33,7 @@ bool keeps_area(double before, double after) {
 
 }  // namespace
 
-// A straight way past a run of vertices, and the run seen in its frame.
+// A straight line past a run of vertices, and the run seen in its frame.
 struct Simplifier::Shortcut {
   std::uint32_t first;
   std::uint32_t last;
@@ -273,9 +273,9 @@ double Simplifier::doubled_area_kept(std::size_t begin, std::size_t end) const {
 
 Simplifier::Shortcut Simplifier::measure(std::uint32_t first,
                                          std::uint32_t last) const {
-  const Vec2 way = points_[last] - points_[first];
-  const double length = std::sqrt(dot(way, way));
-  Shortcut shortcut{first, last, points_[first], way / length, length};
+  const Vec2 along = points_[last] - points_[first];
+  const double length = std::sqrt(dot(along, along));
+  Shortcut shortcut{first, last, points_[first], along / length, length};
   shortcut.farthest = first + (last - first) / 2;
   for (std::uint32_t i = first + 1; i < last; ++i) {
     const Vec2 place = shortcut.place_of(points_[i]);

@@ -39,7 +39,7 @@ class Coverage {
   // them, 0 … 1.
   void resolve_row(unsigned y, std::vector<float>& shares) const;
 
-  // The same as runs of equal pixels from the left, shares as 0 … 255.
+  // Replaces `runs` by those of equal pixels from the left, shares as 0 … 255.
   void resolve_row(unsigned y, std::vector<GreyRun>& runs) const;
 
  private:

@@ -1,7 +1,8 @@
 #pragma once
 // Layers into files, whatever their format (docs/formats.md).
 //
-// All who write layers use this one way in. detail/writers.h lists the formats.
+// All who write layers use this one interface. detail/writers.h lists the
+// formats.
 
 #include <cstdint>
 #include <memory>
@@ -42,7 +43,7 @@ class LayerWriter : public LayerSink {
 struct WriterOptions {
   OutputFormat format = OutputFormat::kSlc;  // one of layers
   CliEncoding cli = CliEncoding::kBinary;
-  // Of formats of images.
+  // What formats of images need.
   Printer printer = {};
   Exposure exposure = {};
   std::string material = {};  // its title, one line; empty: none was named

@@ -15,7 +15,7 @@ struct Exposure {
   double layer = 8;  // what is usual
   double first = 35;
 
-  // Of layer `index`, from 0.
+  // Returns the exposure of layer `index`, from 0.
   double of(std::size_t index) const;
 };
 inline constexpr std::size_t kFirstLayers = 3;

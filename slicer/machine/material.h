@@ -12,13 +12,14 @@ namespace lamina::slicer {
 // Each text is one line.
 struct Material {
   std::string name;
-  std::string title;   // as its maker writes it
+  std::string title;   // as its manufacturer writes it
   std::string source;  // of these figures
   double density = 0;  // [g/cm³]
-  // Of a layer, and of the first one [s]; 0: it is no resin, or not known.
+  // The exposures of a layer and of the first one [s]; 0 where it is not a
+  // resin, or where they are not known.
   double exposure = 0;
   double first_exposure = 0;
-  std::string printer;        // that these hold for; empty: any
+  std::string printer;         // that these hold for; empty: any
   double layer_thickness = 0;  // that they hold for [mm]; 0: any
   double price = 0;            // of a litre; 0: not known
   std::string currency;

@@ -21,9 +21,9 @@ enum class PixelLayout {
 
 struct Printer {
   std::string name;
-  std::string title;    // as its maker writes it
-  std::string source;   // of these figures
-  unsigned width = 0;   // of the panel [pixels]
+  std::string title;   // as its manufacturer writes it
+  std::string source;  // of these figures
+  unsigned width = 0;  // of the panel [pixels]
   unsigned height = 0;
   Vec2 pixel = Vec2(0);  // its size to the right and upwards [mm]
   // The directions of the design that run to the right and upwards in the
@@ -52,7 +52,8 @@ std::vector<Printer> known_printers();
 // Returns the printer that lamina knows by that name, or else that of a
 // profile: a JSON file (docs/formats.md).
 //
-// throws  FileError where there is no such printer, or the file is no profile;
+// throws  FileError where there is no such printer, or the file is not a
+// profile;
 //         AccessError where the file may not be read
 Printer find_printer(const std::string& name_or_file,
                      const FileAccess& access = kAllFiles);

@@ -38,7 +38,7 @@ struct SheetGrid {
   unsigned height() const {
     return kTitleHeight + rows * (tile_height + kLabelHeight + kMargin);
   }
-  // Of the i-th layer on the sheet.
+  // Returns the place of the i-th layer on the sheet.
   Rectangle tile(unsigned i) const {
     return {kMargin + i % columns * (tile_width + kMargin),
             kTitleHeight + i / columns * (tile_height + kLabelHeight + kMargin),

@@ -38,8 +38,7 @@ const ColorScheme* find_color_scheme(std::string_view name);
 std::vector<std::string> color_scheme_names();
 
 struct StackOptions {
-  // Of the picture [pixels].
-  unsigned width = 512;
+  unsigned width = 512;  // of the picture [pixels]
   unsigned height = 512;
   Camera camera;
   bool centers = true;    // the camera looks at the middle of the part

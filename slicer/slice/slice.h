@@ -45,7 +45,7 @@ struct SliceReport {
   Box3 box;                  // of all contours and their layers
   CompensationCounts losses;
   std::vector<ThinFeature> features;  // thinner than Settings::min_feature
-  // Of the layer graph; none where makes_whole_print() is false.
+  // What the layer graph found; nothing where makes_whole_print() is false.
   std::optional<PrintCheck> print;
 
   // Counts a layer that is written.

@@ -106,7 +106,7 @@ void ThinFinder::look_around() {
   for (const std::uint32_t i : neighbours_) {
     if (i == number_) continue;
     const Seen seen = see(i);
-    // Of two edges the first rolls its disk along the second.
+    // The first of two edges rolls its disk along the second.
     if (i > number_ && seen.u <= -kCosFacing) face_edge(seen);
     if (seen.h > kTouchDistance && seen.h < width_) face_corner(seen);
   }

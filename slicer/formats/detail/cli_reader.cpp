@@ -80,7 +80,7 @@ class LayerMaker {
   void add_hatches() { ++facts_.left_out["hatch block"]; }
 
   std::size_t count() const { return count_; }
-  // What was noted on the way.
+  // What was noted while reading.
   const LayerFileFacts& facts() const { return facts_; }
 
  private:
@@ -107,7 +107,7 @@ class LayerMaker {
 
   const CliHeader& header_;
   const TakeLayer& take_;
-  Layer layer_;  // in hand
+  Layer layer_;  // that is being read
   std::size_t count_ = 0;
   LayerFileFacts facts_;
   double first_top_ = 0;

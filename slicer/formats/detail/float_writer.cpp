@@ -37,7 +37,7 @@ void FloatContours::take(const Layer& layer) {
   extend();
 }
 
-// Extends the box of the layers so far by that of the one in hand.
+// Extends the box of the layers so far by that of this one.
 void FloatContours::extend() {
   if (rounded_.is_empty()) return;
   Lanes low = lanes_of(rounded_.points.front());

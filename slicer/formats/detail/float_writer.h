@@ -27,13 +27,13 @@ struct FloatPoint {
 
 // The contours of layers in float32 numbers, rounded so that loops stay simple
 // and disjoint (round_loops.h). What headers say of all layers together is
-// gathered on the way.
+// gathered meanwhile.
 class FloatContours {
  public:
-  // Replaces the layer in hand.
+  // Replaces the layer.
   void take(const Layer& layer);
 
-  // The loops of the layer in hand. The last point of loop() repeats its first;
+  // The loops of the layer. The last point of loop() repeats its first;
   // open_loop() is without it.
   std::size_t loop_count() const { return ends_.size(); }
   std::span<const FloatPoint> loop(std::size_t i) const {

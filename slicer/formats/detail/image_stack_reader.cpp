@@ -35,8 +35,8 @@ using Json = nlohmann::json;
 // Panels have some 10⁸ pixels.
 constexpr std::size_t kMostPixels = 1'000'000'000;
 
-// Of what is between two vertices no more is left out than this [pixels]: the
-// contour itself is no truer.
+// Contours are simplified within this distance [pixels]: they are not more
+// accurate themselves.
 constexpr double kTolerance = 0.05;
 
 constexpr std::string_view kImageEnding = ".png";
@@ -148,7 +148,7 @@ class ImageStackReader {
   // The images of an archive by the numbers that their names end in, without
   // those in folders: these show the whole. Throws FileError where one lacks.
   //
-  // named_by_number  names are numbers, and other images are none of layers
+  // named_by_number  names are numbers, and other images do not show layers
   std::vector<std::string> numbered_images(bool named_by_number) const {
     std::vector<std::pair<std::uint64_t, std::string>> images;
     for (const std::string& name : source_.names) {
@@ -188,14 +188,15 @@ class ImageStackReader {
 
   // Images of layers of one thickness.
   //
-  // told  how many there are, as `teller` says; nothing where it does not
+  // stated  how many there are, as `source` says; nothing where it does not
   std::vector<ImageFile> images_of(std::vector<std::string> names,
-                                   double thickness, std::optional<double> told,
-                                   std::string_view teller) const {
-    if (told && *told != static_cast<double>(names.size())) {
+                                   double thickness,
+                                   std::optional<double> stated,
+                                   std::string_view source) const {
+    if (stated && *stated != static_cast<double>(names.size())) {
       fail_to_read(path_, fmt::format("{} counts {:g} layers, there are {} "
                                       "images",
-                                      teller, *told, names.size()));
+                                      source, *stated, names.size()));
     }
     std::vector<ImageFile> images;
     for (std::string& name : names) {

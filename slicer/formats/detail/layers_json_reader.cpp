@@ -30,7 +30,7 @@ enum class Place {
   kOther,  // in something that is passed over
 };
 
-// Makes layers from what the parser finds, piece by piece.
+// Makes layers from what the parser finds, value by value.
 class Handler : public nlohmann::json_sax<nlohmann::json> {
  public:
   // at  where the parser reads
@@ -129,7 +129,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool has_layers() const { return has_layers_; }
-  // What was noted on the way.
+  // What was noted while reading.
   const LayerFileFacts& facts() const { return facts_; }
 
  private:
@@ -250,7 +250,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   std::vector<Place> places_ = {Place::kTop};
   std::size_t depth_of_other_ = 0;
   std::string key_;
-  Layer layer_;  // in hand
+  Layer layer_;  // that is being read
   std::size_t count_ = 0;
   std::optional<double> z_;
   std::optional<double> bottom_;

@@ -17,7 +17,8 @@ inline constexpr double kMillimetresPerInch = 25.4;
 [[noreturn]] void fail_to_read(const std::string& path,
                                std::string_view message);
 
-// The same for a file that FileAccess::open could not open: errno says why.
+// Throws FileError for a file that FileAccess::open could not open: errno says
+// why.
 [[noreturn]] void fail_to_open(const std::string& path);
 
 // All bytes of a file. Throws FileError where there is no regular file that can

@@ -32,7 +32,7 @@ class RunDeflater {
   std::string bytes_;
   std::uint64_t bits_ = 0;  // not yet in bytes_, the first one lowest
   int bit_count_ = 0;       // below 32
-  std::uint8_t value_ = 0;  // of the run in hand
+  std::uint8_t value_ = 0;  // of the run that goes on
   std::uint64_t count_ = 0;
   std::uint64_t sum_ = 1;  // the two of Adler-32
   std::uint64_t sum_of_sums_ = 0;

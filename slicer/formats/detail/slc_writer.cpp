@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t kReservedSize = 256;
 constexpr std::uint32_t kEndOfLayers = 0xFFFFFFFF;
-// Of the sampling table.
-const std::size_t kMostRows = most_thickness_runs(OutputFormat::kSlc);
+const std::size_t kMostRows =  // of the sampling table
+    most_thickness_runs(OutputFormat::kSlc);
 
 // Thicknesses nearer than this [mm] are one. Far above what subtracting heights
 // leaves of rounding, far below what a machine can set.

@@ -47,7 +47,7 @@ double length_of_unit(std::string_view name) {
   return 0;
 }
 
-// The model of an archive; nothing where it is no archive with one.
+// The model of an archive; nothing where it is not an archive with one.
 std::optional<std::string> read_model(std::string_view bytes) {
   return ZipArchive::open(bytes).read(kModel);
 }
@@ -182,10 +182,10 @@ class ThreemfReader {
   const std::string file_;
   pugi::xml_document document_;
   double unit_ = 1;
-  std::vector<Vec2> vertices_;  // of the slice in hand
+  std::vector<Vec2> vertices_;  // of the slice that is being read
   std::vector<Vec2> loop_;
-  std::size_t count_ = 0;  // of slices, with the one in hand
-  LayerFileFacts facts_;   // what was noted on the way
+  std::size_t count_ = 0;  // of slices, with the one being read
+  LayerFileFacts facts_;   // what was noted while reading
 };
 
 }  // namespace

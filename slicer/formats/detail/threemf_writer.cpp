@@ -45,7 +45,7 @@ constexpr std::string_view kModelHead =
  <resources>
 )";
 
-// Of the build: the object where the design has it.
+// The build places the object where the design has it.
 constexpr std::string_view kModelEnd =
     R"( </resources>
  <build>
@@ -94,7 +94,7 @@ class ThreemfWriter : public FloatWriter {
                                printed(bottom_z_)));
   }
 
-  // The layer in hand.
+  // Writes the layer that contours_ holds.
   void write_slice() {
     const float top = printed(top_z_);
     text_.clear();
@@ -169,7 +169,7 @@ class ThreemfWriter : public FloatWriter {
 
   const std::optional<double> deviation_;
   ZipOutput archive_;
-  std::string text_;  // of the slice in hand
+  std::string text_;  // of the slice that is being written
   bool has_layers_ = false;
   float bottom_z_ = 0;  // of the first layer
   float top_z_ = 0;     // of the last one

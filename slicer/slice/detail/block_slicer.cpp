@@ -21,10 +21,10 @@ namespace {
 // Boundary lies where a chain does, or one that ties with it [mm].
 constexpr double kSearchDistance = 2 * kTieDistance;
 
-// Of chains as near but for this [mm], that of the first leaf counts.
+// Where chains are as near but for this [mm], that of the first leaf counts.
 constexpr double kSameDistance = 1e-9;
 
-// Which leaves made the sides of a thin place.
+// Finds the leaves whose surfaces are the sides of a thin place.
 //
 // Contours do not say which leaf a point comes from: the moving ray has no use
 // for it, and thin places are few. So the layer's chains are searched for one
@@ -94,7 +94,7 @@ class LeafSearch {
   PointGrid grid_;
   std::vector<double> distances_;         // of the nearest chain to a place
   std::vector<std::uint32_t> instances_;  // of that chain
-  std::vector<Vec2> endpoints_;  // of the chains of the instance in hand
+  std::vector<Vec2> endpoints_;           // of the chains of the instance
 };
 
 constexpr BlockSizes kFaithfulBlocks = {8, 32, 32};

@@ -16,7 +16,7 @@
 
 namespace lamina::slicer {
 
-// One thread's way from a block of layers to contours: the back end of a
+// What makes contours of a block of layers on one thread: the back end of a
 // contour mode.
 class BlockSlicer {
  public:
@@ -43,7 +43,8 @@ struct BlockSizes {
   std::uint32_t largest;
   std::uint32_t wanted_blocks;
 
-  // Of blocks; depends on the job alone, not on the number of threads.
+  // The number of blocks, which depends on the job alone and not on the number
+  // of threads.
   std::uint32_t count(std::uint32_t layer_count) const {
     const std::uint32_t size =
         std::min(largest, std::max(layer_count / wanted_blocks, smallest));

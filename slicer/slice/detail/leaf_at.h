@@ -10,7 +10,7 @@
 namespace lamina::slicer {
 
 // Sets the instances of findings: of what contains the finding's place in its
-// layer and not in the one below, or the other way round, the first; else the
+// layer and not in the one below, or the reverse, the first; else the
 // first that contains it. Cuts the leaves in these layers once more, so that
 // only designs with findings pay for it. Minor findings keep none.
 void find_makers(const csg::Scene& scene, const ldni::LayerGrid& grid,

@@ -30,7 +30,7 @@ namespace tbb = oneapi::tbb;
 // Blocks in flight for each thread: one in work, one that waits to be written.
 constexpr std::size_t kBlocksPerThread = 2;
 
-// A layer on its way through the pipeline, with what was found in it. It gets
+// A layer that passes through the pipeline, with what was found in it. It gets
 // its heights last: layers with equal contours share the rest.
 struct Draft {
   Layer layer;
@@ -39,14 +39,14 @@ struct Draft {
   CompensationCounts losses;
 };
 
-// Consecutive layers on their way through the pipeline. Blocks are reused, so
+// Consecutive layers that pass through the pipeline. Blocks are reused, so
 // that the steady state allocates nothing.
 struct Block {
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
   std::vector<Draft> layers;
-  // Of each layer over the one before; of the first, and of one that repeats,
-  // there is none.
+  // The overlay of each layer over the one before; the first, and one that
+  // repeats, has none.
   std::vector<std::optional<LayerOverlay>> overlays;
   double section_seconds = 0;
   double sweep_seconds = 0;
@@ -165,7 +165,7 @@ class Worker {
   std::vector<std::uint8_t> repeats_;  // of the block's layers
 };
 
-// What checks have taken on the way, by the clock on the wall [s].
+// What checks have taken so far, by the clock on the wall [s].
 struct CheckSeconds {
   double features = 0;
   double graph = 0;
