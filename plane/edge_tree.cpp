@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -22,17 +23,17 @@ double squared_distance(Vec2 point, Vec2 from, Vec2 to) {
 }  // namespace
 
 EdgeTree::EdgeTree(const Contours& contours) {
-  own_vertices_.reserve(contours.points.size() + contours.loop_count());
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : contours.ends) {
-    for (std::uint32_t i = begin; i < end; ++i) own_vertices_.push_back(i);
-    if (end > begin) {
-      own_vertices_.push_back(begin);
-      own_ends_.push_back(static_cast<std::uint32_t>(own_vertices_.size()));
-    }
-    begin = end;
+  own_points_.reserve(contours.points.size() + contours.loop_count());
+  for (std::size_t i = 0; i < contours.loop_count(); ++i) {
+    const std::span<const Vec2> loop = contours.loop(i);
+    if (loop.empty()) continue;
+    own_points_.insert(own_points_.end(), loop.begin(), loop.end());
+    own_points_.push_back(loop.front());
+    own_ends_.push_back(static_cast<std::uint32_t>(own_points_.size()));
   }
-  fill(contours.points, own_vertices_, own_ends_);
+  own_vertices_.resize(own_points_.size());
+  std::iota(own_vertices_.begin(), own_vertices_.end(), 0U);
+  fill(own_points_, own_vertices_, own_ends_);
 }
 
 void EdgeTree::Node::add(const Node& other) {

@@ -53,7 +53,6 @@ inline bool meets_square(Vec2 from, Vec2 to, Vec2 middle, double half_width) {
 class EdgeTree {
  public:
   EdgeTree() = default;
-  // The points of `contours` must outlive the queries.
   explicit EdgeTree(const Contours& contours);
   EdgeTree(EdgeTree&&) = default;
   EdgeTree& operator=(EdgeTree&&) = default;
@@ -224,7 +223,8 @@ class EdgeTree {
   bool has_hit(std::size_t level, std::uint32_t i, const Strip& strip,
                const IsHit& is_hit) const;
 
-  std::vector<std::uint32_t> own_vertices_;  // of contours
+  std::vector<Vec2> own_points_;  // of contours
+  std::vector<std::uint32_t> own_vertices_;
   std::vector<std::uint32_t> own_ends_;
   std::span<const Vec2> points_;
   std::span<const std::uint32_t> vertices_;

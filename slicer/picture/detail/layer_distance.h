@@ -17,8 +17,7 @@ class LayerDistance {
   };
 
   LayerDistance() = default;  // from nothing
-  // contours  outlive it
-  // reach     the greatest distance that is of interest [mm]
+  // reach  the greatest distance that is of interest [mm]
   LayerDistance(const plane::Contours& contours, double reach)
       : edges_(contours), reach_(reach) {}
 

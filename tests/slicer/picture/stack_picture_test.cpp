@@ -152,8 +152,7 @@ TEST(LayerDistance, IsThatOfAllEdgesTriedOneByOne) {
 }
 
 TEST(LayerDistance, OnAnEdgeItsLeftSideIsTheInside) {
-  const plane::Contours square = {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {4}};
-  const LayerDistance layer(square, 1);
+  const LayerDistance layer({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {4}}, 1);
   const auto [depth, inward] = layer.at({1, 0});
   EXPECT_NEAR(depth, 0, 1e-9);
   EXPECT_NEAR(inward.x, 0, 1e-9);
