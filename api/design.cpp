@@ -88,21 +88,21 @@ void check(const SliceOptions& options) {
 compiler::Request to_request(const DesignOptions& options, std::string name) {
   check(options);
   compiler::Request request;
-  request.design = std::move(name);
+  request.design.path = std::move(name);
   for (const std::string& definition : options.definitions) {
-    request.definitions += definition + ";\n";
+    request.design.definitions += definition + ";\n";
   }
-  request.parameter_file = options.parameter_file;
-  request.parameter_set = options.parameter_set;
-  request.chordal_error = options.chordal_error;
-  request.scale = options.scale;
-  request.axis = options.axis;
-  request.is_placed_on_bed = options.place_on_bed;
-  request.language = options.language;
-  request.seed = options.seed;
-  request.max_depth = options.max_depth;
-  request.max_leaves = options.max_leaves;
-  request.module_folder = options.module_folder;
+  request.design.parameter_file = options.parameter_file;
+  request.design.parameter_set = options.parameter_set;
+  request.geometry.chordal_error = options.chordal_error;
+  request.geometry.scale = options.scale;
+  request.geometry.axis = options.axis;
+  request.geometry.is_placed_on_bed = options.place_on_bed;
+  request.design.language = options.language;
+  request.design.seed = options.seed;
+  request.design.max_depth = options.max_depth;
+  request.design.max_leaves = options.max_leaves;
+  request.design.module_folder = options.module_folder;
   return request;
 }
 
@@ -261,7 +261,7 @@ Design Design::from_file(const std::string& path,
 Design Design::from_text(const std::string& text, const DesignOptions& options,
                          const std::string& name) {
   compiler::Request request = to_request(options, name);
-  request.text = text;
+  request.design.text = text;
   return Design(State::make(options, std::move(request)));
 }
 
@@ -284,15 +284,15 @@ void Design::slice(const SliceOptions& options,
 void Design::write(const std::string& path, const SliceOptions& options,
                    const ImageOptions& images) const {
   compiler::Request request = state_->request;
-  request.output = path;
-  request.settings = to_settings(options);
-  request.printer = images.printer;
-  request.mirrors_x = images.mirror_x;
-  request.mirrors_y = images.mirror_y;
+  request.output.path = path;
+  request.job = to_settings(options);
+  request.output.printer = images.printer;
+  request.output.mirrors_x = images.mirror_x;
+  request.output.mirrors_y = images.mirror_y;
   const slicer::FormatChoice choice = slicer::choose_output_format(path);
   if (!choice.format) throw std::runtime_error(choice.complaint);
-  request.format = *choice.format;
-  require(slicer::is_of_layers(request.format),
+  request.output.format = *choice.format;
+  require(slicer::is_of_layers(request.output.format),
           fmt::format("'{}' asks for no format of layers", path));
   Messages messages(state_->show);
   messages.run([&](Diagnostics& diagnostics) {

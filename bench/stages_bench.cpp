@@ -30,8 +30,8 @@ struct Design {
   static compiler::Request request_of(const std::string& scene,
                                       const std::string& definitions) {
     compiler::Request request;
-    request.design = LAMINA_SCENES "/" + scene + ".scad";
-    request.definitions = definitions;
+    request.design.path = LAMINA_SCENES "/" + scene + ".scad";
+    request.design.definitions = definitions;
     return request;
   }
   csg::Tree evaluate() {

@@ -38,8 +38,8 @@ std::string text_of(const FeatureOrigin& origin) {
 
 std::vector<std::string> module_folders_of(const Request& request) {
   std::vector<std::string> folders = module_folders();
-  if (!request.module_folder.empty()) {
-    folders.insert(folders.begin(), request.module_folder);
+  if (!request.design.module_folder.empty()) {
+    folders.insert(folders.begin(), request.design.module_folder);
   }
   return folders;
 }
@@ -55,7 +55,7 @@ Compilation::Compilation(const Request& its_request, TemporaryFiles& files,
                  files.file_access()),
       cad_reader(module_folders_of(its_request), diagnostics) {
   diagnostics.set_hard_warnings(its_request.has_hard_warnings);
-  if (request.language == "2026") loader.set_language(Language::k2026);
+  if (request.design.language == "2026") loader.set_language(Language::k2026);
 }
 
 std::size_t Compilation::count(Severity severity) const {
@@ -117,7 +117,8 @@ std::vector<std::string> files_read(const Compilation& c) {
   // Printers and materials can be names too, which are no files then.
   const Request& request = c.request;
   for (const std::string& file :
-       {request.parameter_file, request.printer, request.material}) {
+       {request.design.parameter_file, request.output.printer,
+        request.output.material}) {
     if (!file.empty()) files.push_back(file);
   }
   return files;

@@ -101,7 +101,7 @@ struct Compilation {
 
   // Whether a warning or an error ends the run without an output.
   bool is_strict() const {
-    return request.is_strict.value_or(file_access().is_confined());
+    return request.output.is_strict.value_or(file_access().is_confined());
   }
 
   // Messages of a severity so far.

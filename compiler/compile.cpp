@@ -26,12 +26,12 @@ using slicer::OutputFormat;
 // The rule for make; null where none is asked for. It is written before the
 // output, which a fault of it ends, and gets its name after the output.
 std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
-  if (c.request.dependencies.empty()) return nullptr;
+  if (c.request.output.dependencies.empty()) return nullptr;
   std::vector<std::string> files = c.loader.files();
   files.insert(files.end(), c.tree.files.begin(), c.tree.files.end());
-  const std::string text = make_rule(c.request.output, files);
+  const std::string text = make_rule(c.request.output.path, files);
   std::unique_ptr<OutputFile> rule(new OutputFile(
-      OutputFile::open(c.request.dependencies, c.temporary_files)));
+      OutputFile::open(c.request.output.dependencies, c.temporary_files)));
   rule->write(text);
   return rule;
 }
@@ -39,7 +39,7 @@ std::unique_ptr<OutputFile> begin_rule(const Compilation& c) {
 // Writes the product of a stage before layers, and the rule.
 bool finish_text(const Compilation& c, std::string_view text,
                  OutputFile* rule) {
-  write_file(c.request.output, text, c.temporary_files);
+  write_file(c.request.output.path, text, c.temporary_files);
   if (rule != nullptr) rule->commit();
   return true;
 }
@@ -52,7 +52,8 @@ bool holds_outlines(OutputFormat format) {
 void require_sliceable(const Compilation& c, const csg::Lowered& lowered) {
   if (lowered.is_empty())
     throw GeometryError("Current top level object is empty.");
-  if (lowered.outline() != nullptr && !holds_outlines(c.request.format)) {
+  if (lowered.outline() != nullptr &&
+      !holds_outlines(c.request.output.format)) {
     throw GeometryError("Current top level object is not a 3D object.");
   }
 }
@@ -75,7 +76,7 @@ void warn_of_size(Compilation& c, const csg::Lowered& lowered) {
 // The settings of slicing that an outline has no use for. It keeps all of its
 // vertices, as a tolerance of 0 asks.
 std::vector<std::string_view> settings_of_solids(const Request& request) {
-  const slicer::Settings& settings = request.settings;
+  const slicer::Settings& settings = request.job;
   const slicer::Settings usual;
   std::vector<std::string_view> all;
   const auto add = [&](std::string_view option, bool is_set) {
@@ -84,8 +85,8 @@ std::vector<std::string_view> settings_of_solids(const Request& request) {
   add("--layer", settings.layer_thickness != usual.layer_thickness);
   add("--adaptive", settings.cusp != usual.cusp);
   add("--heights", !settings.heights.empty());
-  add("--axis", request.axis != Request().axis);
-  add("--place-on-bed", request.is_placed_on_bed);
+  add("--axis", request.geometry.axis != Request().geometry.axis);
+  add("--place-on-bed", request.geometry.is_placed_on_bed);
   add("--tolerance",
       settings.tolerance != usual.tolerance && settings.tolerance != 0);
   add("--ray", settings.ray_pitch != usual.ray_pitch);
@@ -106,7 +107,7 @@ void warn_of_settings(Compilation& c, const csg::Lowered& lowered) {
 // Heights in other units, or of a design that was placed elsewhere, would make
 // empty layers without a word.
 void warn_of_heights(Compilation& c, const csg::Lowered& lowered) {
-  const std::vector<double>& heights = c.request.settings.heights;
+  const std::vector<double>& heights = c.request.job.heights;
   if (lowered.scene() == nullptr || heights.empty()) return;
   const Box3& box = lowered.scene()->box;
   if (box.is_empty()) return;
@@ -169,9 +170,9 @@ using slicer::OutputFormat;
 
 // What the request promises of the contours.
 std::optional<slicer::Deviation> promised_deviation(const Request& request) {
-  auto deviation = slicer::promised_deviation(request.settings);
-  if (deviation && request.chordal_error > 0) {
-    deviation->facets = request.chordal_error;
+  auto deviation = slicer::promised_deviation(request.job);
+  if (deviation && request.geometry.chordal_error > 0) {
+    deviation->facets = request.geometry.chordal_error;
   }
   return deviation;
 }
@@ -179,30 +180,30 @@ std::optional<slicer::Deviation> promised_deviation(const Request& request) {
 // Whether the run ends with an error though its text is complete: OpenSCAD 2026
 // ends so at the first of hard warnings, 2021.01 ends well.
 bool ends_hard(const Compilation& c) {
-  return c.has_failed && c.request.has_hard_warnings &&
+  return c.has_failed && c.request.design.has_hard_warnings &&
          c.language == Language::k2026;
 }
 
 // The printer that was asked for, else of images the usual one of the format.
 std::optional<slicer::Printer> choose_printer(const Request& request,
                                               const FileAccess& access) {
-  std::string name = request.printer;
-  if (name.empty() && slicer::is_of_images(request.format)) {
-    name = request.format == OutputFormat::kSl1       ? "prusa-sl1"
-           : request.format == OutputFormat::kNanoDlp ? "wanhao-d7"
-                                                      : "plain";
+  std::string name = request.output.printer;
+  if (name.empty() && slicer::is_of_images(request.output.format)) {
+    name = request.output.format == OutputFormat::kSl1       ? "prusa-sl1"
+           : request.output.format == OutputFormat::kNanoDlp ? "wanhao-d7"
+                                                             : "plain";
   }
   if (name.empty()) return std::nullopt;
   slicer::Printer printer = slicer::find_printer(name, access);
-  if (request.mirrors_x) printer.right = -printer.right;
-  if (request.mirrors_y) printer.up = -printer.up;
+  if (request.output.mirrors_x) printer.right = -printer.right;
+  if (request.output.mirrors_y) printer.up = -printer.up;
   return printer;
 }
 
 // Prusa's printers alone read the archive as it is.
 void warn_of_archive(const Request& request, const Machine& machine,
                      Diagnostics& diagnostics) {
-  if (request.format != OutputFormat::kSl1) return;
+  if (request.output.format != OutputFormat::kSl1) return;
   if (machine.printer->name.starts_with("prusa-sl1")) return;
   diagnostics.own_warning(
       {}, fmt::format("an .sl1 archive for {} is for programs that convert it, "
@@ -215,7 +216,8 @@ void warn_of_exposure(const Request& request, const Machine& machine,
                       Diagnostics& diagnostics) {
   const auto& printer = machine.printer;
   const auto& material = machine.material;
-  if (!printer || !material || !slicer::is_of_images(request.format)) return;
+  if (!printer || !material || !slicer::is_of_images(request.output.format))
+    return;
   const auto warn = [&](const std::string& what) {
     diagnostics.own_warning(
         {}, fmt::format("the exposure of {} is for {}; a profile of your own "
@@ -226,7 +228,7 @@ void warn_of_exposure(const Request& request, const Machine& machine,
   if (!material->printer.empty() && material->printer != printer->name) {
     warn(material->printer);
   } else if (material->layer_thickness > 0 &&
-             material->layer_thickness != request.settings.layer_thickness) {
+             material->layer_thickness != request.job.layer_thickness) {
     warn(fmt::format("layers of {:g} mm", material->layer_thickness));
   }
 }
@@ -240,11 +242,11 @@ bool compile(Compilation& c) {
 
   // The syntax tree is written before anything is evaluated: what a design
   // does is no matter of its syntax.
-  if (c.request.format == OutputFormat::kAst) {
+  if (c.request.output.format == OutputFormat::kAst) {
     return finish_text(c, ast::print(c.program), begin_rule(c).get());
   }
-  if (c.request.format == OutputFormat::kParam) {
-    const std::filesystem::path design = c.request.design;
+  if (c.request.output.format == OutputFormat::kParam) {
+    const std::filesystem::path design = c.request.design.path;
     return finish_text(c, parameters_json(c.program, design.stem().string()),
                        begin_rule(c).get());
   }
@@ -260,10 +262,10 @@ bool compile(Compilation& c) {
 
   // Texts end well even where the design failed, as openscad's do; strict runs
   // have ended.
-  if (c.request.format == OutputFormat::kEcho) {
+  if (c.request.output.format == OutputFormat::kEcho) {
     return finish_text(c, echo_text(c), rule.get()) && !ends_hard(c);
   }
-  if (c.request.format == OutputFormat::kCsg) {
+  if (c.request.output.format == OutputFormat::kCsg) {
     return finish_text(c, csg_text(c), rule.get()) && !ends_hard(c);
   }
   if (c.has_failed) return false;
@@ -337,8 +339,8 @@ void make_layers(Compilation& c, const csg::Lowered& lowered,
 Machine choose_machine(const Request& request, const FileAccess& access) {
   Machine machine;
   machine.printer = choose_printer(request, access);
-  if (!request.material.empty()) {
-    machine.material = slicer::find_material(request.material, access);
+  if (!request.output.material.empty()) {
+    machine.material = slicer::find_material(request.output.material, access);
   }
   return machine;
 }
@@ -363,14 +365,14 @@ LayerOutput LayerOutput::open(const Request& request,
   warn_of_exposure(request, machine, diagnostics);
   const auto deviation = promised_deviation(request);
   slicer::WriterOptions options;
-  options.format = request.format;
-  if (request.cli_encoding) options.cli = *request.cli_encoding;
+  options.format = request.output.format;
+  if (request.output.cli_encoding) options.cli = *request.output.cli_encoding;
   if (machine.printer) options.printer = *machine.printer;
   options.exposure = slicer::exposure_of(machine.material);
   if (machine.material) options.material = machine.material->title;
   if (deviation) options.deviation = deviation->from_section();
   auto writer =
-      slicer::make_layer_writer(options, request.output, temporary_files);
+      slicer::make_layer_writer(options, request.output.path, temporary_files);
   return {std::move(machine), deviation, std::move(writer)};
 }
 

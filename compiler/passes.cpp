@@ -31,17 +31,19 @@ auto timed(double& seconds, const Pass& pass) {
 }
 
 ast::Program read_design(const Request& request, Loader& loader) {
-  if (request.text) return loader.load_text(request.design, *request.text);
-  if (is_imported(request.design)) {
-    return loader.load_text(request.design, import_of(request.design));
+  if (request.design.text)
+    return loader.load_text(request.design.path, *request.design.text);
+  if (is_imported(request.design.path)) {
+    return loader.load_text(request.design.path,
+                            import_of(request.design.path));
   }
-  return loader.load(request.design);
+  return loader.load(request.design.path);
 }
 
 // What only a later version than 2021.01 can parse was not written for it.
 Language choose_language(Compilation& c) {
-  if (c.request.language == "2021") return Language::k2021;
-  if (c.request.language == "2026") return Language::k2026;
+  if (c.request.design.language == "2021") return Language::k2021;
+  if (c.request.design.language == "2026") return Language::k2026;
   const std::optional<NewerSyntax>& newer = c.loader.newer_syntax();
   if (!newer) return Language::k2021;
   const SourceRange& range = newer->range;
@@ -59,11 +61,12 @@ bool apply_parameters(Compilation& c, ast::Program& program) {
   const auto apply = [&](const ParameterSet& set) {
     return apply_parameter_set(set, program, c.language, c.diagnostics);
   };
-  if (request.parameters) return apply(*request.parameters);
-  if (request.parameter_file.empty()) return true;
+  if (request.design.parameters) return apply(*request.design.parameters);
+  if (request.design.parameter_file.empty()) return true;
   try {
-    return apply(ParameterSets::read(request.parameter_file, c.file_access())
-                     .values_of(request.parameter_set));
+    return apply(
+        ParameterSets::read(request.design.parameter_file, c.file_access())
+            .values_of(request.design.parameter_set));
   } catch (const FileError& fault) {
     c.diagnostics.report(fault.diagnostic());
     return false;
@@ -76,19 +79,19 @@ csg::EvaluateOptions evaluate_options(Compilation& c) {
   options.language = c.language;
   options.stack_bytes = c.evaluation_stack;
   // As openscad sets it for each of its outputs.
-  const bool has_preview = request.format == OutputFormat::kCsg ||
-                           request.format == OutputFormat::kEcho;
-  options.preview =
-      has_preview && (request.render.empty() || !request.preview.empty());
-  options.seed = request.seed;
-  options.check_parameters = request.checks_parameters;
-  options.check_ranges = request.checks_parameter_ranges;
-  options.max_depth = request.max_depth;
-  options.max_leaves = request.max_leaves;
+  const bool has_preview = request.output.format == OutputFormat::kCsg ||
+                           request.output.format == OutputFormat::kEcho;
+  options.preview = has_preview && (request.design.render.empty() ||
+                                    !request.design.preview.empty());
+  options.seed = request.design.seed;
+  options.check_parameters = request.design.checks_parameters;
+  options.check_ranges = request.design.checks_parameter_ranges;
+  options.max_depth = request.design.max_depth;
+  options.max_leaves = request.design.max_leaves;
   options.chordal_error =
-      (request.chordal_error > 0 ? request.chordal_error
-                                 : csg::kChordalErrorOfParts) /
-      request.scale;
+      (request.geometry.chordal_error > 0 ? request.geometry.chordal_error
+                                          : csg::kChordalErrorOfParts) /
+      request.geometry.scale;
   options.text_measurer = &c.typesetter;
   return options;
 }
@@ -96,25 +99,25 @@ csg::EvaluateOptions evaluate_options(Compilation& c) {
 csg::LowerOptions lower_options(Compilation& c) {
   const Request& request = c.request;
   csg::LowerOptions options;
-  if (request.axis != kAutomaticAxis) {
-    options.world_from_design = slicer::turn_to_axis(request.axis);
+  if (request.geometry.axis != kAutomaticAxis) {
+    options.world_from_design = slicer::turn_to_axis(request.geometry.axis);
   }
-  options.chordal_error = request.chordal_error;
-  options.decimation = request.decimation;
+  options.chordal_error = request.geometry.chordal_error;
+  options.decimation = request.geometry.decimation;
   options.module_folders = module_folders_of(request);
   options.typesetter = &c.typesetter;
   options.cad_reader = &c.cad_reader;
   options.file_access = &c.file_access();
-  options.scale = request.scale;
+  options.scale = request.geometry.scale;
   return options;
 }
 
 // Moves the scene as a whole, which needs its surface.
 void place(Compilation& c, csg::Scene& scene) {
   const Request& request = c.request;
-  if (request.axis == kAutomaticAxis) {
+  if (request.geometry.axis == kAutomaticAxis) {
     const slicer::OrientationChoice choice =
-        slicer::choose_orientation(scene, request.settings.layer_thickness);
+        slicer::choose_orientation(scene, request.job.layer_thickness);
     csg::move_scene(scene, slicer::turn_to_axis(choice.all[choice.best].axis),
                     Vec3(0));
     std::istringstream table(slicer::orientation_table(choice));
@@ -122,7 +125,7 @@ void place(Compilation& c, csg::Scene& scene) {
       c.diagnostics.report({Severity::kPlain, {}, line});
     }
   }
-  if (request.is_placed_on_bed) slicer::place_on_bed(scene);
+  if (request.geometry.is_placed_on_bed) slicer::place_on_bed(scene);
 }
 
 }  // namespace
@@ -138,10 +141,10 @@ ast::Program load(Compilation& c) {
       return program;
     });
   } catch (const SyntaxError&) {
-    if (request.format == OutputFormat::kEcho) {
-      write_file(request.output,
-                 echo_text(c) +
-                     fmt::format("Can't parse file '{}'!\n\n", request.design),
+    if (request.output.format == OutputFormat::kEcho) {
+      write_file(request.output.path,
+                 echo_text(c) + fmt::format("Can't parse file '{}'!\n\n",
+                                            request.design.path),
                  c.temporary_files);
     }
     throw;
@@ -181,8 +184,9 @@ csg::Lowered lower(Compilation& c) {
 }
 
 slicer::Settings settings_of(const Request& request) {
-  slicer::Settings settings = request.settings;
-  settings.most_thickness_runs = slicer::most_thickness_runs(request.format);
+  slicer::Settings settings = request.job;
+  settings.most_thickness_runs =
+      slicer::most_thickness_runs(request.output.format);
   return settings;
 }
 
@@ -206,7 +210,7 @@ slicer::SliceReport slice(const csg::Lowered& lowered,
 std::string echo_text(Compilation& c) {
   // For what the selection warns of.
   if (c.tree.root != nullptr) csg::select_root(c.tree, c.diagnostics);
-  const std::string& design = c.request.design;
+  const std::string& design = c.request.design.path;
   const std::size_t slash = design.rfind('/');
   return openscad_text(c.diagnostics.all(), slash == std::string::npos
                                                 ? "."

@@ -57,8 +57,8 @@ std::string peak_memory() {
 
 void run(const Options& options) {
   compiler::Request request;
-  request.design = options.design;
-  request.definitions = options.definitions;
+  request.design.path = options.design;
+  request.design.definitions = options.definitions;
   TemporaryFiles files;
   compiler::Compilation compilation(request, files);
   const auto lowered = compiler::make_geometry(compilation);

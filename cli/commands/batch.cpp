@@ -98,9 +98,9 @@ class BatchCommand : public Command {
   std::string_view help() const override { return kBatchHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("design", table_.request.design)->required();
+    app.add_option("design", table_.request.design.path)->required();
     add_name(app, "--table", "file", table_.table)->required();
-    add_name(app, "-o", "pattern", table_.request.output)->required();
+    add_name(app, "-o", "pattern", table_.request.output.path)->required();
     make_repeatable(app.add_option("--skip", skipped_)->type_name("column"));
     add_text(app, "--shard", "share", [this](const std::string& text) {
       table_.share = parse_share(text);
@@ -115,21 +115,22 @@ class BatchCommand : public Command {
   }
 
   void check() override {
-    refuse_if(!table_.request.parameter_file.empty(),
+    refuse_if(!table_.request.design.parameter_file.empty(),
               "batch takes values from --table, not from -p and -P");
-    refuse_if(table_.request.output.find('{') == std::string::npos,
+    refuse_if(table_.request.output.path.find('{') == std::string::npos,
               "-o needs a pattern, such as 'out/{{name}}.slc' or "
               "'out/{{row}}.slc'");
     try {
-      words_of_pattern(table_.request.output);
+      words_of_pattern(table_.request.output.path);
     } catch (const FileError& error) {
       throw UsageError(error.what());
     }
     OutputOptions output = output_options_;
     // A report of ledgers is none of layers.
     if (!ledgers_.empty()) output.report.clear();
-    choose_format(table_.request, output, table_.request.output);
-    table_.request.is_strict = table_.request.is_strict.value_or(true);
+    choose_format(table_.request, output, table_.request.output.path);
+    table_.request.output.is_strict =
+        table_.request.output.is_strict.value_or(true);
     table_.skipped.insert(skipped_.begin(), skipped_.end());
     refuse_if(ledger_.path == "-", "--ledger takes a file, not '-'");
     ledger_.asked = given_options(*app_);
@@ -167,7 +168,7 @@ class BatchCommand : public Command {
     }
     return make_pieces(
         pieces,
-        {"pieces", output_options_.report, table_.request.settings.threads,
+        {"pieces", output_options_.report, table_.request.job.threads,
          is_quiet_, ledger ? &*ledger : nullptr},
         context);
   }

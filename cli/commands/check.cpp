@@ -61,7 +61,7 @@ class CheckCommand : public Command {
   std::string_view help() const override { return kCheckHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("file", request_.design)->required();
+    app.add_option("file", request_.design.path)->required();
     app.add_flag("--json", is_json_);
     make_repeatable(app.add_option_function<std::vector<std::string>>(
                            "--allow",
@@ -71,7 +71,7 @@ class CheckCommand : public Command {
                         ->type_name("{islands,loose-parts,overhangs,"
                                     "suction-cups,resin-traps}"));
     add_text(app, "--self-supporting", "length", [this](const auto& text) {
-      request_.settings.self_supporting =
+      request_.job.self_supporting =
           require_positive("--self-supporting", text);
     });
     add_design_options(app, request_, is_quiet_);
@@ -80,11 +80,11 @@ class CheckCommand : public Command {
   }
 
   void check() override {
-    require_readable("check", request_.design);
-    refuse_contradictions(request_.settings);
-    refuse_if(!request_.settings.heights.empty(),
+    require_readable("check", request_.design.path);
+    refuse_contradictions(request_.job);
+    refuse_if(!request_.job.heights.empty(),
               "check needs whole layers, not --heights");
-    request_.settings.finds_makers = true;
+    request_.job.finds_makers = true;
   }
 
   int run(const Context& context) override {
@@ -108,13 +108,13 @@ class CheckCommand : public Command {
 
   // Whether the design or the file could be looked at.
   bool look(compiler::Compilation& compilation) const {
-    if (slicer::is_readable_layer_file(request_.design,
+    if (slicer::is_readable_layer_file(request_.design.path,
                                        compilation.file_access())) {
-      refuse_design_option(design_option_, request_.design);
+      refuse_design_option(design_option_, request_.design.path);
       const slicer::Inspection found = compiler::inspect_file(
-          request_.design,
+          request_.design.path,
           {.finds_defects = false,
-           .self_supporting = request_.settings.self_supporting},
+           .self_supporting = request_.job.self_supporting},
           compilation.file_access());
       compilation.report.slice.print = found.print;
       tell_left_out(compilation, found.file);

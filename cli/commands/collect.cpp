@@ -69,7 +69,7 @@ class Collector {
       return tell(piece, "failed", index_.failure_of(entry));
     }
     if (entry.state != State::kDone ||
-        !is_as_noted(piece.request.output, entry, access_)) {
+        !is_as_noted(piece.request.output.path, entry, access_)) {
       ++missing_;
       return tell(piece, "missing", {});
     }
@@ -95,7 +95,7 @@ class Collector {
         list_element({{"row", piece.number},
                       {"line", piece.line > 0 ? Json(piece.line) : Json()},
                       {"name", piece.name},
-                      {"output", piece.request.output},
+                      {"output", piece.request.output.path},
                       {"status", what},
                       {"error", failure.error},
                       {"messages", failure.messages}}));

@@ -80,7 +80,7 @@ class CompareCommand : public Command {
     note_design_option(app, design_option_);
     // The words are the comparison's here.
     app.remove_option(app.get_option("--tolerance"));
-    request_.settings.tolerance = 0;
+    request_.job.tolerance = 0;
     add_text(app, "--tolerance", "length", [this](const std::string& text) {
       tolerance_ =
           require_within("--tolerance", text, 0, kGreatestTolerance, " mm");
@@ -115,11 +115,11 @@ class CompareCommand : public Command {
           path);
     }
     if (is_against_openscad_) check_openscad();
-    refuse_if(request_.settings.paper.sampler != ldni::SamplerKind::kScanline,
+    refuse_if(request_.job.paper.sampler != ldni::SamplerKind::kScanline,
               "compare cuts at heights, which --sampler gl cannot");
     refuse_if(!picture_.empty() && !picture_.ends_with(".png"),
               "--png draws .png pictures; '{}' is none", picture_);
-    refuse_contradictions(request_.settings);
+    refuse_contradictions(request_.job);
   }
 
   int run(const Context& context) override {
@@ -130,8 +130,8 @@ class CompareCommand : public Command {
         std::string version;
         if (is_against_openscad_) {
           version = openscad_version(context.temporary_files);
-          if (request_.language == "auto") {
-            request_.language = language_of(version);
+          if (request_.design.language == "auto") {
+            request_.design.language = language_of(version);
           }
         }
         const auto a = open_compared(a_, request_, is_quiet_, context);
@@ -156,7 +156,7 @@ class CompareCommand : public Command {
     refuse_if(!a_.ends_with(".scad") && !a_.ends_with(".csg"),
               "--against openscad compares a design");
     refuse_if(
-        request_.chordal_error > 0,
+        request_.geometry.chordal_error > 0,
         "--chordal-error makes other facets than openscad's: give $fa and "
         "$fs by -D");
   }

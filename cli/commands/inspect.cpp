@@ -45,7 +45,7 @@ class InspectCommand : public Command {
   std::string_view help() const override { return kInspectHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("file", request_.design)->required();
+    app.add_option("file", request_.design.path)->required();
     app.add_flag("--all", lists_all_layers_);
     app.add_flag("--json", is_json_);
     // In the layers as they are written, not by the slicer on its way.
@@ -53,13 +53,13 @@ class InspectCommand : public Command {
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
     note_design_option(app, design_option_);
-    add_layer_range(app, request_.settings.written);
+    add_layer_range(app, request_.job.written);
     app.get_option("--layers")->group(kDesignGroup);
   }
 
   void check() override {
-    require_readable("inspect", request_.design);
-    refuse_contradictions(request_.settings);
+    require_readable("inspect", request_.design.path);
+    refuse_contradictions(request_.job);
   }
 
   int run(const Context& context) override {
@@ -74,10 +74,10 @@ class InspectCommand : public Command {
   // No value where the design failed.
   std::optional<slicer::Inspection> look(
       compiler::Compilation& compilation) const {
-    if (slicer::is_readable_layer_file(request_.design,
+    if (slicer::is_readable_layer_file(request_.design.path,
                                        compilation.file_access())) {
-      refuse_design_option(design_option_, request_.design);
-      return compiler::inspect_file(request_.design,
+      refuse_design_option(design_option_, request_.design.path);
+      return compiler::inspect_file(request_.design.path,
                                     {.min_feature = min_feature_},
                                     compilation.file_access());
     }
@@ -90,10 +90,10 @@ class InspectCommand : public Command {
     slicer::LayerFileFacts exact;
     exact.is_float32 = false;
     slicer::Inspection found =
-        inspector.finish(request_.design, std::move(exact));
+        inspector.finish(request_.design.path, std::move(exact));
     found.print = compilation.report.slice.print;
-    found.meshes =
-        compiler::inspect_meshes(request_.design, compilation.file_access());
+    found.meshes = compiler::inspect_meshes(request_.design.path,
+                                            compilation.file_access());
     return found;
   }
 

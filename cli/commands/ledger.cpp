@@ -215,16 +215,17 @@ bool is_as_noted(const std::string& output, const LedgerIndex::Entry& entry,
 
 std::string asked_key(const Piece& piece, const std::string& options) {
   const compiler::Request& request = piece.request;
-  std::string text =
-      fmt::format("{}\n{}\n{}\n", version(), options, request.definitions);
-  if (request.parameters) {
-    for (const ParameterValue& entry : *request.parameters) {
+  std::string text = fmt::format("{}\n{}\n{}\n", version(), options,
+                                 request.design.definitions);
+  if (request.design.parameters) {
+    for (const ParameterValue& entry : *request.design.parameters) {
       text +=
           fmt::format("{}={}\n", in_quotes(entry.name), in_quotes(entry.text));
     }
   }
-  text += request.output.empty() ? fmt::format("row {}", piece.number)
-                                 : fmt::format("output {}", request.output);
+  text += request.output.path.empty()
+              ? fmt::format("row {}", piece.number)
+              : fmt::format("output {}", request.output.path);
   return digest(text);
 }
 
@@ -249,14 +250,14 @@ bool Ledger::stands(const Piece& piece) const {
   const LedgerIndex::Entry entry =
       index_->find(asked_key(piece, options_.asked));
   return entry.state == State::kDone &&
-         is_as_noted(piece.request.output, entry, access_);
+         is_as_noted(piece.request.output.path, entry, access_);
 }
 
 void Ledger::note(const Piece& piece, const Outcome& outcome,
                   const std::string& messages,
                   const compiler::Compilation& compilation) {
   const bool is_done = outcome.is_done();
-  const std::string& output = piece.request.output;
+  const std::string& output = piece.request.output.path;
   const OutputDigest made =
       (is_done ? digest_of_output(output, access_) : std::nullopt)
           .value_or(OutputDigest());

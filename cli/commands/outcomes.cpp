@@ -64,14 +64,14 @@ std::string csv_of(const Piece& piece, const Outcome& outcome) {
     figures += csv_words(outcome.error);
   }
   return fmt::format("{},{},{},{}\r\n", line, csv_words(piece.name),
-                     csv_words(piece.request.output), figures);
+                     csv_words(piece.request.output.path), figures);
 }
 
 std::string json_of(const Piece& piece, const Outcome& outcome) {
   return list_element(
       {{"line", piece.line > 0 ? Json(piece.line) : Json()},
        {"name", piece.name},
-       {"output", piece.request.output},
+       {"output", piece.request.output.path},
        {"error", outcome.is_done() ? Json() : Json(outcome.error)},
        {"report", outcome.json}});
 }

@@ -113,9 +113,9 @@ Variables variables_of(const compiler::Request& request,
   Diagnostics messages([&](const Diagnostic& message) {
     if (message.severity == Severity::kError) diagnostics.report(message);
   });
-  Loader loader(sources, messages, library_folders(access), request.definitions,
-                access);
-  return find_variables(loader.load(request.design), loader);
+  Loader loader(sources, messages, library_folders(access),
+                request.design.definitions, access);
+  return find_variables(loader.load(request.design.path), loader);
 }
 
 // Whether it is the name of a variable such as $fn, which a design need not
@@ -153,7 +153,7 @@ class CsvRows : public Rows {
         sources_(sources),
         file_(options.table, access),
         diagnostics_(diagnostics) {
-    for (std::string& word : words_of_pattern(options.request.output)) {
+    for (std::string& word : words_of_pattern(options.request.output.path)) {
       words_.insert(std::move(word));
     }
   }
@@ -202,9 +202,9 @@ class CsvRows : public Rows {
     }
     for (const std::string& word : words_) {
       if (word == kRowWord || places_.contains(word)) continue;
-      diagnostics_.error({},
-                         fmt::format("'{}' in '{}' is no column of '{}'", word,
-                                     options_.request.output, options_.table));
+      diagnostics_.error(
+          {}, fmt::format("'{}' in '{}' is no column of '{}'", word,
+                          options_.request.output.path, options_.table));
     }
   }
 
@@ -226,7 +226,7 @@ class CsvRows : public Rows {
     diagnostics_.error(
         header,
         fmt::format("'{0}' is no variable of '{1}' (--skip {0} passes over it)",
-                    name, options_.request.design));
+                    name, options_.request.design.path));
   }
 
   void refuse_repeated(SourceRange header, const std::string& name) {
@@ -270,14 +270,15 @@ class CsvRows : public Rows {
   }
 
   std::string output() const {
-    return fill_pattern(
-        options_.request.output, [&](const std::string& word) -> std::string {
-          if (word == kRowWord && !places_.contains(word)) {
-            return fmt::format("{}", number_);
-          }
-          return name_fault(
-              word, [&] { return require_part_of_name(cell_of(word)); });
-        });
+    return fill_pattern(options_.request.output.path,
+                        [&](const std::string& word) -> std::string {
+                          if (word == kRowWord && !places_.contains(word)) {
+                            return fmt::format("{}", number_);
+                          }
+                          return name_fault(word, [&] {
+                            return require_part_of_name(cell_of(word));
+                          });
+                        });
   }
 
   const TableOptions& options_;
@@ -300,12 +301,13 @@ class SetRows : public Rows {
   SetRows(const TableOptions& options, const FileAccess& access,
           Diagnostics& diagnostics)
       : options_(options), sets_(ParameterSets::read(options.table, access)) {
-    for (const std::string& word : words_of_pattern(options.request.output)) {
+    for (const std::string& word :
+         words_of_pattern(options.request.output.path)) {
       if (word == kRowWord || word == kNameColumn) continue;
       diagnostics.error(
           {}, fmt::format("'{}' in '{}' means nothing for parameter sets; "
                           "{{name}} is that of the set",
-                          word, options.request.output));
+                          word, options.request.output.path));
     }
   }
 
@@ -316,8 +318,8 @@ class SetRows : public Rows {
     row.number = ++number_;
     complete(row, [&] {
       row.parameters = sets_.values_of(row.number - 1);
-      row.output =
-          fill_pattern(options_.request.output, [&](const std::string& word) {
+      row.output = fill_pattern(
+          options_.request.output.path, [&](const std::string& word) {
             return word == kRowWord ? fmt::format("{}", row.number)
                                     : require_part_of_name(row.name);
           });
@@ -393,9 +395,9 @@ class PieceTable : public PieceSource {
   Piece piece_of(const Row& row) const {
     Piece piece;
     piece.request = options_.request;
-    piece.request.definitions += row.definitions;
-    piece.request.output = row.output;
-    piece.request.parameters = row.parameters;
+    piece.request.design.definitions += row.definitions;
+    piece.request.output.path = row.output;
+    piece.request.design.parameters = row.parameters;
     piece.name = row.name.empty() ? fmt::format("{}", row.number) : row.name;
     piece.prefix = prefix_of(row);
     piece.number = row.number;

@@ -135,13 +135,13 @@ class Workshop {
 
   Outcome make(const Piece& piece, std::size_t stack, Inbox& inbox) {
     compiler::Request request = piece.request;
-    request.settings.threads = threads_per_piece_;
+    request.job.threads = threads_per_piece_;
     Session session(request, options_.is_quiet,
                     {context_.temporary_files, stack, context_.watch}, &inbox);
     compiler::Compilation& compilation = session.compilation;
     const int status = session.run([&] {
       if (!piece.fault.empty()) throw GeometryError(piece.fault);
-      make_folder_of(request.output, context_.file_access());
+      make_folder_of(request.output.path, context_.file_access());
       // Where a design failed, openscad's texts end well; a piece does not.
       return compiler::compile(compilation) && !compilation.has_failed ? kDone
                                                                        : kFault;
@@ -150,7 +150,7 @@ class Workshop {
     outcome.report = compilation.report;
     if (status == kDone) {
       outcome.status = Outcome::Status::kDone;
-      if (request.settings.min_feature > 0) {
+      if (request.job.min_feature > 0) {
         session.terminal.say(feature_lines(compilation));
       }
       if (!options_.report.empty()) outcome.json = report_json(compilation);

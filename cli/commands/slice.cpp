@@ -181,8 +181,8 @@ class SliceCommand : public Command {
 
   void add_options(CLI::App& app) override {
     app.add_option("design", designs_);
-    add_name(app, "-o", "file", request_.output);
-    add_name(app, "-d", "file", request_.dependencies);
+    add_name(app, "-o", "file", request_.output.path);
+    add_name(app, "-d", "file", request_.output.dependencies);
     app.add_flag("--watch", watches_);
     add_output_options(app, request_, output_);
     add_design_options(app, request_, is_quiet_);
@@ -193,15 +193,15 @@ class SliceCommand : public Command {
     refuse_if(designs_.empty(), "no design was given");
     refuse_misspelt_command(designs_.front());
     for (const std::string& design : designs_) refuse_layers(design);
-    refuse_if(request_.output == "-" && output_.export_format.empty(),
+    refuse_if(request_.output.path == "-" && output_.export_format.empty(),
               "-o - needs --export-format");
-    refuse_if(watches_ && (designs_.size() > 1 || request_.output == "-"),
+    refuse_if(watches_ && (designs_.size() > 1 || request_.output.path == "-"),
               "--watch needs one design and a file to write");
     if (designs_.size() > 1) return check_several();
-    request_.design = designs_.front();
+    request_.design.path = designs_.front();
     makes_folder_ = is_folder() || is_pattern();
-    request_.output = output_of(request_.design);
-    choose_format(request_, output_, request_.output);
+    request_.output.path = output_of(request_.design.path);
+    choose_format(request_, output_, request_.output.path);
   }
 
   int run(const Context& context) override {
@@ -209,8 +209,9 @@ class SliceCommand : public Command {
     Session session(request_, is_quiet_, context);
     return session.run([&] {
       context.expect_outputs(
-          {request_.output, request_.dependencies, output_.report});
-      if (makes_folder_) make_folder_of(request_.output, context.file_access());
+          {request_.output.path, request_.output.dependencies, output_.report});
+      if (makes_folder_)
+        make_folder_of(request_.output.path, context.file_access());
       if (watches_) {
         compile_and_watch(request_, output_.report, is_quiet_, context);
       }
@@ -225,35 +226,36 @@ class SliceCommand : public Command {
 
   // A name such as "ring.png/" is that of an output that is a folder.
   bool is_folder() const {
-    const std::string& output = request_.output;
+    const std::string& output = request_.output.path;
     return output.ends_with('/') &&
            !slicer::choose_output_format(output.substr(0, output.size() - 1))
                 .format;
   }
 
   bool is_pattern() const {
-    return request_.output.find("{name}") != std::string::npos;
+    return request_.output.path.find("{name}") != std::string::npos;
   }
 
   std::string output_of(const std::string& design) const {
-    if (request_.output.empty()) {
+    if (request_.output.path.empty()) {
       return std::filesystem::path(design).replace_extension(extension());
     }
     if (is_folder()) {
-      return fmt::format("{}{}.{}", request_.output, stem(design), extension());
+      return fmt::format("{}{}.{}", request_.output.path, stem(design),
+                         extension());
     }
-    if (!is_pattern()) return request_.output;
-    return fill_pattern(request_.output, [&](const std::string& word) {
+    if (!is_pattern()) return request_.output.path;
+    return fill_pattern(request_.output.path, [&](const std::string& word) {
       return word == "name" ? stem(design) : fmt::format("{{{}}}", word);
     });
   }
 
   void check_several() {
     refuse_if(
-        !request_.output.empty() && !is_folder() && !is_pattern(),
+        !request_.output.path.empty() && !is_folder() && !is_pattern(),
         "-o names one file; for several designs give it a folder, such as "
         "'out/', or a pattern, such as 'out/{{name}}.slc'");
-    refuse_if(!request_.dependencies.empty(), "-d needs one design");
+    refuse_if(!request_.output.dependencies.empty(), "-d needs one design");
     choose_format(request_, output_, output_of(designs_.front()));
   }
 
@@ -262,8 +264,8 @@ class SliceCommand : public Command {
     for (const std::string& design : designs_) {
       Piece& piece = pieces.emplace_back();
       piece.request = request_;
-      piece.request.design = design;
-      piece.request.output = output_of(design);
+      piece.request.design.path = design;
+      piece.request.output.path = output_of(design);
       piece.name = display_path(design);
       piece.prefix = fmt::format("{}: ", short_name(piece.name));
       piece.number = pieces.size();
@@ -271,14 +273,13 @@ class SliceCommand : public Command {
     Terminal terminal(is_quiet_);
     return run_caught(terminal, Diagnostics(), [&] {
       for (const Piece& piece : pieces) {
-        context.expect_outputs({piece.request.output});
+        context.expect_outputs({piece.request.output.path});
       }
       context.expect_outputs({output_.report});
       make_folder_of(output_.report, context.file_access());
       PieceList list(std::move(pieces));
       return make_pieces(
-          list,
-          {"designs", output_.report, request_.settings.threads, is_quiet_},
+          list, {"designs", output_.report, request_.job.threads, is_quiet_},
           context);
     });
   }

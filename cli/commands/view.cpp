@@ -182,14 +182,14 @@ std::optional<std::vector<slicer::Layer>> layers_of(
     compiler::Compilation& compilation, const std::string& design_option) {
   const compiler::Request& request = compilation.request;
   compiler::LayerList list;
-  if (slicer::is_readable_layer_file(request.design,
+  if (slicer::is_readable_layer_file(request.design.path,
                                      compilation.file_access())) {
-    refuse_design_option(design_option, request.design);
-    slicer::LayerGraph graph(request.settings.self_supporting);
+    refuse_design_option(design_option, request.design.path);
+    slicer::LayerGraph graph(request.job.self_supporting);
     const slicer::LayerFileFacts facts = slicer::read_layers(
-        request.design,
+        request.design.path,
         [&](slicer::Layer& layer) {
-          if (is_page(request.output)) graph.take(layer, nullptr);
+          if (is_page(request.output.path)) graph.take(layer, nullptr);
           list.layers.push_back(std::move(layer));
         },
         compilation.file_access());
@@ -266,10 +266,11 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
         return layer.contours.points.empty();
       })) {
     throw GeometryError(
-        fmt::format("{} has no contour to draw", request.design));
+        fmt::format("{} has no contour to draw", request.design.path));
   }
-  const std::string title = std::filesystem::path(request.design).filename();
-  if (is_page(request.output)) {
+  const std::string title =
+      std::filesystem::path(request.design.path).filename();
+  if (is_page(request.output.path)) {
     slicer::ViewerOptions page;
     const compiler::Report& report = compilation.report;
     page.title = title;
@@ -279,13 +280,13 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
     page.origins = compiler::origin_texts(report.origins);
     page.print = report.slice.print;
     page.finding_origins = compiler::origin_texts(report.finding_origins);
-    compiler::write_file(request.output, viewer_page(*layers, page),
+    compiler::write_file(request.output.path, viewer_page(*layers, page),
                          compilation.temporary_files);
     return kDone;
   }
   const slicer::Image picture = draw_picture(*layers, title, options);
   OutputFile output =
-      OutputFile::open(request.output, compilation.temporary_files);
+      OutputFile::open(request.output.path, compilation.temporary_files);
   write_png(picture, output);
   output.commit();
   return kDone;
@@ -296,8 +297,8 @@ class ViewCommand : public Command {
   std::string_view help() const override { return kViewHelp; }
 
   void add_options(CLI::App& app) override {
-    app.add_option("file", request_.design)->required();
-    add_name(app, "-o", "file", request_.output)->required();
+    app.add_option("file", request_.design.path)->required();
+    add_name(app, "-o", "file", request_.output.path)->required();
     add_choice(
         app, "--style", {"sheet", "stack"}, [this](const std::string& style) {
           options_.style = style == "stack" ? Style::kStack : Style::kSheet;
@@ -326,34 +327,36 @@ class ViewCommand : public Command {
     if (camera_.is_given()) options_.style = Style::kStack;
     options_.stack = camera_.stack();
 
-    refuse_if(!is_page(request_.output) && !request_.output.ends_with(".png"),
+    refuse_if(!is_page(request_.output.path) &&
+                  !request_.output.path.ends_with(".png"),
               "view writes .png pictures and .html pages; '{}' is neither",
-              request_.output);
-    require_readable("view", request_.design);
-    refuse_if(options_.layer.min_feature > 0 && !is_page(request_.output) &&
-                  !options_.is_of_one_layer(),
+              request_.output.path);
+    require_readable("view", request_.design.path);
+    refuse_if(options_.layer.min_feature > 0 &&
+                  !is_page(request_.output.path) && !options_.is_of_one_layer(),
               "--min-feature needs --layer-number, --at or .html");
     refuse_if(options_.style == Style::kStack && options_.is_of_one_layer(),
               "a stack shows all layers, not one");
     refuse_if(options_.style == Style::kStack && options_.width,
               "a stack needs --imgsize W,H, not --width");
-    refuse_if(is_page(request_.output) && options_.are_for_pictures(),
+    refuse_if(is_page(request_.output.path) && options_.are_for_pictures(),
               "of view's own options a page takes --min-feature only");
-    refuse_if(!is_page(request_.output) &&
-                  !(request_.printer.empty() && request_.material.empty()),
-              "--printer and --material need .html");
+    refuse_if(
+        !is_page(request_.output.path) && !(request_.output.printer.empty() &&
+                                            request_.output.material.empty()),
+        "--printer and --material need .html");
     // The page shows what made what is found in a design.
-    if (is_page(request_.output)) {
-      request_.settings.min_feature = options_.layer.min_feature;
-      request_.settings.finds_makers = true;
+    if (is_page(request_.output.path)) {
+      request_.job.min_feature = options_.layer.min_feature;
+      request_.job.finds_makers = true;
     }
-    refuse_contradictions(request_.settings);
+    refuse_contradictions(request_.job);
   }
 
   int run(const Context& context) override {
     Session session(request_, is_quiet_, context);
     return session.run([&] {
-      context.expect_outputs({request_.output});
+      context.expect_outputs({request_.output.path});
       return draw(session.compilation, options_);
     });
   }

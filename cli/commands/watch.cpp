@@ -128,9 +128,11 @@ constexpr std::chrono::milliseconds kClockStep{10};
 
 // The files that are known before the compilation.
 std::set<std::string> given_files(const compiler::Request& request) {
-  std::set<std::string> files = {request.design};
-  if (!request.parameter_file.empty()) files.insert(request.parameter_file);
-  for (const std::string& profile : {request.printer, request.material}) {
+  std::set<std::string> files = {request.design.path};
+  if (!request.design.parameter_file.empty())
+    files.insert(request.design.parameter_file);
+  for (const std::string& profile :
+       {request.output.printer, request.output.material}) {
     if (fs::is_regular_file(profile)) files.insert(profile);
   }
   return files;

@@ -31,19 +31,22 @@ void refuse_contradictions(const slicer::Settings& settings) {
 
 void refuse_misfits(const compiler::Request& request, bool has_report) {
   using enum slicer::OutputFormat;
-  const slicer::OutputFormat format = request.format;
-  const slicer::Settings& settings = request.settings;
+  const slicer::OutputFormat format = request.output.format;
+  const slicer::Settings& settings = request.job;
   const bool has_layers = slicer::is_of_layers(format);
   refuse_if(!has_layers && has_report, "--report needs layers");
   refuse_if(!has_layers && settings.min_feature > 0,
             "--min-feature needs layers");
   const bool has_images = slicer::is_of_images(format);
-  refuse_if(!has_layers && !request.printer.empty(), "--printer needs layers");
-  refuse_if(!has_layers && !request.material.empty(),
+  refuse_if(!has_layers && !request.output.printer.empty(),
+            "--printer needs layers");
+  refuse_if(!has_layers && !request.output.material.empty(),
             "--material needs layers");
-  refuse_if(!has_images && (request.mirrors_x || request.mirrors_y),
-            "--mirror needs images: .png, .sl1 or .zip");
-  refuse_if(request.cli_encoding && format != kCli, "--cli needs .cli output");
+  refuse_if(
+      !has_images && (request.output.mirrors_x || request.output.mirrors_y),
+      "--mirror needs images: .png, .sl1 or .zip");
+  refuse_if(request.output.cli_encoding && format != kCli,
+            "--cli needs .cli output");
   const bool is_archive = format == kSl1 || format == kNanoDlp;
   const bool has_heights = !settings.heights.empty();
   refuse_if(is_archive && (settings.cusp > 0 || has_heights),

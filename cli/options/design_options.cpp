@@ -75,35 +75,38 @@ class GroupOfDesigns {
 
 void add_design_options(CLI::App& app, compiler::Request& request,
                         bool& is_quiet) {
-  add_count(app, "--max-depth", csg::kMostNestedCalls, request.max_depth);
-  add_count(app, "--max-leaves", 1'000'000'000, request.max_leaves);
-  app.add_flag("--hardwarnings", request.has_hard_warnings);
+  add_count(app, "--max-depth", csg::kMostNestedCalls,
+            request.design.max_depth);
+  add_count(app, "--max-leaves", 1'000'000'000, request.design.max_leaves);
+  app.add_flag("--hardwarnings", request.design.has_hard_warnings);
   app.add_flag("-q,--quiet", is_quiet);
 
   const GroupOfDesigns group(app);
   const auto define = [&request](const std::vector<std::string>& definitions) {
     for (const std::string& definition : definitions) {
-      request.definitions += definition + ";\n";
+      request.design.definitions += definition + ";\n";
     }
   };
   make_repeatable(
       app.add_option_function<std::vector<std::string>>("-D", define)
           ->type_name("NAME=VALUE"));
-  CLI::Option* set = app.add_option("-P", request.parameter_set);
-  CLI::Option* file = add_name(app, "-p", "file", request.parameter_file);
+  CLI::Option* set = app.add_option("-P", request.design.parameter_set);
+  CLI::Option* file =
+      add_name(app, "-p", "file", request.design.parameter_file);
   set->type_name("set")->needs(file);
   file->needs(set);
-  add_switch(app, "--check-parameters", request.checks_parameters);
-  add_switch(app, "--check-parameter-ranges", request.checks_parameter_ranges);
-  app.add_flag("--render", request.render);
-  app.add_flag("--preview", request.preview);
-  app.add_option("--seed", request.seed)->type_name("number");
+  add_switch(app, "--check-parameters", request.design.checks_parameters);
+  add_switch(app, "--check-parameter-ranges",
+             request.design.checks_parameter_ranges);
+  app.add_flag("--render", request.design.render);
+  app.add_flag("--preview", request.design.preview);
+  app.add_option("--seed", request.design.seed)->type_name("number");
   add_choice(app, "--language", {"auto", "2021", "2026"},
-             [&](const std::string& word) { request.language = word; });
+             [&](const std::string& word) { request.design.language = word; });
 }
 
 void add_slicing_options(CLI::App& app, compiler::Request& request) {
-  slicer::Settings& settings = request.settings;
+  slicer::Settings& settings = request.job;
   add_count(app, "--threads", 1024, settings.threads);
 
   const GroupOfDesigns group(app);
@@ -120,13 +123,13 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
     settings.heights = parse_heights("--heights", text);
   });
   add_text(app, "--chordal-error", "length", [&](const std::string& text) {
-    request.chordal_error = require_number("--chordal-error", text);
-    require(request.chordal_error >= kLeastChordalError, "--chordal-error",
-            "must be at least 0.000001 mm");
+    request.geometry.chordal_error = require_number("--chordal-error", text);
+    require(request.geometry.chordal_error >= kLeastChordalError,
+            "--chordal-error", "must be at least 0.000001 mm");
   });
   add_text(app, "--decimate", "length", [&](const std::string& text) {
-    request.decimation = require_number("--decimate", text);
-    require(request.decimation >= kLeastChordalError, "--decimate",
+    request.geometry.decimation = require_number("--decimate", text);
+    require(request.geometry.decimation >= kLeastChordalError, "--decimate",
             "must be at least 0.000001 mm");
   });
   // Two names of one thing: what simplification is for, and what it promises.
@@ -140,14 +143,15 @@ void add_slicing_options(CLI::App& app, compiler::Request& request) {
         require_within("--compensate", text, -kGreatestCompensation,
                        kGreatestCompensation, " mm");
   });
-  add_text(app, "--scale", "factor",
-           [&](const std::string& text) { request.scale = parse_scale(text); });
+  add_text(app, "--scale", "factor", [&](const std::string& text) {
+    request.geometry.scale = parse_scale(text);
+  });
   add_text(app, "--ray", "length", [&](const std::string& text) {
     settings.ray_pitch = text == "auto" ? 0 : require_positive("--ray", text);
   });
   add_choice(app, "--axis", {"z", "x", "y", "-x", "-y", "-z", "auto"},
-             [&](const std::string& axis) { request.axis = axis; });
-  app.add_flag("--place-on-bed", request.is_placed_on_bed);
+             [&](const std::string& axis) { request.geometry.axis = axis; });
+  app.add_flag("--place-on-bed", request.geometry.is_placed_on_bed);
   add_choice(
       app, "--contour", {"faithful", "paper"}, [&](const std::string& mode) {
         settings.contour = mode == "paper" ? slicer::ContourMode::kPaper
@@ -176,32 +180,33 @@ void note_design_option(CLI::App& app, std::string& given) {
 }
 
 void add_machine_options(CLI::App& app, compiler::Request& request) {
-  add_name(app, "--printer", "printer", request.printer);
-  add_name(app, "--material", "material", request.material);
+  add_name(app, "--printer", "printer", request.output.printer);
+  add_name(app, "--material", "material", request.output.material);
 }
 
 void add_output_options(CLI::App& app, compiler::Request& request,
                         OutputOptions& options) {
   add_name(app, "--export-format", "format", options.export_format);
-  add_choice(
-      app, "--cli", {"binary", "ascii"}, [&request](const std::string& word) {
-        request.cli_encoding = word == "ascii" ? slicer::CliEncoding::kAscii
-                                               : slicer::CliEncoding::kBinary;
-      });
+  add_choice(app, "--cli", {"binary", "ascii"},
+             [&request](const std::string& word) {
+               request.output.cli_encoding = word == "ascii"
+                                                 ? slicer::CliEncoding::kAscii
+                                                 : slicer::CliEncoding::kBinary;
+             });
   CLI::Option* strict = app.add_flag_callback(
-      "--strict", [&request] { request.is_strict = true; });
+      "--strict", [&request] { request.output.is_strict = true; });
   app.add_flag_callback("--no-strict",
-                        [&request] { request.is_strict = false; })
+                        [&request] { request.output.is_strict = false; })
       ->excludes(strict);
   add_machine_options(app, request);
   add_choice(app, "--mirror", {"x", "y", "xy"},
              [&request](const std::string& axes) {
-               request.mirrors_x = axes != "y";
-               request.mirrors_y = axes != "x";
+               request.output.mirrors_x = axes != "y";
+               request.output.mirrors_y = axes != "x";
              });
   add_name(app, "--report", "file", options.report);
-  add_thin_width(app, request.settings.min_feature);
-  add_layer_range(app, request.settings.written);
+  add_thin_width(app, request.job.min_feature);
+  add_layer_range(app, request.job.written);
 }
 
 void choose_format(compiler::Request& request, const OutputOptions& options,
@@ -211,9 +216,9 @@ void choose_format(compiler::Request& request, const OutputOptions& options,
   if (!choice.format) {
     throw UsageError(choice.complaint, choice.is_known ? kFault : kUsageFault);
   }
-  request.format = *choice.format;
-  request.settings.finds_makers = !options.report.empty();
-  refuse_contradictions(request.settings);
+  request.output.format = *choice.format;
+  request.job.finds_makers = !options.report.empty();
+  refuse_contradictions(request.job);
   refuse_misfits(request, !options.report.empty());
 }
 

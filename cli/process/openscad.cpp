@@ -161,10 +161,10 @@ OpenScadMesh render_with_openscad(const compiler::Request& request,
   const auto pass_on = [&](const char* option, const std::string& value) {
     if (!value.empty()) arguments.insert(arguments.end(), {option, value});
   };
-  pass_on("-D", request.definitions);
-  pass_on("-p", request.parameter_file);
-  pass_on("-P", request.parameter_set);
-  arguments.push_back(request.design);
+  pass_on("-D", request.design.definitions);
+  pass_on("-p", request.design.parameter_file);
+  pass_on("-P", request.design.parameter_set);
+  arguments.push_back(request.design.path);
 
   const std::string words = folder.file("words");
   const Clock::time_point begin = Clock::now();
@@ -175,16 +175,16 @@ OpenScadMesh render_with_openscad(const compiler::Request& request,
     throw FileError(fmt::format(
         "openscad took more than {:g} s on {} and was ended; --time-limit "
         "gives it more",
-        time_limit, request.design));
+        time_limit, request.design.path));
   }
   if (WIFSIGNALED(*status)) {
     throw FileError(fmt::format("openscad crashed on {} (signal {}){}",
-                                request.design, WTERMSIG(*status),
+                                request.design.path, WTERMSIG(*status),
                                 last_words(words)));
   }
   if (*status != 0 || !std::filesystem::exists(mesh.path)) {
-    throw FileError(fmt::format("openscad made no mesh of {}{}", request.design,
-                                last_words(words)));
+    throw FileError(fmt::format("openscad made no mesh of {}{}",
+                                request.design.path, last_words(words)));
   }
   return mesh;
 }

@@ -100,7 +100,7 @@ class ComparedDesign : public Compared {
         session_(request_, is_quiet, context) {}
 
   const std::vector<Layer>& layers() override {
-    if (!layers_) layers_ = sliced(request_.settings);
+    if (!layers_) layers_ = sliced(request_.job);
     return *layers_;
   }
 
@@ -108,15 +108,15 @@ class ComparedDesign : public Compared {
 
   std::vector<Layer> cut(const std::vector<double>& heights) override {
     if (heights.empty()) return {};
-    slicer::Settings settings = request_.settings;
+    slicer::Settings settings = request_.job;
     settings.heights = heights;
     return sliced(settings);
   }
 
   double precision() const override {
     slicer::Deviation deviation;
-    deviation.simplification = request_.settings.tolerance;
-    if (request_.settings.compensation != 0) {
+    deviation.simplification = request_.job.tolerance;
+    if (request_.job.compensation != 0) {
       deviation.compensation = slicer::kArcTolerance;
     }
     deviation.rounding = rounding_(greatest_coordinate_);
@@ -155,8 +155,8 @@ bool is_design(const std::string& path) {
 compiler::Request design_request(const std::string& path,
                                  const compiler::Request& request) {
   compiler::Request own = request;
-  own.design = path;
-  own.format = slicer::OutputFormat::kLayersJson;
+  own.design.path = path;
+  own.output.format = slicer::OutputFormat::kLayersJson;
   return own;
 }
 
@@ -164,10 +164,10 @@ compiler::Request design_request(const std::string& path,
 compiler::Request mesh_request(const std::string& path,
                                const compiler::Request& request) {
   compiler::Request own = design_request(path, request);
-  own.definitions.clear();
-  own.parameter_file.clear();
-  own.parameter_set.clear();
-  own.chordal_error = 0;
+  own.design.definitions.clear();
+  own.design.parameter_file.clear();
+  own.design.parameter_set.clear();
+  own.geometry.chordal_error = 0;
   return own;
 }
 

@@ -187,7 +187,7 @@ Json machine_json(const compiler::Report& report) {
 // whole  what the whole program took; empty for one compilation among several
 Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   const compiler::Report& report = compilation.report;
-  const slicer::Settings& settings = compilation.request.settings;
+  const slicer::Settings& settings = compilation.request.job;
   Json json = passes_json(report);
   json.update(whole);
   json.update(layers_json(report));
@@ -223,7 +223,7 @@ std::string print_line(const compiler::Compilation& compilation) {
       [](const slicer::Finding& finding) { return !finding.is_minor; });
   return is_any ? fmt::format(
                       "\nprint: {}; 'lamina check {}' says where", counts,
-                      on_one_line(display_path(compilation.request.design)))
+                      on_one_line(display_path(compilation.request.design.path)))
                 : fmt::format("\nprint: {}", counts);
 }
 
@@ -236,7 +236,7 @@ std::string machine_line(const compiler::Report& report) {
 // "ring.slc: 98 layers, 810 loops, …"
 std::string summary_line(const compiler::Compilation& compilation,
                          double earlier_seconds) {
-  const std::string& output = compilation.request.output;
+  const std::string& output = compilation.request.output.path;
   const compiler::Report& report = compilation.report;
   const slicer::SliceReport& slice = report.slice;
   return fmt::format(
@@ -308,9 +308,9 @@ std::string finding_lines(const compiler::Compilation& compilation) {
 
 std::string feature_lines(const compiler::Compilation& compilation) {
   const compiler::Report& report = compilation.report;
-  std::string lines = feature_table(report.slice.features,
-                                    compilation.request.settings.min_feature,
-                                    compiler::origin_texts(report.origins));
+  std::string lines = feature_table(
+      report.slice.features, compilation.request.job.min_feature,
+      compiler::origin_texts(report.origins));
   lines.pop_back();
   return lines;
 }
@@ -327,12 +327,12 @@ int compile_and_report(Session& session, const std::string& report,
         new OutputFile(OutputFile::open(report, compilation.temporary_files)));
   }
   if (!compiler::compile(compilation)) return kFault;
-  if (!slicer::is_of_layers(request.format)) return kDone;
+  if (!slicer::is_of_layers(request.output.format)) return kDone;
   if (file != nullptr) {
     file->write(report_text(compilation, earlier_seconds));
     file->commit();
   }
-  if (request.settings.min_feature > 0) {
+  if (request.job.min_feature > 0) {
     session.terminal.say(feature_lines(compilation));
   }
   // The memory in it costs a small run a tenth of its time to find out.

@@ -59,7 +59,8 @@ Diagnostic with_folded_notes(const Diagnostic& diagnostic) {
 bool ends_run(const Diagnostic& diagnostic,
               const compiler::Compilation& compilation) {
   return diagnostic.severity == Severity::kWarning &&
-         (compilation.request.has_hard_warnings || compilation.is_strict());
+         (compilation.request.design.has_hard_warnings ||
+          compilation.is_strict());
 }
 
 }  // namespace
@@ -89,7 +90,7 @@ void tell_left_out(compiler::Compilation& compilation,
   const std::string left_out = slicer::left_out_text(facts);
   if (left_out.empty()) return;
   compilation.diagnostics.own_remark(
-      {}, fmt::format("left out of '{}': {}", compilation.request.design,
+      {}, fmt::format("left out of '{}': {}", compilation.request.design.path,
                       left_out));
 }
 

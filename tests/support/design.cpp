@@ -49,7 +49,7 @@ Design& Design::operator=(Design&&) noexcept = default;
 Design::~Design() = default;
 
 Design Design::make(compiler::Request request) {
-  request.module_folder = LAMINA_MODULES;
+  request.design.module_folder = LAMINA_MODULES;
   auto state = std::make_unique<State>(std::move(request));
   state->build();
   return Design(std::move(state));
@@ -57,15 +57,15 @@ Design Design::make(compiler::Request request) {
 
 Design Design::from_file(const std::filesystem::path& path) {
   compiler::Request request;
-  request.design = path.string();
+  request.design.path = path.string();
   return make(std::move(request));
 }
 
 Design Design::from_text(const std::string& text, double chordal_error) {
   compiler::Request request;
-  request.design = "test.scad";
-  request.text = text;
-  request.chordal_error = chordal_error;
+  request.design.path = "test.scad";
+  request.design.text = text;
+  request.geometry.chordal_error = chordal_error;
   return make(std::move(request));
 }
 
