@@ -3,10 +3,12 @@
 
 #include "base/parallel.h"
 
+#include <optional>
 #include <stdexcept>
 #include <typeinfo>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 
@@ -39,7 +41,12 @@ void run_tasks(std::size_t count,
   with_threads([&] { tbb::parallel_for(std::size_t{0}, count, task); });
 }
 
-void run_stages(std::size_t places, const Stages& stages) {
+void run_stages(std::size_t places, unsigned most_threads,
+                const Stages& stages) {
+  std::optional<tbb::global_control> limit;
+  if (most_threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, most_threads);
+  }
   std::size_t place = places - 1;
   const auto start = [&](tbb::flow_control& flow) {
     place = (place + 1) % places;

@@ -1,5 +1,6 @@
 #pragma once
-// Tasks of oneTBB, and what ThreadSanitizer must know of them.
+// Tasks of oneTBB, pipelines of them, and what ThreadSanitizer must know of
+// them.
 //
 // Debian's library is not instrumented: the tool sees none of its locks, and
 // would take every object that one task hands to the next for a race. So the
@@ -8,6 +9,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/thread_clock.h"
 
 #if defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
@@ -84,25 +93,116 @@ struct Stages {
   std::function<void(std::size_t)> finish;
 };
 
-// run_pipeline() without the declarations for ThreadSanitizer.
-void run_stages(std::size_t places, const Stages& stages);
-
 // Runs the stages with at most `places` items under way. Returns or throws when
 // no task runs any more.
-inline void run_pipeline(std::size_t places, const Stages& stages) {
+//
+// most_threads  0: as many as there are items under way. (oneTBB 2021.8 hangs
+//               with a limit where memory ends while threads start.)
+void run_stages(std::size_t places, unsigned most_threads,
+                const Stages& stages);
+
+// run_stages() with the declarations for ThreadSanitizer.
+inline void run_in_order(std::size_t places, unsigned most_threads,
+                         const Stages& stages) {
   static char begin;
   static char end;
-  const auto tell = [](const auto& stage) {
-    return [&stage](std::size_t place) {
+  char first = 0;  // for all that `start` uses
+  char last = 0;   // for all that `finish` uses
+  std::vector<char> items(places);
+  const auto declare = [&](const auto& stage, char* shared) {
+    return [&, shared](std::size_t place) {
       const TaskTurn turn(&begin, &end);
+      const TaskTurn item_turn(&items[place]);
+      if (shared == nullptr) return stage(place);
+      const TaskTurn shared_turn(shared);
       return stage(place);
     };
   };
-  const Stages told = {tell(stages.start), tell(stages.work),
-                       tell(stages.finish)};
+  const Stages declared = {declare(stages.start, &first),
+                           declare(stages.work, nullptr),
+                           declare(stages.finish, &last)};
   const Lent lent_begin(&begin);
   const Lent lent_end(&end);
-  run_stages(places, told);
+  const Lent lent_first(&first);
+  const Lent lent_last(&last);
+  run_stages(places, most_threads, declared);
+}
+
+// A step of a road, and where the processor seconds are added up that all items
+// take in it.
+template <typename... Arguments>
+struct Step {
+  double& seconds;
+  std::function<void(Arguments&...)> run;
+};
+
+// What items pass through on their way.
+template <typename Item, typename Worker>
+struct Road {
+  // Begins the next item; returns false after the last one.
+  std::function<bool(Item&)> start;
+  // Makes what one thread keeps from item to item, in that thread.
+  std::function<std::unique_ptr<Worker>()> make_worker;
+  // Steps that several items take at the same time, each with a worker.
+  std::vector<Step<Worker, Item>> work;
+  // Steps that one item takes at a time, in the order of the items.
+  std::vector<Step<Item>> finish;
+};
+
+// Sends all items along a road: waits for threads and for turns, reads clocks,
+// and reports the order of work to ThreadSanitizer. One thread does without
+// oneTBB, whose start takes as long as a small design. Items are reused, so
+// that the steady state allocates nothing. Returns the workers.
+//
+// has_limit  whether no more than `threads` may work
+template <typename Item, typename Worker>
+std::vector<std::unique_ptr<Worker>> run_pipeline(
+    const Road<Item, Worker>& road, unsigned threads, bool has_limit) {
+  // For each thread one item in work and one that waits to be finished.
+  struct Place {
+    Item item;
+    std::vector<double> seconds;
+  };
+  std::vector<Place> places(threads == 1 ? 1 : std::size_t{2} * threads);
+  std::mutex mutex;
+  std::map<std::thread::id, std::unique_ptr<Worker>> workers;
+  const auto worker_here = [&]() -> Worker& {
+    const std::lock_guard lock(mutex);
+    std::unique_ptr<Worker>& worker = workers[std::this_thread::get_id()];
+    if (!worker) worker = road.make_worker();
+    return *worker;
+  };
+  const Stages stages = {
+      [&](std::size_t i) { return road.start(places[i].item); },
+      [&](std::size_t i) {
+        Place& place = places[i];
+        Worker& worker = worker_here();
+        place.seconds.clear();
+        for (const auto& step : road.work) {
+          place.seconds.push_back(
+              measure_seconds([&] { step.run(worker, place.item); }));
+        }
+      },
+      [&](std::size_t i) {
+        Place& place = places[i];
+        for (std::size_t k = 0; k < road.work.size(); ++k) {
+          road.work[k].seconds += place.seconds[k];
+        }
+        for (const auto& step : road.finish) {
+          step.seconds += measure_seconds([&] { step.run(place.item); });
+        }
+      }};
+  if (threads == 1) {
+    while (stages.start(0)) {
+      stages.work(0);
+      stages.finish(0);
+    }
+  } else {
+    run_in_order(places.size(), has_limit ? threads : 0, stages);
+  }
+  std::vector<std::unique_ptr<Worker>> all;
+  for (auto& [thread, worker] : workers) all.push_back(std::move(worker));
+  return all;
 }
 
 }  // namespace lamina

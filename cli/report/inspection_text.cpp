@@ -69,7 +69,7 @@ class Text : PrintedText {
  public:
   explicit Text(const Inspection& found) : found_(found) {}
 
-  std::string write(LayerList list) {
+  std::string write(ListedLayers list) {
     print_header();
     for (const csg::MeshFacts& mesh : found_.meshes) print_mesh(mesh);
     print_layers(list);
@@ -148,10 +148,10 @@ class Text : PrintedText {
     print("volume    {:.6f} mm³\n", mesh.volume);
   }
 
-  void print_layers(LayerList list) {
+  void print_layers(ListedLayers list) {
     if (found_.layers.empty()) return;
     const std::size_t count = found_.layers.size();
-    const bool lists_all = list == LayerList::kAll || count <= kListedLayers;
+    const bool lists_all = list == ListedLayers::kAll || count <= kListedLayers;
     print("\n{:>7} {:>12} {:>10} {:>7} {:>7} {:>9} {:>14} {:>14}\n", "layer",
           "z", "thickness", "loops", "holes", "vertices", "area mm²",
           "perimeter mm");
@@ -275,7 +275,7 @@ ordered_json features_json(const Inspection& found) {
 
 }  // namespace
 
-std::string inspection_text(const Inspection& found, LayerList list) {
+std::string inspection_text(const Inspection& found, ListedLayers list) {
   return Text(found).write(list);
 }
 

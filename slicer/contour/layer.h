@@ -2,6 +2,7 @@
 // A finished layer, and who takes it.
 
 #include <string>
+#include <vector>
 
 #include "base/vec.h"
 #include "plane/contours.h"
@@ -17,8 +18,6 @@ struct Layer {
   // [mm]; 0: nothing is known.
   double clearance = 0;
   plane::Contours contours;
-  // The sink's encode() of the layer; empty where it was not asked.
-  std::string encoded;
 };
 
 // Takes the layers of a job in ascending order: a writer, a comparison, a test.
@@ -38,12 +37,23 @@ class LayerSink {
   // with contours.
   virtual std::string encode(const Layer& /*layer*/) const { return {}; }
   virtual void take(const Layer& layer) = 0;
+  // Takes a layer with what encode() made of it.
+  virtual void take_encoded(const Layer& layer,
+                            const std::string& /*encoded*/) {
+    take(layer);
+  }
 };
 
 // Takes layers for jobs of which only the report matters.
 class LayerDrain : public LayerSink {
  public:
   void take(const Layer& /*layer*/) override {}
+};
+
+// Keeps all layers.
+struct LayerList : LayerSink {
+  void take(const Layer& layer) override { layers.push_back(layer); }
+  std::vector<Layer> layers;
 };
 
 }  // namespace lamina::slicer

@@ -18,7 +18,8 @@ void BuildVolumeSink::begin(const Box3& box) {
   sink_.begin(box);
 }
 
-void BuildVolumeSink::take(const Layer& layer) {
+void BuildVolumeSink::take_encoded(const Layer& layer,
+                                   const std::string& encoded) {
   if (!has_layer_) {
     box_.low.z = layer.bottom;
     box_.high.z = layer.bottom + printer_.build_volume().z + kSlack;
@@ -30,7 +31,7 @@ void BuildVolumeSink::take(const Layer& layer) {
            point.y >= box_.low.y && point.y <= box_.high.y;
   }
   if (!fits) throw too_large(printer_, size_);
-  sink_.take(layer);
+  sink_.take_encoded(layer, encoded);
 }
 
 }  // namespace lamina::slicer

@@ -18,13 +18,14 @@ class BuildVolumeSink : public LayerSink {
   std::string encode(const Layer& layer) const override {
     return sink_.encode(layer);
   }
-  void take(const Layer& layer) override;
+  void take(const Layer& layer) override { take_encoded(layer, {}); }
+  void take_encoded(const Layer& layer, const std::string& encoded) override;
 
  private:
   const Printer& printer_;
   LayerSink& sink_;
-  Box3 box_;      // that the part may have
-  Vec3 size_;     // of the part, as begin() says
+  Box3 box_;   // that the part may have
+  Vec3 size_;  // of the part, as begin() says
   bool has_layer_ = false;
 };
 

@@ -72,10 +72,10 @@ class ImageStackWriter : public LayerWriter {
 
   // Throws GeometryError where the layer reaches beyond the panel, or where the
   // format wants one thickness and the layer has another than the first one.
-  void take(const Layer& layer) override {
+  void take_encoded(const Layer& layer, const std::string& encoded) override {
     ImageLayer measures = measure(layer);
     const std::string name = image_name(stack_, stack_.layers.size());
-    add_image(name, layer.encoded.empty() ? encode(layer) : layer.encoded);
+    add_image(name, encoded.empty() ? encode(layer) : encoded);
     preview_.take(layer);
     note_thickness(measures.thickness);
     stack_.volume +=
@@ -83,6 +83,8 @@ class ImageStackWriter : public LayerWriter {
         (layer.top - layer.bottom);
     stack_.layers.push_back(std::move(measures));
   }
+
+  void take(const Layer& layer) override { take_encoded(layer, {}); }
 
   void finish(Diagnostics& /*diagnostics*/) override {
     for (const StackText& text : stack_texts(stack_)) {

@@ -10,11 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-
 #include "base/parallel.h"
-#include "base/thread_clock.h"
 #include "slicer/check/print/layer_overlay.h"
 #include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/compensate.h"
@@ -25,22 +21,17 @@
 namespace lamina::slicer {
 namespace {
 
-namespace tbb = oneapi::tbb;
-
-// Blocks in flight for each thread: one in work, one that waits to be written.
-constexpr std::size_t kBlocksPerThread = 2;
-
-// A layer that passes through the pipeline, with what was found in it. It gets
+// A layer on its way through the pipeline, with what was found in it. It gets
 // its heights last: layers with equal contours share the rest.
 struct Draft {
   Layer layer;
   LayerMeasures measures;
   std::vector<ThinStretch> thin;
   CompensationCounts losses;
+  std::string encoded;  // by the sink
 };
 
-// Consecutive layers that pass through the pipeline. Blocks are reused, so
-// that the steady state allocates nothing.
+// Consecutive layers on their way through the pipeline.
 struct Block {
   std::uint32_t first_layer = 0;
   std::uint32_t layer_count = 0;
@@ -48,11 +39,6 @@ struct Block {
   // The overlay of each layer over the one before; the first, and one that
   // repeats, has none.
   std::vector<std::optional<LayerOverlay>> overlays;
-  double section_seconds = 0;
-  double sweep_seconds = 0;
-  double feature_seconds = 0;
-  double graph_seconds = 0;
-  double finish_seconds = 0;  // compensation, simplification, encoding
 
   const LayerOverlay* overlay_of(std::uint32_t i) const {
     return i < overlays.size() && overlays[i] ? &*overlays[i] : nullptr;
@@ -75,57 +61,49 @@ class Worker {
     if (makes_whole_print(settings)) overlay_sweep_.emplace();
   }
 
-  void make_contours(Block& block) {
+  // Cuts the leaves.
+  void section(Block& block) {
     if (block.layers.size() < block.layer_count) {
       block.layers.resize(block.layer_count);
     }
-    const std::span<Draft> layers(block.layers.data(), block.layer_count);
-    block.section_seconds = measure_seconds([&] {
-      // Made in the thread that uses it, for it may open OpenGL.
-      if (!slicer_) slicer_ = plan_.make_slicer();
-      slicer_->section(block.first_layer, block.layer_count);
-    });
+    // Made in the thread that uses it, for it may open OpenGL.
+    if (!slicer_) slicer_ = plan_.make_slicer();
+    slicer_->section(block.first_layer, block.layer_count);
     repeats_.assign(block.layer_count, 0);
-    block.sweep_seconds = measure_seconds([&] {
-      for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-        repeats_[i] = slicer_->repeats(i) ? 1 : 0;
-        if (repeats_[i] == 0) {
-          slicer_->make_contours(i, layers[i].layer.contours);
-        }
-      }
-    });
-    // Search the exact contours, before anything is moved or left out.
-    if (thin_finder_) {
-      block.feature_seconds = measure_seconds([&] {
-        for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-          if (repeats_[i] != 0) continue;
-          thin_finder_->find(layers[i].layer.contours, layers[i].thin);
-          slicer_->find_leaves(i, layers[i].thin);
-        }
-      });
-    }
-    // Simplify last, so that arcs lose their vertices too.
-    block.finish_seconds = measure_seconds([&] {
-      for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-        if (repeats_[i] != 0) {
-          layers[i] = layers[i - 1];
-        } else {
-          finish(layers[i]);
-        }
-      }
-    });
-    if (overlay_sweep_) {
-      block.graph_seconds = measure_seconds([&] { lay_over(block); });
+    for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+      repeats_[i] = slicer_->repeats(i) ? 1 : 0;
     }
   }
 
-  void report_to(SliceReport& report) const {
-    if (slicer_) slicer_->report_to(report);
+  void make_contours(Block& block) {
+    for_each_new(block, [&](std::uint32_t i, Draft& draft) {
+      slicer_->make_contours(i, draft.layer.contours);
+    });
   }
 
- private:
+  // Searches the exact contours, before anything is moved or left out.
+  void find_thin_places(Block& block) {
+    if (!thin_finder_) return;
+    for_each_new(block, [&](std::uint32_t i, Draft& draft) {
+      thin_finder_->find(draft.layer.contours, draft.thin);
+      slicer_->find_leaves(i, draft.thin);
+    });
+  }
+
+  // Compensates, and then simplifies, so that arcs lose their vertices too.
+  void finish(Block& block) {
+    for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+      if (repeats_[i] != 0) {
+        block.layers[i] = block.layers[i - 1];
+      } else {
+        finish_draft(block.layers[i]);
+      }
+    }
+  }
+
   // Lays each layer of the block over the one before.
   void lay_over(Block& block) {
+    if (!overlay_sweep_) return;
     block.overlays.resize(block.layers.size());
     overlay_sweep_->start(block.layers[0].layer.contours);
     for (std::uint32_t i = 0; i < block.layer_count; ++i) {
@@ -142,15 +120,28 @@ class Worker {
     }
   }
 
-  void finish(Draft& draft) {
+  void report_to(SliceReport& report) const {
+    if (slicer_) slicer_->report_to(report);
+  }
+
+ private:
+  // Visits the layers that do not repeat the one before.
+  template <typename Visit>
+  void for_each_new(Block& block, const Visit& visit) {
+    for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+      if (repeats_[i] == 0) visit(i, block.layers[i]);
+    }
+  }
+
+  void finish_draft(Draft& draft) {
     Layer& layer = draft.layer;
     draft.losses = compensate(layer.contours, compensation_);
     layer.compensation = compensation_;
     simplifier_.simplify(layer.contours);
     layer.clearance = simplifier_.clearance();
     draft.measures = measure(layer.contours);
-    layer.encoded.clear();
-    if (!layer.contours.is_empty()) layer.encoded = sink_.encode(layer);
+    draft.encoded.clear();
+    if (!layer.contours.is_empty()) draft.encoded = sink_.encode(layer);
   }
 
   const Plan& plan_;
@@ -165,18 +156,14 @@ class Worker {
   std::vector<std::uint8_t> repeats_;  // of the block's layers
 };
 
-// What checks have taken so far, by the clock on the wall [s].
-struct CheckSeconds {
-  double features = 0;
-  double graph = 0;
-};
-
-// Hands layers on in order.
-class OrderedOutput {
+// Deals out the blocks of a job, first to last, and hands their layers on in
+// order.
+class Job {
  public:
-  OrderedOutput(const ldni::LayerGrid& grid, const Settings& settings,
-                LayerSink& sink, const Checks& checks, SliceReport& report)
+  Job(const Plan& plan, const ldni::LayerGrid& grid, const Settings& settings,
+      LayerSink& sink, const Checks& checks, SliceReport& report)
       : grid_(grid),
+        block_count_(plan.blocks.count(grid.layer_count())),
         keeps_empty_(!settings.heights.empty()),
         wanted_(settings.written),
         sink_(sink),
@@ -184,64 +171,6 @@ class OrderedOutput {
         report_(report) {
     empty_.layer.compensation = settings.compensation;
   }
-
-  // overlay  of the layer over the one before; null where it is not known
-  void take(std::uint32_t index, Draft& draft, const LayerOverlay* overlay) {
-    report_.losses += draft.losses;
-    if (draft.layer.contours.is_empty() && !keeps_empty_) {
-      if (report_.layers_there > 0) ++held_back_;
-      return;
-    }
-    for (; held_back_ > 0; --held_back_) {
-      emit(index - held_back_, empty_, nullptr);
-    }
-    emit(index, draft, overlay);
-  }
-
-  // Since the last call.
-  CheckSeconds take_check_seconds() {
-    return std::exchange(check_seconds_, {});
-  }
-
- private:
-  void emit(std::uint32_t index, Draft& draft, const LayerOverlay* overlay) {
-    if (!wanted_.contains(++report_.layers_there)) return;
-    Layer& layer = draft.layer;
-    layer.section_z = grid_.section_z(index);
-    layer.bottom = grid_.layer_bottom(index);
-    layer.top = grid_.layer_top(index);
-    report_.add(draft.measures, layer.bottom, layer.top);
-    sink_.take(layer);
-    if (checks_.features != nullptr) {
-      check_seconds_.features += measure_wall_seconds(
-          [&] { checks_.features->take(layer, draft.thin); });
-    }
-    if (checks_.graph != nullptr) {
-      check_seconds_.graph +=
-          measure_wall_seconds([&] { checks_.graph->take(layer, overlay); });
-    }
-  }
-
-  const ldni::LayerGrid& grid_;
-  bool keeps_empty_;
-  LayerNumbers wanted_;
-  LayerSink& sink_;
-  const Checks checks_;
-  SliceReport& report_;
-  CheckSeconds check_seconds_;
-  std::uint32_t held_back_ = 0;
-  Draft empty_;
-};
-
-// Deals out the blocks of a job, first to last, and takes them back.
-class Job {
- public:
-  Job(const Plan& plan, std::uint32_t layer_count, OrderedOutput& output,
-      SliceReport& report)
-      : layer_count_(layer_count),
-        block_count_(plan.blocks.count(layer_count)),
-        output_(output),
-        report_(report) {}
 
   std::uint32_t block_count() const { return block_count_; }
 
@@ -255,90 +184,93 @@ class Job {
     return true;
   }
 
-  void hand_on(Block& block) {
-    report_.section_seconds += block.section_seconds;
-    report_.sweep_seconds += block.sweep_seconds;
-    report_.feature_seconds += block.feature_seconds;
-    report_.graph_seconds += block.graph_seconds;
-    double wall_seconds = 0;
-    const double seconds = measure_seconds([&] {
-      wall_seconds = measure_wall_seconds([&] {
-        for (std::uint32_t i = 0; i < block.layer_count; ++i) {
-          output_.take(block.first_layer + i, block.layers[i],
-                       block.overlay_of(i));
-        }
-      });
+  // Writes the layers of the next block.
+  void write(Block& block) {
+    leaving_.clear();
+    for (std::uint32_t i = 0; i < block.layer_count; ++i) {
+      add(block.first_layer + i, block.layers[i], block.overlay_of(i));
+    }
+    for_each_leaving([&](const Layer& layer, const Leaving& leaving) {
+      report_.add(leaving.draft->measures, layer.bottom, layer.top);
+      sink_.take_encoded(layer, leaving.draft->encoded);
     });
-    const CheckSeconds checks = output_.take_check_seconds();
-    const double share = wall_seconds > 0 ? seconds / wall_seconds : 0;
-    report_.feature_seconds += share * checks.features;
-    report_.graph_seconds += share * checks.graph;
-    report_.output_seconds += block.finish_seconds + seconds -
-                              share * (checks.features + checks.graph);
+  }
+
+  // These look at the layers that were written last.
+  void collect_features() {
+    if (checks_.features == nullptr) return;
+    for_each_leaving([&](const Layer& layer, const Leaving& leaving) {
+      checks_.features->take(layer, leaving.draft->thin);
+    });
+  }
+  void extend_graph() {
+    if (checks_.graph == nullptr) return;
+    for_each_leaving([&](const Layer& layer, const Leaving& leaving) {
+      checks_.graph->take(layer, leaving.overlay);
+    });
   }
 
  private:
+  // A layer that is written, or several empty ones.
+  struct Leaving {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    Draft* draft = nullptr;
+    const LayerOverlay* overlay = nullptr;  // over the one before, if known
+  };
+
   std::uint32_t border(std::uint32_t block) const {
-    return static_cast<std::uint32_t>(std::uint64_t{layer_count_} * block /
-                                      block_count_);
+    return static_cast<std::uint32_t>(std::uint64_t{grid_.layer_count()} *
+                                      block / block_count_);
   }
 
-  std::uint32_t layer_count_;
-  std::uint32_t block_count_;
-  std::uint32_t started_ = 0;
-  OrderedOutput& output_;
+  // Empty layers wait for one that is not.
+  void add(std::uint32_t index, Draft& draft, const LayerOverlay* overlay) {
+    report_.losses += draft.losses;
+    if (draft.layer.contours.is_empty() && !keeps_empty_) {
+      if (report_.layers_there > 0) ++held_back_;
+      return;
+    }
+    for (; held_back_ > 0; --held_back_) {
+      leave(index - held_back_, empty_, nullptr);
+    }
+    leave(index, draft, overlay);
+  }
+
+  void leave(std::uint32_t index, Draft& draft, const LayerOverlay* overlay) {
+    if (!wanted_.contains(++report_.layers_there)) return;
+    if (leaving_.empty() || leaving_.back().draft != &draft) {
+      leaving_.push_back({index, 0, &draft, overlay});
+    }
+    ++leaving_.back().count;
+  }
+
+  template <typename Visit>
+  void for_each_leaving(const Visit& visit) const {
+    for (const Leaving& leaving : leaving_) {
+      Layer& layer = leaving.draft->layer;
+      for (std::uint32_t i = 0; i < leaving.count; ++i) {
+        const std::uint32_t index = leaving.first + i;
+        layer.section_z = grid_.section_z(index);
+        layer.bottom = grid_.layer_bottom(index);
+        layer.top = grid_.layer_top(index);
+        visit(layer, leaving);
+      }
+    }
+  }
+
+  const ldni::LayerGrid& grid_;
+  const std::uint32_t block_count_;
+  const bool keeps_empty_;
+  const LayerNumbers wanted_;
+  LayerSink& sink_;
+  const Checks checks_;
   SliceReport& report_;
+  std::uint32_t started_ = 0;
+  std::uint32_t held_back_ = 0;
+  std::vector<Leaving> leaving_;  // of the block
+  Draft empty_;
 };
-
-using MakeWorker = std::function<Worker()>;
-
-// Does without the library of tasks, whose start takes as long as a small
-// design.
-void run_alone(Job& job, const MakeWorker& make_worker, SliceReport& report) {
-  Worker worker = make_worker();
-  Block block;
-  while (job.start(block)) {
-    worker.make_contours(block);
-    job.hand_on(block);
-  }
-  worker.report_to(report);
-}
-
-// is_limited  whether no more threads may work, nor fewer than asked for
-void run_together(Job& job, unsigned threads, bool is_limited,
-                  const MakeWorker& make_worker, SliceReport& report) {
-  // Where nobody says how many there are to be, the blocks under way say it.
-  // (oneTBB 2021.8 hangs in this where memory ends while threads start.)
-  std::optional<tbb::global_control> limit;
-  if (is_limited) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
-  }
-  tbb::enumerable_thread_specific<Worker> workers(make_worker);
-  std::vector<Block> blocks(kBlocksPerThread * threads);
-  // Input and output keep the same order and at most blocks.size() blocks are
-  // under way, so the oldest block's memory is free again.
-  Stages stages;
-  stages.start = [&](std::size_t place) {
-    const TaskTurn turn(&job);
-    const TaskTurn block_turn(&blocks[place]);
-    return job.start(blocks[place]);
-  };
-  stages.work = [&](std::size_t place) {
-    const TaskTurn turn(&blocks[place]);
-    workers.local().make_contours(blocks[place]);
-  };
-  stages.finish = [&](std::size_t place) {
-    const TaskTurn turn(&report);
-    const TaskTurn block_turn(&blocks[place]);
-    job.hand_on(blocks[place]);
-  };
-  {
-    const Lent lent_job(&job);
-    const Lent lent_report(&report);
-    run_pipeline(blocks.size(), stages);
-  }
-  for (const Worker& worker : workers) worker.report_to(report);
-}
 
 // No thread is without a block.
 unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
@@ -353,14 +285,25 @@ unsigned choose_threads(const Settings& settings, std::uint32_t block_count) {
 void run_slice_job(const Plan& plan, const ldni::LayerGrid& grid,
                    const Settings& settings, LayerSink& sink,
                    const Checks& checks, SliceReport& report) {
-  OrderedOutput output(grid, settings, sink, checks, report);
-  Job job(plan, grid.layer_count(), output, report);
+  Job job(plan, grid, settings, sink, checks, report);
+  const Road<Block, Worker> road = {
+      .start = [&](Block& block) { return job.start(block); },
+      .make_worker =
+          [&] { return std::make_unique<Worker>(plan, grid, settings, sink); },
+      .work = {{report.section_seconds, &Worker::section},
+               {report.sweep_seconds, &Worker::make_contours},
+               {report.feature_seconds, &Worker::find_thin_places},
+               {report.output_seconds, &Worker::finish},
+               {report.graph_seconds, &Worker::lay_over}},
+      .finish = {{report.output_seconds,
+                  [&](Block& block) { job.write(block); }},
+                 {report.feature_seconds,
+                  [&](Block&) { job.collect_features(); }},
+                 {report.graph_seconds, [&](Block&) { job.extend_graph(); }}}};
   const unsigned threads = choose_threads(settings, job.block_count());
-  const auto make_worker = [&] { return Worker(plan, grid, settings, sink); };
-  if (threads == 1) {
-    run_alone(job, make_worker, report);
-  } else {
-    run_together(job, threads, settings.threads != 0, make_worker, report);
+  for (const auto& worker :
+       run_pipeline(road, threads, settings.threads != 0)) {
+    worker->report_to(report);
   }
 }
 
