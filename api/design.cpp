@@ -1,20 +1,20 @@
-// The passes of compiler/passes.h behind a header that shows no type of theirs.
+// The passes of compiler/ behind a header that shows no type of theirs.
 
 #include "api/lamina/design.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "compiler/compile.h"
-#include "compiler/passes.h"
+#include "compiler/layer_output.h"
+#include "compiler/look_at.h"
+#include "compiler/validate.h"
 #include "parser/customizer/customizer.h"
 #include "plane/loop_area.h"
-#include "slicer/check/thin/thin_finder.h"
-#include "slicer/plan/orientation.h"
 
 namespace lamina {
 namespace {
@@ -45,48 +45,39 @@ void require(bool holds, const std::string& words) {
   if (!holds) throw std::runtime_error(words);
 }
 
-bool is_positive(double value) { return value > 0 && std::isfinite(value); }
-bool is_not_negative(double value) {
-  return value >= 0 && std::isfinite(value);
+// A fault of a request, in the names of this interface instead of those of the
+// command line: "--max-layer needs --adaptive" is "max_layer needs adaptive".
+std::string in_own_names(std::string_view words) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOwn =
+      {{{"layer", "layer_thickness"}, {"compensate", "compensation"}}};
+  std::string text;
+  while (true) {
+    const std::size_t begin = words.find("--");
+    text += words.substr(0, begin);
+    if (begin == std::string_view::npos) return text;
+    words.remove_prefix(begin + 2);
+    const std::size_t end = std::min(words.find_first_of(" :,;"), words.size());
+    std::string name(words.substr(0, end));
+    std::ranges::replace(name, '-', '_');
+    for (const auto& [option, own] : kOwn) {
+      if (name == option) name = own;
+    }
+    text += name;
+    words.remove_prefix(end);
+  }
 }
 
-// The passes trust what they are asked for.
-void check(const DesignOptions& options) {
-  const auto& axes = slicer::kAxes;
-  require(options.axis == compiler::kAutomaticAxis ||
-              std::find(axes.begin(), axes.end(), options.axis) != axes.end(),
-          "axis must be z, x, y, -x, -y, -z or auto");
-  require(is_positive(options.scale), "scale must be more than 0");
-  require(is_not_negative(options.chordal_error),
-          "chordal_error must not be negative");
-  require(options.language == "auto" || options.language == "2021" ||
-              options.language == "2026",
-          "language must be auto, 2021 or 2026");
-  require(options.parameter_file.empty() == options.parameter_set.empty(),
-          "parameter_file and parameter_set need each other");
-}
-
-void check(const SliceOptions& options) {
-  require(is_positive(options.layer_thickness),
-          "layer_thickness must be more than 0 mm");
-  require(is_not_negative(options.tolerance), "tolerance must not be negative");
-  require(std::isfinite(options.compensation), "compensation must be finite");
-  require(is_not_negative(options.adaptive), "adaptive must not be negative");
-  require(options.adaptive == 0 || options.heights.empty(),
-          "adaptive and heights exclude each other");
-  require(options.max_layer == 0 ||
-              (options.adaptive > 0 && std::isfinite(options.max_layer) &&
-               options.max_layer >= options.layer_thickness),
-          "max_layer needs adaptive and must not be less than layer_thickness");
-  for (std::size_t i = 0; i < options.heights.size(); ++i) {
-    require(std::isfinite(options.heights[i]), "heights must be finite");
-    require(i == 0 || options.heights[i - 1] < options.heights[i],
-            "heights must rise");
+void require_valid(const compiler::Request& request) {
+  try {
+    compiler::validate(request);
+  } catch (const compiler::RequestError& error) {
+    throw std::runtime_error(in_own_names(error.what()));
   }
 }
 
 compiler::Request to_request(const DesignOptions& options, std::string name) {
-  check(options);
+  require(options.parameter_file.empty() == options.parameter_set.empty(),
+          "parameter_file and parameter_set need each other");
   compiler::Request request;
   request.design.path = std::move(name);
   for (const std::string& definition : options.definitions) {
@@ -103,11 +94,11 @@ compiler::Request to_request(const DesignOptions& options, std::string name) {
   request.design.max_depth = options.max_depth;
   request.design.max_leaves = options.max_leaves;
   request.design.module_folder = options.module_folder;
+  require_valid(request);
   return request;
 }
 
 slicer::Settings to_settings(const SliceOptions& options) {
-  check(options);
   slicer::Settings settings;
   settings.layer_thickness = options.layer_thickness;
   settings.cusp = options.adaptive;
@@ -127,14 +118,54 @@ Parameter to_parameter(const CustomizerEntry& entry) {
           comment.group};
 }
 
-ThinPlace to_place(const slicer::ThinFeature& feature, std::string origin) {
-  return {feature.kind == slicer::ThinKind::kWall,
-          feature.width,
-          {feature.place.x, feature.place.y},
-          feature.section_z,
-          feature.bottom,
-          feature.top,
-          std::move(origin)};
+Point to_point(Vec2 place) { return {place.x, place.y}; }
+
+// The lines of the design that made it; empty where they are not known.
+std::string origin_at(const std::vector<std::string>& origins, std::size_t i) {
+  return i < origins.size() ? origins[i] : std::string();
+}
+
+std::vector<ThinPlace> to_places(const compiler::Inspection& inspection) {
+  const auto origins = compiler::texts_of(inspection.lines.features);
+  std::vector<ThinPlace> places;
+  for (const slicer::ThinFeature& feature : inspection.found.features) {
+    places.push_back({feature.kind == slicer::ThinKind::kWall, feature.width,
+                      to_point(feature.place), feature.section_z,
+                      feature.bottom, feature.top,
+                      origin_at(origins, places.size())});
+  }
+  return places;
+}
+
+std::vector<Finding> to_findings(const compiler::Inspection& inspection) {
+  std::vector<Finding> findings;
+  if (!inspection.found.print) return findings;
+  const auto origins = compiler::texts_of(inspection.lines.findings);
+  for (const slicer::Finding& found : inspection.found.print->findings) {
+    findings.push_back({static_cast<Finding::Kind>(found.kind), found.is_minor,
+                        found.first_layer, found.last_layer, found.bottom,
+                        found.top, to_point(found.place), found.section_z,
+                        found.area, found.volume, found.distance,
+                        origin_at(origins, findings.size())});
+  }
+  return findings;
+}
+
+Inspection to_inspection(const compiler::Inspection& inspection) {
+  const slicer::Inspection& found = inspection.found;
+  Inspection all;
+  all.format = found.file.format;
+  all.writer = found.file.writer;
+  for (const auto& [bottom, thickness, of, perimeter] : found.layers) {
+    all.layers.push_back({bottom, thickness, of.loops, of.holes, of.vertices,
+                          of.area, perimeter});
+  }
+  all.volume = found.volume;
+  all.defects = found.defects;
+  all.reported_defects = found.reported_defects;
+  all.thin_places = to_places(inspection);
+  all.findings = to_findings(inspection);
+  return all;
 }
 
 // Shows messages as they come, and keeps those that end the work.
@@ -224,18 +255,37 @@ struct Design::State {
       state->lowered = compiler::lower_tree(state->compilation);
     });
     for (const CustomizerEntry& entry :
-         list_parameters(state->compilation.program)) {
+         list_parameters(state->compilation.design.program)) {
       state->parameters.push_back(to_parameter(entry));
     }
     return state;
   }
 
+  // The request with the options of a job, which are refused where the program
+  // refuses them.
+  compiler::Request with_job(const SliceOptions& options) const {
+    compiler::Request asked = request;
+    asked.job = to_settings(options);
+    require_valid(asked);
+    return asked;
+  }
+
   // The passes from the scene to layers. Several threads may call it.
-  slicer::SliceReport slice(const slicer::Settings& settings,
+  slicer::SliceReport slice(const compiler::Request& asked,
                             slicer::LayerSink& sink,
                             Diagnostics& diagnostics) const {
+    const slicer::Settings settings = compiler::settings_of(asked);
     return compiler::slice(lowered, compiler::plan(lowered, settings), settings,
-                           sink, diagnostics);
+                           sink, {}, diagnostics);
+  }
+
+  compiler::Inspection look(const compiler::Request& asked,
+                            const compiler::LookOptions& wanted) const {
+    require_valid(asked);
+    Messages shown(show);
+    return shown.run([&](Diagnostics& diagnostics) {
+      return compiler::look_at_design(lowered, asked, wanted, {}, diagnostics);
+    });
   }
 
   std::function<void(std::string_view)> show;
@@ -273,19 +323,18 @@ std::vector<Layer> Design::slice(const SliceOptions& options) const {
 
 void Design::slice(const SliceOptions& options,
                    const std::function<void(const Layer&)>& take) const {
-  const slicer::Settings settings = to_settings(options);
+  const compiler::Request request = state_->with_job(options);
   CallingSink sink(take);
   Messages messages(state_->show);
   messages.run([&](Diagnostics& diagnostics) {
-    state_->slice(settings, sink, diagnostics);
+    state_->slice(request, sink, diagnostics);
   });
 }
 
 void Design::write(const std::string& path, const SliceOptions& options,
                    const ImageOptions& images) const {
-  compiler::Request request = state_->request;
+  compiler::Request request = state_->with_job(options);
   request.output.path = path;
-  request.job = to_settings(options);
   request.output.printer = images.printer;
   request.output.mirrors_x = images.mirror_x;
   request.output.mirrors_y = images.mirror_y;
@@ -294,6 +343,7 @@ void Design::write(const std::string& path, const SliceOptions& options,
   request.output.format = *choice.format;
   require(slicer::is_of_layers(request.output.format),
           fmt::format("'{}' asks for no format of layers", path));
+  require_valid(request);
   Messages messages(state_->show);
   messages.run([&](Diagnostics& diagnostics) {
     state_->access.run_files()->require_unread(
@@ -301,32 +351,50 @@ void Design::write(const std::string& path, const SliceOptions& options,
     TemporaryFiles temporary_files(state_->access);
     compiler::LayerOutput output =
         compiler::LayerOutput::open(request, temporary_files, diagnostics);
-    state_->slice(compiler::settings_of(request), output.sink(), diagnostics);
     compiler::Report report;
+    report.slice = state_->slice(request, output.sink(), diagnostics);
     output.finish(diagnostics, report);
   });
 }
 
 std::vector<ThinPlace> Design::find_thin_places(
     double width, const SliceOptions& options) const {
-  require(
-      width >= slicer::kLeastThinWidth && width <= slicer::kGreatestThinWidth,
-      fmt::format("width must be from {} to {} mm", slicer::kLeastThinWidth,
-                  slicer::kGreatestThinWidth));
-  slicer::Settings settings = to_settings(options);
-  settings.min_feature = width;
-  slicer::LayerDrain drain;
-  Messages messages(state_->show);
-  return messages.run([&](Diagnostics& diagnostics) {
-    const std::vector<slicer::ThinFeature> features =
-        state_->slice(settings, drain, diagnostics).features;
-    const std::vector<std::string> origins = compiler::origin_texts(
-        compiler::origins_of(*state_->lowered.scene(), features));
-    std::vector<ThinPlace> places;
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      places.push_back(to_place(features[i], origins[i]));
-    }
-    return places;
+  const compiler::NumberLimits& limits = compiler::limits_of("--min-feature");
+  require(limits.hold(width),
+          "width " + limits.fault_of(fmt::format("{}", width)));
+  compiler::Request request = state_->with_job(options);
+  request.job.min_feature = width;
+  return to_places(state_->look(request, {}));
+}
+
+std::vector<Finding> Design::check(const SliceOptions& options,
+                                   double self_supporting) const {
+  compiler::Request request = state_->with_job(options);
+  require(options.heights.empty(), "check needs whole layers, not heights");
+  request.job.self_supporting = self_supporting;
+  request.job.finds_makers = true;
+  return to_findings(state_->look(request, {}));
+}
+
+Inspection Design::inspect(const SliceOptions& options,
+                           const InspectOptions& wanted) const {
+  compiler::Request request = state_->with_job(options);
+  request.job.self_supporting = wanted.self_supporting;
+  request.job.finds_makers = true;
+  request.job.min_feature = wanted.min_feature;
+  return to_inspection(state_->look(request, {.finds_defects = true}));
+}
+
+Inspection inspect_file(const std::string& path, const InspectOptions& wanted) {
+  compiler::Request request;
+  request.job.self_supporting = wanted.self_supporting;
+  request.job.min_feature = wanted.min_feature;
+  require_valid(request);
+  Messages messages(nullptr);
+  return messages.run([&](Diagnostics&) {
+    return to_inspection(compiler::look_at_file(
+        path, {.finds_defects = true, .min_feature = wanted.min_feature},
+        wanted.self_supporting, kAllFiles));
   });
 }
 

@@ -10,7 +10,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "compiler/passes.h"
+#include "compiler/compilation.h"
 #include "ldni/section/leaf_section.h"
 #include "plane/cascade/kinetic_ray.h"
 
@@ -24,7 +24,8 @@ constexpr std::uint32_t kBlockLayers = 32;
 struct Design {
   Design(const std::string& scene, const std::string& definitions)
       : request(request_of(scene, definitions)), compilation(request, files) {
-    compilation.program = compiler::load(compilation);
+    compilation.design = compiler::load(request.design, compilation.loader,
+                                        compilation.diagnostics);
   }
 
   static compiler::Request request_of(const std::string& scene,
@@ -35,9 +36,15 @@ struct Design {
     return request;
   }
   csg::Tree evaluate() {
-    return compiler::evaluate(compilation, compilation.program);
+    return compiler::evaluate(compilation.design, request, compilation.loader,
+                              compilation.readers, compilation.evaluation_stack,
+                              compilation.diagnostics);
   }
-  csg::Scene lower() { return *compiler::lower(compilation).scene(); }
+  csg::Scene lower() {
+    return *compiler::lower(compilation.tree, request, compilation.readers,
+                            compilation.diagnostics)
+                .scene();
+  }
   csg::Scene make_scene() {
     compilation.tree = evaluate();
     return lower();

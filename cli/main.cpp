@@ -85,8 +85,8 @@ std::optional<int> read_words(Command& command, ProcessLimits& limits,
     return show_fault(error.what() + hint_for(app));
   } catch (const CLI::ParseError& error) {
     return show_fault(error.what());
-  } catch (const UsageError& error) {
-    return show_fault(error.what(), error.status());
+  } catch (const RequestError& error) {
+    return show_fault(error.what());
   }
   return std::nullopt;
 }

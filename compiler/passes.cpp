@@ -1,16 +1,15 @@
 #include "compiler/passes.h"
 
 #include <sstream>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
+#include "base/file/module.h"
 #include "base/paths.h"
-#include "base/thread_clock.h"
+#include "compiler/warnings.h"
 #include "csg/boundary/move_scene.h"
-#include "csg/csg_printer.h"
+#include "csg/eval/evaluator.h"
 #include "parser/customizer/definitions.h"
 #include "parser/customizer/parameter_set.h"
 #include "slicer/plan/orientation.h"
@@ -20,34 +19,23 @@ namespace {
 
 using slicer::OutputFormat;
 
-// Runs a pass and adds the processor seconds that it takes to `seconds`. It
-// works on this thread alone, beside which other compilations may go on.
-template <typename Pass>
-auto timed(double& seconds, const Pass& pass) {
-  const double begin = thread_seconds();
-  auto product = pass();
-  seconds += thread_seconds() - begin;
-  return product;
-}
-
-ast::Program read_design(const Request& request, Loader& loader) {
-  if (request.design.text)
-    return loader.load_text(request.design.path, *request.design.text);
-  if (is_imported(request.design.path)) {
-    return loader.load_text(request.design.path,
-                            import_of(request.design.path));
+ast::Program read_design(const DesignRequest& request, Loader& loader) {
+  if (request.text) return loader.load_text(request.path, *request.text);
+  if (is_imported(request.path)) {
+    return loader.load_text(request.path, import_of(request.path));
   }
-  return loader.load(request.design.path);
+  return loader.load(request.path);
 }
 
 // What only a later version than 2021.01 can parse was not written for it.
-Language choose_language(Compilation& c) {
-  if (c.request.design.language == "2021") return Language::k2021;
-  if (c.request.design.language == "2026") return Language::k2026;
-  const std::optional<NewerSyntax>& newer = c.loader.newer_syntax();
+Language choose_language(const DesignRequest& request, const Loader& loader,
+                         Diagnostics& diagnostics) {
+  if (request.language == "2021") return Language::k2021;
+  if (request.language == "2026") return Language::k2026;
+  const std::optional<NewerSyntax>& newer = loader.newer_syntax();
   if (!newer) return Language::k2021;
   const SourceRange& range = newer->range;
-  c.diagnostics.own_remark(
+  diagnostics.own_remark(
       {},
       fmt::format("read as OpenSCAD 2026 ({}:{}: {})",
                   display_path(range.source->path()),
@@ -56,65 +44,62 @@ Language choose_language(Compilation& c) {
 }
 
 // False where the set cannot be applied, which is reported.
-bool apply_parameters(Compilation& c, ast::Program& program) {
-  const Request& request = c.request;
+bool apply_parameters(const DesignRequest& request, const FileAccess& access,
+                      LoadedDesign& design, Diagnostics& diagnostics) {
   const auto apply = [&](const ParameterSet& set) {
-    return apply_parameter_set(set, program, c.language, c.diagnostics);
+    return apply_parameter_set(set, design.program, design.language,
+                               diagnostics);
   };
-  if (request.design.parameters) return apply(*request.design.parameters);
-  if (request.design.parameter_file.empty()) return true;
+  if (request.parameters) return apply(*request.parameters);
+  if (request.parameter_file.empty()) return true;
   try {
-    return apply(
-        ParameterSets::read(request.design.parameter_file, c.file_access())
-            .values_of(request.design.parameter_set));
+    return apply(ParameterSets::read(request.parameter_file, access)
+                     .values_of(request.parameter_set));
   } catch (const FileError& fault) {
-    c.diagnostics.report(fault.diagnostic());
+    diagnostics.report(fault.diagnostic());
     return false;
   }
 }
 
-csg::EvaluateOptions evaluate_options(Compilation& c) {
-  const Request& request = c.request;
+csg::EvaluateOptions evaluate_options(const Request& request) {
+  const DesignRequest& design = request.design;
   csg::EvaluateOptions options;
-  options.language = c.language;
-  options.stack_bytes = c.evaluation_stack;
   // As openscad sets it for each of its outputs.
   const bool has_preview = request.output.format == OutputFormat::kCsg ||
                            request.output.format == OutputFormat::kEcho;
-  options.preview = has_preview && (request.design.render.empty() ||
-                                    !request.design.preview.empty());
-  options.seed = request.design.seed;
-  options.check_parameters = request.design.checks_parameters;
-  options.check_ranges = request.design.checks_parameter_ranges;
-  options.max_depth = request.design.max_depth;
-  options.max_leaves = request.design.max_leaves;
+  options.preview =
+      has_preview && (design.render.empty() || !design.preview.empty());
+  options.seed = design.seed;
+  options.check_parameters = design.checks_parameters;
+  options.check_ranges = design.checks_parameter_ranges;
+  options.max_depth = design.max_depth;
+  options.max_leaves = design.max_leaves;
   options.chordal_error =
       (request.geometry.chordal_error > 0 ? request.geometry.chordal_error
                                           : csg::kChordalErrorOfParts) /
       request.geometry.scale;
-  options.text_measurer = &c.typesetter;
   return options;
 }
 
-csg::LowerOptions lower_options(Compilation& c) {
-  const Request& request = c.request;
+csg::LowerOptions lower_options(const GeometryRequest& request,
+                                Readers& readers) {
   csg::LowerOptions options;
-  if (request.geometry.axis != kAutomaticAxis) {
-    options.world_from_design = slicer::turn_to_axis(request.geometry.axis);
+  if (request.axis != kAutomaticAxis) {
+    options.world_from_design = slicer::turn_to_axis(request.axis);
   }
-  options.chordal_error = request.geometry.chordal_error;
-  options.decimation = request.geometry.decimation;
-  options.module_folders = module_folders_of(request);
-  options.typesetter = &c.typesetter;
-  options.cad_reader = &c.cad_reader;
-  options.file_access = &c.file_access();
-  options.scale = request.geometry.scale;
+  options.chordal_error = request.chordal_error;
+  options.decimation = request.decimation;
+  options.module_folders = readers.module_folders;
+  options.typesetter = &readers.typesetter;
+  options.cad_reader = &readers.cad_reader;
+  options.file_access = &readers.file_access;
+  options.scale = request.scale;
   return options;
 }
 
 // Moves the scene as a whole, which needs its surface.
-void place(Compilation& c, csg::Scene& scene) {
-  const Request& request = c.request;
+void place(const Request& request, csg::Scene& scene,
+           Diagnostics& diagnostics) {
   if (request.geometry.axis == kAutomaticAxis) {
     const slicer::OrientationChoice choice =
         slicer::choose_orientation(scene, request.job.layer_thickness);
@@ -122,65 +107,85 @@ void place(Compilation& c, csg::Scene& scene) {
                     Vec3(0));
     std::istringstream table(slicer::orientation_table(choice));
     for (std::string line; std::getline(table, line);) {
-      c.diagnostics.report({Severity::kPlain, {}, line});
+      diagnostics.report({Severity::kPlain, {}, line});
     }
   }
   if (request.geometry.is_placed_on_bed) slicer::place_on_bed(scene);
 }
 
+// Folders of modules, the one that is asked for first.
+std::vector<std::string> module_folders_of(const DesignRequest& request) {
+  std::vector<std::string> folders = module_folders();
+  if (!request.module_folder.empty()) {
+    folders.insert(folders.begin(), request.module_folder);
+  }
+  return folders;
+}
+
+// Whether the format shows a 2D design; the others are printed.
+bool holds_outlines(OutputFormat format) {
+  return format == OutputFormat::kSvg || format == OutputFormat::kLayersJson;
+}
+
 }  // namespace
 
-ast::Program load(Compilation& c) {
-  const Request& request = c.request;
+Readers::Readers(const DesignRequest& request, const FileAccess& access,
+                 Diagnostics& diagnostics)
+    : file_access(access),
+      module_folders(module_folders_of(request)),
+      typesetter(module_folders, diagnostics, access),
+      cad_reader(module_folders, diagnostics) {}
+
+LoadedDesign load(const DesignRequest& request, Loader& loader,
+                  Diagnostics& diagnostics) {
+  LoadedDesign design;
+  design.program = read_design(request, loader);
+  design.language = choose_language(request, loader, diagnostics);
+  check_definitions(design.program, loader, diagnostics);
+  design.has_parameters =
+      apply_parameters(request, loader.file_access(), design, diagnostics);
+  return design;
+}
+
+csg::Tree evaluate(const LoadedDesign& design, const Request& request,
+                   const Loader& loader, Readers& readers,
+                   std::size_t stack_bytes, Diagnostics& diagnostics) {
+  readers.typesetter.add_fonts(loader.fonts());
+  csg::EvaluateOptions options = evaluate_options(request);
+  options.language = design.language;
+  options.stack_bytes = stack_bytes;
+  options.text_measurer = &readers.typesetter;
   try {
-    return timed(c.report.load_seconds, [&] {
-      ast::Program program = read_design(request, c.loader);
-      c.language = choose_language(c);
-      check_definitions(program, c.loader, c.diagnostics);
-      if (!apply_parameters(c, program)) c.has_failed = true;
-      return program;
-    });
-  } catch (const SyntaxError&) {
-    if (request.output.format == OutputFormat::kEcho) {
-      write_file(request.output.path,
-                 echo_text(c) + fmt::format("Can't parse file '{}'!\n\n",
-                                            request.design.path),
-                 c.temporary_files);
-    }
+    return csg::evaluate(design.program, loader, options, diagnostics);
+  } catch (const InternalError&) {
     throw;
+  } catch (const FileError&) {
+    throw;
+  } catch (const AccessError&) {
+    throw;
+  } catch (const Error&) {
+    return {};
   }
 }
 
-csg::Tree evaluate(Compilation& c, const ast::Program& program) {
-  c.typesetter.add_fonts(c.loader.fonts());
-  const std::size_t errors = c.count(Severity::kError);
-  return timed(c.report.evaluate_seconds, [&]() -> csg::Tree {
-    try {
-      csg::Tree tree =
-          csg::evaluate(program, c.loader, evaluate_options(c), c.diagnostics);
-      if (c.count(Severity::kError) > errors) c.has_failed = true;
-      return tree;
-    } catch (const InternalError&) {
-      throw;
-    } catch (const FileError&) {
-      throw;
-    } catch (const AccessError&) {
-      throw;
-    } catch (const Error&) {
-      c.has_failed = true;
-      return {};
-    }
-  });
-}
-
-csg::Lowered lower(Compilation& c) {
-  csg::Lowered lowered = timed(c.report.lower_seconds, [&] {
-    return csg::lower(c.tree, lower_options(c), c.diagnostics);
-  });
+csg::Lowered lower(const csg::Tree& tree, const Request& request,
+                   Readers& readers, Diagnostics& diagnostics) {
+  csg::Lowered lowered =
+      csg::lower(tree, lower_options(request.geometry, readers), diagnostics);
   if (auto* scene = std::get_if<csg::Scene>(&lowered.geometry)) {
-    place(c, *scene);
+    place(request, *scene, diagnostics);
   }
   return lowered;
+}
+
+void judge(const csg::Lowered& lowered, const Request& request,
+           Diagnostics& diagnostics) {
+  if (lowered.is_empty())
+    throw GeometryError("Current top level object is empty.");
+  if (lowered.outline() != nullptr && !holds_outlines(request.output.format)) {
+    throw GeometryError("Current top level object is not a 3D object.");
+  }
+  warn_of_geometry(lowered, request, diagnostics);
 }
 
 slicer::Settings settings_of(const Request& request) {
@@ -200,33 +205,17 @@ ldni::LayerGrid plan(const csg::Lowered& lowered,
 slicer::SliceReport slice(const csg::Lowered& lowered,
                           const ldni::LayerGrid& grid,
                           const slicer::Settings& settings,
-                          slicer::LayerSink& sink, Diagnostics& diagnostics) {
-  if (const plane::Region* outline = lowered.outline()) {
-    return slicer::slice_outline(*outline, settings, sink, diagnostics);
-  }
-  return slicer::slice(*lowered.scene(), grid, settings, sink, diagnostics);
-}
-
-std::string echo_text(Compilation& c) {
-  // For what the selection warns of.
-  if (c.tree.root != nullptr) csg::select_root(c.tree, c.diagnostics);
-  const std::string& design = c.request.design.path;
-  const std::size_t slash = design.rfind('/');
-  return openscad_text(c.diagnostics.all(), slash == std::string::npos
-                                                ? "."
-                                                : design.substr(0, slash));
-}
-
-std::string csg_text(Compilation& c) {
-  if (c.tree.root == nullptr) return "\n";
-  return csg::print_csg(c.tree, *csg::select_root(c.tree, c.diagnostics));
-}
-
-void write_file(const std::string& path, std::string_view text,
-                TemporaryFiles& temporary_files) {
-  OutputFile output = OutputFile::open(path, temporary_files);
-  output.write(text);
-  output.commit();
+                          slicer::LayerSink& sink, const Progress& progress,
+                          Diagnostics& diagnostics) {
+  CountingSink counting(sink, progress);
+  const plane::Region* const outline = lowered.outline();
+  slicer::SliceReport report =
+      outline != nullptr
+          ? slicer::slice_outline(*outline, settings, counting, diagnostics)
+          : slicer::slice(*lowered.scene(), grid, settings, counting,
+                          diagnostics);
+  counting.finish();
+  return report;
 }
 
 }  // namespace lamina::compiler

@@ -1,34 +1,71 @@
 #pragma once
-// The passes one by one, as compile() calls them: each turns what the request
-// says into the options of its stage.
+// The passes one by one. Each turns its part of a request into the options of
+// its stage, appends to Diagnostics, and throws where the run must end.
 
+#include <cstddef>
 #include <string>
-#include <string_view>
+#include <vector>
 
-#include "compiler/compilation.h"
+#include "base/diagnostic.h"
+#include "compiler/counting_sink.h"
+#include "compiler/request.h"
+#include "csg/cad/cad_reader.h"
 #include "csg/lower/lower.h"
+#include "csg/text/typesetter.h"
+#include "csg/tree.h"
 #include "ldni/section/grid.h"
 #include "parser/ast.h"
-#include "slicer/contour/layer.h"
+#include "parser/loader.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::compiler {
 
+// A design as its text says it.
+struct LoadedDesign {
+  ast::Program program;
+  Language language = Language::k2021;  // as asked for, or as found
+  // Whether the parameter set was applied. Where not, that is reported.
+  bool has_parameters = true;
+};
+
 // Reads and parses the design and the files that it names, decides in which
 // language they are written, and sets the parameters of the design's set.
-ast::Program load(Compilation& compilation);
+LoadedDesign load(const DesignRequest& request, Loader& loader,
+                  Diagnostics& diagnostics);
 
-// The CSG tree of the design. It is empty where the evaluation failed: by an
+// What reads fonts and CAD files for the passes of one run.
+struct Readers {
+  Readers(const DesignRequest& request, const FileAccess& access,
+          Diagnostics& diagnostics);
+
+  const FileAccess& file_access;
+  std::vector<std::string> module_folders;  // base/file/module.h
+  text::Typesetter typesetter;
+  cad::Reader cad_reader;
+};
+
+// The CSG tree of the design. It has no root where the evaluation failed: by an
 // assertion, endless recursion or, under hard warnings, a warning.
-csg::Tree evaluate(Compilation& compilation, const ast::Program& program);
+//
+// stack_bytes  that evaluation may use below the caller's frame
+csg::Tree evaluate(const LoadedDesign& design, const Request& request,
+                   const Loader& loader, Readers& readers,
+                   std::size_t stack_bytes, Diagnostics& diagnostics);
 
-// What compilation.tree stands for, turned to the axis and placed on the bed.
-csg::Lowered lower(Compilation& compilation);
+// What the tree means, turned to the axis and placed on the bed: a scene, an
+// outline, or nothing.
+csg::Lowered lower(const csg::Tree& tree, const Request& request,
+                   Readers& readers, Diagnostics& diagnostics);
+
+// Throws GeometryError where that is nothing, or an outline that the format of
+// the output cannot hold; warns of what is probably not meant.
+void judge(const csg::Lowered& lowered, const Request& request,
+           Diagnostics& diagnostics);
 
 // The settings of the request, with the limits of its format.
 slicer::Settings settings_of(const Request& request);
 
-// Where the layers stand; of an outline, nowhere. Throws GeometryError where
+// Where the layers are; of an outline there is none. Throws GeometryError where
 // the solid is empty or has too many layers.
 ldni::LayerGrid plan(const csg::Lowered& lowered,
                      const slicer::Settings& settings);
@@ -37,15 +74,7 @@ ldni::LayerGrid plan(const csg::Lowered& lowered,
 slicer::SliceReport slice(const csg::Lowered& lowered,
                           const ldni::LayerGrid& grid,
                           const slicer::Settings& settings,
-                          slicer::LayerSink& sink, Diagnostics& diagnostics);
-
-// Texts of stages before layers: all messages so far, as openscad's `.echo`
-// holds them, and the tree as its `.csg` does.
-std::string echo_text(Compilation& compilation);
-std::string csg_text(Compilation& compilation);
-
-// Writes a whole file.
-void write_file(const std::string& path, std::string_view text,
-                TemporaryFiles& temporary_files);
+                          slicer::LayerSink& sink, const Progress& progress,
+                          Diagnostics& diagnostics);
 
 }  // namespace lamina::compiler

@@ -38,6 +38,9 @@ struct DesignRequest {
   // $preview shows which one it is.
   std::string render;
   std::string preview;
+  // The first option that was given of those which only a design obeys, such
+  // as "--scale"; empty: none. A file of layers in its place is refused then.
+  std::string given_option;
   // A folder where modules (lamina_text.so) are looked for first; empty: none.
   std::string module_folder;
 };

@@ -12,8 +12,10 @@
 //
 // A fault of the design or of a file is thrown as std::runtime_error, whose
 // text is what the program lamina prints: a message with its place, its line
-// and carets below it.
+// and carets below it. What the program refuses is refused here, too, in the
+// names of this header.
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -63,6 +65,61 @@ struct ThinPlace {
   // The lines of the design that made it: "ring.scad:12:3", or with the call
   // that led there, "lib.scad:8:5 from ring.scad:40:3"; joined by ", ".
   std::string origin;
+};
+
+// What would go wrong in the print.
+struct Finding {
+  enum class Kind {
+    kIsland,      // begins in mid-air: nothing in the layer below holds it
+    kLoosePart,   // hangs together with nothing that reaches the bed
+    kOverhang,    // reaches too far beyond the layer below
+    kSuctionCup,  // a hollow that nothing leads out of while it is built
+    kResinTrap    // a hollow that nothing leads out of at all
+  };
+  Kind kind = Kind::kIsland;
+  bool is_minor = false;     // too small to matter
+  unsigned first_layer = 0;  // from 1
+  unsigned last_layer = 0;
+  double bottom = 0;    // of its lowest layer [mm]
+  double top = 0;       // of its highest layer [mm]
+  Point place;          // a place inside it
+  double z = 0;         // of that place: the height of the section [mm]
+  double area = 0;      // the greatest of a layer [mm²]
+  double volume = 0;    // of loose parts, cups and traps [mm³]
+  double distance = 0;  // of an overhang, to what holds it [mm]
+  // The line of the design that made it, as in ThinPlace; empty: not known.
+  std::string origin;
+};
+
+// What layers hold, and what is wrong with them.
+struct Inspection {
+  struct Row {
+    double bottom = 0;     // of the layer [mm]
+    double thickness = 0;  // [mm]
+    std::size_t loops = 0;
+    std::size_t holes = 0;  // of the loops
+    std::size_t vertices = 0;
+    double area = 0;       // of what is solid [mm²]
+    double perimeter = 0;  // [mm]
+  };
+  std::string format;  // "SLC 2.0"; empty: layers of a design
+  std::string writer;  // the program that made the file; empty: not known
+  std::vector<Row> layers;
+  double volume = 0;  // [mm³]
+  // Loops that cross, repeat or are not closed, and layers that do not lie on
+  // each other: their number, and the first ones in words.
+  std::size_t defects = 0;
+  std::vector<std::string> reported_defects;
+  std::vector<ThinPlace> thin_places;
+  std::vector<Finding> findings;
+};
+
+// What is looked for in layers.
+struct InspectOptions {
+  // How far a layer may reach beyond the one below [mm]; 0: as far as a surface
+  // of 45° does.
+  double self_supporting = 0;
+  double min_feature = 0;  // thin places are narrower [mm]; 0: none are sought
 };
 
 // How a design is read. Names and defaults are those of the program's options
@@ -128,8 +185,8 @@ class Design {
   // stack. Throws where the design has errors, is empty, or is flat.
   static Design from_file(const std::string& path,
                           const DesignOptions& options = {});
-  // The same for a text at hand. Messages call it `name`, and it finds its
-  // files from there.
+  // Reads a text instead. Messages call it `name`, and it finds its files from
+  // there.
   static Design from_text(const std::string& text,
                           const DesignOptions& options = {},
                           const std::string& name = "design.scad");
@@ -141,8 +198,9 @@ class Design {
   // All layers, the lowest first.
   std::vector<Layer> slice(const SliceOptions& options = {}) const;
 
-  // The same, one by one as they are ready: memory does not grow with their
-  // number. `take` is called by one thread at a time, not always the caller's.
+  // Hands all layers on, one by one as they are ready: memory does not grow
+  // with their number. `take` is called by one thread at a time, not always the
+  // caller's.
   void slice(const SliceOptions& options,
              const std::function<void(const Layer&)>& take) const;
 
@@ -156,6 +214,15 @@ class Design {
   std::vector<ThinPlace> find_thin_places(
       double width, const SliceOptions& options = {}) const;
 
+  // What `lamina check` finds: what would go wrong in the print, from the
+  // bottom to the top. All layers must be sliced, so `heights` must be empty.
+  std::vector<Finding> check(const SliceOptions& options = {},
+                             double self_supporting = 0) const;
+
+  // What `lamina inspect` says of the layers as they are written.
+  Inspection inspect(const SliceOptions& options = {},
+                     const InspectOptions& wanted = {}) const;
+
   // What the customizer offers, in the order of the design, with the values of
   // the design or of the parameter set.
   const std::vector<Parameter>& parameters() const;
@@ -166,5 +233,9 @@ class Design {
 
   std::unique_ptr<const State> state_;
 };
+
+// What `lamina inspect` says of a file of layers.
+Inspection inspect_file(const std::string& path,
+                        const InspectOptions& wanted = {});
 
 }  // namespace lamina

@@ -123,7 +123,7 @@ class BatchCommand : public Command {
     try {
       words_of_pattern(table_.request.output.path);
     } catch (const FileError& error) {
-      throw UsageError(error.what());
+      throw RequestError(error.what());
     }
     OutputOptions output = output_options_;
     // A report of ledgers is none of layers.
@@ -140,7 +140,7 @@ class BatchCommand : public Command {
     Terminal terminal(is_quiet_);
     SourceStore sources;
     Diagnostics diagnostics([&](const Diagnostic& d) { terminal.show(d); });
-    return run_caught(terminal, diagnostics, [&] {
+    return run_caught(terminal, {&diagnostics}, [&] {
       const FileAccess& access = context.file_access();
       for (const std::string& folder : library_folders(access)) {
         ledger_.asked += fmt::format("library {}\n", folder);

@@ -10,7 +10,6 @@
 
 #include "base/text.h"
 #include "cli/commands/commands.h"
-#include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
@@ -18,10 +17,8 @@
 #include "cli/report/finding_table.h"
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
-#include "compiler/compile.h"
-#include "compiler/inspect_file.h"
-#include "compiler/passes.h"
-#include "slicer/formats/layer_reader.h"
+#include "compiler/look_at.h"
+#include "cli/report/finding_table.h"
 
 namespace lamina::cli {
 namespace {
@@ -70,18 +67,16 @@ class CheckCommand : public Command {
                            })
                         ->type_name("{islands,loose-parts,overhangs,"
                                     "suction-cups,resin-traps}"));
-    add_text(app, "--self-supporting", "length", [this](const auto& text) {
-      request_.job.self_supporting =
-          require_positive("--self-supporting", text);
-    });
+    add_number(app, "--self-supporting", "length",
+               request_.job.self_supporting);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
-    note_design_option(app, design_option_);
+    note_design_option(app, request_);
   }
 
   void check() override {
-    require_readable("check", request_.design.path);
-    refuse_contradictions(request_.job);
+    compiler::require_readable("check", request_.design.path);
+    compiler::validate(request_);
     refuse_if(!request_.job.heights.empty(),
               "check needs whole layers, not --heights");
     request_.job.finds_makers = true;
@@ -106,33 +101,15 @@ class CheckCommand : public Command {
         static_cast<slicer::FindingKind>(found - kKindWords.begin()));
   }
 
-  // Whether the design or the file could be looked at.
-  bool look(compiler::Compilation& compilation) const {
-    if (slicer::is_readable_layer_file(request_.design.path,
-                                       compilation.file_access())) {
-      refuse_design_option(design_option_, request_.design.path);
-      const slicer::Inspection found = compiler::inspect_file(
-          request_.design.path,
-          {.finds_defects = false,
-           .self_supporting = request_.job.self_supporting},
-          compilation.file_access());
-      compilation.report.slice.print = found.print;
-      tell_left_out(compilation, found.file);
-      return true;
-    }
-    const auto lowered = compiler::make_geometry(compilation);
-    if (!lowered) return false;
-    slicer::LayerDrain drain;
-    compiler::make_layers(compilation, *lowered,
-                          compiler::settings_of(request_), drain);
-    return true;
-  }
-
   int check_print(compiler::Compilation& compilation) const {
-    if (!look(compilation)) return kFault;
-    print_out(is_json_ ? json_text(print_json(compilation.report))
-                       : finding_lines(compilation));
-    const slicer::PrintCheck& print = *compilation.report.slice.print;
+    const auto inspection = compiler::look_at(compilation, {});
+    if (!inspection) return kFault;
+    const auto& [found, lines, layers] = *inspection;
+    report_skipped(compilation, found.file);
+    const slicer::PrintCheck& print = *found.print;
+    print_out(is_json_ ? json_text(print_json(print, lines.findings))
+                       : finding_table(
+                             print, compiler::texts_of(lines.findings)));
     return std::ranges::any_of(print.findings,
                                [&](const slicer::Finding& finding) {
                                  return !finding.is_minor &&
@@ -144,7 +121,6 @@ class CheckCommand : public Command {
 
   compiler::Request request_;
   bool is_quiet_ = false;
-  std::string design_option_;  // the first that was given, or none
   bool is_json_ = false;
   std::set<slicer::FindingKind> allowed_;
 };

@@ -23,7 +23,7 @@ class Command {
   virtual void add_options(CLI::App& app) = 0;
 
   // Called when all words have been read: completes the options and throws
-  // UsageError where they do not go together.
+  // RequestError where they do not go together.
   virtual void check() {}
 
   // Returns the exit status. Faults have been shown.

@@ -10,17 +10,16 @@
 
 #include "base/file/output_file.h"
 #include "cli/commands/commands.h"
-#include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/openscad.h"
 #include "cli/process/streams.h"
-#include "cli/report/compared.h"
-#include "cli/report/comparison.h"
 #include "cli/report/comparison_text.h"
 #include "cli/report/session.h"
-#include "compiler/passes.h"
+#include "compiler/comparison.h"
+#include "compiler/look_at.h"
+#include "compiler/stage_text.h"
 #include "slicer/picture/difference_picture.h"
 
 namespace lamina::cli {
@@ -61,8 +60,10 @@ Options of Design, Slicing and Limits are those of slicing (see 'lamina
 constexpr double kLeastShift = 1e-6;
 
 constexpr double kUsualTimeLimit = 600;  // seconds
-constexpr double kGreatestTimeLimit = 1e6;
-constexpr double kGreatestTolerance = 1e6;  // mm
+constexpr compiler::NumberLimits kTimeLimits = {
+    "--time-limit", 0, 1e6, "must be from {1} to {2} s, not {0}", nullptr};
+constexpr compiler::NumberLimits kTolerances = {
+    "--tolerance", 0, 1e6, "must be from {1} to {2} mm, not {0}", nullptr};
 
 std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
@@ -77,13 +78,12 @@ class CompareCommand : public Command {
     app.add_option("B", b_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
-    note_design_option(app, design_option_);
+    note_design_option(app, request_);
     // The words are the comparison's here.
     app.remove_option(app.get_option("--tolerance"));
     request_.job.tolerance = 0;
     add_text(app, "--tolerance", "length", [this](const std::string& text) {
-      tolerance_ =
-          require_within("--tolerance", text, 0, kGreatestTolerance, " mm");
+      tolerance_ = require_within(kTolerances, text);
     });
     app.add_flag("--align", aligns_);
     app.add_flag("--all", lists_all_);
@@ -96,8 +96,7 @@ class CompareCommand : public Command {
     add_choice(app, "--against", {"openscad"},
                [this](const std::string&) { is_against_openscad_ = true; });
     add_text(app, "--time-limit", "seconds", [this](const std::string& text) {
-      time_limit_ =
-          require_within("--time-limit", text, 0, kGreatestTimeLimit, " s");
+      time_limit_ = require_within(kTimeLimits, text);
     })->needs("--against");
   }
 
@@ -108,7 +107,7 @@ class CompareCommand : public Command {
               "--against openscad stands for the second file");
     for (const std::string& path : {a_, b_}) {
       refuse_if(
-          !path.empty() && !can_compare(path),
+          !path.empty() && !compiler::can_compare(path),
           "'{}' is no file that compare reads (.slc .cli .svg "
           ".sl1 .zip .layers.json .scad .csg .stl .off .obj .ply .amf .3mf "
           ".dxf .step .stp .iges .igs .brep .brp .fcstd)",
@@ -119,39 +118,64 @@ class CompareCommand : public Command {
               "compare cuts at heights, which --sampler gl cannot");
     refuse_if(!picture_.empty() && !picture_.ends_with(".png"),
               "--png draws .png pictures; '{}' is none", picture_);
-    refuse_contradictions(request_.job);
+    compiler::validate(request_);
   }
 
   int run(const Context& context) override {
     Terminal terminal(is_quiet_);
-    return run_caught(terminal, Diagnostics(), [&] {
-      try {
-        context.expect_outputs({is_quiet_ ? "" : "-", report_, picture_});
-        std::string version;
-        if (is_against_openscad_) {
-          version = openscad_version(context.temporary_files);
-          if (request_.design.language == "auto") {
-            request_.design.language = language_of(version);
-          }
+    Side a;
+    Side b;
+    std::vector<const Diagnostics*> shown;
+    return run_caught(terminal, shown, [&] {
+      context.expect_outputs({is_quiet_ ? "" : "-", report_, picture_});
+      std::string version;
+      if (is_against_openscad_) {
+        version = openscad_version(context.temporary_files);
+        if (request_.design.language == "auto") {
+          request_.design.language = language_of(version);
         }
-        const auto a = open_compared(a_, request_, is_quiet_, context);
-        // Faults of the design come before those of openscad.
-        if (is_against_openscad_) a->layers();
-        const auto b = is_against_openscad_
-                           ? open_openscad(a_, request_, version, time_limit_,
-                                           is_quiet_, context)
-                           : open_compared(b_, request_, is_quiet_, context);
-        if (!a->can_be_cut() && !b->can_be_cut()) {
-          refuse_design_option(design_option_, a_);
-        }
-        return compare(*a, *b, context.temporary_files);
-      } catch (const ShownFault&) {
-        return kFault;
       }
+      shown.push_back(&open(a, a_, context));
+      a.compared = compiler::open_compared(a.session->compilation);
+      if (is_against_openscad_) {
+        // Faults of the design come before those of openscad.
+        a.compared->layers();
+        const ScratchFolder folder(context.temporary_files);
+        const OpenScadMesh mesh =
+            render_with_openscad(a.request, time_limit_, folder);
+        shown.push_back(&open(b, mesh.path, context));
+        b.compared = compiler::open_openscad_mesh(
+            b.session->compilation,
+            fmt::format("{}, rendered in {:.1f} s", version, mesh.seconds));
+        // Has it read while it is there.
+        b.compared->cut({0});
+      } else {
+        shown.push_back(&open(b, b_, context));
+        b.compared = compiler::open_compared(b.session->compilation);
+      }
+      if (!a.compared->can_be_cut() && !b.compared->can_be_cut()) {
+        compiler::refuse_design_options(request_.design, a_);
+      }
+      return compare(*a.compared, *b.compared, context.temporary_files);
     });
   }
 
  private:
+  // One of the two, and what the user sees of its compilation.
+  struct Side {
+    compiler::Request request;
+    std::optional<Session> session;
+    std::unique_ptr<compiler::Compared> compared;
+  };
+
+  // Returns the messages of the side.
+  const Diagnostics& open(Side& side, const std::string& path,
+                          const Context& context) const {
+    side.request = compiler::request_of_side(path, request_);
+    side.session.emplace(side.request, is_quiet_, context);
+    return side.session->compilation.diagnostics;
+  }
+
   void check_openscad() const {
     refuse_if(!a_.ends_with(".scad") && !a_.ends_with(".csg"),
               "--against openscad compares a design");
@@ -161,9 +185,10 @@ class CompareCommand : public Command {
         "$fs by -D");
   }
 
-  int compare(Compared& a, Compared& b, TemporaryFiles& temporary_files) const {
-    Comparison comparison(a, b, aligns_);
-    ComparisonResult result =
+  int compare(compiler::Compared& a, compiler::Compared& b,
+              TemporaryFiles& temporary_files) const {
+    compiler::Comparison comparison(a, b, aligns_);
+    compiler::ComparisonResult result =
         comparison.run(tolerance_.value_or(comparison.usual_tolerance()));
     if (!result.is_equal() && !aligns_) result.hint = find_hint(a, b, result);
     if (!is_quiet_) print_out(comparison_text(result, lists_all_));
@@ -175,11 +200,11 @@ class CompareCommand : public Command {
   }
 
   // A shift that makes them equal, if there is one.
-  static Vec3 find_hint(Compared& a, Compared& b,
-                        const ComparisonResult& result) {
+  static Vec3 find_hint(compiler::Compared& a, compiler::Compared& b,
+                        const compiler::ComparisonResult& result) {
     try {
-      const ComparisonResult aligned =
-          Comparison(a, b, true).run(result.tolerance);
+      const compiler::ComparisonResult aligned =
+          compiler::Comparison(a, b, true).run(result.tolerance);
       const Vec3 shift = aligned.shift;
       const bool is_moved = std::abs(shift.x) > kLeastShift ||
                             std::abs(shift.y) > kLeastShift ||
@@ -191,7 +216,8 @@ class CompareCommand : public Command {
     return Vec3(0);
   }
 
-  void draw(const Comparison& comparison, const ComparisonResult& result,
+  void draw(const compiler::Comparison& comparison,
+            const compiler::ComparisonResult& result,
             TemporaryFiles& temporary_files) const {
     if (result.layers.empty()) throw GeometryError("there is no layer to draw");
     const std::size_t index =
@@ -212,7 +238,6 @@ class CompareCommand : public Command {
 
   compiler::Request request_;  // of designs
   bool is_quiet_ = false;
-  std::string design_option_;  // the first that was given, or none
   std::string a_;
   std::string b_;                    // empty: openscad
   std::optional<double> tolerance_;  // [mm]

@@ -1,22 +1,17 @@
 // lamina inspect: layers of a file or of a design checked, measured and listed.
 
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/paths.h"
 #include "cli/commands/commands.h"
-#include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/process/streams.h"
 #include "cli/report/inspection_text.h"
 #include "cli/report/session.h"
-#include "compiler/compile.h"
-#include "compiler/inspect_file.h"
-#include "compiler/passes.h"
-#include "slicer/formats/layer_reader.h"
+#include "compiler/look_at.h"
 
 namespace lamina::cli {
 namespace {
@@ -49,17 +44,17 @@ class InspectCommand : public Command {
     app.add_flag("--all", lists_all_layers_);
     app.add_flag("--json", is_json_);
     // In the layers as they are written, not by the slicer on its way.
-    add_thin_width(app, min_feature_);
+    add_number(app, "--min-feature", "length", min_feature_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
-    note_design_option(app, design_option_);
+    note_design_option(app, request_);
     add_layer_range(app, request_.job.written);
     app.get_option("--layers")->group(kDesignGroup);
   }
 
   void check() override {
-    require_readable("inspect", request_.design.path);
-    refuse_contradictions(request_.job);
+    compiler::require_readable("inspect", request_.design.path);
+    compiler::validate(request_);
   }
 
   int run(const Context& context) override {
@@ -71,48 +66,21 @@ class InspectCommand : public Command {
   }
 
  private:
-  // No value where the design failed.
-  std::optional<slicer::Inspection> look(
-      compiler::Compilation& compilation) const {
-    if (slicer::is_readable_layer_file(request_.design.path,
-                                       compilation.file_access())) {
-      refuse_design_option(design_option_, request_.design.path);
-      return compiler::inspect_file(request_.design.path,
-                                    {.min_feature = min_feature_},
-                                    compilation.file_access());
-    }
-    const auto lowered = compiler::make_geometry(compilation);
-    if (!lowered) return std::nullopt;
-    slicer::Inspector inspector(
-        {.min_feature = min_feature_, .makes_graph = false});
-    compiler::make_layers(compilation, *lowered,
-                          compiler::settings_of(request_), inspector);
-    slicer::LayerFileFacts exact;
-    exact.is_float32 = false;
-    slicer::Inspection found =
-        inspector.finish(request_.design.path, std::move(exact));
-    found.print = compilation.report.slice.print;
-    found.meshes = compiler::inspect_meshes(request_.design.path,
-                                            compilation.file_access());
-    return found;
-  }
-
   int inspect(compiler::Compilation& compilation) const {
-    auto found = look(compilation);
-    if (!found) return kFault;
-    found->name = display_path(found->name);
-    const std::string text =
-        is_json_
-            ? inspection_json(*found)
-            : inspection_text(*found, lists_all_layers_ ? LayerList::kAll
-                                                        : LayerList::kSummary);
-    print_out(text);
-    return found->defects == 0 ? kDone : kFault;
+    auto inspection = compiler::look_at(
+        compilation, {.finds_defects = true, .min_feature = min_feature_});
+    if (!inspection) return kFault;
+    slicer::Inspection& found = inspection->found;
+    found.name = display_path(found.name);
+    print_out(is_json_ ? inspection_json(found)
+                       : inspection_text(found, lists_all_layers_
+                                                    ? ListedLayers::kAll
+                                                    : ListedLayers::kSummary));
+    return found.defects == 0 ? kDone : kFault;
   }
 
   compiler::Request request_;
   bool is_quiet_ = false;
-  std::string design_option_;  // the first that was given, or none
   bool lists_all_layers_ = false;
   bool is_json_ = false;
   double min_feature_ = 0;  // [mm]; 0: thin places are not looked for

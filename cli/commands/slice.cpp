@@ -271,7 +271,7 @@ class SliceCommand : public Command {
       piece.number = pieces.size();
     }
     Terminal terminal(is_quiet_);
-    return run_caught(terminal, Diagnostics(), [&] {
+    return run_caught(terminal, {}, [&] {
       for (const Piece& piece : pieces) {
         context.expect_outputs({piece.request.output.path});
       }

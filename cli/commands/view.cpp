@@ -13,17 +13,13 @@
 
 #include "base/file/output_file.h"
 #include "cli/commands/commands.h"
-#include "cli/options/contradictions.h"
 #include "cli/options/design_options.h"
 #include "cli/options/option_values.h"
 #include "cli/process/exit_status.h"
 #include "cli/report/session.h"
-#include "compiler/compile.h"
-#include "compiler/passes.h"
-#include "slicer/check/print/layer_graph.h"
-#include "slicer/contour/layer_measures.h"
-#include "slicer/formats/layer_reader.h"
-#include "slicer/formats/output_format.h"
+#include "compiler/look_at.h"
+#include "compiler/machine.h"
+#include "compiler/stage_text.h"
 #include "slicer/machine/estimate.h"
 #include "slicer/picture/image.h"
 #include "slicer/picture/layer_picture.h"
@@ -166,8 +162,6 @@ struct ViewOptions {
   std::optional<std::size_t> layer_number;  // from 1
   std::optional<double> layer_height;       // [mm]
   std::optional<unsigned> width;            // [pixels]
-  // The first option of designs that was given, or none.
-  std::string design_option;
 
   bool is_of_one_layer() const { return layer_number || layer_height; }
   // Whether any option is given that means nothing to a page.
@@ -175,34 +169,6 @@ struct ViewOptions {
     return style || layer_count || is_of_one_layer() || width;
   }
 };
-
-// All layers of a file or of a design, and in the report what is to be said of
-// them; no value where the design failed.
-std::optional<std::vector<slicer::Layer>> layers_of(
-    compiler::Compilation& compilation, const std::string& design_option) {
-  const compiler::Request& request = compilation.request;
-  compiler::LayerList list;
-  if (slicer::is_readable_layer_file(request.design.path,
-                                     compilation.file_access())) {
-    refuse_design_option(design_option, request.design.path);
-    slicer::LayerGraph graph(request.job.self_supporting);
-    const slicer::LayerFileFacts facts = slicer::read_layers(
-        request.design.path,
-        [&](slicer::Layer& layer) {
-          if (is_page(request.output.path)) graph.take(layer, nullptr);
-          list.layers.push_back(std::move(layer));
-        },
-        compilation.file_access());
-    compilation.report.slice.print = graph.finish();
-    tell_left_out(compilation, facts);
-    return std::move(list.layers);
-  }
-  const auto lowered = compiler::make_geometry(compilation);
-  if (!lowered) return std::nullopt;
-  compiler::make_layers(compilation, *lowered, compiler::settings_of(request),
-                        list);
-  return std::move(list.layers);
-}
 
 // The index of the layer that is asked for by its number or its height.
 std::size_t find_layer(const std::vector<slicer::Layer>& layers,
@@ -246,23 +212,41 @@ slicer::Image draw_picture(const std::vector<slicer::Layer>& layers,
 
 // What the print takes, in words; empty where nothing is asked for.
 std::string estimate_of(const compiler::Compilation& compilation,
-                        const std::vector<slicer::Layer>& layers) {
-  const auto [printer, material] =
-      compiler::choose_machine(compilation.request, compilation.file_access());
-  double volume = 0;
-  for (const slicer::Layer& layer : layers) {
-    volume += slicer::measure(layer.contours).area * (layer.top - layer.bottom);
-  }
+                        const slicer::Inspection& found) {
+  const auto [printer, material] = compiler::choose_machine(
+      compilation.request.output, compilation.file_access());
   return slicer::estimate_text(
       printer, material,
-      slicer::estimate_print(printer, material, layers.size(), volume));
+      slicer::estimate_print(printer, material, found.layers.size(),
+                             found.volume));
+}
+
+void write_page(const compiler::Compilation& compilation,
+                const compiler::Inspection& inspection,
+                const std::string& title, double min_feature) {
+  const slicer::Inspection& found = inspection.found;
+  slicer::ViewerOptions page;
+  page.title = title;
+  page.estimate = estimate_of(compilation, found);
+  page.min_feature = min_feature;
+  page.features = found.features;
+  page.origins = compiler::texts_of(inspection.lines.features);
+  page.print = found.print;
+  page.finding_origins = compiler::texts_of(inspection.lines.findings);
+  compiler::write_file(compilation.request.output.path,
+                       viewer_page(inspection.layers, page),
+                       compilation.temporary_files);
 }
 
 int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   const compiler::Request& request = compilation.request;
-  const auto layers = layers_of(compilation, options.design_option);
-  if (!layers) return kFault;
-  if (std::all_of(layers->begin(), layers->end(), [](const auto& layer) {
+  const bool draws_page = is_page(request.output.path);
+  const auto inspection = compiler::look_at(
+      compilation, {.makes_graph = draws_page, .keeps_layers = true});
+  if (!inspection) return kFault;
+  report_skipped(compilation, inspection->found.file);
+  const std::vector<slicer::Layer>& layers = inspection->layers;
+  if (std::ranges::all_of(layers, [](const slicer::Layer& layer) {
         return layer.contours.points.empty();
       })) {
     throw GeometryError(
@@ -270,21 +254,11 @@ int draw(compiler::Compilation& compilation, const ViewOptions& options) {
   }
   const std::string title =
       std::filesystem::path(request.design.path).filename();
-  if (is_page(request.output.path)) {
-    slicer::ViewerOptions page;
-    const compiler::Report& report = compilation.report;
-    page.title = title;
-    page.estimate = estimate_of(compilation, *layers);
-    page.min_feature = options.layer.min_feature;
-    page.features = report.slice.features;
-    page.origins = compiler::origin_texts(report.origins);
-    page.print = report.slice.print;
-    page.finding_origins = compiler::origin_texts(report.finding_origins);
-    compiler::write_file(request.output.path, viewer_page(*layers, page),
-                         compilation.temporary_files);
+  if (draws_page) {
+    write_page(compilation, *inspection, title, options.layer.min_feature);
     return kDone;
   }
-  const slicer::Image picture = draw_picture(*layers, title, options);
+  const slicer::Image picture = draw_picture(layers, title, options);
   OutputFile output =
       OutputFile::open(request.output.path, compilation.temporary_files);
   write_png(picture, output);
@@ -312,7 +286,7 @@ class ViewCommand : public Command {
     add_text(app, "--at", "height", [this](const std::string& text) {
       options_.layer_height = require_number("--at", text);
     })->excludes(number);
-    add_thin_width(app, options_.layer.min_feature);
+    add_number(app, "--min-feature", "length", options_.layer.min_feature);
     camera_.add_to(app);
     app.add_option("--width", options_.width)
         ->check(CLI::Range(200U, 8000U))
@@ -320,7 +294,7 @@ class ViewCommand : public Command {
     add_machine_options(app, request_);
     add_design_options(app, request_, is_quiet_);
     add_slicing_options(app, request_);
-    note_design_option(app, options_.design_option);
+    note_design_option(app, request_);
   }
 
   void check() override {
@@ -331,7 +305,7 @@ class ViewCommand : public Command {
                   !request_.output.path.ends_with(".png"),
               "view writes .png pictures and .html pages; '{}' is neither",
               request_.output.path);
-    require_readable("view", request_.design.path);
+    compiler::require_readable("view", request_.design.path);
     refuse_if(options_.layer.min_feature > 0 &&
                   !is_page(request_.output.path) && !options_.is_of_one_layer(),
               "--min-feature needs --layer-number, --at or .html");
@@ -350,7 +324,7 @@ class ViewCommand : public Command {
       request_.job.min_feature = options_.layer.min_feature;
       request_.job.finds_makers = true;
     }
-    refuse_contradictions(request_.job);
+    compiler::validate(request_);
   }
 
   int run(const Context& context) override {

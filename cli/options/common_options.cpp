@@ -89,7 +89,7 @@ FileAccess make_file_access(const FileAccess::Limits& limits) {
   try {
     return FileAccess::within(limits);
   } catch (const AccessError& error) {
-    throw UsageError(error.what());
+    throw RequestError(error.what());
   }
 }
 

@@ -21,9 +21,9 @@ void add_slicing_options(CLI::App& app, compiler::Request& request);
 // have no use for these. (--threads and limits of a run harm nobody.)
 inline constexpr const char* kDesignGroup = "Design";
 
-// Notes the first option of that group that was given, such as "--scale", for
-// refuse_design_option(). `given` outlives `app`.
-void note_design_option(CLI::App& app, std::string& given);
+// Notes in the request the first option of that group that was given. `request`
+// outlives `app`.
+void note_design_option(CLI::App& app, compiler::Request& request);
 
 struct OutputOptions {
   std::string export_format;  // empty: the output's name says it
@@ -41,7 +41,7 @@ void add_output_options(CLI::App& app, compiler::Request& request,
 
 // Chooses the format by --export-format or, where that is empty, by the name
 // of the output, and checks what else is asked for against it. Throws
-// UsageError.
+// RequestError.
 void choose_format(compiler::Request& request, const OutputOptions& options,
                    const std::string& output);
 

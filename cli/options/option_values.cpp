@@ -1,24 +1,15 @@
 #include "cli/options/option_values.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <system_error>
 
 #include "base/text.h"
-#include "slicer/check/thin/thin_finder.h"
 
 namespace lamina::cli {
 namespace {
-
-double require_thin_width(const std::string& option, std::string_view text) {
-  const double value = require_number(option, text);
-  require(
-      value >= slicer::kLeastThinWidth && value <= slicer::kGreatestThinWidth,
-      option, "must be {} to {} mm, not {}", slicer::kLeastThinWidth,
-      slicer::kGreatestThinWidth, text);
-  return value;
-}
 
 // "3:7", "3:", ":7" or "3".
 slicer::LayerNumbers parse_layers(const std::string& text) {
@@ -72,24 +63,39 @@ std::vector<double> require_numbers(const std::string& option,
   }
 }
 
-double require_positive(const std::string& option, std::string_view text) {
+double require_within(const compiler::NumberLimits& limits,
+                      std::string_view text) {
+  const std::string option(limits.option);
   const double value = require_number(option, text);
-  require(value > 0, option, "must be more than 0 mm, not {}", text);
+  require(limits.hold(value), option, "{}", limits.fault_of(text));
   return value;
 }
 
-double require_within(const std::string& option, std::string_view text,
-                      double least, double greatest, std::string_view unit) {
-  const double value = require_number(option, text);
-  require(value >= least && value <= greatest, option,
-          "must be from {} to {}{}, not {}", least, greatest, unit, text);
-  return value;
+double require_within(const std::string& option, std::string_view text) {
+  return require_within(compiler::limits_of(option), text);
 }
 
 CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
                       const std::function<void(const std::string&)>& use) {
   return app.add_option_function<std::string>(name, use)->type_name(value);
+}
+
+void add_number(CLI::App& app, const std::string& name,
+                const std::string& value, double& target) {
+  const std::string option = name.substr(0, name.find(','));
+  add_text(app, name, value, [option, &target](const std::string& text) {
+    target = require_within(option, text);
+  });
+}
+
+void add_count(CLI::App& app, const std::string& name, std::uint32_t& target) {
+  add_text(app, name, "number", [name, &target](const std::string& text) {
+    const double count = require_within(name, text);
+    require(count == std::floor(count), name,
+            "a whole number was expected, not '{}'", text);
+    target = static_cast<std::uint32_t>(count);
+  });
 }
 
 CLI::Option* add_name(CLI::App& app, const std::string& name,
@@ -120,12 +126,6 @@ void add_switch(CLI::App& app, const std::string& name, bool& target) {
   add_text(app, name, "word", [&target](const std::string& word) {
     target = word == "true" || word == "on" || word == "1";
   })->transform(CLI::IsMember(words, CLI::ignore_case));
-}
-
-void add_thin_width(CLI::App& app, double& width) {
-  add_text(app, "--min-feature", "length", [&width](const std::string& text) {
-    width = require_thin_width("--min-feature", text);
-  });
 }
 
 void add_layer_range(CLI::App& app, slicer::LayerNumbers& range) {

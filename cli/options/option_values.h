@@ -13,6 +13,7 @@
 #include <CLI/App.hpp>
 #include <fmt/format.h>
 
+#include "compiler/validate.h"
 #include "slicer/slice/settings.h"
 
 namespace lamina::cli {
@@ -38,19 +39,23 @@ std::vector<double> require_numbers(const std::string& option,
 // A whole number and nothing else, without a sign; no value for other texts.
 std::optional<std::uint64_t> whole_number(std::string_view text);
 
-// A length of more than 0 mm.
-double require_positive(const std::string& option, std::string_view text);
-
-// A number from `least` to `greatest`; `unit` is for the message, such as
-// " mm".
-double require_within(const std::string& option, std::string_view text,
-                      double least, double greatest, std::string_view unit);
+// A number within these limits, or within those of the option.
+double require_within(const compiler::NumberLimits& limits,
+                      std::string_view text);
+double require_within(const std::string& option, std::string_view text);
 
 // Adds an option whose text `use` reads, which may throw CLI::ValidationError.
 // `value` is what messages call its value.
 CLI::Option* add_text(CLI::App& app, const std::string& name,
                       const std::string& value,
                       const std::function<void(const std::string&)>& use);
+
+// Adds an option that sets a number within the limits that it has in
+// compiler/validate.h. `value` is what messages call it.
+void add_number(CLI::App& app, const std::string& name,
+                const std::string& value, double& target);
+// The number is a whole one.
+void add_count(CLI::App& app, const std::string& name, std::uint32_t& target);
 
 // Adds an option that names something, such as a file; `what` is what messages
 // call it. An empty name, as of a variable that is not set, must not mean that
@@ -72,9 +77,6 @@ void add_choice(CLI::App& app, const std::string& name,
 
 // Adds an option that takes the words which openscad takes for true and false.
 void add_switch(CLI::App& app, const std::string& name, bool& target);
-
-// Adds --min-feature: walls and gaps thinner than this are reported.
-void add_thin_width(CLI::App& app, double& width);
 
 // Adds --layers: which layers are written.
 void add_layer_range(CLI::App& app, slicer::LayerNumbers& range);

@@ -13,6 +13,8 @@
 namespace lamina::cli {
 namespace {
 
+using compiler::ComparisonResult;
+using compiler::SideText;
 using slicer::LayerDifference;
 
 constexpr std::size_t kListedLayers = 10;

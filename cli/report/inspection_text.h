@@ -7,10 +7,10 @@
 
 namespace lamina::cli {
 
-enum class LayerList { kSummary, kAll };
+enum class ListedLayers { kSummary, kAll };
 
 // For the user; ends with '\n'.
-std::string inspection_text(const slicer::Inspection& found, LayerList list);
+std::string inspection_text(const slicer::Inspection& found, ListedLayers list);
 
 // For programs: all findings as JSON; ends with '\n'.
 std::string inspection_json(const slicer::Inspection& found);

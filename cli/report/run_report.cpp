@@ -18,7 +18,6 @@
 #include "cli/report/feature_table.h"
 #include "cli/report/finding_table.h"
 #include "compiler/compile.h"
-#include "compiler/passes.h"
 
 namespace lamina::cli {
 namespace {
@@ -64,14 +63,14 @@ Json deviation_json(const std::optional<slicer::Deviation>& deviation) {
           {"facets", number(deviation->facets)}};
 }
 
-Json origins_json(const compiler::FeatureOrigins& origins) {
+Json lines_json(const compiler::SourceLines& lines) {
   Json json = Json::array();
-  for (const compiler::FeatureOrigin& origin : origins) {
+  for (const compiler::SourceLine& line : lines) {
     Json calls = Json::array();
-    for (const compiler::FeatureOrigin::Call& call : origin.calls) {
+    for (const compiler::SourceLine::Call& call : line.calls) {
       calls.push_back({{"module", call.module}, {"place", call.place}});
     }
-    json.push_back({{"place", origin.place}, {"called_by", std::move(calls)}});
+    json.push_back({{"place", line.place}, {"called_by", std::move(calls)}});
   }
   return json;
 }
@@ -97,11 +96,16 @@ Json features_json(const compiler::Report& report, double width) {
   for (std::size_t i = 0; i < report.slice.features.size(); ++i) {
     Json& feature =
         json.emplace_back(feature_json(report.slice.features[i], width));
-    feature["made_by"] = i < report.origins.size()
-                             ? origins_json(report.origins[i])
+    feature["made_by"] = i < report.lines.features.size()
+                             ? lines_json(report.lines.features[i])
                              : Json::array();
   }
   return json;
+}
+
+// Planning cuts the scene, too.
+double section_seconds(const compiler::Report& report) {
+  return report.plan_seconds + report.slice.section_seconds;
 }
 
 Json passes_json(const compiler::Report& report) {
@@ -109,7 +113,7 @@ Json passes_json(const compiler::Report& report) {
   return {{"load_seconds", number(report.load_seconds)},
           {"evaluate_seconds", number(report.evaluate_seconds)},
           {"lower_seconds", number(report.lower_seconds)},
-          {"section_seconds", number(slice.section_seconds)},
+          {"section_seconds", number(section_seconds(report))},
           {"sweep_seconds", number(slice.sweep_seconds)},
           {"feature_seconds", number(slice.feature_seconds)},
           {"graph_seconds", number(slice.graph_seconds)},
@@ -194,7 +198,9 @@ Json report_with(const compiler::Compilation& compilation, const Json& whole) {
   if (settings.contour == slicer::ContourMode::kPaper) {
     json.update(paper_json(report.slice, settings.paper.sampler));
   }
-  if (report.slice.print) json["print"] = print_json(report);
+  if (report.slice.print) {
+    json["print"] = print_json(*report.slice.print, report.lines.findings);
+  }
   json.update(machine_json(report));
   if (settings.min_feature > 0) {
     json["min_feature_mm"] = number(settings.min_feature);
@@ -221,10 +227,11 @@ std::string print_line(const compiler::Compilation& compilation) {
   const bool is_any = std::ranges::any_of(
       print->findings,
       [](const slicer::Finding& finding) { return !finding.is_minor; });
-  return is_any ? fmt::format(
-                      "\nprint: {}; 'lamina check {}' says where", counts,
-                      on_one_line(display_path(compilation.request.design.path)))
-                : fmt::format("\nprint: {}", counts);
+  return is_any
+             ? fmt::format(
+                   "\nprint: {}; 'lamina check {}' says where", counts,
+                   on_one_line(display_path(compilation.request.design.path)))
+             : fmt::format("\nprint: {}", counts);
 }
 
 std::string machine_line(const compiler::Report& report) {
@@ -243,8 +250,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       "{}: {}, {}, {}, {}{}{}{}{}\n"
       "{:.3f} s of processor time (load {:.3f}, evaluate {:.3f}, lower {:.3f}, "
       "sections {:.3f}, sweep {:.3f}, graph {:.3f}, output {:.3f}), {} of "
-      "memory, {:.3f} s "
-      "by the clock",
+      "memory, {:.3f} s by the clock",
       output == "-" ? "standard output" : on_one_line(display_path(output)),
       counted(slice.layers, "layer"), counted(slice.loops, "loop"),
       counted(slice.points, "vertex", "vertices"),
@@ -253,7 +259,7 @@ std::string summary_line(const compiler::Compilation& compilation,
       slice.volume > 0 ? fmt::format(", {:.6g} mm³", slice.volume) : "",
       machine_line(report), print_line(compilation),
       process_seconds() - earlier_seconds, report.load_seconds,
-      report.evaluate_seconds, report.lower_seconds, slice.section_seconds,
+      report.evaluate_seconds, report.lower_seconds, section_seconds(report),
       slice.sweep_seconds, slice.graph_seconds, slice.output_seconds,
       memory_text(peak_memory_bytes()), report.wall_seconds);
 }
@@ -288,29 +294,21 @@ std::string json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json print_json(const compiler::Report& report) {
-  const slicer::PrintCheck& print = *report.slice.print;
+Json print_json(const slicer::PrintCheck& print,
+                std::span<const compiler::SourceLines> lines) {
   Json findings = Json::array();
   for (std::size_t i = 0; i < print.findings.size(); ++i) {
     Json& finding = findings.emplace_back(finding_json(print.findings[i]));
-    if (i < report.finding_origins.size()) {
-      finding["made_by"] = origins_json(report.finding_origins[i]);
-    }
+    if (i < lines.size()) finding["made_by"] = lines_json(lines[i]);
   }
   return {{"peel", peel_json(print.peel)}, {"findings", std::move(findings)}};
 }
 
-std::string finding_lines(const compiler::Compilation& compilation) {
-  const compiler::Report& report = compilation.report;
-  return finding_table(*report.slice.print,
-                       compiler::origin_texts(report.finding_origins));
-}
-
 std::string feature_lines(const compiler::Compilation& compilation) {
   const compiler::Report& report = compilation.report;
-  std::string lines = feature_table(
-      report.slice.features, compilation.request.job.min_feature,
-      compiler::origin_texts(report.origins));
+  std::string lines =
+      feature_table(report.slice.features, compilation.request.job.min_feature,
+                    compiler::texts_of(report.lines.features));
   lines.pop_back();
   return lines;
 }

@@ -2,6 +2,7 @@
 // What a compilation cost: the closing line on the terminal and `--report`.
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -28,11 +29,11 @@ std::string size_text(Vec3 size);
 // of files and messages can hold any.
 std::string json_text(const nlohmann::ordered_json& json);
 
-// What the layer graph found, with what made it, and the peel.
-nlohmann::ordered_json print_json(const compiler::Report& report);
-
-// The same as a table for people. Each line ends with '\n'.
-std::string finding_lines(const compiler::Compilation& compilation);
+// What the layer graph found, and the peel.
+//
+// lines  of the design, of each finding; none of a file
+nlohmann::ordered_json print_json(const slicer::PrintCheck& print,
+                                  std::span<const compiler::SourceLines> lines);
 
 // The table of thin features that were found, without the last '\n'.
 std::string feature_lines(const compiler::Compilation& compilation);

@@ -21,17 +21,6 @@ namespace {
 // Recursion of a design's functions ends here, long before memory does.
 constexpr std::size_t kEvaluationStack = std::size_t{128} << 20;
 
-// Whether it has been shown: some passes report what they throw.
-bool is_reported(const Diagnostics& diagnostics, const Diagnostic& thrown) {
-  const auto is_thrown = [&](const Diagnostic& diagnostic) {
-    return diagnostic.message == thrown.message &&
-           diagnostic.range.source == thrown.range.source &&
-           diagnostic.range.begin == thrown.range.begin;
-  };
-  return std::any_of(diagnostics.all().begin(), diagnostics.all().end(),
-                     is_thrown);
-}
-
 bool are_equal(const Note& a, const Note& b) {
   return a.message == b.message && a.range.source == b.range.source &&
          a.range.begin == b.range.begin;
@@ -82,11 +71,11 @@ Session::Session(const compiler::Request& request, bool is_quiet,
 }
 
 int Session::run(const std::function<int()>& work) {
-  return run_caught(terminal, compilation.diagnostics, work);
+  return run_caught(terminal, {&compilation.diagnostics}, work);
 }
 
-void tell_left_out(compiler::Compilation& compilation,
-                   const slicer::LayerFileFacts& facts) {
+void report_skipped(compiler::Compilation& compilation,
+                    const slicer::LayerFileFacts& facts) {
   const std::string left_out = slicer::left_out_text(facts);
   if (left_out.empty()) return;
   compilation.diagnostics.own_remark(
@@ -94,7 +83,7 @@ void tell_left_out(compiler::Compilation& compilation,
                       left_out));
 }
 
-int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
+int run_caught(Terminal& terminal, const std::vector<const Diagnostics*>& shown,
                const std::function<int()>& work) {
   const auto show = [&](const std::string& words) {
     terminal.show({Severity::kError, {}, words});
@@ -103,13 +92,15 @@ int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
     return work();
   } catch (const InternalError& error) {
     show(fmt::format("internal error, please report: {}", error.what()));
+  } catch (const RequestError& error) {
+    terminal.show(error.diagnostic());
+    return kUsageFault;
   } catch (const Error& error) {
-    if (!is_reported(diagnostics, error.diagnostic())) {
-      terminal.show(error.diagnostic());
-    }
-  } catch (const UsageError& error) {
-    show(error.what());
-    return error.status();
+    const bool is_shown =
+        std::ranges::any_of(shown, [&](const Diagnostics* messages) {
+          return compiler::is_among(*messages, error.diagnostic());
+        });
+    if (!is_shown) terminal.show(error.diagnostic());
   } catch (const std::bad_alloc&) {
     show(out_of_memory_text());
   } catch (const std::exception& error) {

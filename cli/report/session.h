@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/diagnostic.h"
 #include "cli/process/context.h"
@@ -78,13 +79,13 @@ struct Session {
 };
 
 // Says what a layer file holds that was not taken, if anything.
-void tell_left_out(compiler::Compilation& compilation,
-                   const slicer::LayerFileFacts& facts);
+void report_skipped(compiler::Compilation& compilation,
+                    const slicer::LayerFileFacts& facts);
 
 // Returns what `work` returns; where it throws, shows the message, unless it
-// is among `diagnostics` and so has been shown, and returns kFault, or the
-// status of a UsageError.
-int run_caught(Terminal& terminal, const Diagnostics& diagnostics,
+// is among the messages that have been shown, and returns kFault, or
+// kUsageFault for a RequestError. `work` may add to these messages.
+int run_caught(Terminal& terminal, const std::vector<const Diagnostics*>& shown,
                const std::function<int()>& work);
 
 }  // namespace lamina::cli

@@ -1,6 +1,6 @@
-// What a band ring weighs in silver, for a few sizes of finger, and the layers
-// of the last one for the printer. Prints a table; writes the file that its
-// argument names, if there is one.
+// What a band ring weighs in silver, for a few sizes of finger, what would go
+// wrong in the print of the last one, and its layers for the printer. Prints a
+// table; writes the file that its argument names, if there is one.
 //
 // Each layer is a set of closed loops in memory: areas times thicknesses are
 // the volume.
@@ -47,6 +47,16 @@ double volume(const lamina::Design& design) {
   return sum;
 }
 
+// What needs supports or an outlet.
+void print_findings(const lamina::Design& design) {
+  for (const lamina::Finding& finding : design.check()) {
+    if (finding.is_minor) continue;
+    std::fprintf(stderr, "layer %u at z %.2f mm, %.3f mm2: %s\n",
+                 finding.first_layer, finding.z, finding.area,
+                 finding.origin.c_str());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -56,7 +66,9 @@ int main(int argc, char** argv) {
       const double ring = volume(ring_of_size(size));
       std::printf("%4d %11.3f %9.3f\n", size, ring, kSilver * ring);
     }
-    if (argc > 1) ring_of_size(60).write(argv[1]);
+    const lamina::Design largest = ring_of_size(60);
+    print_findings(largest);
+    if (argc > 1) largest.write(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

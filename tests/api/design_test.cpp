@@ -289,6 +289,54 @@ TEST(Design, FindsThinPlacesAndTheLinesThatMadeThem) {
   EXPECT_EQ(places[0].origin, "a.scad:1:1");
 }
 
+TEST(Design, ChecksThePrint) {
+  const Design drop = Design::from_text(
+      "cube(2);\ntranslate([0, 0, 3]) cube(1);\n", {}, "a.scad");
+  const std::vector<lamina::Finding> findings = drop.check(layers_of(0.5));
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[0].kind, lamina::Finding::Kind::kIsland);
+  EXPECT_EQ(findings[1].kind, lamina::Finding::Kind::kLoosePart);
+  for (const lamina::Finding& finding : findings) {
+    EXPECT_EQ(finding.first_layer, 7U);
+    EXPECT_NEAR(finding.bottom, 3, 1e-9);
+    EXPECT_NEAR(finding.area, 1, 1e-9);
+    EXPECT_EQ(finding.origin, "a.scad:2:22");
+  }
+  EXPECT_THROW(drop.check(at_heights({1})), std::runtime_error);
+  EXPECT_TRUE(Design::from_text("cube(2);").check(layers_of(0.5)).empty());
+}
+
+TEST(Design, InspectsItsLayersAndThoseOfAFile) {
+  const lamina::support::TemporaryFolder folder;
+  const Design plate = Design::from_text(
+      "difference() { cube([4, 3, 1]); translate([1, 1, -1]) cube([1, 1, 3]); }"
+      "translate([6, 0, 0]) cube([0.2, 3, 1]);");
+  plate.write(folder.file("a.layers.json"), layers_of(0.25));
+  lamina::InspectOptions thin;
+  thin.min_feature = 0.5;
+  const lamina::Inspection made = plate.inspect(layers_of(0.25), thin);
+  const lamina::Inspection read =
+      lamina::inspect_file(folder.file("a.layers.json"), thin);
+  EXPECT_EQ(made.format, "");
+  EXPECT_NE(read.format, "");
+  for (const lamina::Inspection& found : {made, read}) {
+    ASSERT_EQ(found.layers.size(), 4U);
+    EXPECT_EQ(found.layers[0].loops, 3U);
+    EXPECT_EQ(found.layers[0].holes, 1U);
+    EXPECT_NEAR(found.layers[0].area, 11.6, 1e-9);
+    EXPECT_NEAR(found.layers[0].perimeter, 14 + 4 + 6.4, 1e-9);
+    EXPECT_NEAR(found.volume, 11.6, 1e-9);
+    EXPECT_EQ(found.defects, 0U);
+    ASSERT_EQ(found.thin_places.size(), 1U);
+    EXPECT_NEAR(found.thin_places[0].width, 0.2, 1e-6);
+    EXPECT_TRUE(found.findings.empty());
+  }
+  EXPECT_NE(fault_of([&] {
+              lamina::inspect_file(folder.file("missing.slc"));
+            }).find("missing.slc"),
+            std::string::npos);
+}
+
 TEST(Design, ListsTheParametersOfTheCustomizer) {
   const Design stone = Design::from_text(
       "/* [Stone] */\n// carat weight\ncarat = 0.5;  // [0.25:0.25:3]\n"

@@ -8,7 +8,7 @@
 
 #include "base/diagnostic.h"
 #include "cli/report/inspection_text.h"
-#include "compiler/inspect_file.h"
+#include "compiler/look_at.h"
 #include "slicer/check/compare/compare.h"
 #include "slicer/formats/layer_reader.h"
 #include "slicer/picture/detail/trapezoids.h"
@@ -53,9 +53,12 @@ std::vector<slicer::Layer> read_layers(const std::string& path) {
     });
   });
   try_to([&] {
-    const slicer::Inspection found = compiler::inspect_file(
-        path, {.min_feature = kMinFeature}, FileAccess());
-    cli::inspection_text(found, cli::LayerList::kAll);
+    const slicer::Inspection found =
+        compiler::look_at_file(
+            path, {.finds_defects = true, .min_feature = kMinFeature}, 0,
+            FileAccess())
+            .found;
+    cli::inspection_text(found, cli::ListedLayers::kAll);
     cli::inspection_json(found);
   });
   return layers;

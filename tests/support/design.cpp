@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "compiler/passes.h"
 #include "slicer/slice/slice.h"
 
 namespace lamina::support {
@@ -23,9 +22,9 @@ struct Design::State {
   // The passes as far as the scene.
   void build() {
     try {
-      compilation.program = compiler::load(compilation);
-      compilation.tree = compiler::evaluate(compilation, compilation.program);
-      lowered = compiler::lower(compilation);
+      compiler::make_tree(compilation);
+      lowered = compiler::lower(compilation.tree, request, compilation.readers,
+                                compilation.diagnostics);
     } catch (const InternalError&) {
       throw;
     } catch (const Error& error) {

@@ -38,7 +38,7 @@ class Design {
   std::unique_ptr<State> state_;
 };
 
-using compiler::LayerList;
+using slicer::LayerList;
 
 // All layers of a scene. Throws what the slicer throws.
 std::vector<slicer::Layer> slice_layers(const csg::Scene& scene,

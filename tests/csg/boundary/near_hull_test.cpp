@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "csg/boundary/leaf_mesh.h"
+#include "csg/facets.h"
 #include "plane/region/region.h"
 #include "plane/region/triangulate.h"
 #include "tests/csg/lower/mesh_checks.h"
@@ -176,7 +177,7 @@ TEST(NearHull, IsNoneOfSheetsWithNotchesOrHoles) {
 TEST(NearHull, IsOneOfAConvexSheet) {
   for (const double bevel : {0.0, 0.9}) {
     for (const double depth : {0.0, 2 * kThickness}) {
-      const Mesh mesh = sheet(plane::circle(20, 90), bevel);
+      const Mesh mesh = sheet(csg::circle(20, 90), bevel);
       const auto hull = near_hull(mesh, depth);
       ASSERT_TRUE(hull);
       EXPECT_NEAR(signed_volume(*hull), signed_volume(mesh), 1e-9);

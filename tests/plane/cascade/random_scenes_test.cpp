@@ -242,7 +242,6 @@ class ScatteredScene {
   explicit ScatteredScene(std::uint64_t seed) : random_(seed) {}
 
   csg::Scene make() {
-    using BooleanOp;
     const bool is_drilled = random_() % 2 == 0;
     testing::SceneBuilder builder(is_drilled ? BooleanOp::kDifference
                                              : BooleanOp::kIntersection);

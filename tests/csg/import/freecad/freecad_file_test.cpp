@@ -56,14 +56,6 @@ std::string limit_of(const std::function<void()>& parse) {
   return "";
 }
 
-std::size_t leaves_of(const FreecadDocument& document) {
-  FreecadOptions options;
-  options.boundary_text = [](std::string_view) { return ""; };
-  Arena arena;
-  const std::string bytes = document.bytes();
-  return read_freecad(bytes, options, arena).leaves;
-}
-
 // Bytes that no archive makes shorter: they keep its swelling low.
 std::string noise_of(std::size_t size) {
   std::mt19937 random(1);

@@ -8,13 +8,27 @@
 // layers that differ are cut again just below and just above.
 
 #include <list>
+#include <string>
 #include <vector>
 
-#include "cli/report/compared.h"
-#include "cli/report/comparison_text.h"
+#include "base/vec.h"
+#include "compiler/compared.h"
 #include "slicer/check/compare/compare.h"
 
-namespace lamina::cli {
+namespace lamina::compiler {
+
+struct ComparisonResult {
+  SideText a;
+  SideText b;
+  std::vector<slicer::LayerDifference> layers;
+  slicer::ComparisonTotals totals;
+  double tolerance = 0;  // [mm]
+  Vec3 shift = Vec3(0);  // of b, by --align [mm]
+  // Other than 0: this shift would bring all layers within the tolerance.
+  Vec3 hint = Vec3(0);
+
+  bool is_equal() const { return totals.outside == 0; }
+};
 
 class Comparison {
  public:
@@ -54,4 +68,4 @@ class Comparison {
   std::vector<slicer::LayerPair> pairs_;
 };
 
-}  // namespace lamina::cli
+}  // namespace lamina::compiler

@@ -1,4 +1,4 @@
-#include "cli/report/comparison.h"
+#include "compiler/comparison.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "slicer/contour/deviation.h"
 
-namespace lamina::cli {
+namespace lamina::compiler {
 namespace {
 
 using slicer::Layer;
@@ -37,11 +37,6 @@ bool tells_reach(Compared& side) {
            slicer::kSameHeight;
   };
   return std::all_of(layers.begin(), layers.end(), like_first);
-}
-
-SideText text_of(const Compared& side) {
-  return {side.name(), side.description(), side.precision(),
-          side.is_precision_assumed()};
 }
 
 bool is_good(const LayerDifference& layer, double tolerance) {
@@ -105,7 +100,7 @@ Vec3 Comparison::find_shift() {
 }
 
 double Comparison::usual_tolerance() const {
-  return std::max(kLeastTolerance, a_.precision() + b_.precision());
+  return std::max(kLeastTolerance, a_.text().precision + b_.text().precision);
 }
 
 ComparisonResult Comparison::run(double tolerance) {
@@ -118,8 +113,8 @@ ComparisonResult Comparison::run(double tolerance) {
     drop_empty(result);
   }
   result.totals = slicer::sum_up(result.layers, tolerance);
-  result.a = text_of(a_);
-  result.b = text_of(b_);
+  result.a = a_.text();
+  result.b = b_.text();
   return result;
 }
 
@@ -127,7 +122,7 @@ ComparisonResult Comparison::run(double tolerance) {
 // within the tolerance.
 void Comparison::move_off_faces(ComparisonResult& result) {
   const bool is_b_cut = layers_b_ == &cut_;
-  const double rise = is_b_cut ? -shift_.z : shift_.z;
+  const double shift = is_b_cut ? -shift_.z : shift_.z;
   std::vector<std::size_t> rows;
   std::vector<double> heights;
   std::vector<double> moves;
@@ -135,13 +130,13 @@ void Comparison::move_off_faces(ComparisonResult& result) {
     if (is_good(result.layers[row], result.tolerance)) continue;
     const LayerPair& pair = pairs_[row];
     const Layer* const given = is_b_cut ? pair.a : pair.b;
-    const double z = given != nullptr ? given->section_z + rise
+    const double z = given != nullptr ? given->section_z + shift
                                       : (is_b_cut ? pair.b : pair.a)->section_z;
     const double move = distance_beside_face(z);
-    for (const double way : {-move, move}) {
+    for (const double rise : {-move, move}) {
       rows.push_back(row);
-      heights.push_back(z + way);
-      moves.push_back(way);
+      heights.push_back(z + rise);
+      moves.push_back(rise);
     }
   }
   std::vector<Layer> layers = (is_b_cut ? b_ : a_).cut(heights);
@@ -196,4 +191,4 @@ Layer Comparison::layer_b(std::size_t index) const {
   return moved;
 }
 
-}  // namespace lamina::cli
+}  // namespace lamina::compiler

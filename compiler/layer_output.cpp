@@ -1,0 +1,62 @@
+#include "compiler/layer_output.h"
+
+#include <utility>
+
+#include "compiler/warnings.h"
+
+namespace lamina::compiler {
+namespace {
+
+// What the request promises of the contours.
+std::optional<slicer::Deviation> promised_deviation(const Request& request) {
+  auto deviation = slicer::promised_deviation(request.job);
+  if (deviation && request.geometry.chordal_error > 0) {
+    deviation->facets = request.geometry.chordal_error;
+  }
+  return deviation;
+}
+
+}  // namespace
+
+LayerOutput::LayerOutput(Machine machine,
+                         std::optional<slicer::Deviation> deviation,
+                         std::unique_ptr<slicer::LayerWriter> writer)
+    : machine_(std::move(machine)),
+      deviation_(deviation),
+      writer_(std::move(writer)) {
+  if (machine_.printer) build_volume_.emplace(*machine_.printer, *writer_);
+}
+
+LayerOutput LayerOutput::open(const Request& request,
+                              TemporaryFiles& temporary_files,
+                              Diagnostics& diagnostics) {
+  Machine machine =
+      choose_machine(request.output, temporary_files.file_access());
+  warn_of_machine(machine, request, diagnostics);
+  const auto deviation = promised_deviation(request);
+  slicer::WriterOptions options;
+  options.format = request.output.format;
+  if (request.output.cli_encoding) options.cli = *request.output.cli_encoding;
+  if (machine.printer) options.printer = *machine.printer;
+  options.exposure = slicer::exposure_of(machine.material);
+  if (machine.material) options.material = machine.material->title;
+  if (deviation) options.deviation = deviation->from_section();
+  auto writer =
+      slicer::make_layer_writer(options, request.output.path, temporary_files);
+  return {std::move(machine), deviation, std::move(writer)};
+}
+
+void LayerOutput::finish(Diagnostics& diagnostics, Report& report) {
+  writer_->finish(diagnostics);
+  if (deviation_) deviation_->rounding = writer_->greatest_rounding();
+  report.deviation = deviation_;
+  report.machine = machine_;
+  report.estimate =
+      slicer::estimate_print(machine_.printer, machine_.material,
+                             report.slice.layers, report.slice.volume);
+  report.snapped_layers = writer_->snapped_layers();
+  writer_->commit();
+  report.output_bytes = writer_->size();
+}
+
+}  // namespace lamina::compiler

@@ -1,0 +1,82 @@
+#include "compiler/source_lines.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/paths.h"
+#include "base/text.h"
+
+namespace lamina::compiler {
+namespace {
+
+std::string place_of(const SourceRange& range) {
+  if (!range.is_known()) return {};
+  const LineColumn at = range.source->line_column(range.begin);
+  return fmt::format("{}:{}:{}", on_one_line(shown_path(range.source->path())),
+                     at.line, at.column);
+}
+
+std::string text_of(const SourceLine& line) {
+  if (line.calls.empty()) return line.place;
+  return fmt::format("{} from {}", line.place, line.calls.back().place);
+}
+
+SourceLine line_of(const csg::Instance& instance) {
+  SourceLine line;
+  line.place = place_of(instance.range);
+  for (const csg::CallSite* call = instance.caller; call != nullptr;
+       call = call->caller) {
+    line.calls.push_back({std::string(call->name), place_of(call->range)});
+  }
+  return line;
+}
+
+// In the order of the design; kNoInstance comes last.
+SourceLines lines_of(const csg::Scene& scene, std::uint32_t a,
+                     std::uint32_t b) {
+  SourceLines lines;
+  for (const std::uint32_t instance : {std::min(a, b), std::max(a, b)}) {
+    if (instance == slicer::kNoInstance) continue;
+    SourceLine line = line_of(scene.instances[instance]);
+    if (lines.empty() || text_of(lines[0]) != text_of(line)) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
+FoundLines find_lines(const csg::Lowered& lowered,
+                      const slicer::SliceReport& report) {
+  FoundLines found;
+  const csg::Scene* const scene = lowered.scene();
+  if (scene == nullptr) return found;
+  for (const slicer::ThinFeature& feature : report.features) {
+    found.features.push_back(
+        lines_of(*scene, feature.instances[0], feature.instances[1]));
+  }
+  if (!report.print) return found;
+  for (const slicer::Finding& finding : report.print->findings) {
+    found.findings.push_back(
+        lines_of(*scene, finding.instance, slicer::kNoInstance));
+  }
+  return found;
+}
+
+std::vector<std::string> texts_of(std::span<const SourceLines> all) {
+  std::vector<std::string> texts;
+  for (const SourceLines& lines : all) {
+    std::string& text = texts.emplace_back();
+    for (const SourceLine& line : lines) {
+      if (!text.empty()) text += ", ";
+      text += text_of(line);
+    }
+  }
+  return texts;
+}
+
+}  // namespace lamina::compiler

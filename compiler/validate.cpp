@@ -1,0 +1,162 @@
+#include "compiler/validate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <fmt/ranges.h>
+
+#include "slicer/check/thin/thin_finder.h"
+
+namespace lamina::compiler {
+namespace {
+
+constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
+constexpr double kUnlimited = std::numeric_limits<double>::max();
+
+// Facets that are nearer to the curve than this are finer than the distance
+// below which two samples count as one [mm].
+constexpr double kLeastChordalError = 1e-6;
+
+// Beyond these a design is not shrunk or enlarged but mistyped.
+constexpr double kLeastScale = 0.001;
+constexpr double kGreatestScale = 1000;
+
+// No beam is wider, and no resin bleeds farther [mm].
+constexpr double kGreatestCompensation = 100;
+
+constexpr std::string_view kMoreThanZero = "must be more than 0 mm, not {0}";
+constexpr std::string_view kAtLeastAMillionth = "must be at least 0.000001 mm";
+constexpr std::string_view kFromTo = "must be from {1} to {2}, not {0}";
+
+constexpr std::array<NumberLimits, 14> kNumbers = {{
+    {"--layer", kAboveZero, kUnlimited, kMoreThanZero,
+     [](const Request& r) { return r.job.layer_thickness; }},
+    {"--adaptive", kAboveZero, kUnlimited, kMoreThanZero,
+     [](const Request& r) { return r.job.cusp; }, true},
+    {"--max-layer", kAboveZero, kUnlimited, kMoreThanZero,
+     [](const Request& r) { return r.job.greatest_thickness; }, true},
+    {"--ray", kAboveZero, kUnlimited, kMoreThanZero,
+     [](const Request& r) { return r.job.ray_pitch; }, true},
+    {"--tolerance", 0, kUnlimited, "must not be negative",
+     [](const Request& r) { return r.job.tolerance; }},
+    {"--compensate", -kGreatestCompensation, kGreatestCompensation,
+     "must be from {1} to {2} mm, not {0}",
+     [](const Request& r) { return r.job.compensation; }},
+    {"--min-feature", slicer::kLeastThinWidth, slicer::kGreatestThinWidth,
+     "must be {1} to {2} mm, not {0}",
+     [](const Request& r) { return r.job.min_feature; }, true},
+    {"--self-supporting", kAboveZero, kUnlimited, kMoreThanZero,
+     [](const Request& r) { return r.job.self_supporting; }, true},
+    {"--threads", 1, 1024, kFromTo,
+     [](const Request& r) { return static_cast<double>(r.job.threads); }, true},
+    {"--scale", kLeastScale, kGreatestScale, kFromTo,
+     [](const Request& r) { return r.geometry.scale; }},
+    {"--chordal-error", kLeastChordalError, kUnlimited, kAtLeastAMillionth,
+     [](const Request& r) { return r.geometry.chordal_error; }, true},
+    {"--decimate", kLeastChordalError, kUnlimited, kAtLeastAMillionth,
+     [](const Request& r) { return r.geometry.decimation; }, true},
+    {"--max-depth", 1, csg::kMostNestedCalls, kFromTo,
+     [](const Request& r) { return static_cast<double>(r.design.max_depth); }},
+    {"--max-leaves", 1, 1e9, kFromTo,
+     [](const Request& r) { return static_cast<double>(r.design.max_leaves); }},
+}};
+
+void require(const NumberLimits& limits, double value) {
+  refuse_if(!limits.hold(value), "{}: {}", limits.option,
+            limits.fault_of(fmt::format("{}", value)));
+}
+
+template <typename Words>
+void require_word(std::string_view option, const Words& words,
+                  const std::string& word) {
+  refuse_if(std::ranges::find(words, word) == words.end(),
+            "{}: '{}' is not one of {}", option, word, fmt::join(words, ", "));
+}
+
+void require_heights(const std::vector<double>& heights) {
+  refuse_if(std::ranges::adjacent_find(heights, std::greater_equal<>()) !=
+                    heights.end() ||
+                !std::ranges::all_of(heights,
+                                     [](double z) { return std::isfinite(z); }),
+            "--heights: heights must rise");
+}
+
+void refuse_contradictions(const slicer::Settings& job) {
+  const bool is_paper = job.contour == slicer::ContourMode::kPaper;
+  refuse_if(job.min_feature > 0 && is_paper,
+            "--min-feature needs --contour faithful");
+  refuse_if(job.paper.boxes == ldni::BoxMode::kGlobal && !is_paper,
+            "--boxes global needs --contour paper");
+  const bool is_adaptive = job.cusp > 0;
+  const bool has_heights = !job.heights.empty();
+  refuse_if(is_adaptive && has_heights,
+            "--adaptive and --heights say different things");
+  refuse_if(job.greatest_thickness > 0 && !is_adaptive,
+            "--max-layer needs --adaptive");
+  refuse_if(job.greatest_thickness > 0 &&
+                job.greatest_thickness < job.layer_thickness,
+            "--max-layer must not be less than --layer");
+  const bool is_drawn = job.paper.sampler != ldni::SamplerKind::kScanline;
+  refuse_if(is_drawn && !is_paper,
+            "--sampler gl and gl-peeling need --contour paper");
+  refuse_if(is_drawn && (is_adaptive || has_heights),
+            "--sampler gl and gl-peeling need layers of one thickness, not "
+            "--heights or --adaptive");
+}
+
+// Refuses what the format of the output cannot give.
+void refuse_misfits(const Request& request) {
+  using enum slicer::OutputFormat;
+  const OutputRequest& output = request.output;
+  const slicer::Settings& job = request.job;
+  const slicer::OutputFormat format = output.format;
+  const bool has_layers = slicer::is_of_layers(format);
+  refuse_if(!has_layers && job.min_feature > 0, "--min-feature needs layers");
+  refuse_if(!has_layers && !output.printer.empty(), "--printer needs layers");
+  refuse_if(!has_layers && !output.material.empty(), "--material needs layers");
+  refuse_if(
+      !slicer::is_of_images(format) && (output.mirrors_x || output.mirrors_y),
+      "--mirror needs images: .png, .sl1 or .zip");
+  refuse_if(output.cli_encoding && format != kCli, "--cli needs .cli output");
+  const bool has_heights = !job.heights.empty();
+  refuse_if(
+      (format == kSl1 || format == kNanoDlp) && (job.cusp > 0 || has_heights),
+      ".sl1 and .zip need layers of one thickness, not --heights or "
+      "--adaptive");
+  refuse_if(format == kThreemf && has_heights,
+            ".3mf needs layers, not --heights");
+}
+
+}  // namespace
+
+std::string NumberLimits::fault_of(std::string_view given) const {
+  return fmt::format(fmt::runtime(words), given, least, greatest);
+}
+
+const NumberLimits& limits_of(std::string_view option) {
+  const auto* const found =
+      std::ranges::find(kNumbers, option, &NumberLimits::option);
+  LAMINA_CHECK_EQ(found != kNumbers.end(), true);
+  return *found;
+}
+
+void require_within(std::string_view option, double value) {
+  require(limits_of(option), value);
+}
+
+void validate(const Request& request) {
+  for (const NumberLimits& limits : kNumbers) {
+    const double value = limits.value_of(request);
+    if (!limits.is_optional || value != 0) require(limits, value);
+  }
+  require_word("--axis", kAxisWords, request.geometry.axis);
+  require_word("--language", kLanguageWords, request.design.language);
+  require_heights(request.job.heights);
+  refuse_contradictions(request.job);
+  refuse_misfits(request);
+}
+
+}  // namespace lamina::compiler

@@ -1,0 +1,131 @@
+#include "compiler/warnings.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "base/text.h"
+
+namespace lamina::compiler {
+namespace {
+
+using slicer::OutputFormat;
+
+// A file without units, or in others, makes pieces a thousand times too small
+// or too large.
+void warn_of_size(const csg::Lowered& lowered, Diagnostics& diagnostics) {
+  constexpr double kSmallest = 0.25;  // mm
+  constexpr double kLargest = 5000;
+  if (lowered.scene() == nullptr) return;
+  const Vec3 size = lowered.scene()->box.size();
+  const double greatest = std::max({size.x, size.y, size.z});
+  if (greatest >= kSmallest && greatest <= kLargest) return;
+  diagnostics.own_warning(
+      {}, fmt::format("the design is {:g} x {:g} x {:g} mm: are its units "
+                      "millimetres?",
+                      size.x, size.y, size.z));
+}
+
+// The settings of slicing that an outline has no use for. It keeps all of its
+// vertices, as a tolerance of 0 asks.
+std::vector<std::string_view> settings_of_solids(const Request& request) {
+  const slicer::Settings& settings = request.job;
+  const slicer::Settings usual;
+  std::vector<std::string_view> all;
+  const auto add = [&](std::string_view option, bool is_set) {
+    if (is_set) all.push_back(option);
+  };
+  add("--layer", settings.layer_thickness != usual.layer_thickness);
+  add("--adaptive", settings.cusp != usual.cusp);
+  add("--heights", !settings.heights.empty());
+  add("--axis", request.geometry.axis != Request().geometry.axis);
+  add("--place-on-bed", request.geometry.is_placed_on_bed);
+  add("--tolerance",
+      settings.tolerance != usual.tolerance && settings.tolerance != 0);
+  add("--ray", settings.ray_pitch != usual.ray_pitch);
+  add("--contour", settings.contour != usual.contour);
+  return all;
+}
+
+void warn_of_settings(const csg::Lowered& lowered, const Request& request,
+                      Diagnostics& diagnostics) {
+  if (lowered.outline() == nullptr) return;
+  const auto settings = settings_of_solids(request);
+  if (settings.empty()) return;
+  diagnostics.own_warning(
+      {}, fmt::format("the design is an outline, of which {} can change "
+                      "nothing",
+                      fmt::join(settings, ", ")));
+}
+
+// Heights in other units, or of a design that was placed elsewhere, would make
+// empty layers without a word.
+void warn_of_heights(const csg::Lowered& lowered, const Request& request,
+                     Diagnostics& diagnostics) {
+  const std::vector<double>& heights = request.job.heights;
+  if (lowered.scene() == nullptr || heights.empty()) return;
+  const Box3& box = lowered.scene()->box;
+  if (box.is_empty()) return;
+  const auto outside = static_cast<std::size_t>(std::count_if(
+      heights.begin(), heights.end(),
+      [&box](double z) { return z < box.low.z || z > box.high.z; }));
+  if (outside == 0) return;
+  diagnostics.own_warning(
+      {}, fmt::format("{} of {} outside the design, which reaches from z {:g} "
+                      "to {:g} mm",
+                      outside, counted(heights.size(), "height"), box.low.z,
+                      box.high.z));
+}
+
+// Prusa's printers alone read the archive as it is.
+void warn_of_archive(const Machine& machine, const Request& request,
+                     Diagnostics& diagnostics) {
+  if (request.output.format != OutputFormat::kSl1) return;
+  if (machine.printer->name.starts_with("prusa-sl1")) return;
+  diagnostics.own_warning(
+      {}, fmt::format("an .sl1 archive for {} is for programs that convert it, "
+                      "such as UVtools: the printer does not read it",
+                      machine.printer->name));
+}
+
+// Exposures hold for a printer and a thickness.
+void warn_of_exposure(const Machine& machine, const Request& request,
+                      Diagnostics& diagnostics) {
+  const auto& printer = machine.printer;
+  const auto& material = machine.material;
+  if (!printer || !material || !slicer::is_of_images(request.output.format))
+    return;
+  const auto warn = [&](const std::string& what) {
+    diagnostics.own_warning(
+        {}, fmt::format("the exposure of {} is for {}; a profile of your own "
+                        "can have yours",
+                        material->title, what));
+  };
+  if (material->exposure == 0) return;
+  if (!material->printer.empty() && material->printer != printer->name) {
+    warn(material->printer);
+  } else if (material->layer_thickness > 0 &&
+             material->layer_thickness != request.job.layer_thickness) {
+    warn(fmt::format("layers of {:g} mm", material->layer_thickness));
+  }
+}
+
+}  // namespace
+
+void warn_of_geometry(const csg::Lowered& lowered, const Request& request,
+                      Diagnostics& diagnostics) {
+  warn_of_size(lowered, diagnostics);
+  warn_of_settings(lowered, request, diagnostics);
+  warn_of_heights(lowered, request, diagnostics);
+}
+
+void warn_of_machine(const Machine& machine, const Request& request,
+                     Diagnostics& diagnostics) {
+  warn_of_archive(machine, request, diagnostics);
+  warn_of_exposure(machine, request, diagnostics);
+}
+
+}  // namespace lamina::compiler
