@@ -34,7 +34,7 @@ bool is_binary(std::string_view bytes) {
 // large file needs most of its memory for them. Most facets share two corners
 // with the one before; only the other corners are looked up, many at a time.
 // Programs write facets in some order along the surface. A file in no order
-// takes four times as long to read, and sorted first no less (decision 49).
+// takes four times as long to read, and sorted first no less (decision 44).
 class FacetJoiner {
  public:
   // count  of facets; a guess
