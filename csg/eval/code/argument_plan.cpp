@@ -1,8 +1,6 @@
 #include "csg/eval/code/argument_plan.h"
 
-#include <algorithm>
 #include <string>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -10,12 +8,26 @@
 
 namespace lamina::csg {
 
-const Parameter* find_parameter(std::span<const Parameter> parameters,
-                                std::string_view name) {
-  const auto found = std::find_if(
-      parameters.begin(), parameters.end(),
-      [&](const Parameter& parameter) { return parameter.name == name; });
-  return found == parameters.end() ? nullptr : &*found;
+namespace {
+// Comparing so many names costs less than a table.
+constexpr std::size_t kFew = 12;
+}  // namespace
+
+ParameterIndex::ParameterIndex(std::span<const Parameter> parameters)
+    : parameters_(parameters) {
+  if (parameters.size() <= kFew) return;
+  for (const Parameter& p : parameters) table_.try_emplace(p.name, &p);
+}
+
+const Parameter* ParameterIndex::find(std::string_view name) const {
+  if (parameters_.size() > kFew) {
+    const auto found = table_.find(name);
+    return found == table_.end() ? nullptr : found->second;
+  }
+  for (const Parameter& p : parameters_) {
+    if (p.name == name) return &p;
+  }
+  return nullptr;
 }
 
 std::vector<Parameter> make_parameters(
@@ -36,6 +48,7 @@ class Planner {
           std::span<const WrittenArgument> arguments, DynamicNames& names,
           Surplus surplus)
       : parameters_(parameters),
+        index_(parameters),
         positional_(positional),
         arguments_(arguments),
         names_(names),
@@ -107,7 +120,7 @@ class Planner {
     plan_.warnings.push_back(fmt::format(words, std::forward<Parts>(parts)...));
   }
   void warn_of_unknown(std::string_view name) {
-    const Parameter* known = find_parameter(parameters_, name);
+    const Parameter* known = index_.find(name);
     if (!warns_ || name[0] == '$') return;
     if (known != nullptr && !known->is_extra) return;
     const Language language =
@@ -123,7 +136,7 @@ class Planner {
   void bind(std::string_view name, std::uint32_t written) {
     BoundArgument bound;
     bound.written = written;
-    const Parameter* parameter = find_parameter(parameters_, name);
+    const Parameter* parameter = index_.find(name);
     if (parameter != nullptr) {
       bound.target = parameter->target;
     } else if (is_dynamic_name(name)) {
@@ -141,6 +154,7 @@ class Planner {
   }
 
   std::span<const Parameter> parameters_;
+  ParameterIndex index_;
   std::size_t positional_;
   std::span<const WrittenArgument> arguments_;
   DynamicNames& names_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 
 #include "csg/eval/code/code.h"
 #include "csg/eval/code/dynamic_names.h"
@@ -12,9 +13,18 @@
 
 namespace lamina::csg {
 
-// Returns the first parameter of that name; null where there is none.
-const Parameter* find_parameter(std::span<const Parameter> parameters,
-                                std::string_view name);
+// Parameters by name; of several with one name, the first.
+class ParameterIndex {
+ public:
+  explicit ParameterIndex(std::span<const Parameter> parameters);
+
+  // Null where there is none.
+  const Parameter* find(std::string_view name) const;
+
+ private:
+  std::span<const Parameter> parameters_;
+  std::unordered_map<std::string_view, const Parameter*> table_;
+};
 
 // Parameters without fallbacks, in the slots from 0 on.
 std::vector<Parameter> make_parameters(std::span<const std::string_view> names);

@@ -20,9 +20,10 @@ std::span<Parameter> Resolver::make_parameters(ast::Arguments written,
         argument.value == nullptr || is_silent(*argument.value);
     parameters.push_back(parameter);
   }
+  const ParameterIndex index(parameters);
   std::uint32_t slot = first_slot;
   for (Parameter& parameter : parameters) {
-    const Parameter* first = find_parameter(parameters, parameter.name);
+    const Parameter* first = index.find(parameter.name);
     if (first != &parameter) {
       parameter.target = first->target;  // a name is one variable
     } else if (is_dynamic_name(parameter.name)) {
@@ -42,13 +43,12 @@ namespace {
 std::vector<std::string_view> extra_names(
     std::span<const Parameter> parameters,
     std::span<const WrittenArgument> arguments) {
+  const ParameterIndex index(parameters);
   std::vector<std::string_view> names;
   std::unordered_set<std::string_view> seen;
   for (const WrittenArgument& argument : arguments) {
     const std::string_view name = argument.name;
-    if (name.empty() || name[0] == '$' || find_parameter(parameters, name)) {
-      continue;
-    }
+    if (name.empty() || name[0] == '$' || index.find(name) != nullptr) continue;
     if (seen.insert(name).second) names.push_back(name);
   }
   return names;
