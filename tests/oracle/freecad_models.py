@@ -310,7 +310,7 @@ def part_extrusion(m):
                   FaceMakerClass="Part::FaceMakerBullseye")
 
 
-@model("Part::Extrusion, oblique, placed")
+@model("Part::Extrusion, oblique, placed", "boundary")
 def part_extrusion_oblique(m):
     sketch = m.sketch(slot(-5, 5, 0, 3) + [ellipse(1, 0, 2, 1, 30)])
     return m.part("Extrusion", TILT, Base=sketch, Dir=Vector(1, 0.5, 2),
