@@ -18,7 +18,6 @@
 #include "cli/report/run_report.h"
 #include "cli/report/session.h"
 #include "compiler/look_at.h"
-#include "cli/report/finding_table.h"
 
 namespace lamina::cli {
 namespace {
@@ -107,9 +106,9 @@ class CheckCommand : public Command {
     const auto& [found, lines, layers] = *inspection;
     report_skipped(compilation, found.file);
     const slicer::PrintCheck& print = *found.print;
-    print_out(is_json_ ? json_text(print_json(print, lines.findings))
-                       : finding_table(
-                             print, compiler::texts_of(lines.findings)));
+    print_out(is_json_
+                  ? json_text(print_json(print, lines.findings))
+                  : finding_table(print, compiler::texts_of(lines.findings)));
     return std::ranges::any_of(print.findings,
                                [&](const slicer::Finding& finding) {
                                  return !finding.is_minor &&

@@ -109,14 +109,14 @@ std::size_t RawMesh::count_stray_corners() const {
 ImportFormat import_format_of(std::string_view extension) {
   if (extension.starts_with('.')) extension.remove_prefix(1);
   static const std::map<std::string_view, ImportFormat> kFormats = {
-      {"stl", ImportFormat::kStl},   {"off", ImportFormat::kOff},
-      {"obj", ImportFormat::kObj},   {"ply", ImportFormat::kPly},
-      {"amf", ImportFormat::kAmf},   {"3mf", ImportFormat::k3mf},
-      {"dxf", ImportFormat::kDxf},   {"svg", ImportFormat::kSvg},
-      {"fcstd", ImportFormat::kFcstd},
-      {"step", ImportFormat::kStep}, {"stp", ImportFormat::kStep},
-      {"iges", ImportFormat::kIges}, {"igs", ImportFormat::kIges},
-      {"brep", ImportFormat::kBrep}, {"brp", ImportFormat::kBrep}};
+      {"stl", ImportFormat::kStl},     {"off", ImportFormat::kOff},
+      {"obj", ImportFormat::kObj},     {"ply", ImportFormat::kPly},
+      {"amf", ImportFormat::kAmf},     {"3mf", ImportFormat::k3mf},
+      {"dxf", ImportFormat::kDxf},     {"svg", ImportFormat::kSvg},
+      {"fcstd", ImportFormat::kFcstd}, {"step", ImportFormat::kStep},
+      {"stp", ImportFormat::kStep},    {"iges", ImportFormat::kIges},
+      {"igs", ImportFormat::kIges},    {"brep", ImportFormat::kBrep},
+      {"brp", ImportFormat::kBrep}};
   const auto found = kFormats.find(lower_case(extension));
   return found == kFormats.end() ? ImportFormat::kUnknown : found->second;
 }

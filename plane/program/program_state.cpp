@@ -11,7 +11,8 @@ ProgramState::ProgramState(const BooleanProgram& program) {
   operands_.reserve(program.operands.size());
   for (const Operand& operand : program.operands) {
     operands_.push_back(
-        {Child(operand.parent, is_subtrahend(program.nodes, operand)), kOutside});
+        {Child(operand.parent, is_subtrahend(program.nodes, operand)),
+         kOutside});
   }
 }
 

@@ -14,8 +14,8 @@ TernaryProgram::TernaryProgram(const BooleanProgram& program, Ternary initial) {
   }
   members_.reserve(program.operands.size());
   for (const Operand& operand : program.operands) {
-    members_.push_back(
-        {operand.parent, is_subtrahend(program.nodes, operand), Ternary::kFalse});
+    members_.push_back({operand.parent, is_subtrahend(program.nodes, operand),
+                        Ternary::kFalse});
   }
   if (initial == Ternary::kFalse) return;
   for (std::uint32_t i = 0; i < members_.size(); ++i) set(i, initial);

@@ -65,8 +65,8 @@ std::string without_comments(const std::string& line) {
 
 TEST(Files, AreOpenedInOnePlace) {
   std::map<std::string, bool> is_needed;
-  for (const char* folder :
-       {"base", "plane", "parser", "csg", "ldni", "slicer", "compiler", "api", "cli"}) {
+  for (const char* folder : {"base", "plane", "parser", "csg", "ldni", "slicer",
+                             "compiler", "api", "cli"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       const std::string extension = entry.path().extension();
       if (extension != ".h" && extension != ".cpp") continue;

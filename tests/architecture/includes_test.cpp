@@ -277,7 +277,7 @@ TEST(TopLevel, HoldsWhatTheMapNames) {
                                           "compiler",
                                           "parser",
                                           "csg",
-                                         "csg/mesh",
+                                          "csg/mesh",
                                           "ldni",
                                           "slicer",
                                           "tests",

@@ -69,8 +69,8 @@ std::string counts(const PrintCheck& print) {
 }
 
 const Finding& only(const PrintCheck& print, FindingKind kind) {
-  const auto found = std::ranges::find_if(
-      print.findings, [kind](const Finding& finding) {
+  const auto found =
+      std::ranges::find_if(print.findings, [kind](const Finding& finding) {
         return finding.kind == kind && !finding.is_minor;
       });
   EXPECT_NE(found, print.findings.end());
@@ -137,8 +137,7 @@ TEST(PrintCheck, FindsCups) {
   const std::string cup =
       "difference() { cylinder(r = 6, h = 10, $fn = 40);"
       "translate([0, 0, 2]) cylinder(r = 5, h = 10, $fn = 40); }";
-  for (const std::string& text :
-       {cup, "rotate([180, 0, 0]) " + cup}) {
+  for (const std::string& text : {cup, "rotate([180, 0, 0]) " + cup}) {
     const PrintCheck print = check(text);
     EXPECT_EQ(print.count(FindingKind::kSuctionCup), 1U) << text;
     EXPECT_EQ(print.count(FindingKind::kResinTrap), 0U) << text;
@@ -166,11 +165,12 @@ TEST(PrintCheck, FindsTheTrapInAHollowBall) {
   const PrintCheck closed = check(ball + "}");
   EXPECT_EQ(closed.count(FindingKind::kResinTrap), 1U);
   EXPECT_EQ(closed.count(FindingKind::kSuctionCup), 0U);
-  EXPECT_NEAR(only(closed, FindingKind::kResinTrap).volume,
-              4.0 / 3 * kPi * 64, 4);
+  EXPECT_NEAR(only(closed, FindingKind::kResinTrap).volume, 4.0 / 3 * kPi * 64,
+              4);
   EXPECT_EQ(only(closed, FindingKind::kResinTrap).instance, 1U);
   // A hole at the bottom lets the resin out.
-  const PrintCheck open = check(ball + "translate([0, 0, -8]) cylinder(h = 8, d = 2.5); }");
+  const PrintCheck open =
+      check(ball + "translate([0, 0, -8]) cylinder(h = 8, d = 2.5); }");
   EXPECT_EQ(open.count(FindingKind::kResinTrap), 0U);
 }
 
@@ -233,15 +233,14 @@ TEST(PrintCheck, KnowsAStairOf44DegreesFromOneOf46) {
                 thickness * std::tan(46 * kPi / 180), 1e-9);
     const PrintCheck flat = check(stairs(60, thickness), thickness);
     EXPECT_EQ(counts(flat), "1 overhang");
-    EXPECT_TRUE(
-        check(stairs(60, thickness), thickness, 0.4).findings.empty());
+    EXPECT_TRUE(check(stairs(60, thickness), thickness, 0.4).findings.empty());
   }
 }
 
 TEST(PrintCheck, FindsNothingInUprightAndRoundWalls) {
   EXPECT_EQ(counts(check("linear_extrude(20) offset(2) square([20, 5]);")), "");
-  EXPECT_EQ(counts(check("cylinder(r1 = 5, r2 = 15, h = 10, $fn = 180);", 0.05)),
-            "");
+  EXPECT_EQ(
+      counts(check("cylinder(r1 = 5, r2 = 15, h = 10, $fn = 180);", 0.05)), "");
 }
 
 TEST(PrintCheck, TakesAContactThatIsNoneForNone) {
@@ -259,7 +258,8 @@ TEST(PrintCheck, TakesAContactThatIsNoneForNone) {
 const char* const kFigure =
     "difference() { union() { cube([20, 12, 10]);"
     "translate([10, 6, 14]) sphere(4, $fn = 24);"
-    "translate([2, 2, 9]) cube([2, 2, 9]); translate([2, 2, 17]) cube([14, 2, 2]);"
+    "translate([2, 2, 9]) cube([2, 2, 9]); translate([2, 2, 17]) cube([14, 2, "
+    "2]);"
     "translate([15, 2, 15]) cube([1, 1, 3]); }"
     "translate([5, 5, 3]) sphere(2, $fn = 24);"
     "translate([14, 6, -1]) cylinder(d = 3, h = 6); }";
@@ -277,9 +277,9 @@ TEST(PrintCheck, KeepsItsFindingsWhereTheDesignIsMoved) {
   for (const std::string move :
        {"rotate(37)", "rotate(90)", "mirror([1, 0, 0])", "mirror([1, 1, 0])",
         "translate([3.3, -40.7, 0])", "translate([0, 0, 1.7])"}) {
-    EXPECT_EQ(without_overhangs(
-                  check(move + " {" + std::string(kFigure) + "}")),
-              findings)
+    EXPECT_EQ(
+        without_overhangs(check(move + " {" + std::string(kFigure) + "}")),
+        findings)
         << move;
   }
 }
@@ -399,8 +399,7 @@ TEST(PrintCheck, LosesIslandsOnPillars) {
   for (const Finding& finding : print.findings) {
     if (finding.kind != FindingKind::kIsland) continue;
     pillars += fmt::format("translate([{}, {}, 0]) cylinder(d = 0.5, h = {});",
-                           finding.place.x, finding.place.y,
-                           finding.section_z);
+                           finding.place.x, finding.place.y, finding.section_z);
   }
   const PrintCheck held = check(pillars);
   EXPECT_EQ(held.count(FindingKind::kIsland), 0U);
@@ -466,12 +465,12 @@ TEST_P(RandomPrints, AgreeWithAFloodFillOfPixels) {
             << " traps\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, RandomPrints, ::testing::Range(0, support::kRandomKindCount),
-    [](const auto& kind) {
-      return std::string(
-          support::name_of(static_cast<support::RandomKind>(kind.param)));
-    });
+INSTANTIATE_TEST_SUITE_P(Kinds, RandomPrints,
+                         ::testing::Range(0, support::kRandomKindCount),
+                         [](const auto& kind) {
+                           return std::string(support::name_of(
+                               static_cast<support::RandomKind>(kind.param)));
+                         });
 
 }  // namespace
 }  // namespace lamina

@@ -1,7 +1,7 @@
 #pragma once
 // Names of colors: those of CSS Color Module Level 4, the 949 of the survey of
-// xkcd.com (https://xkcd.com/color/rgb.txt, public domain) behind "xkcd:" (newer
-// than 2021.01), and hexadecimal forms.
+// xkcd.com (https://xkcd.com/color/rgb.txt, public domain) behind "xkcd:"
+// (newer than 2021.01), and hexadecimal forms.
 
 #include <array>
 #include <optional>

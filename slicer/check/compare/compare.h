@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "slicer/check/compare/contour_distance.h"
 #include "plane/sweep/region_areas.h"
+#include "slicer/check/compare/contour_distance.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::slicer {

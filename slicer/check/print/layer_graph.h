@@ -31,8 +31,8 @@
 #include "base/vec.h"
 #include "plane/cell_grid.h"
 #include "slicer/check/print/layer_overlay.h"
-#include "slicer/check/thin/thin_finder.h"
 #include "slicer/check/print/touching_boxes.h"
+#include "slicer/check/thin/thin_finder.h"
 #include "slicer/contour/layer.h"
 
 namespace lamina::slicer {
